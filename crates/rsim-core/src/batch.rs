@@ -1,0 +1,187 @@
+//! Many matches of one configuration, stepped over plain slices and on several threads.
+
+use rayon::prelude::*;
+
+use crate::snapshot::{self, Header};
+use crate::world::State;
+use crate::{ConfigError, PlaceError, SimConfig, SnapshotError, StepError, World};
+
+/// Many independent matches. World `i` computes what it would compute alone: neither the number of
+/// worlds nor of threads changes a bit of it.
+pub struct Batch {
+    worlds: Vec<World>,
+    /// None where one thread is enough.
+    pool: Option<Pool>,
+}
+
+/// Threads do not survive a fork, so a pool is of one process.
+struct Pool {
+    process: u32,
+    threads: rayon::ThreadPool,
+}
+
+impl Pool {
+    fn new(threads: usize) -> Result<Self, ConfigError> {
+        let failed = |reason| ConfigError::Threads { threads, reason };
+        if threads > MAX_THREADS {
+            return Err(failed(format!("at most {MAX_THREADS} make sense")));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|error| failed(error.to_string()))?;
+        Ok(Self { process: std::process::id(), threads: pool })
+    }
+
+    /// The threads of this process.
+    fn here(&mut self) -> &rayon::ThreadPool {
+        if self.process != std::process::id() {
+            let count = self.threads.current_num_threads();
+            let pool = Self::new(count).expect("as many threads as before the fork should start");
+            // The old pool's threads are not in this process: dropping it would wait for them.
+            std::mem::forget(std::mem::replace(self, pool));
+        }
+        &self.threads
+    }
+}
+
+/// More than any machine has; asking for so many is a slip.
+const MAX_THREADS: usize = 1024;
+
+impl Batch {
+    /// `worlds` matches in their default line-up, to be stepped on `threads` threads.
+    ///
+    /// # Errors
+    /// What [`SimConfig::validate`] finds; no worlds; no threads, or more than can be started.
+    pub fn new(config: &SimConfig, worlds: usize, threads: usize) -> Result<Self, ConfigError> {
+        for (name, count) in [("worlds", worlds), ("threads", threads)] {
+            if count == 0 {
+                return Err(ConfigError::Zero { name });
+            }
+        }
+        let world = World::new(config)?;
+        let pool = if threads > 1 { Some(Pool::new(threads)?) } else { None };
+        Ok(Self { worlds: vec![world; worlds], pool })
+    }
+
+    /// What the matches are played with.
+    pub fn config(&self) -> &SimConfig {
+        self.worlds[0].config()
+    }
+
+    /// Number of matches.
+    pub fn worlds(&self) -> usize {
+        self.worlds.len()
+    }
+
+    /// Number of threads that `step` uses.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, |pool| pool.threads.current_num_threads())
+    }
+
+    /// Starts new matches in the worlds of the mask. `rows` has one row for each of them, `out` one
+    /// for every world; those of the placed ones are written.
+    ///
+    /// # Errors
+    /// The first world whose row no match can start from; then no world has changed.
+    pub fn place(
+        &mut self,
+        mask: &[bool],
+        rows: &[f32],
+        out: &mut [f32],
+    ) -> Result<(), PlaceError> {
+        let size = self.config().row_size();
+        let chosen = || (0..mask.len()).filter(|&world| mask[world]);
+        debug_assert_eq!(rows.len(), chosen().count() * size);
+        let motions = chosen()
+            .zip(rows.chunks_exact(size))
+            .map(|(world, row)| {
+                self.worlds[world]
+                    .motions(row)
+                    .map_err(|error| PlaceError::InWorld { world, error: Box::new(error) })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        for (world, motions) in chosen().zip(motions) {
+            self.worlds[world].start(&motions);
+            self.worlds[world].write_row(&mut out[world * size..][..size]);
+        }
+        Ok(())
+    }
+
+    /// One control step of the active worlds (all, when `active` is `None`). Rows of the others in
+    /// `out` stay as they are.
+    ///
+    /// # Errors
+    /// A world became non-finite, or had been and was not placed since. All others have stepped.
+    ///
+    /// # Panics
+    /// When the process was forked and the operating system refuses to start threads anew.
+    pub fn step(
+        &mut self,
+        commands: &[f32],
+        out: &mut [f32],
+        active: Option<&[bool]>,
+    ) -> Result<(), StepError> {
+        let (row_size, command_size) = (self.config().row_size(), self.config().command_size());
+        debug_assert_eq!(out.len(), self.worlds.len() * row_size);
+        if command_size == 0 {
+            // No robots: the ball rolls alone, and there are no commands to share out.
+            return self.step_each(|_| &[], out, active);
+        }
+        self.step_each(|world| &commands[world * command_size..][..command_size], out, active)
+    }
+
+    fn step_each<'a>(
+        &mut self,
+        commands: impl Fn(usize) -> &'a [f32] + Sync,
+        out: &mut [f32],
+        active: Option<&[bool]>,
+    ) -> Result<(), StepError> {
+        let size = self.config().row_size();
+        let step = |(index, (world, row)): (usize, (&mut World, &mut [f32]))| {
+            if active.is_some_and(|active| !active[index]) {
+                return Ok(());
+            }
+            world.step(commands(index)).map_err(|_| StepError { world: index })?;
+            world.write_row(row);
+            Ok(())
+        };
+        // One world never touches a pool: sharing out one world costs more than stepping it.
+        if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
+            let pairs = self.worlds.par_iter_mut().zip(out.par_chunks_exact_mut(size));
+            return pool
+                .here()
+                .install(|| pairs.enumerate().map(step).reduce(|| Ok(()), Result::and));
+        }
+        // Every world steps, also after one that failed.
+        let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));
+        pairs.enumerate().map(step).fold(Ok(()), Result::and)
+    }
+
+    /// Writes the rows of all worlds.
+    pub fn read(&self, out: &mut [f32]) {
+        for (world, row) in self.worlds.iter().zip(out.chunks_exact_mut(self.config().row_size())) {
+            world.write_row(row);
+        }
+    }
+
+    /// Everything that the matches' futures depend on.
+    pub fn snapshot(&self) -> Vec<u8> {
+        let states: Vec<&State> = self.worlds.iter().map(|world| &world.state).collect();
+        snapshot::write(&self.header(), &states)
+    }
+
+    /// Puts the matches back where they were when the snapshot was taken.
+    ///
+    /// # Errors
+    /// Foreign, damaged or unfitting bytes; then nothing has changed.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
+        let states: Vec<State> = snapshot::read(&self.header(), bytes)?;
+        for (world, state) in self.worlds.iter_mut().zip(states) {
+            world.state = state;
+        }
+        Ok(())
+    }
+
+    fn header(&self) -> Header {
+        Header::new(self.config(), self.worlds.len())
+    }
+}

@@ -1,0 +1,36 @@
+//! Physics of robot soccer, for reinforcement learning: many small matches, stepped fast.
+//!
+//! A [`SimConfig`] says what is fixed (field, robot and ball models, time step). A [`World`] is one
+//! match; a [`Batch`] is many, stepped on several threads. Commands go in as plain rows, states
+//! come out as plain rows, whose columns are named once in [`columns`].
+//!
+//! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
+//! that the first team attacks, y to the left. The crate knows nothing of rewards, episodes or
+//! rules of play, and knows the two teams only as an order of robots.
+#![forbid(unsafe_code)]
+
+mod arena;
+mod ball;
+mod batch;
+pub mod columns;
+mod config;
+mod crossing;
+mod drive;
+mod engine;
+mod error;
+mod field;
+mod models;
+mod placement;
+pub mod scenes;
+mod snapshot;
+mod world;
+
+pub use batch::Batch;
+pub use config::SimConfig;
+pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
+pub use field::Field;
+pub use models::{BallModel, DifferentialDrive, RobotModel};
+pub use world::World;
+
+/// Number of the physics: raised whenever the same start and commands would give other states.
+pub const PHYSICS_VERSION: u32 = 1;

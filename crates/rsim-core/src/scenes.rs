@@ -1,0 +1,1 @@
+//! Named situations, shared by tests, benchmarks and examples.

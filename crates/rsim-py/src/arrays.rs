@@ -1,0 +1,85 @@
+//! Checks of what Python passes in. Every message names the argument, what was expected and what
+//! came.
+
+use numpy::{
+    Element, Ix1, Ix2, Ix3, PyArray, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
+    PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods, ndarray,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// An array of this element type and shape, to read from.
+pub(crate) fn readable<'py, T: Element, D: ndarray::Dimension>(
+    name: &str,
+    value: &Bound<'py, PyAny>,
+    shape: &[usize],
+) -> PyResult<PyReadonlyArray<'py, T, D>> {
+    Ok(checked(name, value, shape)?.try_readonly()?)
+}
+
+/// Likewise, to write into: also contiguous and writeable.
+pub(crate) fn writeable<'py, D: ndarray::Dimension>(
+    name: &str,
+    value: &Bound<'py, PyAny>,
+    shape: &[usize],
+) -> PyResult<PyReadwriteArray<'py, f32, D>> {
+    let array = checked::<f32, D>(name, value, shape)?;
+    if !array.is_c_contiguous() {
+        return Err(PyValueError::new_err(format!("{name} must be C-contiguous")));
+    }
+    let array = array.try_readwrite();
+    array.map_err(|error| PyValueError::new_err(format!("{name} must be writeable: {error}")))
+}
+
+fn checked<'py, T: Element, D: ndarray::Dimension>(
+    name: &str,
+    value: &Bound<'py, PyAny>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyArray<T, D>>> {
+    let expected = T::get_dtype(value.py());
+    let Ok(array) = value.cast::<PyUntypedArray>() else {
+        let got = value.get_type().name()?;
+        return Err(PyTypeError::new_err(format!(
+            "{name} must be an array of {expected}, got {got}"
+        )));
+    };
+    if !array.dtype().is_equiv_to(&expected) {
+        let got = array.dtype();
+        return Err(PyTypeError::new_err(format!(
+            "{name} must be an array of {expected}, got {got}"
+        )));
+    }
+    if array.shape() != shape {
+        let (expected, got) = (tuple(shape), tuple(array.shape()));
+        return Err(PyValueError::new_err(format!("{name} must have shape {expected}, got {got}")));
+    }
+    Ok(value.cast::<PyArray<T, D>>()?.clone())
+}
+
+/// The values of an array, in order, which must all be finite.
+pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(PyValueError::new_err(format!("{name} must be finite, got {value}"))),
+    }
+}
+
+/// Contiguous values of an array: borrowed where they are, copied where they are not.
+pub(crate) fn values<'a, T: Element + Copy, D: ndarray::Dimension>(
+    array: &'a PyReadonlyArray<'_, T, D>,
+) -> std::borrow::Cow<'a, [T]> {
+    match array.as_slice() {
+        Ok(slice) => slice.into(),
+        Err(_) => array.as_array().iter().copied().collect::<Vec<_>>().into(),
+    }
+}
+
+fn tuple(shape: &[usize]) -> String {
+    let sizes = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    if shape.len() == 1 { format!("({sizes},)") } else { format!("({sizes})") }
+}
+
+pub(crate) type Mask<'py> = PyReadonlyArray<'py, bool, Ix1>;
+pub(crate) type Rows<'py> = PyReadonlyArray<'py, f32, Ix2>;
+pub(crate) type RowsOut<'py> = PyReadwriteArray<'py, f32, Ix2>;
+pub(crate) type Commands<'py> = PyReadonlyArray<'py, f32, Ix3>;

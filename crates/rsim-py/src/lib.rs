@@ -1,0 +1,44 @@
+//! The Python module `rsoccer._core`: checks arguments, releases the GIL, delegates to `rsim-core`.
+//! No logic lives here.
+#![deny(unsafe_code)]
+#![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
+
+mod arrays;
+mod config;
+mod simulator;
+
+use pyo3::prelude::*;
+
+/// Physics of robot soccer.
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::config::{BallModel, Field, RobotModel, SimConfig};
+    #[pymodule_export]
+    use crate::simulator::Simulator;
+
+    use pyo3::prelude::*;
+    use pyo3::types::{PyDict, PyTuple};
+    use rsim_core::columns;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let py = module.py();
+        module.add("BALL_COLUMNS", PyTuple::new(py, columns::BALL_COLUMNS)?)?;
+        module.add("ROBOT_COLUMNS", PyTuple::new(py, columns::ROBOT_COLUMNS)?)?;
+        module.add("CROSSINGS", PyTuple::new(py, columns::CROSSINGS)?)?;
+        let commands = PyDict::new(py);
+        commands.set_item("differential", PyTuple::new(py, columns::DIFFERENTIAL_COLUMNS)?)?;
+        module.add("COMMAND_COLUMNS", commands)
+    }
+
+    /// How this module was built: version, profile ("release" or "debug"), number of the physics.
+    #[pyfunction]
+    fn build_info(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let info = PyDict::new(py);
+        info.set_item("version", env!("CARGO_PKG_VERSION"))?;
+        info.set_item("profile", if cfg!(debug_assertions) { "debug" } else { "release" })?;
+        info.set_item("physics", rsim_core::PHYSICS_VERSION)?;
+        Ok(info)
+    }
+}

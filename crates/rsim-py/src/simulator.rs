@@ -1,0 +1,120 @@
+//! Many matches behind one Python object.
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use rsim_core::Batch;
+
+use crate::arrays::{Commands, Mask, Rows, RowsOut, finite, readable, values, writeable};
+use crate::config::{SimConfig, count, invalid};
+
+/// Many independent matches of one configuration.
+#[pyclass(module = "rsoccer._core")]
+pub(crate) struct Simulator(Batch);
+
+#[pymethods]
+impl Simulator {
+    #[new]
+    #[pyo3(signature = (config, worlds = 1, threads = 1))]
+    fn new(py: Python<'_>, config: SimConfig, worlds: i64, threads: i64) -> PyResult<Self> {
+        let (worlds, threads) = (count("worlds", worlds)?, count("threads", threads)?);
+        let batch = py.detach(|| Batch::new(&config.0, worlds, threads));
+        Ok(Self(batch.map_err(invalid)?))
+    }
+
+    #[getter]
+    fn config(&self) -> SimConfig {
+        SimConfig(self.0.config().clone())
+    }
+
+    #[getter]
+    fn worlds(&self) -> usize {
+        self.0.worlds()
+    }
+
+    #[getter]
+    fn threads(&self) -> usize {
+        self.0.threads()
+    }
+
+    fn place(
+        &mut self,
+        py: Python<'_>,
+        worlds: &Bound<'_, PyAny>,
+        rows: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let mask = values(&mask);
+        let chosen = mask.iter().filter(|&&chosen| chosen).count();
+        let rows: Rows = readable("rows", rows, &[chosen, self.row_size()])?;
+        let rows = values(&rows);
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.place(&mask, &rows, out)).map_err(invalid)
+    }
+
+    #[pyo3(signature = (commands, out, active = None))]
+    fn step(
+        &mut self,
+        py: Python<'_>,
+        commands: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+        active: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let robots = self.0.config().n_robots();
+        let columns = rsim_core::columns::DIFFERENTIAL_COLUMNS.len();
+        let commands: Commands =
+            readable("commands", commands, &[self.0.worlds(), robots, columns])?;
+        let commands = values(&commands);
+        finite("commands", &commands)?;
+        let active: Option<Mask> =
+            active.map(|mask| readable("active", mask, &[self.0.worlds()])).transpose()?;
+        let active = active.as_ref().map(values);
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.step(&commands, out, active.as_deref()))
+            .map_err(|error| PyRuntimeError::new_err(error.to_string()))
+    }
+
+    fn read(&self, out: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut out = self.rows_out(out)?;
+        self.0.read(out.as_slice_mut()?);
+        Ok(())
+    }
+
+    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        let bytes = py.detach(|| self.0.snapshot());
+        PyBytes::new(py, &bytes)
+    }
+
+    fn restore(&mut self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
+        py.detach(|| self.0.restore(snapshot)).map_err(invalid)
+    }
+
+    fn __getnewargs__(&self) -> (SimConfig, usize, usize) {
+        (self.config(), self.worlds(), self.threads())
+    }
+
+    fn __getstate__<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        self.snapshot(py)
+    }
+
+    fn __setstate__(&mut self, py: Python<'_>, state: &[u8]) -> PyResult<()> {
+        self.restore(py, state)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Simulator({} worlds, {} threads)", self.worlds(), self.threads())
+    }
+}
+
+impl Simulator {
+    fn row_size(&self) -> usize {
+        self.0.config().row_size()
+    }
+
+    fn rows_out<'py>(&self, out: &Bound<'py, PyAny>) -> PyResult<RowsOut<'py>> {
+        writeable("out", out, &[self.0.worlds(), self.row_size()])
+    }
+}
