@@ -26,7 +26,7 @@ impl Roll {
         let end = (speed - model.rolling_deceleration * tick).max(0.0);
         // It stops within the tick when `end` is cut off at zero.
         let rolling_time = if end > 0.0 { tick } else { speed / model.rolling_deceleration };
-        let mean = (speed + end) / 2.0 * (rolling_time / tick);
+        let mean = speed.midpoint(end) * (rolling_time / tick);
         Self { mean: velocity * (mean / speed), end: velocity * (end / speed) }
     }
 

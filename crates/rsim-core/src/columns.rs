@@ -16,6 +16,16 @@ pub const DIFFERENTIAL_COLUMNS: [&str; 2] = ["left", "right"];
 /// Meanings of the ball's `crossed` column: nothing, the goal mouth at +x, the one at -x.
 pub const CROSSINGS: [&str; 3] = ["none", "goal_right", "goal_left"];
 
+/// Meaning of a value of the ball's `crossed` column.
+///
+/// # Panics
+/// When no row has such a value.
+pub fn crossing_name(crossed: f32) -> &'static str {
+    let codes = (0_u8..).map(f32::from);
+    let found = codes.zip(CROSSINGS).find(|(code, _)| (code - crossed).abs() < 0.5);
+    found.expect("`crossed` is a position in CROSSINGS").1
+}
+
 /// Length of the row of a match with `robots` robots.
 pub const fn row_size(robots: usize) -> usize {
     BALL_COLUMNS.len() + robots * ROBOT_COLUMNS.len()

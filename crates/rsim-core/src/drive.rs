@@ -67,7 +67,7 @@ impl Drive {
         let [left, right] = wheels.map(|speed| {
             limits.wheel_radius * speed.clamp(-limits.max_wheel_speed, limits.max_wheel_speed)
         });
-        let wanted_speed = (left + right) / 2.0;
+        let wanted_speed = left.midpoint(right);
         let wanted_spin = (right - left) / (2.0 * limits.half_track);
 
         let along =

@@ -45,7 +45,7 @@ pub struct Field {
 
 impl Field {
     /// IEEE VSSS, three a side. Dimensions: the league's rules (LARC 2008 v1.0 and its later
-    /// edition for the goal); marks and areas: VSSReferee, `src/utils/types/field`.
+    /// edition for the goal); marks and areas: `VSSReferee`, `src/utils/types/field`.
     pub const VSS_3V3: Self = Self {
         name: Cow::Borrowed("vss_3v3"),
         length: 1.50,

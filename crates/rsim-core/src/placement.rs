@@ -16,6 +16,10 @@ const TOLERANCE: f32 = 2e-3;
 /// Allowed error of the length of a heading; it is made exact afterwards.
 const HEADING_TOLERANCE: f32 = 1e-3;
 
+/// Error of a heading that is left as it is: what rounding makes of a unit vector. So a state that
+/// was read can be placed again without a change.
+const HEADING_ERROR: f32 = 1e-6;
+
 /// Checks starting rows against the field and the models.
 pub(crate) struct Placement {
     walls: Vec<Wall>,
@@ -68,7 +72,7 @@ impl Placement {
         if (heading.length() - 1.0).abs() > HEADING_TOLERANCE {
             return Err(PlaceError::Heading { who: name(), cos: heading.x, sin: heading.y });
         }
-        if heading.length_squared() != 1.0 {
+        if (heading.length_squared() - 1.0).abs() > HEADING_ERROR {
             motion.heading = heading.normalize();
         }
         let inside = position.abs().cmple(self.reach).all();

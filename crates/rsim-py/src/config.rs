@@ -92,6 +92,7 @@ impl SimConfig {
     }
 
     #[getter]
+    #[allow(clippy::unused_self)] // there is one kind of drive
     fn command_columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, rsim_core::columns::DIFFERENTIAL_COLUMNS)
     }
@@ -235,6 +236,7 @@ mirror!(
         }
 
         #[getter]
+        #[allow(clippy::unused_self)] // there is one kind of drive
         fn drive(&self) -> &'static str {
             "differential"
         }

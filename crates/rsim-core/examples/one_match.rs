@@ -1,0 +1,21 @@
+//! One match, from the kick-off until somebody scores: `cargo run --release --example one_match`.
+
+use rsim_core::columns::crossing_name;
+use rsim_core::scenes;
+
+#[allow(clippy::print_stdout)] // it talks to the person who runs it
+fn main() {
+    let scene = scenes::chase();
+    let mut world = scene.world();
+    let mut row = scene.start.clone();
+    for step in 0..4000 {
+        world.step(&scene.commands(&row, step, 3)).expect("the state stays finite");
+        world.write_row(&mut row);
+        if row[4] != 0.0 {
+            let seconds = step as f32 * scene.config.time_step;
+            println!("{} crossed after {seconds:.1} s", crossing_name(row[4]));
+            return;
+        }
+    }
+    println!("no goal");
+}

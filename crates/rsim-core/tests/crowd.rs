@@ -1,0 +1,57 @@
+//! Many bodies pushing: nobody leaves the arena, nobody stays in anybody, nothing explodes.
+
+use rsim_core::scenes::{self, Scene, robots};
+
+/// Steps of random play and of crowds: 100,000 ticks each.
+const STEPS: u64 = 20_000;
+
+fn check(scene: &Scene, row: &[f32], step: u64) {
+    let label = || format!("{}, step {step}", scene.name);
+    assert!(row.iter().all(|value| value.is_finite()), "{}", label());
+    let centers: Vec<[f32; 2]> =
+        std::iter::once(row).chain(robots(row)).map(|c| [c[0], c[1]]).collect();
+    for [x, y] in &centers {
+        assert!(x.abs() < 0.85 && y.abs() < 0.65, "{} at ({x}, {y})", label());
+        assert!(x.abs() < 0.75 || y.abs() < 0.2, "in the end wall at ({x}, {y}), {}", label());
+    }
+    for (index, a) in centers[1..].iter().enumerate() {
+        for b in &centers[index + 2..] {
+            let apart = (a[0] - b[0]).hypot(a[1] - b[1]);
+            // Squares of 75 mm: their inner circles never overlap by more than 2 mm.
+            assert!(apart > 0.075 - 0.002, "{} two robots {apart} m apart", label());
+        }
+    }
+}
+
+#[test]
+fn long_play_stays_sound() {
+    for scene in [scenes::random_play(), scenes::chase(), scenes::crowded_kickoff()] {
+        let mut world = scene.world();
+        let (mut row, mut contacts) = (scene.start.clone(), 0);
+        for step in 0..STEPS {
+            world.step(&scene.commands(&row, step, 11)).expect("finite");
+            world.write_row(&mut row);
+            check(&scene, &row, step);
+            contacts += world.contacts();
+            if step % 400 == 399 {
+                world.place(&scene.start).expect("valid");
+                row.copy_from_slice(&scene.start);
+            }
+        }
+        assert!(contacts as u64 > STEPS / 2, "{}: only {contacts} contacts", scene.name);
+    }
+}
+
+#[test]
+fn states_of_a_crowd_can_be_placed_again() {
+    let scene = scenes::chase();
+    let (rows, contacts) = scene.play(&mut scene.world(), 400);
+    assert!(contacts > 1000);
+    let mut other = scene.world();
+    for row in rows.chunks_exact(scene.config.row_size()).step_by(7) {
+        other.place(row).expect("a state of a running match is a state to start from");
+        let mut read = row.to_vec();
+        other.write_row(&mut read);
+        assert_eq!(read[..4], row[..4], "the ball is where it was put");
+    }
+}

@@ -1,0 +1,114 @@
+//! A differential drive against its closed form: speeds, accelerations, arcs, pushes, skids.
+
+use rsim_core::scenes::{lone_robot, robots};
+use rsim_core::{RobotModel, SimConfig, World, scenes::Scene};
+
+/// Robot 0 after `steps` control steps.
+fn after(scene: &Scene, steps: u64) -> Vec<f32> {
+    let (rows, _) = scene.play(&mut scene.world(), steps);
+    let last = &rows[rows.len() - scene.config.row_size()..];
+    robots(last).next().expect("a robot").to_vec()
+}
+
+fn close(got: f32, expected: f32, tolerance: f32) {
+    assert!((got - expected).abs() <= tolerance, "{got}, expected {expected} +- {tolerance}");
+}
+
+#[test]
+fn equal_wheels_drive_straight_at_the_speed_that_they_say() {
+    let robot = after(&lone_robot([20.0, 20.0]), 40);
+    close(robot[4], 0.026 * 20.0, 1e-4);
+    close(robot[1], 0.0, 1e-6);
+    close(robot[3], 0.0, 1e-6);
+}
+
+#[test]
+fn speed_up_is_what_the_tyres_give() {
+    // 6.85 m/s² measured on the old simulator's robot: 0.1 s to 0.685 m/s and 34 mm.
+    let robot = after(&lone_robot([100.0, 100.0]), 4);
+    close(robot[4], 0.685, 0.005);
+    close(robot[0], 0.5 * 6.85 * 0.01, 0.001);
+    let robot = after(&lone_robot([100.0, 100.0]), 14);
+    close(robot[4], RobotModel::VSS_440RPM.top_speed(), 1e-3); // 1.198 m/s; measured 1.199
+}
+
+#[test]
+fn opposite_wheels_turn_on_the_spot() {
+    let robot = after(&lone_robot([-40.0, 40.0]), 20);
+    close(robot[6], 26.6, 0.1); // measured on the old simulator's robot
+    close(robot[0], 0.0, 1e-4);
+    close(robot[1], 0.0, 1e-4);
+}
+
+#[test]
+fn unequal_wheels_drive_the_arc_of_the_closed_form() {
+    let (left, right) = (18.0, 22.0);
+    let (rows, _) = {
+        let scene = lone_robot([left, right]);
+        scene.play(&mut scene.world(), 60)
+    };
+    let model = RobotModel::VSS_440RPM;
+    let radius = model.drive.track / 2.0 * (right + left) / (right - left);
+    // The curvature, from three positions of the steady part.
+    let at = |step: usize| {
+        let size = SimConfig { n_blue: 1, n_yellow: 0, ..SimConfig::VSS_3V3 }.row_size();
+        let robot = robots(&rows[step * size..][..size]).next().expect("a robot");
+        [robot[0], robot[1]]
+    };
+    let [a, b, c] = [at(20), at(38), at(56)];
+    let side = |p: [f32; 2], q: [f32; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+    let area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs() / 2.0;
+    let measured = side(a, b) * side(b, c) * side(c, a) / (4.0 * area);
+    close(measured, radius, 0.01 * radius);
+}
+
+#[test]
+fn commands_beyond_the_motors_count_as_their_top_speed() {
+    assert_eq!(after(&lone_robot([1e9, 1e9]), 30), after(&lone_robot([46.077, 46.077]), 30));
+}
+
+#[test]
+fn a_standing_robot_pushed_sideways_skids_and_stops() {
+    let mut scene = lone_robot([0.0, 0.0]);
+    let columns = scenes_robot(&mut scene);
+    columns[5] = 1.0; // m/s along its axle
+    let robot = after(&scene, 40);
+    close(robot[5], 0.0, 1e-4);
+    // v² / (2 a) with the tyres' 9.81 m/s².
+    close(robot[1], 1.0 / (2.0 * 9.81), 0.003);
+}
+
+#[test]
+fn a_robot_against_the_wall_stalls_and_stays_straight() {
+    let mut scene = lone_robot([46.0, 46.0]);
+    scenes_robot(&mut scene)[1] = -0.3;
+    scenes_robot(&mut scene)[0] = 0.4;
+    let robot = after(&scene, 200);
+    close(robot[4], 0.0, 1e-3);
+    close(robot[0], 0.75 - 0.0375, 5e-4);
+    close(robot[1], -0.3, 1e-3);
+}
+
+#[test]
+fn a_heavier_robot_pushes_a_standing_one_away() {
+    // Two robots of one model are equally strong; the pusher's own brakes decide. At rest both
+    // stay, so pushing needs a start: what counts is that nobody passes through anybody.
+    let config = SimConfig { n_blue: 1, n_yellow: 1, ..SimConfig::VSS_3V3 };
+    let mut scene = Scene::at(
+        "head_on",
+        config,
+        &[[-0.2, 0.0, 0.0], [0.2, 0.0, 180.0]],
+        rsim_core::scenes::Driver::Constant([46.0, 46.0]),
+    );
+    scene.set_ball([0.0, 0.6], [0.0, 0.0]);
+    let mut world: World = scene.world();
+    let (rows, contacts) = scene.play(&mut world, 200);
+    assert!(contacts > 100, "they met");
+    let last: Vec<_> = robots(&rows[rows.len() - scene.config.row_size()..]).collect();
+    close(last[1][0] - last[0][0], 0.075, 1e-3);
+    close(last[0][0] + last[1][0], 0.0, 1e-3);
+}
+
+fn scenes_robot(scene: &mut Scene) -> &mut [f32] {
+    rsim_core::scenes::robots_mut(&mut scene.start).next().expect("a robot")
+}

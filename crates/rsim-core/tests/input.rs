@@ -1,0 +1,128 @@
+//! What nobody can play with is refused, by name, and changes nothing.
+
+use rsim_core::scenes::{self, robots_mut};
+use rsim_core::{Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
+
+fn message(config: &SimConfig) -> String {
+    World::new(config).err().expect("refused").to_string()
+}
+
+#[test]
+fn configurations_are_checked_by_name() {
+    let good = SimConfig::VSS_3V3;
+    assert!(World::new(&good).is_ok());
+    assert!(message(&SimConfig { time_step: -0.025, ..good.clone() }).contains("time_step"));
+    assert!(message(&SimConfig { time_step: f32::NAN, ..good.clone() }).contains("time_step"));
+    assert!(message(&SimConfig { tick: 0.0, ..good.clone() }).contains("tick"));
+    assert!(message(&SimConfig { tick: 0.004, ..good.clone() }).contains("whole number of ticks"));
+    assert!(message(&SimConfig { n_blue: 6, ..good.clone() }).contains("n_blue must be at most 5"));
+    let mut odd = good.clone();
+    odd.robot.mass = -1.0;
+    assert!(message(&odd).contains("robot.mass"));
+    let mut odd = good;
+    odd.field.goal_width = 2.0;
+    assert!(message(&odd).contains("field.goal_width"));
+}
+
+#[test]
+fn presets_are_found_by_name() {
+    for field in Field::PRESETS {
+        assert_eq!(Field::preset(&field.name).expect("known"), field);
+    }
+    let error = RobotModel::preset("vss_900rpm").expect_err("unknown").to_string();
+    assert!(error.contains("vss_440rpm") && error.contains("vss_900rpm"), "{error}");
+}
+
+#[test]
+fn a_batch_needs_worlds_and_threads() {
+    for (worlds, threads, name) in [(0, 1, "worlds"), (1, 0, "threads"), (1, 100_000, "threads")] {
+        let error = Batch::new(&SimConfig::VSS_3V3, worlds, threads).err().expect("refused");
+        assert!(error.to_string().contains(name), "{error}");
+    }
+}
+
+#[test]
+fn impossible_starts_are_refused_and_change_nothing() {
+    let scene = scenes::random_play();
+    let mut world = scene.world();
+    let spoil = |change: &dyn Fn(&mut Vec<f32>)| {
+        let mut row = scene.start.clone();
+        change(&mut row);
+        row
+    };
+    let set = |row: &mut Vec<f32>, robot: usize, column: usize, value: f32| {
+        robots_mut(row).nth(robot).expect("a robot")[column] = value;
+    };
+    let cases: [(&str, Vec<f32>); 7] = [
+        ("blue_0", spoil(&|row| set(row, 0, 0, 0.9))),
+        ("outside", spoil(&|row| set(row, 4, 1, 0.63))),
+        (
+            "outside",
+            spoil(&|row| {
+                set(row, 4, 0, 0.71);
+                set(row, 4, 1, 0.61);
+            }),
+        ),
+        ("yellow_2", spoil(&|row| set(row, 5, 2, 0.5))),
+        ("not finite", spoil(&|row| row[0] = f32::NAN)),
+        (
+            "ball and blue_1 overlap",
+            spoil(&|row| {
+                row[0] = -0.3;
+                row[1] = 0.35;
+            }),
+        ),
+        (
+            "blue_0 and blue_2 overlap",
+            spoil(&|row| {
+                set(row, 2, 0, -0.6);
+                set(row, 2, 1, 0.05);
+            }),
+        ),
+    ];
+    let before = scene.play(&mut world.clone(), 3).0;
+    for (expected, row) in cases {
+        let error = world.place(&row).expect_err(expected).to_string();
+        assert!(error.contains(expected), "{error} should say {expected}");
+    }
+    assert_eq!(scene.play(&mut world, 3).0, before);
+}
+
+#[test]
+fn an_impossible_start_in_one_world_leaves_all_worlds() {
+    let scene = scenes::random_play();
+    let (mut batch, mut rows) = scene.batch(3, 1);
+    let before = rows.clone();
+    let mut starts = scene.start.repeat(2);
+    starts[0] = 0.1;
+    starts[scene.start.len()] = f32::INFINITY;
+    let error = batch.place(&[true, false, true], &starts, &mut rows).expect_err("refused");
+    assert!(matches!(error, PlaceError::InWorld { world: 2, .. }), "{error}");
+    batch.read(&mut rows);
+    assert_eq!(rows, before);
+}
+
+#[test]
+fn foreign_and_damaged_snapshots_are_refused() {
+    let (mut batch, _) = scenes::chase().batch(2, 1);
+    let good = batch.snapshot();
+    assert_eq!(batch.restore(b"something else"), Err(SnapshotError::Foreign));
+    for cut in [8, 20, 60, good.len() - 1] {
+        assert!(
+            matches!(batch.restore(&good[..cut]), Err(SnapshotError::Damaged(_))),
+            "cut at {cut}"
+        );
+    }
+    let mut flipped = good.clone();
+    flipped[good.len() / 2] ^= 4;
+    assert!(matches!(batch.restore(&flipped), Err(SnapshotError::Damaged(_))));
+    let mut older = good.clone();
+    older[8] ^= 0xff;
+    assert!(matches!(batch.restore(&older), Err(SnapshotError::Version { .. })));
+    let (other, _) = scenes::lone_robot([0.0, 0.0]).batch(2, 1);
+    assert_eq!(batch.restore(&other.snapshot()), Err(SnapshotError::OtherConfig));
+    let (fewer, _) = scenes::chase().batch(1, 1);
+    assert_eq!(batch.restore(&fewer.snapshot()), Err(SnapshotError::OtherConfig));
+    assert_eq!(batch.restore(&good), Ok(()));
+    assert_eq!(batch.snapshot(), good, "nothing had changed");
+}
