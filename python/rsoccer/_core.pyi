@@ -10,6 +10,19 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "BALL_COLUMNS",
+    "COMMAND_COLUMNS",
+    "CROSSINGS",
+    "ROBOT_COLUMNS",
+    "BallModel",
+    "Field",
+    "RobotModel",
+    "SimConfig",
+    "Simulator",
+    "build_info",
+]
+
 BALL_COLUMNS: tuple[str, ...]
 """Names of the ball's columns. `crossed` is a position in `CROSSINGS`: what the ball's centre
 crossed during the last control step, at `crossed_x`, `crossed_y`."""

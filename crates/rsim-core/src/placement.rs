@@ -18,7 +18,7 @@ const HEADING_TOLERANCE: f32 = 1e-3;
 
 /// Error of a heading that is left as it is: what rounding makes of a unit vector. So a state that
 /// was read can be placed again without a change.
-const HEADING_ERROR: f32 = 1e-6;
+const HEADING_ERROR: f32 = 1e-5;
 
 /// Checks starting rows against the field and the models.
 pub(crate) struct Placement {

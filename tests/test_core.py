@@ -1,0 +1,228 @@
+"""The seam: what the compiled module refuses, and that refusing changes nothing."""
+
+import copy
+import pickle
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as npst
+
+from rsoccer._core import (
+    BALL_COLUMNS,
+    COMMAND_COLUMNS,
+    CROSSINGS,
+    ROBOT_COLUMNS,
+    SimConfig,
+    Simulator,
+    build_info,
+)
+from rsoccer.frame import Floats
+
+WORLDS = 3
+CONFIG = SimConfig()
+
+
+def rows_of(simulator: Simulator) -> Floats:
+    rows = np.zeros((simulator.worlds, simulator.config.row_size), np.float32)
+    simulator.read(rows)
+    return rows
+
+
+def no_commands(worlds: int = WORLDS) -> Floats:
+    columns = len(COMMAND_COLUMNS[CONFIG.robot.drive])
+    return np.zeros((worlds, CONFIG.n_robots, columns), np.float32)
+
+
+def driven(simulator: Simulator, steps: int, seed: int = 0) -> Floats:
+    """Rows after some steps of random driving."""
+    rng, rows = np.random.default_rng(seed), rows_of(simulator)
+    for _ in range(steps):
+        wheels = rng.uniform(-50, 50, no_commands(simulator.worlds).shape).astype(np.float32)
+        simulator.step(wheels, rows)
+    return rows
+
+
+def test_names_and_sizes_agree() -> None:
+    assert CONFIG.row_size == len(BALL_COLUMNS) + CONFIG.n_robots * len(ROBOT_COLUMNS)
+    assert CONFIG.command_columns == COMMAND_COLUMNS[CONFIG.robot.drive]
+    assert CROSSINGS[0] == "none"
+    assert set(build_info()) == {"version", "profile", "physics"}
+
+
+def test_a_configuration_survives_json_and_pickle() -> None:
+    config = SimConfig("vss_5v5", 5, 2, robot="vss_650rpm", time_step=0.02, tick=0.0025)
+    for other in (SimConfig.from_json(config.to_json()), pickle.loads(pickle.dumps(config))):
+        assert other == config
+        assert hash(other) == hash(config)
+    assert config != CONFIG
+    assert config.ticks_per_step == 8
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"field": "vss_9v9"}, "field must be one of vss_3v3, vss_5v5"),
+        ({"robot": "tank"}, "robot must be one of"),
+        ({"ball": "tennis"}, "ball must be one of"),
+        ({"n_blue": 6}, "n_blue must be at most 5"),
+        ({"n_yellow": -1}, "n_yellow must not be negative, got -1"),
+        ({"time_step": -0.025}, "time_step must be positive and finite, got -0.025"),
+        ({"time_step": float("nan")}, "time_step must be positive and finite"),
+        ({"tick": 0.004}, "whole number of ticks"),
+    ],
+)
+def test_a_bad_configuration_is_refused_by_name(options: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        SimConfig(**options)
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1, 2]", CONFIG.to_json().replace('"mass":0.15', '"mass":-1')])
+def test_foreign_json_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"text is not a configuration|must be positive"):
+        SimConfig.from_json(text)
+
+
+@pytest.mark.parametrize(
+    ("worlds", "threads", "words"),
+    [(0, 1, "worlds"), (-1, 1, "worlds"), (1, 0, "threads"), (1, 5000, "threads")],
+)
+def test_a_simulator_needs_worlds_and_threads(worlds: int, threads: int, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        Simulator(CONFIG, worlds, threads)
+
+
+def read_only(shape: tuple[int, ...]) -> Floats:
+    array = np.zeros(shape, np.float32)
+    array.setflags(write=False)
+    return array
+
+
+BAD_STEPS: list[tuple[str, dict[str, Any], type[Exception]]] = [
+    ("commands must have shape", {"commands": no_commands(2)}, ValueError),
+    ("commands must be an array", {"commands": no_commands().astype(np.float64)}, TypeError),
+    ("commands must be an array", {"commands": [[0.0]]}, TypeError),
+    ("commands must be finite", {"commands": no_commands() * np.nan}, ValueError),
+    ("out must have shape", {"out": np.zeros((2, CONFIG.row_size), np.float32)}, ValueError),
+    ("out must be an array", {"out": np.zeros((3, CONFIG.row_size))}, TypeError),
+    ("out must be C-cont", {"out": np.zeros((CONFIG.row_size, 3), np.float32).T}, ValueError),
+    ("out must be writeable", {"out": read_only((3, CONFIG.row_size))}, ValueError),
+    ("active must have shape", {"active": np.ones(2, np.bool_)}, ValueError),
+    ("active must be an array", {"active": np.ones(3, np.int8)}, TypeError),
+]
+
+
+@pytest.mark.parametrize(("words", "argument", "error"), BAD_STEPS)
+def test_a_bad_step_is_refused_before_anything_moves(
+    words: str, argument: dict[str, Any], error: type[Exception]
+) -> None:
+    simulator = Simulator(CONFIG, WORLDS)
+    driven(simulator, 5)
+    before, kept = simulator.snapshot(), rows_of(simulator)
+    good = {"commands": no_commands() + 20, "out": kept.copy(), "active": None}
+    with pytest.raises(error, match=words):
+        simulator.step(**(good | argument))
+    assert simulator.snapshot() == before
+    simulator.step(**good)
+    assert simulator.snapshot() != before, "the good step does move"
+
+
+@given(
+    npst.arrays(
+        st.sampled_from([np.float32, np.float64, np.int32, np.bool_]),
+        npst.array_shapes(min_dims=1, max_dims=4, max_side=7),
+    )
+)
+@settings(max_examples=200, deadline=None)
+def test_whatever_comes_as_commands_moves_or_is_refused(commands: Any) -> None:
+    simulator = Simulator(CONFIG, 1)
+    before, out = simulator.snapshot(), rows_of(simulator)
+    shape = no_commands(1).shape
+    fits = commands.dtype == np.float32 and commands.shape == shape and np.isfinite(commands).all()
+    if fits:
+        simulator.step(commands, out)
+        assert np.isfinite(out).all()
+    else:
+        with pytest.raises((TypeError, ValueError), match=r"^commands must"):
+            simulator.step(commands, out)
+        assert simulator.snapshot() == before
+
+
+def test_impossible_starts_name_world_and_robots() -> None:
+    simulator = Simulator(CONFIG, WORLDS)
+    out = rows_of(simulator)
+    before = simulator.snapshot()
+    robot = len(BALL_COLUMNS)
+    onto, outside, heading = out[:2].copy(), out[:2].copy(), out[:2].copy()
+    onto[1, robot : robot + 2] = onto[1, robot + 7 : robot + 9] + 0.01
+    outside[0, 0] = 5.0
+    heading[1, robot + 2] = 0.3
+    mask = np.array([True, False, True])
+    for rows, words in [
+        (onto, "world 2: blue_0 and blue_1 overlap by"),
+        (outside, r"world 0: ball is outside the field, at \(5.000, 0.000\) m"),
+        (heading, "world 2: the heading of blue_0 must be a unit vector"),
+        (out[:1], r"rows must have shape \(2, 49\), got \(1, 49\)"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            simulator.place(mask, rows, out)
+        assert simulator.snapshot() == before
+
+
+def test_a_placed_state_reads_as_placed_velocities_included() -> None:
+    simulator = Simulator(CONFIG, WORLDS)
+    rows = driven(simulator, 40)
+    rows[:, BALL_COLUMNS.index("crossed") :][:, :3] = 0.0  # an event, not a state
+    other = Simulator(CONFIG, WORLDS)
+    out = np.zeros_like(rows)
+    other.place(np.ones(WORLDS, np.bool_), rows, out)
+    assert np.abs(rows[:, len(BALL_COLUMNS) + 4]).max() > 0.05, "robots move"
+    np.testing.assert_array_equal(out, rows)
+    np.testing.assert_array_equal(rows_of(other), rows_of(other))
+    np.testing.assert_array_equal(rows_of(other), rows)
+
+
+@pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
+def test_a_pickled_simulator_goes_on_as_the_original(duplicate: Any) -> None:
+    simulator = Simulator(CONFIG, WORLDS, 2)
+    driven(simulator, 30)
+    twin = duplicate(simulator)
+    assert (twin.config, twin.worlds, twin.threads) == (CONFIG, WORLDS, 2)
+    np.testing.assert_array_equal(driven(twin, 60, seed=1), driven(simulator, 60, seed=1))
+
+
+@pytest.mark.parametrize("junk", [b"", b"junk", b"rsimsnap", b"rsimsnap" + bytes(100)])
+def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
+    simulator = Simulator(CONFIG, WORLDS)
+    before = simulator.snapshot()
+    with pytest.raises(ValueError, match="snapshot"):
+        simulator.restore(junk)
+    with pytest.raises(ValueError, match="snapshot"):
+        simulator.restore(Simulator(CONFIG, 1).snapshot())
+    with pytest.raises(ValueError, match="damaged"):
+        simulator.restore(before[:-7])
+    assert simulator.snapshot() == before
+
+
+def test_the_step_leaves_other_threads_running() -> None:
+    """A counter in Python goes on while one long step runs: the GIL is free meanwhile."""
+    simulator = Simulator(CONFIG, 3000)
+    rows, commands = rows_of(simulator), no_commands(3000) + 30
+    counts, stop = [0], threading.Event()
+
+    def count() -> None:
+        while not stop.is_set():
+            counts[0] += 1
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = counts[0]
+    simulator.step(commands, rows)
+    during = counts[0] - before
+    stop.set()
+    counter.join()
+    # With the GIL held the counter could run only around the call.
+    assert during > 1000
