@@ -1,0 +1,41 @@
+"""Pictures and videos of matches: a pure scene, painted off-screen, shown or written.
+
+Names are looked up when first used, so reading a scene needs no pygame and an image no ffmpeg.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rsoccer.render.image import Image, Renderer, draw_image
+    from rsoccer.render.record import film_match, record_match
+    from rsoccer.render.video import write_video
+    from rsoccer.render.window import Window
+
+__all__ = [
+    "Image",
+    "Renderer",
+    "Window",
+    "draw_image",
+    "film_match",
+    "record_match",
+    "write_video",
+]
+
+_HOMES = {
+    "Image": "image",
+    "Renderer": "image",
+    "Window": "window",
+    "draw_image": "image",
+    "film_match": "record",
+    "record_match": "record",
+    "write_video": "video",
+}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

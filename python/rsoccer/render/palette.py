@@ -1,0 +1,37 @@
+"""The colours of a picture, in one place."""
+
+from __future__ import annotations
+
+from rsoccer.render.shapes import Color
+
+BLUE: Color = (47, 111, 228, 255)
+YELLOW: Color = (242, 194, 48, 255)
+ORANGE: Color = (255, 112, 32, 255)
+WHITE: Color = (240, 244, 248, 255)
+INK: Color = (22, 25, 30, 255)
+
+BACKDROP: Color = (14, 17, 22, 255)
+WALL: Color = (62, 71, 84, 255)
+WALL_EDGE: Color = (106, 119, 136, 255)
+CARPET: Color = (32, 38, 46, 255)
+LINES: Color = (222, 228, 235, 255)
+BOARD: Color = (36, 43, 53, 255)
+MUTED: Color = (172, 183, 197, 255)
+SHADOW: Color = (4, 6, 9, 150)
+TYRE: Color = (14, 16, 19, 255)
+SHINE: Color = (255, 226, 200, 150)
+TRAIL: Color = (255, 112, 32, 42)
+VEIL: Color = (14, 17, 22, 205)
+
+
+def mix(color: Color, other: Color, share: float) -> Color:
+    """`color` with a `share` (0 to 1) of `other` in it; keeps the opacity of `color`."""
+    red, green, blue = (
+        round(a + (b - a) * share) for a, b in zip(color[:3], other[:3], strict=True)
+    )
+    return (red, green, blue, color[3])
+
+
+def fade(color: Color, opacity: float) -> Color:
+    """`color` with its opacity multiplied by `opacity` (0 to 1)."""
+    return (*color[:3], round(color[3] * opacity))

@@ -1,0 +1,178 @@
+import importlib
+import os
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from rsoccer import SimConfig
+from rsoccer.frame import Floats, Frame
+from rsoccer.render import Image, Renderer, draw_image, palette
+from rsoccer.render.image import WIDTHS, _renderer
+from rsoccer.render.scoreboard import scene_bounds
+from rsoccer.render.shapes import Color, Point, Pose
+
+SIZES = [320, 640, 1280]
+
+
+def pixel(image: Image, config: SimConfig, point: Point) -> Color:
+    """The colour at a point of the field."""
+    bounds = scene_bounds(config.field)
+    scale = image.shape[1] / bounds.width
+    column, line = int((point[0] - bounds.left) * scale), int((bounds.top - point[1]) * scale)
+    red, green, blue = image[line, column].tolist()
+    return (red, green, blue, 255)
+
+
+def close(color: Color, other: Color, tolerance: int = 30) -> bool:
+    return max(abs(a - b) for a, b in zip(color, other, strict=True)) <= tolerance
+
+
+@pytest.mark.parametrize("width", SIZES)
+def test_every_robot_shows_the_colour_of_its_team(
+    config: SimConfig, row: Floats, width: int
+) -> None:
+    image, empty = draw_image(config, row, width=width), ground_image(config, width)
+    frame = Frame(row[None], config.n_blue, config.n_yellow)
+    colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
+    size = config.robot.size
+    robots = zip(frame.robots.position[0].tolist(), frame.robots.heading[0].tolist(), strict=True)
+    for (position, heading), color in zip(robots, colors, strict=True):
+        pose = Pose((position[0], position[1]), *heading)
+        # The rear corners of the cover: neither number nor arrow is there.
+        for corner in pose.place(((-0.34 * size, 0.24 * size), (-0.34 * size, -0.24 * size))):
+            assert close(pixel(image, config, corner), color), (corner, color)
+            assert not close(pixel(empty, config, corner), color)
+
+
+@pytest.mark.parametrize("width", SIZES)
+def test_the_ball_is_orange(config: SimConfig, row: Floats, width: int) -> None:
+    ball = Frame(row[None], config.n_blue, config.n_yellow).ball.position[0].tolist()
+    assert close(pixel(draw_image(config, row, width=width), config, ball), palette.ORANGE)
+    assert not close(pixel(ground_image(config, width), config, ball), palette.ORANGE)
+
+
+@pytest.mark.parametrize("name", ["vss_3v3", "vss_5v5"])
+def test_goals_and_lines_are_visible(name: str) -> None:
+    config = SimConfig(name, 1, 1)
+    image = ground_image(config, 1280)
+    field = config.field
+    carpet = pixel(image, config, (0.31 * field.length, 0.3 * field.width))
+    line = pixel(image, config, (0.0, 0.4 * field.width))
+    assert sum(line) - sum(carpet) > 300
+    pocket = field.half_length + 0.45 * field.goal_depth
+    left, right = (pixel(image, config, (x, 0.02)) for x in (-pocket, pocket))
+    assert left[2] - carpet[2] > 40  # blue's
+    assert right[0] - carpet[0] > 40  # yellow's
+    wall = pixel(image, config, (0.3, field.half_width + field.wall_height / 4))
+    assert close(wall, palette.WALL, 8)
+    inside_corner_block = field.corner / 4
+    corner = (field.half_length - inside_corner_block, field.half_width - inside_corner_block)
+    assert close(pixel(image, config, corner), palette.WALL, 8)
+
+
+def ground_image(config: SimConfig, width: int) -> Image:
+    """The field with all bodies in one corner of it."""
+    frame = Frame.empty(1, config.n_blue, config.n_yellow)
+    aside = (-0.8 * config.field.half_length, -0.8 * config.field.half_width)
+    frame.ball.position[0] = frame.robots.position[0] = aside
+    return draw_image(config, frame.rows[0], width=width)
+
+
+@pytest.mark.parametrize("width", [64, 321, 640, 4096])
+def test_an_image_has_even_sizes_and_the_shape_of_the_scene(
+    config: SimConfig, row: Floats, width: int
+) -> None:
+    image = draw_image(config, row, width=width)
+    bounds = scene_bounds(config.field)
+    assert image.dtype == np.uint8
+    assert image.shape[0] % 2 == image.shape[1] % 2 == 0
+    assert abs(image.shape[1] - width) <= 1
+    assert image.shape[0] == pytest.approx(image.shape[1] * bounds.height / bounds.width, abs=1)
+
+
+def test_each_image_is_the_callers_own(config: SimConfig, row: Floats) -> None:
+    renderer = Renderer(config, 160)
+    first = renderer.draw(row)
+    kept = first.copy()
+    first[:] = 0
+    second = renderer.draw(row)
+    np.testing.assert_array_equal(second, kept)
+    assert second.flags.c_contiguous
+
+
+def test_score_clock_names_and_caption_change_the_image(config: SimConfig, row: Floats) -> None:
+    renderer = Renderer(config, 640)
+    plain = renderer.draw(row)
+    others = [
+        renderer.draw(row, score=(1, 0)),
+        renderer.draw(row, score=(0, 1)),
+        renderer.draw(row, clock=61.0),
+        renderer.draw(row, names=("", "a name much longer than its place on the board")),
+        renderer.draw(row, caption="goal"),
+    ]
+    height = plain.shape[0]
+    for other in others[:4]:
+        assert (plain != other).any()
+        np.testing.assert_array_equal(plain[height // 8 :], other[height // 8 :])
+    assert (plain[height // 2] != others[4][height // 2]).any()
+
+
+def test_a_body_out_of_the_picture_is_left_out(config: SimConfig, row: Floats) -> None:
+    frame = Frame(row[None].copy(), config.n_blue, config.n_yellow)
+    frame.ball.position[0] = 40.0, -3e6
+    frame.robots.position[0, 0] = -500.0, 0.0
+    assert draw_image(config, frame.rows[0], width=160).shape[1] == 160
+
+
+def test_a_renderer_survives_pickling(config: SimConfig, row: Floats) -> None:
+    renderer = Renderer(config, 160)
+    again = pickle.loads(pickle.dumps(renderer))
+    np.testing.assert_array_equal(again.draw(row), renderer.draw(row))
+
+
+def test_few_renderers_are_kept(config: SimConfig, row: Floats) -> None:
+    for width in range(64, 84, 2):
+        draw_image(config, row, width=width)
+    assert 0 < _renderer.cache_info().currsize <= 4
+
+
+@pytest.mark.parametrize("width", [0, -640, WIDTHS[0] - 1, WIDTHS[1] + 1])
+def test_a_width_out_of_range_is_refused(config: SimConfig, width: int) -> None:
+    with pytest.raises(ValueError, match="width: expected 64 to 4096 pixels, got"):
+        Renderer(config, width)
+
+
+def test_drawing_needs_no_display_and_says_nothing() -> None:
+    code = """
+import sys
+from rsoccer import SimConfig, Simulator
+import numpy as np
+from rsoccer.render import draw_image
+config = SimConfig()
+rows = np.empty((1, config.row_size), np.float32)
+Simulator(config).read(rows)
+image = draw_image(config, rows[0])
+import pygame
+sys.exit(not (image.std() > 10 and not pygame.display.get_init()))
+"""
+    hidden = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "PYGAME_HIDE_SUPPORT_PROMPT")
+    environment = {name: value for name, value in os.environ.items() if name not in hidden}
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_a_missing_pygame_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("image", "paint", "library"):
+        monkeypatch.delitem(sys.modules, f"rsoccer.render.{name}", raising=False)
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    with pytest.raises(ModuleNotFoundError, match=r"pip install 'rsoccer\[render\]'"):
+        importlib.import_module("rsoccer.render.image")

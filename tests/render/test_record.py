@@ -1,0 +1,97 @@
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image as Pillow
+
+from rsoccer import Matches
+from rsoccer.frame import Floats
+from rsoccer.render import Image, Renderer, record_match
+from rsoccer.render.record import GOAL_PAUSE, _film
+
+CHASE = {"all": "chase"}
+SCORING_SEED = 3
+"""A match in which two chasing sides score within 16 seconds."""
+
+
+@dataclass
+class Spy:
+    """Takes the place of a renderer and notes what it is to draw."""
+
+    drawn: list[dict[str, Any]] = field(default_factory=list)
+    rows: list[Floats] = field(default_factory=list)
+
+    def draw(self, row: Floats, **told: Any) -> Image:  # noqa: ANN401
+        self.rows.append(row.copy())
+        self.drawn.append({"score": (0, 0), "clock": 0.0, "caption": "", **told})
+        return np.full((2, 2, 3), len(self.drawn) % 256, np.uint8)
+
+
+def film(seconds: float, spy: Spy) -> list[Image]:
+    matches = Matches("VSSSelfPlay-v0", seed=SCORING_SEED, controllers=CHASE, autoreset="disabled")
+    renderer: Any = spy
+    return list(_film(matches, renderer, seconds, ("A", "B")))
+
+
+def test_goals_are_counted_over_episodes_and_the_clock_runs_on() -> None:
+    spy = Spy()
+    images = film(16.0, spy)
+    scores = np.array([told["score"] for told in spy.drawn])
+    goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
+    assert len(goals) >= 2, "too few goals to show that any is kept"
+    assert scores[-1].sum() == len(goals)
+    assert (np.flatnonzero(np.diff(scores.sum(axis=1))) + 1).tolist() == goals
+    clocks = [told["clock"] for told in spy.drawn]
+    np.testing.assert_allclose(clocks, 0.025 * np.arange(641))
+    pause = round(GOAL_PAUSE / 0.025)
+    assert len(images) == len(spy.drawn) + len(goals) * (pause - 1)
+    assert {told["names"] for told in spy.drawn} == {("A", "B")}
+
+
+def test_after_a_goal_a_new_episode_begins() -> None:
+    spy = Spy()
+    film(16.0, spy)
+    goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
+    moved = [float(np.abs(b[:2] - a[:2]).max()) for a, b in pairwise(spy.rows)]
+    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is put elsewhere
+
+
+@pytest.mark.parametrize("name", ["match.gif"])
+def test_a_recorded_match_has_an_image_for_each_step(tmp_path: Path, name: str) -> None:
+    path = record_match(tmp_path / name, controllers=CHASE, seed=1, seconds=0.5, width=96)
+    assert path == tmp_path / name
+    with Pillow.open(path) as video:
+        assert getattr(video, "n_frames", 1) == 21
+        assert video.size[0] == 96
+
+
+def test_the_same_seed_records_the_same_match(tmp_path: Path) -> None:
+    videos = [
+        record_match(
+            tmp_path / f"{i}.gif", controllers={"all": "ou"}, seed=seed, seconds=0.3, width=96
+        ).read_bytes()
+        for i, seed in enumerate((5, 5, 6))
+    ]
+    assert videos[0] == videos[1] != videos[2]
+
+
+def test_a_robot_without_a_policy_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"controllers: expected a policy .*'yellow_0'"):
+        record_match(tmp_path / "a.mp4", controllers={"blue": "zero"})
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("seconds", [0.0, -3.0, float("nan"), float("inf")])
+def test_a_senseless_length_is_refused(tmp_path: Path, seconds: float) -> None:
+    with pytest.raises(ValueError, match="seconds: expected a positive number, got"):
+        record_match(tmp_path / "a.mp4", controllers=CHASE, seconds=seconds)
+
+
+def test_a_match_drawn_by_the_true_renderer_shows_the_start_first() -> None:
+    matches = Matches("VSSSelfPlay-v0", seed=2, controllers=CHASE, autoreset="disabled")
+    renderer = Renderer(matches.task.config, 96)
+    first = next(_film(matches, renderer, 1.0, ("A", "B")))
+    np.testing.assert_array_equal(first, renderer.draw(matches.frame.rows[0], names=("A", "B")))
