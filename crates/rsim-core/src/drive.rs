@@ -16,7 +16,9 @@ pub(crate) struct Limits {
     max_wheel_speed: f32,
     /// N s, per wheel: the weaker of motor and tyre.
     wheel_impulse: f32,
-    /// N s, both wheels: the tyres along the axle.
+    /// N s, per wheel: the tyre along its wheel, with nothing across.
+    tyre_impulse: f32,
+    /// N s, per wheel: the tyre along the axle, with nothing forward.
     side_impulse: f32,
     tick: f32,
 }
@@ -33,9 +35,18 @@ impl Limits {
             wheel_radius: drive.wheel_radius,
             max_wheel_speed: drive.max_wheel_speed,
             wheel_impulse: motor_force.min(tyre_force) * tick,
-            side_impulse: drive.side_grip * model.mass * tick,
+            tyre_impulse: tyre_force * tick,
+            side_impulse: drive.side_grip * model.mass / 2.0 * tick,
             tick,
         }
+    }
+
+    /// What a tyre that gives `forward` (N s) along its wheel has left along the axle: together
+    /// they stay within an ellipse. So a robot whose wheels spin skids, and can turn away from a
+    /// wall that it stands along.
+    fn side_left(&self, forward: f32) -> f32 {
+        let used = (forward / self.tyre_impulse).clamp(-1.0, 1.0);
+        self.side_impulse * (1.0 - used * used).sqrt()
     }
 }
 
@@ -78,7 +89,8 @@ impl Drive {
         let per_wheel = |share: f32| share.clamp(-limits.wheel_impulse, limits.wheel_impulse);
         let couple = turn / (2.0 * limits.half_track);
         let (left, right) = (per_wheel(along / 2.0 - couple), per_wheel(along / 2.0 + couple));
-        let across = across.clamp(-limits.side_impulse, limits.side_impulse);
+        let side_limit = limits.side_left(left) + limits.side_left(right);
+        let across = across.clamp(-side_limit, side_limit);
         let impulse = forward * (left + right) + side * across;
         let turn = (right - left) * limits.half_track;
 

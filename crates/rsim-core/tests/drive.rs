@@ -70,7 +70,7 @@ fn commands_beyond_the_motors_count_as_their_top_speed() {
 #[test]
 fn a_standing_robot_pushed_sideways_skids_and_stops() {
     let mut scene = lone_robot([0.0, 0.0]);
-    let columns = scenes_robot(&mut scene);
+    let columns = first_robot(&mut scene);
     columns[5] = 1.0; // m/s along its axle
     let robot = after(&scene, 40);
     close(robot[5], 0.0, 1e-4);
@@ -79,10 +79,20 @@ fn a_standing_robot_pushed_sideways_skids_and_stops() {
 }
 
 #[test]
+fn a_robot_along_a_wall_can_turn_away_from_it() {
+    let mut scene = lone_robot([-30.0, 30.0]);
+    let columns = first_robot(&mut scene);
+    columns[1] = -0.65 + 0.0375;
+    let robot = after(&scene, 40);
+    assert!(robot[6] > 10.0, "it spins freely, got {} rad/s", robot[6]);
+    assert!(robot[1] > -0.65 + 0.045, "it has pushed itself off, to {} m", robot[1]);
+}
+
+#[test]
 fn a_robot_against_the_wall_stalls_and_stays_straight() {
     let mut scene = lone_robot([46.0, 46.0]);
-    scenes_robot(&mut scene)[1] = -0.3;
-    scenes_robot(&mut scene)[0] = 0.4;
+    first_robot(&mut scene)[1] = -0.3;
+    first_robot(&mut scene)[0] = 0.4;
     let robot = after(&scene, 200);
     close(robot[4], 0.0, 1e-3);
     close(robot[0], 0.75 - 0.0375, 5e-4);
@@ -109,6 +119,6 @@ fn a_heavier_robot_pushes_a_standing_one_away() {
     close(last[0][0] + last[1][0], 0.0, 1e-3);
 }
 
-fn scenes_robot(scene: &mut Scene) -> &mut [f32] {
+fn first_robot(scene: &mut Scene) -> &mut [f32] {
     rsim_core::scenes::robots_mut(&mut scene.start).next().expect("a robot")
 }
