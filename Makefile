@@ -1,0 +1,75 @@
+# `make demo` and `make test` do all set-up themselves; `make help` lists the rest.
+
+PYTHON ?= # the interpreter to build .venv from; chosen when empty
+CARGO ?= cargo
+
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --disable-pip-version-check --constraint constraints.txt
+RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
+
+export PYTHON CARGO
+export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: nothing compiles twice
+
+.PHONY: help venv demo test check-format check-lint check-rust check-python format docs bench clean
+.DEFAULT_GOAL := help
+
+help: ## list these targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+venv: $(VENV)/made ## make the empty environment, for putting a PyTorch of your choice into it
+
+demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, film a match
+	$(BIN)/python -m rsoccer.demo
+
+test: check-format check-lint check-rust check-python ## every check: formatting, lints, types, all tests
+
+check-format: $(VENV)/tools ## is everything formatted?
+	$(CARGO) fmt --all --check
+	$(BIN)/ruff format --check
+
+check-lint: $(VENV)/built ## lints, types and the stub of the compiled module
+	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --workspace --no-deps
+	$(BIN)/ruff check
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest rsoccer._core
+
+check-rust: $(VENV)/tools ## tests of the physics
+	$(CARGO) test --locked
+
+check-python: $(VENV)/built ## tests of the package, the README and the examples
+	$(BIN)/python -m pytest
+
+format: $(VENV)/tools ## format everything
+	$(CARGO) fmt --all
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+docs: $(VENV)/built ## write the README's tables and picture again from code and results
+	$(BIN)/python -m tools.write_readme
+
+bench: $(VENV)/built ## measure speed on this machine (some minutes; needs it quiet)
+	$(CARGO) bench --locked --bench step
+	$(BIN)/python -m benches.throughput
+
+clean: ## remove everything that make made, downloads of Python packages included
+	rm -rf $(VENV) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	rm -f python/rsoccer/_core*.so
+
+# Stamps: each says that a step is done, so that a second `make` starts at once.
+
+$(VENV)/made: tools/make_venv.sh
+	@sh tools/make_venv.sh $(VENV)
+	$(PIP) --quiet --upgrade pip
+	@touch $@
+
+$(VENV)/tools: pyproject.toml constraints.txt $(VENV)/made
+	$(PIP) --quiet --group dev
+	@touch $@
+
+$(VENV)/built: $(VENV)/tools $(RUST)
+	@echo "building rSoccer and fetching what it needs (torch alone may be a 3 GB download)"
+	@if [ -f $(VENV)/torch.pth ]; then cp $(VENV)/torch.pth $(VENV)/lib/python3*/site-packages/; fi
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(PIP) --no-build-isolation --editable '.[all]'
+	@touch $@
