@@ -80,7 +80,9 @@ def test_a_bad_configuration_is_refused_by_name(options: dict[str, Any], words: 
         SimConfig(**options)
 
 
-@pytest.mark.parametrize("text", ["", "{}", "[1, 2]", CONFIG.to_json().replace('"mass":0.15', '"mass":-1')])
+@pytest.mark.parametrize(
+    "text", ["", "{}", "[1, 2]", CONFIG.to_json().replace('"mass":0.15', '"mass":-1')]
+)
 def test_foreign_json_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=r"text is not a configuration|must be positive"):
         SimConfig.from_json(text)

@@ -1,0 +1,47 @@
+"""Robot soccer for reinforcement learning: thousands of matches at once, physics in Rust.
+
+    >>> import rsoccer
+    >>> matches = rsoccer.Matches("VSSSelfPlay-v0", worlds=1024, seed=0, threads=2)
+    >>> observations = matches.reset()  # (1024, 6, o)
+
+`Matches` is the step loop, as arrays; `parallel_env` and `env` are PettingZoo's two interfaces to
+the same thing; a `Task` says what the robots are to learn.
+"""
+
+from rsoccer._core import SimConfig, Simulator, build_info
+from rsoccer.evaluate import evaluate
+from rsoccer.frame import Frame
+from rsoccer.matches import Matches, Outcome
+from rsoccer.parallel import env, parallel_env
+from rsoccer.policies.base import Policy
+from rsoccer.registry import list_tasks, make_task, register
+from rsoccer.rng import WorldRng
+from rsoccer.task import LEARN, Play, Task
+from rsoccer.tasks import VssMulti, VssSelfPlay
+from rsoccer.view import View
+
+__all__ = [
+    "LEARN",
+    "Frame",
+    "Matches",
+    "Outcome",
+    "Play",
+    "Policy",
+    "SimConfig",
+    "Simulator",
+    "Task",
+    "View",
+    "VssMulti",
+    "VssSelfPlay",
+    "WorldRng",
+    "__version__",
+    "build_info",
+    "env",
+    "evaluate",
+    "list_tasks",
+    "make_task",
+    "parallel_env",
+    "register",
+]
+
+__version__ = str(build_info()["version"])

@@ -1,0 +1,99 @@
+"""Checks of what comes from outside: each raises before anything has changed."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from rsoccer.frame import Array, Floats, Mask
+
+
+def whole(name: str, value: object, least: int) -> int:
+    """An integer, at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer):
+        raise TypeError(f"{name}: expected a whole number, got {value!r}")
+    if value < least:
+        raise ValueError(f"{name}: expected at least {least}, got {value}")
+    return int(value)
+
+
+def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
+    """A finite, C-contiguous float32 array of this shape; other floating types are cast."""
+    array = np.asarray(value)
+    if array.dtype.kind != "f":
+        raise TypeError(f"{name}: expected float32, got {array.dtype}")
+    if array.shape != shape:
+        raise ValueError(f"{name}: expected shape {shape}, got {array.shape}")
+    if not np.isfinite(array).all():
+        where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise ValueError(f"{name}: expected finite numbers, got {array[where]} at {where}")
+    return np.ascontiguousarray(array, np.float32)
+
+
+def actions(value: object, shape: tuple[int, ...]) -> Floats:
+    """Actions (n, agents, action), clipped to [-1, 1]."""
+    array = np.asarray(value)
+    if array.dtype == np.float64:  # before the cast, which would turn the largest to infinity
+        array = np.where(np.isfinite(array), np.clip(array, -1.0, 1.0), array)
+    return np.minimum(np.maximum(floats("actions", array, shape), -1.0), 1.0)
+
+
+def mask(value: object, n: int) -> Mask:
+    """A bool (n,); None is all."""
+    if value is None:
+        return np.ones(n, np.bool_)
+    array = np.asarray(value)
+    if array.dtype != np.bool_ or array.shape != (n,):
+        raise ValueError(f"mask: expected bool ({n},), got {array.dtype} {array.shape}")
+    return array
+
+
+def memory(source: str, arrays: dict[str, Array], n: int) -> dict[str, Array]:
+    """Copies of arrays that are kept per world, each (n, ...)."""
+    for name, array in arrays.items():
+        if np.shape(array)[:1] != (n,):
+            raise ValueError(
+                f"{source}: expected ({n}, ...) for {name!r}, got {np.shape(array)}: "
+                "the first axis is worlds"
+            )
+    return {name: np.array(array) for name, array in arrays.items()}
+
+
+def commands(value: Array, shape: tuple[int, ...]) -> Floats:
+    """What a task tells the robots (n, robots, command); the simulator checks the numbers."""
+    if value.shape != shape:
+        raise ValueError(f"get_commands: expected shape {shape}, got {value.shape}")
+    return np.array(value, np.float32, order="C")  # a copy: it is kept, and cleared at restarts
+
+
+def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
+    """A term of the reward, given as (n, seers) or (n, 1)."""
+    if value.shape not in (shape, (shape[0], 1)):
+        raise ValueError(
+            f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "
+            f"got {value.shape}"
+        )
+    return np.broadcast_to(np.asarray(value, np.float32), shape)
+
+
+def done(value: Mask, n: int) -> Mask:
+    """Whether the task ended each episode, (n,)."""
+    if value.shape != (n,) or value.dtype != np.bool_:
+        raise ValueError(
+            f"calculate_reward_and_done: expected bool ({n},) for the end of episodes, "
+            f"got {value.dtype} {value.shape}"
+        )
+    return value
+
+
+def state(given: Mapping[str, Array], expected: Mapping[str, Array]) -> None:
+    """A saved state with the same names, shapes and types."""
+    odd = sorted(set(given) ^ set(expected))
+    if odd:
+        raise ValueError(f"state: missing or unknown {odd}")
+    for name, array in expected.items():
+        got = given[name]
+        if name != "simulator" and (got.shape, got.dtype) != (array.shape, array.dtype):
+            raise ValueError(
+                f"state: expected {array.dtype} {array.shape} for {name!r}, "
+                f"got {got.dtype} {got.shape}"
+            )

@@ -1,0 +1,256 @@
+"""The one step loop: many matches of one task at once, as arrays.
+
+Every front door (PettingZoo, evaluation, trainer, video) is a thin layer over `Matches`. One
+world is a batch of one. Resets, whole or partial, go through one door: `Matches._begin`.
+"""
+
+from collections.abc import Mapping
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer import checks
+from rsoccer._core import Simulator
+from rsoccer.controllers import Controllers, CrewState, appoint
+from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.outcome import Outcome
+from rsoccer.registry import make_task
+from rsoccer.rng import WorldRng
+from rsoccer.simulator import Worlds, snapshots
+from rsoccer.task import Play, Task
+
+__all__ = ["AUTORESETS", "Matches", "Outcome"]
+
+AUTORESETS: Final = ("same_step", "next_step", "disabled")
+
+Indices = NDArray[np.intp]
+Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
+
+
+class Matches:
+    """n matches of a task, stepped together; actions and observations are (n, agents, ...).
+
+    `autoreset` says what happens to a match that ended: it begins anew within the same step, or
+    in the next one (which then ignores its actions and rewards nothing), or when `reset` says so.
+    """
+
+    def __init__(
+        self,
+        task: Task | str,
+        worlds: int = 1,
+        seed: int = 0,
+        threads: int = 1,
+        *,
+        controllers: Controllers | None = None,
+        autoreset: str = "same_step",
+        simulator: Worlds | None = None,
+    ) -> None:
+        """Prepare `worlds` matches; world i has the streams of a single one seeded `seed + i`.
+
+        `controllers` gives robots, by name, team or "all", `LEARN`, a policy or its name.
+        """
+        if autoreset not in AUTORESETS:
+            raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
+        self.task = make_task(task) if isinstance(task, str) else task
+        self.worlds = checks.whole("worlds", worlds, 1)
+        self.autoreset = autoreset
+        self.drivers = appoint(self.task, controllers, worlds)
+        self.agents = tuple(self.task.robots[robot] for robot in self.drivers.learners)
+        self.action_size = self.task.action_size
+        self.observation_size = self.task.observation_size
+        self.observation_low = self.task.observation_low  # (o,)
+        self.observation_high = self.task.observation_high  # (o,)
+        threads = checks.whole("threads", threads, 1)
+        if simulator is None:
+            simulator = Simulator(self.task.config, worlds=worlds, threads=threads)
+        self._simulator = simulator
+        root = WorldRng.seeded(checks.whole("seed", seed, 0), worlds)
+        self._start = root.split("start")
+        self._viewpoint = self.task.new_viewpoint(self.drivers.seers.tolist())
+        self.play = self.task.new_play(worlds, self._viewpoint, root.split("task"))
+        for crew in self.drivers.crews:
+            crew.rng = root.split(crew.name)
+        seen = (worlds, len(self.drivers.seers), self.observation_size)
+        self._observations = np.zeros(seen, np.float32)
+        self._done = np.zeros(worlds, np.bool_)
+        self._begun = np.zeros(worlds, np.bool_)
+
+    @property
+    def frame(self) -> Frame:
+        """Where the worlds are now; to be read only, and only until the next step."""
+        return self.play.frame
+
+    @property
+    def done(self) -> Mask:
+        """(n,) matches that ended and wait to begin again; none where `same_step`."""
+        return self._done.copy()
+
+    def reset(
+        self, seed: int | None = None, mask: Mask | None = None, rows: Floats | None = None
+    ) -> Floats:
+        """Begin new episodes in the worlds of `mask`, or all; what all show, (n, agents, o).
+
+        Without a seed the random streams go on. `rows` (k, row) are starts for the k worlds of
+        the mask, in place of the task's own.
+        """
+        if seed is not None:
+            seed = checks.whole("seed", seed, 0)
+        worlds = np.flatnonzero(checks.mask(mask, self.worlds))
+        if rows is not None:
+            rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
+        self._begin(worlds, rows, seed)
+        return self._of_learners(self._observations)
+
+    def step(self, actions: Floats) -> Outcome:
+        """One control step: `actions` (n, agents, action), clipped to [-1, 1]."""
+        shape = (self.worlds, len(self.agents), self.action_size)
+        actions = checks.actions(actions, shape)
+        if not self._begun.all():
+            raise RuntimeError("step before reset: some worlds have begun no episode")
+        still = np.flatnonzero(self._done)
+        held = self._hold(still) if len(still) else None
+        self._move(actions)
+        outcome = self._judge()
+        if held:
+            self._release(still, held, outcome)
+        self._begin_again(still, outcome)
+        return outcome
+
+    def state_dict(self) -> dict[str, Array]:
+        """Everything that the future depends on; `load_state_dict` continues exactly from it."""
+        snapshot = np.frombuffer(snapshots(self._simulator).snapshot(), np.uint8)
+        arrays = {name: array.copy() for name, array in self._arrays().items()}
+        streams = {f"rng.{name}": rng.state for name, rng in self._streams().items()}
+        return {"simulator": snapshot.copy(), **arrays, **streams}
+
+    def load_state_dict(self, state: Mapping[str, Array]) -> None:
+        """Continue as the matches did that `state` was read from; task and sizes must be equal."""
+        simulator, arrays = snapshots(self._simulator), self._arrays()
+        streams = self._streams()
+        expected = arrays | {f"rng.{name}": rng.state for name, rng in streams.items()}
+        checks.state(state, {"simulator": np.empty(0), **expected})
+        simulator.restore(state["simulator"].tobytes())
+        for name, array in arrays.items():
+            array[...] = state[name]
+        every = np.arange(self.worlds)
+        for name, rng in streams.items():
+            rng.put(every, WorldRng.from_state(state[f"rng.{name}"]))
+        self._viewpoint.fill(self.play.frame, self.play.view)
+        self._viewpoint.fill(self.play.last_frame, self.play.last_view)
+
+    def _move(self, actions: Floats) -> None:
+        """Every driver acts, and the worlds move on."""
+        play = self.play
+        driven = np.empty_like(play.actions)
+        driven[:, self.drivers.learners] = actions
+        for crew in self.drivers.crews:
+            crew.act(play, self._observations, driven)
+        commands = self.task.get_commands(play, driven)
+        play.commands = checks.commands(commands, play.commands.shape)
+        play.actions = driven
+        active = ~self._done if self._done.any() else None
+        # The older buffer takes the new rows, so that nothing has changed if the step fails.
+        self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
+        play.advance()
+        self._viewpoint.fill(play.frame, play.view)
+        play.steps += 1
+
+    def _judge(self) -> Outcome:
+        """What the step is worth and where it led, before anything begins again."""
+        task, play = self.task, self.play
+        named, terminated = task.calculate_reward_and_done(play)
+        terminated = checks.done(terminated, self.worlds)
+        shape = (self.worlds, len(play.seers))
+        terms = {
+            name: self._of_learners(checks.term(name, term, shape)) for name, term in named.items()
+        }
+        rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
+        for term in terms.values():
+            rewards += term
+        truncated = (play.steps >= task.max_steps) & ~terminated
+        metrics = {name: np.array(fact, np.float32) for name, fact in task.metrics(play).items()}
+        self._observations = task.observe(play)
+        none = self._observations[:0]
+        return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
+
+    def _hold(self, still: Indices) -> Held:
+        """A copy of all that a step may change in worlds that are to stand still."""
+        crews = [crew.hold(still) for crew in self.drivers.crews]
+        return self.play.take(still), crews, self._observations[still]
+
+    def _release(self, still: Indices, held: Held, outcome: Outcome) -> None:
+        """Worlds that stood still are as they were, and nothing happened in them."""
+        play, crews, self._observations[still] = held
+        self.play.put(still, play)
+        for crew, its in zip(self.drivers.crews, crews, strict=True):
+            crew.put(still, its)
+        for array in (outcome.rewards, outcome.terminated, outcome.truncated):
+            array[still] = 0
+        for term in outcome.terms.values():
+            term[still] = 0.0
+
+    def _begin_again(self, still: Indices, outcome: Outcome) -> None:
+        """Restart as `autoreset` says, and show what there is to see before and after."""
+        ended = outcome.ended
+        if self.autoreset == "next_step" and len(still):
+            self._begin(still)
+        outcome.final_observations = self._of_learners(self._observations)
+        self._done |= ended
+        if self.autoreset == "same_step" and ended.any():
+            self._begin(np.flatnonzero(ended))
+        outcome.observations = self._of_learners(self._observations)
+
+    def _begin(self, worlds: Indices, rows: Floats | None = None, seed: int | None = None) -> None:
+        """Start episodes in some worlds, from `rows` (k, row) or the task's own starts."""
+        if not len(worlds):
+            return
+        start, *others = self._next_streams(worlds, seed)
+        if rows is None:
+            rows = self.task.get_initial_positions_frame(start).rows
+        mask = np.zeros(self.worlds, np.bool_)
+        mask[worlds] = True
+        self._simulator.place(mask, rows, out=self.play.frame.rows)
+        part = self.task.new_play(len(worlds), self._viewpoint, others[0])
+        part.start(self.play.frame.rows[worlds], self._viewpoint)
+        self._observations[worlds] = self.task.observe(part)
+        self.play.put(worlds, part)
+        self._start.put(worlds, start)
+        for crew, rng in zip(self.drivers.crews, others[1:], strict=True):
+            crew.restart(worlds, rng, self.action_size)
+        self._done[worlds] = False
+        self._begun[worlds] = True
+
+    def _next_streams(self, worlds: Indices, seed: int | None) -> list[WorldRng]:
+        """Streams of some worlds, for starts, the task and each crew: as they are, or seeded."""
+        if seed is None:
+            return [rng[worlds] for rng in self._streams().values()]
+        root = WorldRng.seeded(seed, self.worlds)[worlds]
+        return [root.split(name) for name in self._streams()]
+
+    def _streams(self) -> dict[str, WorldRng]:
+        """All streams by name."""
+        crews = {crew.name: crew.rng for crew in self.drivers.crews}
+        return {"start": self._start, "task": self.play.rng, **crews}
+
+    def _arrays(self) -> dict[str, Array]:
+        """All arrays by name, but for the streams and what follows from the rest."""
+        play = self.play
+        arrays: dict[str, Array] = {
+            "frame": play.frame.rows,
+            "last_frame": play.last_frame.rows,
+            "commands": play.commands,
+            "actions": play.actions,
+            "steps": play.steps,
+            "observations": self._observations,
+            "done": self._done,
+            "begun": self._begun,
+        }
+        arrays |= {f"memory.{name}": array for name, array in play.memory.items()}
+        for crew in self.drivers.crews:
+            arrays |= {f"{crew.name}.{name}": array for name, array in crew.memory.items()}
+        return arrays
+
+    def _of_learners(self, seen: Floats) -> Floats:
+        """The learners' part of what there is for all seers (n, seers, ...); a copy."""
+        return np.array(seen[:, self.drivers.learner_seats])

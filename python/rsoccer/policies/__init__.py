@@ -1,0 +1,49 @@
+"""Policies by name: what can drive a robot that does not learn."""
+
+import os
+from collections.abc import Callable
+from typing import Final
+
+from rsoccer.policies.base import Policy, Seen
+from rsoccer.policies.chase import Chase
+from rsoccer.policies.ou import OrnsteinUhlenbeck
+from rsoccer.policies.uniform import Uniform
+from rsoccer.policies.zero import Zero
+from rsoccer.task import Task
+
+__all__ = ["Policy", "Seen", "make", "names"]
+
+_MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
+    "chase": Chase,
+    "ou": lambda task: OrnsteinUhlenbeck(),
+    "uniform": lambda task: Uniform(),
+    "zero": lambda task: Zero(),
+}
+
+
+def names() -> list[str]:
+    """Names that `make` knows; it also takes the path of a trained policy's file."""
+    return sorted(_MAKERS)
+
+
+def make(policy: str | os.PathLike[str] | Policy, task: Task) -> Policy:
+    """A policy fit for the robots of `task`, from its name, its file, or itself."""
+    if not isinstance(policy, Policy):
+        name = os.fspath(policy)
+        maker = _MAKERS.get(name)
+        policy = maker(task) if maker else _load(name)
+    check_fits = getattr(policy, "check_fits", None)
+    if check_fits is not None:
+        check_fits(task, task.observation_size)
+    return policy
+
+
+def _load(path: str) -> Policy:
+    """A trained policy from its file, or an error that says what could have been meant."""
+    if not (path.endswith(".safetensors") or os.path.exists(path)):
+        raise ValueError(
+            f"unknown policy {path!r}: expected one of {names()} or the path of a policy file"
+        )
+    from rsoccer.policies.network import Network  # a script needs no file format
+
+    return Network.load(path)

@@ -1,0 +1,241 @@
+"""A task: the four methods that a researcher writes, for all worlds at once.
+
+A task has no state. What two frames cannot tell goes into `play.memory`; options are the fields
+of a frozen dataclass. Who drives which robot is no business of a task: it names only defaults.
+"""
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer import checks
+from rsoccer._core import SimConfig
+from rsoccer.frame import Array, Floats, Frame, Mask, robot_names
+from rsoccer.rng import WorldRng
+from rsoccer.view import SIDES, View, Viewpoint
+
+DEFAULT_LIMIT: Final = 10.0
+
+
+class Learn(Enum):
+    """Marks a robot whose actions come from outside."""
+
+    LEARN = "learn"
+
+
+LEARN: Final = Learn.LEARN
+
+
+class Block(NamedTuple):
+    """Where one named part of the observation lies in the flat one."""
+
+    shape: tuple[int, ...]  # of one seer's block
+    columns: slice  # of the flat observation
+
+    @property
+    def size(self) -> int:
+        """Numbers in it."""
+        return math.prod(self.shape)
+
+
+@dataclass
+class Play:
+    """All that a task may look at, for n worlds."""
+
+    frame: Frame  # (n, ...) where the worlds are now
+    last_frame: Frame  # (n, ...) one step ago; equal to `frame` after a reset
+    view: View  # (n, seers, ...) `frame` as each seer has it
+    last_view: View  # (n, seers, ...) `last_frame` likewise
+    commands: Floats  # (n, robots, command) what the robots were last told
+    actions: Floats  # (n, robots, action) what their drivers last chose; 0 after a reset
+    rng: WorldRng  # (n,) one stream per world, the task's own
+    memory: dict[str, Array]  # (n, ...) the task's own, fresh after a reset
+    seers: NDArray[np.intp]  # (seers,) which robots look
+    steps: NDArray[np.int64]  # (n,) control steps since the episode started
+
+    def advance(self) -> None:
+        """Swap the buffers: what is now becomes what was."""
+        self.frame, self.last_frame = self.last_frame, self.frame
+        self.view, self.last_view = self.last_view, self.view
+
+    def start(self, rows: Floats, viewpoint: Viewpoint) -> None:
+        """Be at `rows` (n, row), with nothing before: differences to the last frame are zero."""
+        self.frame.rows[:] = rows
+        self.last_frame.rows[:] = rows
+        viewpoint.fill(self.frame, self.view)
+        viewpoint.fill(self.last_frame, self.last_view)
+
+    def take(self, worlds: NDArray[np.intp]) -> "Play":
+        """A copy of some worlds."""
+        return Play(
+            frame=_taken(self.frame, worlds),
+            last_frame=_taken(self.last_frame, worlds),
+            view=self.view.take(worlds),
+            last_view=self.last_view.take(worlds),
+            commands=self.commands[worlds],
+            actions=self.actions[worlds],
+            rng=self.rng[worlds],
+            memory={name: array[worlds] for name, array in self.memory.items()},
+            seers=self.seers,
+            steps=self.steps[worlds],
+        )
+
+    def put(self, worlds: NDArray[np.intp], part: "Play") -> None:
+        """Overwrite some worlds."""
+        self.frame.rows[worlds] = part.frame.rows
+        self.last_frame.rows[worlds] = part.last_frame.rows
+        self.view.put(worlds, part.view)
+        self.last_view.put(worlds, part.last_view)
+        self.commands[worlds] = part.commands
+        self.actions[worlds] = part.actions
+        self.rng.put(worlds, part.rng)
+        for name, array in part.memory.items():
+            self.memory[name][worlds] = array
+        self.steps[worlds] = part.steps
+
+
+class Task(ABC):
+    """What a researcher writes. Every array is batched over `n` worlds; no state on self."""
+
+    name: str = "unnamed"
+    action_size: int  # numbers that drive one robot, each in [-1, 1]
+    max_steps: int  # the clock; ending by it is truncation, not `done`
+    sides: Sequence[str] = SIDES  # teams whose robots may look: views have room for these
+
+    @property
+    @abstractmethod
+    def config(self) -> SimConfig:
+        """Field, robots, ball and time step, for the simulator."""
+
+    def new_memory(self, n: int) -> dict[str, Array]:
+        """Per-world facts that two frames cannot tell, as they are when an episode starts."""
+        return {}
+
+    @abstractmethod
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """A starting frame for each of `len(rng)` worlds."""
+
+    @abstractmethod
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        """(n, robots, action) in [-1, 1] -> (n, robots, command) in SI units."""
+
+    @abstractmethod
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """Named blocks, each (n, seers, ...): what each robot that looks is shown."""
+
+    @abstractmethod
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """Weighted terms, each (n, seers) or (n, 1), and whether each world's task ended (n,)."""
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """Facts of each world (n,) that count at the end of an episode."""
+        return {}
+
+    def default_controllers(self) -> dict[str, str | Learn]:
+        """Who drives each robot if nobody says otherwise: `LEARN` or a policy's name."""
+        return dict.fromkeys(self.robots, LEARN)
+
+    def observation_limits(self) -> dict[str, float]:
+        """Blocks and the largest magnitude they show; others are clipped to 10."""
+        return {}
+
+    @property
+    def n_blue(self) -> int:
+        """Robots of the team that attacks +x."""
+        return self.config.n_blue
+
+    @property
+    def n_yellow(self) -> int:
+        """Robots of the other team."""
+        return self.config.n_yellow
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of all robots, in the order of a row."""
+        return robot_names(self.n_blue, self.n_yellow)
+
+    @property
+    def agents(self) -> tuple[str, ...]:
+        """Names of the robots that learn unless `Matches` is told otherwise."""
+        controllers = self.default_controllers()
+        return tuple(name for name in self.robots if controllers[name] is LEARN)
+
+    @cached_property
+    def blocks(self) -> dict[str, Block]:
+        """Name, shape and place of each part of the flat observation, found by a trial."""
+        blocks, first = {}, 0
+        for name, block in self.frame_to_observations(self._trial()).items():
+            shape = block.shape[2:]
+            blocks[name] = Block(shape, slice(first, first + math.prod(shape)))
+            first += math.prod(shape)
+        return blocks
+
+    @property
+    def observation_size(self) -> int:
+        """Numbers in the flat observation."""
+        return sum(block.size for block in self.blocks.values())
+
+    @cached_property
+    def observation_high(self) -> Floats:
+        """(o,) largest value of each number; the least is its negative."""
+        limits = self.observation_limits()
+        high = np.empty(self.observation_size, np.float32)
+        for name, block in self.blocks.items():
+            high[block.columns] = limits.get(name, DEFAULT_LIMIT)
+        return high
+
+    @cached_property
+    def observation_low(self) -> Floats:
+        """(o,) least value of each number."""
+        return -self.observation_high
+
+    def observe(self, play: Play) -> Floats:
+        """The blocks side by side within their limits, a new array (n, seers, o)."""
+        n, seers = len(play.frame), len(play.seers)
+        flat = np.empty((n, seers, len(self.observation_high)), np.float32)
+        if seers:
+            blocks = self.frame_to_observations(play).values()
+            sized = [block.reshape(n, seers, -1) for block in blocks]
+            np.concatenate(sized, axis=-1, out=flat, casting="same_kind")
+            np.minimum(flat, self.observation_high, out=flat)
+            np.maximum(flat, self.observation_low, out=flat)
+        return flat
+
+    def new_viewpoint(self, seers: Sequence[int]) -> Viewpoint:
+        """What shows frames to robots `seers`."""
+        return Viewpoint(self.n_blue, self.n_yellow, seers, self.sides)
+
+    def new_play(self, n: int, viewpoint: Viewpoint, rng: WorldRng) -> Play:
+        """Buffers for n worlds with fresh memory; the frames are yet to be filled."""
+        robots = self.n_blue + self.n_yellow
+        return Play(
+            frame=Frame.empty(n, self.n_blue, self.n_yellow),
+            last_frame=Frame.empty(n, self.n_blue, self.n_yellow),
+            view=viewpoint.new_view(n),
+            last_view=viewpoint.new_view(n),
+            commands=np.zeros((n, robots, len(self.config.command_columns)), np.float32),
+            actions=np.zeros((n, robots, self.action_size), np.float32),
+            rng=rng,
+            memory=checks.memory("new_memory", self.new_memory(n), n),
+            seers=viewpoint.seers,
+            steps=np.zeros(n, np.int64),
+        )
+
+    def _trial(self) -> Play:
+        """One world, one seer, at a start: enough to read sizes off."""
+        seer = 0 if "blue" in self.sides and self.n_blue else self.n_blue
+        viewpoint = self.new_viewpoint([seer])
+        play = self.new_play(1, viewpoint, WorldRng.seeded(0, 1))
+        play.start(self.get_initial_positions_frame(play.rng).rows, viewpoint)
+        return play
+
+
+def _taken(frame: Frame, worlds: NDArray[np.intp]) -> Frame:
+    return Frame(frame.rows[worlds], frame.n_blue, frame.n_yellow)

@@ -1,0 +1,165 @@
+"""What all VSSS tasks share: starts, wheels, observations, rewards and the score."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+
+from rsoccer import checks, rewards, spawn
+from rsoccer._core import ROBOT_COLUMNS, SimConfig
+from rsoccer.frame import Floats, Frame, Mask, length, span
+from rsoccer.rng import WorldRng
+from rsoccer.task import Play, Task
+from rsoccer.view import View
+
+# Per goal, per metre, per metre, per step at full power. Against robots that stand still, a goal
+# of the `chase` script makes up more than half of what an episode pays.
+WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
+
+APART: Final = 0.1  # metres between centres at the start
+MOTION: Final = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
+
+
+@dataclass(frozen=True)
+class Vss(Task):
+    """VSSS on the field for three a side; subclasses say who plays.
+
+    A match starts with everything at random places and ends with a goal of either side.
+    """
+
+    n_blue: int = 3
+    n_yellow: int = 3
+    max_steps: int = 1200  # 30 s
+    ball_speed: float = 0.0  # m/s, the most that the ball starts with
+    weights: Mapping[str, float] = field(default_factory=dict)  # in place of those in WEIGHTS
+    robot: str = "vss_440rpm"  # a robot model of the simulator
+
+    action_size = 2  # left and right wheel, of their top speed
+
+    def __post_init__(self) -> None:
+        """Refuse options that make no task, by name."""
+        checks.whole("n_blue", self.n_blue, 1)
+        checks.whole("n_yellow", self.n_yellow, 0)
+        checks.whole("max_steps", self.max_steps, 1)
+        if not 0.0 <= self.ball_speed < math.inf:
+            raise ValueError(f"ball_speed: expected 0 or more m/s, got {self.ball_speed}")
+        object.__setattr__(self, "weights", _all_weights(self.weights))
+        self.config  # noqa: B018  (the simulator knows what fields and robots there are)
+
+    @cached_property
+    def config(self) -> SimConfig:
+        """The 1.50 x 1.30 m field, golf ball, 25 ms steps."""
+        return SimConfig("vss_3v3", self.n_blue, self.n_yellow, robot=self.robot)
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Ball and robots anywhere, apart; robots face anywhere."""
+        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
+        robots = self.n_blue + self.n_yellow
+        radii = [self.config.ball.radius] + [self.config.robot.bounding_radius] * robots
+        places = spawn.apart(rng, self.config.field, radii, APART)
+        frame.ball.position[:] = places[:, 0]
+        frame.robots.position[:] = places[:, 1:]
+        frame.robots.heading[:] = spawn.headings(rng, robots)
+        frame.ball.velocity[:] = spawn.velocities(rng, self.ball_speed)
+        return frame
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        """Wheel speeds, rad/s."""
+        return actions * np.float32(self.config.robot.max_wheel_speed)
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """The whole game in the robot's view, and ball and goal from where it stands and faces."""
+        view = play.view
+        n, seers, slots = view.robots.data.shape[:3]
+        motion = view.robots.data[..., MOTION].reshape(n, seers, -1)
+        robots = (motion * self._motion_scale[: motion.shape[2]]).reshape(n, seers, slots, -1)
+        return {
+            "ball": self._scaled_ball(view),  # (n, seers, 4)
+            "me": robots[:, :, 0],  # (n, seers, 7)
+            "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 7)
+            "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 7)
+            "action": play.actions[:, play.seers],  # (n, seers, 2)
+            "ball_from_me": self._from_me(view, view.ball.position),  # (n, seers, 3)
+            "goal_from_me": self._from_me(view, self._goal),  # (n, seers, 3)
+        }
+
+    def observation_limits(self) -> dict[str, float]:
+        """In half lengths of the field and top speeds of a robot; a ball that is hit has more."""
+        return {
+            "ball": 4.0,
+            "action": 1.0,
+            "ball_from_me": 3.0,
+            "goal_from_me": 3.0,
+        } | dict.fromkeys(("me", "mates", "foes"), 2.0)
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """A goal counts most. All are drawn to the ball; who is at it is paid for moving it."""
+        terms = {
+            "goal": rewards.goal(play),
+            "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * rewards.nearest(play),
+            "approach": rewards.approach(play),
+            "energy": rewards.energy(play),
+        }
+        weighted = {name: np.float32(self.weights[name]) * term for name, term in terms.items()}
+        return weighted, rewards.scored(play)
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""
+        return {"goal_score": rewards.goals_at(play.frame.ball)}
+
+    @cached_property
+    def _per_metre(self) -> np.float32:
+        return np.float32(1.0 / self.config.field.half_length)
+
+    @cached_property
+    def _per_speed(self) -> np.float32:
+        return np.float32(1.0 / self.config.robot.top_speed)
+
+    @cached_property
+    def _goal(self) -> Floats:
+        """(2,) metres, the middle of the goal attacked."""
+        return np.array([self.config.field.half_length, 0.0], np.float32)
+
+    @cached_property
+    def _motion_scale(self) -> Floats:
+        """Scales of all slots' motion side by side, so that one long product does them all."""
+        robot = self.config.robot
+        place, speed = [float(self._per_metre)] * 2, [float(self._per_speed)] * 2
+        spin = 0.5 * robot.track / robot.top_speed  # per rad/s, of turning on the spot
+        one = np.array([*place, 1.0, 1.0, *speed, spin], np.float32)
+        return np.tile(one, self.n_blue + self.n_yellow + max(self.n_blue, self.n_yellow))
+
+    def _scaled_ball(self, view: View) -> Floats:
+        """Where the ball is and goes, (n, seers, 4)."""
+        ball = view.ball
+        return np.concatenate(
+            [ball.position * self._per_metre, ball.velocity * self._per_speed], axis=-1
+        )
+
+    def _from_me(self, view: View, target: Floats) -> Floats:
+        """Distance of `target` (..., 2), cosine and sine of its bearing; (n, seers, 3)."""
+        me = view.me
+        x = target[..., 0] - me.position[..., 0]
+        y = target[..., 1] - me.position[..., 1]
+        cos, sin = me.heading[..., 0], me.heading[..., 1]
+        distance = length(x, y)
+        per = np.float32(1.0) / np.maximum(distance, np.float32(1e-6))
+        polar = np.empty((*distance.shape, 3), np.float32)
+        np.multiply(distance, self._per_metre, out=polar[..., 0])
+        np.multiply(x * cos + y * sin, per, out=polar[..., 1])
+        np.multiply(y * cos - x * sin, per, out=polar[..., 2])
+        return polar
+
+
+def _all_weights(given: Mapping[str, float]) -> dict[str, float]:
+    """The default weights with those given in their place."""
+    unknown = sorted(set(given) - set(WEIGHTS))
+    if unknown:
+        raise ValueError(f"weights: unknown {unknown}; valid are {list(WEIGHTS)}")
+    for name, weight in given.items():
+        if not math.isfinite(weight):
+            raise ValueError(f"weights: expected a finite number for {name!r}, got {weight}")
+    return {**WEIGHTS, **given}

@@ -1,0 +1,77 @@
+"""Things that several tests need."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rsoccer import SimConfig
+from rsoccer.controllers import Controllers
+from rsoccer.frame import Array, Floats, Frame, length
+from rsoccer.matches import Matches
+from rsoccer.rng import WorldRng
+from rsoccer.task import Task
+from rsoccer.tasks import VssSelfPlay
+
+
+@dataclass(frozen=True)
+class Crowd(VssSelfPlay):
+    """All robots close round the ball, in front of a goal: contacts in every step, and goals."""
+
+    max_steps: int = 40
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
+        angle = rng.uniform(0.0, 1.0)[:, None] + np.linspace(0.0, 2.0 * np.pi, 6, endpoint=False)
+        centre = (
+            np.array([0.55, 0.05], np.float32) * np.where(rng.uniform(-1, 1) < 0, -1, 1)[:, None]
+        )
+        ring = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * 0.12
+        frame.ball.position[:] = centre
+        frame.robots.position[:] = centre[:, None] + ring[:, : self.n_blue + self.n_yellow]
+        frame.robots.heading[:] = -ring / 0.12
+        return frame
+
+
+def touches(frame: Frame, config: SimConfig) -> int:
+    """Pairs that certainly touch: their inscribed circles are within a millimetre."""
+    half = config.robot.size / 2
+    robots, ball = frame.robots.position, frame.ball.position[:, None]
+    to_ball = _distances(robots, ball) < half + config.ball.radius + 1e-3
+    to_robots = _distances(robots[:, :, None], robots[:, None]) < 2 * half + 1e-3
+    return int(to_ball.sum()) + int(np.triu(to_robots, 1).sum())
+
+
+def pushing(rng: np.random.Generator, matches: Matches) -> Floats:
+    """Random actions (n, agents, action), mostly forward, so that robots meet."""
+    shape = (matches.worlds, len(matches.agents), matches.action_size)
+    return rng.uniform(-0.3, 1.0, shape).astype(np.float32)
+
+
+def zeros(matches: Matches) -> Floats:
+    """Actions that ask for nothing."""
+    return np.zeros((matches.worlds, len(matches.agents), matches.action_size), np.float32)
+
+
+def begun(
+    task: Task | None = None,
+    worlds: int = 5,
+    seed: int = 0,
+    threads: int = 1,
+    controllers: Controllers | None = None,
+    autoreset: str = "same_step",
+) -> Matches:
+    """Matches after their first reset."""
+    task = task or VssSelfPlay()
+    matches = Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
+    matches.reset()
+    return matches
+
+
+def same(a: Array, b: Array) -> bool:
+    """Equal in every bit."""
+    return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
+
+
+def _distances(a: Floats, b: Floats) -> Floats:
+    x, y = a[..., 0] - b[..., 0], a[..., 1] - b[..., 1]
+    return length(x, y)

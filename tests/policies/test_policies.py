@@ -1,0 +1,64 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rsoccer import policies
+from rsoccer.policies.base import Policy, Seen
+from rsoccer.policies.ou import OrnsteinUhlenbeck
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import VssSelfPlay
+from tests.helpers import same
+
+TASK = VssSelfPlay()
+
+
+def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> np.ndarray:
+    """Actions (steps, n, robots, 2) of a policy that sees nothing."""
+    shape = (n, robots, 2)
+    rng = WorldRng.seeded(seed, n)
+    memory = policy.new_memory(shape, rng)
+    seen = Seen(shape, None, None)
+    return np.array([policy.act(seen, rng, memory) for _ in range(steps)])
+
+
+def test_names() -> None:
+    assert policies.names() == ["chase", "ou", "uniform", "zero"]
+    for name in policies.names():
+        assert isinstance(policies.make(name, TASK), Policy)
+
+
+def test_a_policy_is_itself() -> None:
+    policy = OrnsteinUhlenbeck()
+    assert policies.make(policy, TASK) is policy
+
+
+@pytest.mark.parametrize("name", ["chess", "", "out/no_such_file"])
+def test_an_unknown_name_is_told_with_the_valid_ones(name: str) -> None:
+    with pytest.raises(ValueError, match=r"unknown policy.*'chase', 'ou', 'uniform', 'zero'"):
+        policies.make(name, TASK)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises((ValueError, OSError), match=r"lost\.safetensors"):
+        policies.make(tmp_path / "lost.safetensors", TASK)
+
+
+def test_zero_stands_still() -> None:
+    assert not run(policies.make("zero", TASK), 4, 3).any()
+
+
+def test_uniform_draws_every_action_afresh() -> None:
+    actions = run(policies.make("uniform", TASK), 50, 200)
+    assert actions.min() >= -1.0
+    assert actions.max() <= 1.0
+    assert np.histogram(actions, 10, (-1, 1))[0].min() > 5500
+    assert abs(np.corrcoef(actions[:-1].ravel(), actions[1:].ravel())[0, 1]) < 0.02
+
+
+@pytest.mark.parametrize("name", ["uniform", "ou"])
+def test_noise_is_the_same_in_any_batch(name: str) -> None:
+    policy = policies.make(name, TASK)
+    many = run(policy, 9, 30, seed=5)
+    for i in (0, 4, 8):
+        assert same(many[:, i : i + 1], run(policy, 1, 30, seed=5 + i))

@@ -1,0 +1,200 @@
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches
+from rsoccer.controllers import Controllers
+from rsoccer.frame import GOAL_RIGHT, Frame
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import VssMulti, VssSelfPlay
+from rsoccer.tasks.vss import WEIGHTS, Vss
+from tests.helpers import pushing
+
+NAMES = rsoccer.list_tasks()
+
+
+def test_agents() -> None:
+    blue = ("blue_0", "blue_1", "blue_2")
+    assert Matches("VSSMulti-v0").agents == blue
+    assert Matches("VSSSelfPlay-v0").agents == (*blue, "yellow_0", "yellow_1", "yellow_2")
+
+
+def test_the_opponent_is_an_option() -> None:
+    matches = Matches(VssMulti(opponent="zero"), 2)
+    matches.reset()
+    matches.step(np.ones((2, 3, 2), np.float32))
+    assert not matches.play.actions[:, 3:].any()
+    with pytest.raises(ValueError, match="unknown policy 'nobody'"):
+        Matches(VssMulti(opponent="nobody"))
+
+
+def test_starts_are_random_and_as_described() -> None:
+    task = VssSelfPlay(ball_speed=0.5)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 3000))
+    robots, ball = frame.robots.position, frame.ball.position[:, None]
+    everything = np.concatenate([ball, robots], axis=1).astype(np.float64)
+    gaps = np.linalg.norm(everything[:, :, None] - everything[:, None], axis=-1) + np.eye(7)
+    assert gaps.min() >= 0.1
+    speed = np.hypot(*frame.ball.velocity.T)
+    assert 0.45 < speed.max() <= 0.5 + 1e-6
+    assert not frame.robots.velocity.any()
+    assert np.abs(frame.robots.heading.mean(axis=(0, 1))).max() < 0.05
+    still = VssSelfPlay().get_initial_positions_frame(WorldRng.seeded(0, 10))
+    assert not still.ball.velocity.any()
+
+
+def test_commands_are_shares_of_the_top_wheel_speed() -> None:
+    for robot in ("vss_440rpm", "vss_650rpm"):
+        task = VssSelfPlay(robot=robot)
+        play = Matches(task, 1).play
+        actions = np.array([[[1.0, -0.5]] * 6], np.float32)
+        top = task.config.robot.max_wheel_speed
+        assert task.get_commands(play, actions)[0, 0] == pytest.approx([top, -top / 2])
+        assert task.get_commands(play, actions).dtype == np.float32
+
+
+def test_full_power_drives_at_top_speed_straight_ahead() -> None:
+    task = VssSelfPlay(n_blue=1, n_yellow=0)
+    frame = Frame.empty(1, 1, 0)
+    frame.blue.position[:] = [[-0.6, 0.3]]
+    frame.ball.position[:] = [[0.5, -0.5]]
+    matches = Matches(task, 1)
+    matches.reset(rows=frame.rows)
+    for _ in range(30):
+        matches.step(np.ones((1, 1, 2), np.float32))
+    me = matches.frame.blue
+    assert me.velocity[0, 0] == pytest.approx(
+        [task.config.robot.top_speed, 0.0], rel=0.02, abs=1e-4
+    )
+    assert me.position[0, 0, 1] == pytest.approx(0.3, abs=1e-4)
+
+
+def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
+    frame = Frame.empty(1, 1, 1)
+    frame.blue.position[:] = [[0.25, 0.0]]
+    frame.blue.heading[:] = [[0.0, 1.0]]
+    frame.yellow.position[:] = [[0.6, 0.4]]
+    frame.ball.position[:] = [[0.25, 0.3]]
+    matches = Matches(VssSelfPlay(n_blue=1, n_yellow=1), 1)
+    flat = matches.reset(rows=frame.rows)[0, 0]
+    blocks = {name: flat[block.columns] for name, block in matches.task.blocks.items()}
+    # ahead is +y, so the goal at +x lies to the right; lengths count in half fields of 0.75 m
+    assert blocks["ball_from_me"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
+    assert blocks["goal_from_me"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
+    assert blocks["ball"] == pytest.approx([0.25 / 0.75, 0.4, 0.0, 0.0], abs=1e-5)
+    assert blocks["me"] == pytest.approx([0.25 / 0.75, 0, 0, 1, 0, 0, 0], abs=1e-5)
+    assert blocks["foes"][:2] == pytest.approx([0.8, 0.4 / 0.75], abs=1e-5)
+
+
+def test_the_action_taken_is_shown() -> None:
+    matches = Matches(VssSelfPlay(), 2)
+    columns = matches.task.blocks["action"].columns
+    assert not matches.reset()[..., columns].any()
+    actions = np.random.default_rng(0).uniform(-1, 1, (2, 6, 2)).astype(np.float32)
+    assert (matches.step(actions).observations[..., columns] == actions).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_observations_use_their_range_and_are_rarely_clipped(name: str) -> None:
+    matches = Matches(name, 64, controllers={"blue": rsoccer.LEARN})
+    matches.reset()
+    rng = np.random.default_rng(0)
+    shown = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(100)])
+    high = matches.observation_high
+    assert (np.abs(shown) >= high - 1e-6)[
+        ..., : matches.task.blocks["action"].columns.start
+    ].mean() < 1e-3
+    assert np.abs(shown).max(axis=(0, 1)).min() > 0.2
+    assert 0.2 < shown.std() < 1.5
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
+    """Measured where the script that plays best is at work on one side."""
+    worlds = 60
+    task = rsoccer.make_task(name)
+    learners: Controllers = {"all": rsoccer.LEARN, "yellow": "zero"}
+    chase = rsoccer.policies.make("chase", task)
+    matches = Matches(task, worlds, seed=1, controllers=learners, autoreset="disabled", threads=2)
+    matches.reset()
+    rng, memory = (
+        WorldRng.seeded(0, worlds),
+        chase.new_memory((worlds, 3, 2), WorldRng.seeded(0, 1)),
+    )
+    paid = dict.fromkeys(WEIGHTS, 0.0)
+    goals = 0
+    for _ in range(task.max_steps):
+        seen = rsoccer.policies.Seen((worlds, 3, 2), matches.play.view, None)
+        outcome = matches.step(chase.act(seen, rng, memory))
+        for term, value in outcome.terms.items():
+            paid[term] += float(np.abs(value).sum())
+        goals += int(outcome.terminated.sum())
+        if matches.done.all():
+            break
+    share = {term: part / sum(paid.values()) for term, part in paid.items()}
+    assert goals > 0.8 * worlds
+    assert share["goal"] > 0.5, share
+    assert share["energy"] < 0.02, share
+    assert min(share.values()) > 0.0, share
+
+
+def test_a_goal_ends_the_match_and_tells_the_score() -> None:
+    frame = Frame.empty(1, 3, 3)
+    frame.blue.position[:] = [[-0.5, 0.3], [-0.5, 0.0], [-0.5, -0.3]]
+    frame.yellow.position[:] = [[-0.2, 0.3], [-0.2, 0.0], [-0.2, -0.3]]
+    frame.ball.position[:] = [[0.6, 0.1]]
+    frame.ball.velocity[:] = [[1.2, 0.0]]
+    matches = Matches(VssSelfPlay(), 1, autoreset="disabled")
+    matches.reset(rows=frame.rows)
+    for _ in range(30):
+        outcome = matches.step(np.zeros((1, 6, 2), np.float32))
+        if outcome.ended[0]:
+            break
+        assert outcome.metrics["goal_score"][0] == 0.0
+    assert outcome.terminated[0]
+    assert not outcome.truncated[0]
+    assert outcome.metrics["goal_score"][0] == 1.0
+    assert matches.frame.ball.crossed[0] == GOAL_RIGHT
+    assert outcome.terms["goal"][0].tolist() == [10.0] * 3 + [-10.0] * 3
+
+
+def test_weights_are_data() -> None:
+    task = VssSelfPlay(weights={"approach": 0.0})
+    assert task.weights == WEIGHTS | {"approach": 0.0}
+    matches = Matches(task, 2)
+    matches.reset()
+    outcome = matches.step(np.ones((2, 6, 2), np.float32))
+    assert not outcome.terms["approach"].any()
+    assert outcome.terms["energy"].any()
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"n_blue": 0}, ValueError, "n_blue: expected at least 1"),
+        ({"n_blue": 1.5}, TypeError, "n_blue: expected a whole number"),
+        ({"n_blue": 99}, ValueError, "99|robots"),
+        ({"n_yellow": -1}, ValueError, "n_yellow: expected at least 0"),
+        ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
+        ({"ball_speed": -0.1}, ValueError, "ball_speed: expected 0 or more"),
+        ({"ball_speed": float("nan")}, ValueError, "ball_speed: expected 0 or more"),
+        ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid.*'goal'"),
+        ({"weights": {"goal": float("inf")}}, ValueError, "weights: expected a finite number"),
+        ({"robot": "vss_9000rpm"}, ValueError, "vss_9000rpm"),
+    ],
+)
+def test_options_that_make_no_task_are_refused(
+    options: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        VssSelfPlay(**options)
+
+
+def test_tasks_are_data() -> None:
+    assert VssSelfPlay(n_blue=2) == VssSelfPlay(n_blue=2)
+    assert VssSelfPlay(n_blue=2) != VssSelfPlay(n_blue=1)
+    with pytest.raises(AttributeError):
+        VssSelfPlay().n_blue = 2  # type: ignore[misc]
+    assert issubclass(VssMulti, Vss)

@@ -1,0 +1,137 @@
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer import LEARN, Matches
+from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.task import Play
+from rsoccer.tasks import VssSelfPlay
+from tests.helpers import Crowd, begun, same, zeros
+
+
+@pytest.mark.parametrize(
+    ("actions", "error", "message"),
+    [
+        (np.zeros((5, 6), np.float32), ValueError, r"actions: expected shape \(5, 6, 2\), got"),
+        (np.zeros((1, 6, 2), np.float32), ValueError, "actions: expected shape"),
+        (np.zeros((5, 6, 2), np.int64), TypeError, "actions: expected float32, got int64"),
+        (np.full((5, 6, 2), np.nan, np.float32), ValueError, r"got nan at \(0, 0, 0\)"),
+        (np.full((5, 6, 2), np.inf), ValueError, "actions: expected finite numbers, got inf"),
+        ([["left"] * 2] * 6, TypeError, "actions: expected float32"),
+        (None, TypeError, "actions: expected float32"),
+    ],
+    ids=["axes", "worlds", "int", "nan", "inf", "text", "none"],
+)
+def test_wrong_actions_are_refused_before_anything_moves(
+    actions: object, error: type[Exception], message: str
+) -> None:
+    matches = begun(VssSelfPlay(), controllers={"yellow_2": LEARN})
+    before = matches.state_dict()
+    with pytest.raises(error, match=message):
+        matches.step(actions)  # type: ignore[arg-type]
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)
+
+
+def test_large_actions_are_clipped_and_doubles_are_cast() -> None:
+    ours, theirs = begun(VssSelfPlay()), begun(VssSelfPlay())
+    ours.step(np.full((5, 6, 2), 1e300))
+    theirs.step(np.ones((5, 6, 2), np.float32))
+    assert same(ours.frame.rows, theirs.frame.rows)
+    assert (ours.play.actions == 1.0).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"worlds": 0}, ValueError, "worlds: expected at least 1, got 0"),
+        ({"worlds": 2.0}, TypeError, "worlds: expected a whole number, got 2.0"),
+        ({"worlds": True}, TypeError, "worlds: expected a whole number"),
+        ({"threads": 0}, ValueError, "threads: expected at least 1"),
+        ({"seed": -1}, ValueError, "seed: expected at least 0"),
+        ({"autoreset": "always"}, ValueError, "autoreset: expected one of.*same_step"),
+        ({"controllers": {"green": "ou"}}, ValueError, r"unknown \['green'\].*'all', 'blue'"),
+        ({"controllers": {"blue_3": "ou"}}, ValueError, "unknown"),
+        ({"controllers": {"blue": "chess"}}, ValueError, "unknown policy 'chess'.*'ou'"),
+        ({"controllers": {"blue": 7}}, TypeError, r"controllers\['blue_0'\]: expected"),
+        ({"task": "Chess-v0"}, ValueError, "unknown task 'Chess-v0'"),
+    ],
+)
+def test_wrong_options_are_refused(
+    options: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        Matches(**({"task": "VSSSelfPlay-v0"} | options))
+
+
+@pytest.mark.parametrize(
+    ("reset", "error", "message"),
+    [
+        ({"seed": -1}, ValueError, "seed: expected at least 0"),
+        ({"seed": "x"}, TypeError, "seed: expected a whole number"),
+        ({"mask": np.ones(4, np.bool_)}, ValueError, r"mask: expected bool \(5,\)"),
+        ({"mask": np.ones(5)}, ValueError, "mask: expected bool"),
+        ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 49\)"),
+    ],
+)
+def test_wrong_resets_are_refused(
+    reset: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        begun().reset(**reset)
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        ({"get_commands": np.zeros((5, 2))}, r"get_commands: expected shape \(5, 6, 2\)"),
+        ({"reward": np.zeros(5)}, r"expected \(5, 6\) or \(5, 1\) for 'goal'"),
+        ({"done": np.zeros((5, 6), np.bool_)}, r"expected bool \(5,\) for the end"),
+        ({"done": np.zeros(5)}, r"expected bool \(5,\) for the end"),
+    ],
+)
+def test_what_a_task_gets_wrong_is_named(fault: dict[str, Array], message: str) -> None:
+    class Faulty(VssSelfPlay):
+        def get_commands(self, play: Play, actions: Floats) -> Floats:
+            return fault.get("get_commands", actions)
+
+        def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+            reward = fault.get("reward", np.zeros((5, 6), np.float32))
+            return {"goal": reward}, fault.get("done", np.zeros(5, np.bool_))
+
+    matches = begun(Faulty())
+    with pytest.raises(ValueError, match=message):
+        matches.step(zeros(matches))
+
+
+def test_a_state_of_other_matches_is_refused_and_changes_nothing() -> None:
+    matches = begun(Crowd(), controllers={"yellow": "ou"})
+    before = matches.state_dict()
+    odd = dict(before)
+    odd["rng.green_0"] = odd.pop("rng.yellow_0")
+    with pytest.raises(ValueError, match=r"state: missing or unknown \['rng.green_0'"):
+        matches.load_state_dict(odd)
+    with pytest.raises(ValueError, match=r"state: expected float32 \(5, 49\) for 'frame'"):
+        matches.load_state_dict(before | {"frame": before["frame"][:3]})
+    with pytest.raises(ValueError, match="snapshot"):
+        matches.load_state_dict(
+            before | {"steps": before["steps"] + 1, "simulator": np.zeros(9, "u1")}
+        )
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)
+
+
+def test_rows_that_the_simulator_refuses_change_nothing() -> None:
+    matches = begun(VssSelfPlay())
+    before = matches.state_dict()
+    rows = np.repeat(matches.frame.rows[:1], 5, axis=0)
+    frame = Frame(rows, 3, 3)
+    frame.robots.position[2, 1] = frame.robots.position[2, 4]
+    with pytest.raises(ValueError, match="world 2"):
+        matches.reset(seed=8, rows=rows)
+    frame.robots.position[2, 1] = [3.0, 0.0]
+    with pytest.raises(ValueError, match="outside"):
+        matches.reset(rows=rows)
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)

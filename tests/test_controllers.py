@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+
+from rsoccer import LEARN, Matches, Policy
+from rsoccer.controllers import Controllers
+from rsoccer.frame import Floats
+from rsoccer.policies.base import Memory, Seen
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import VssMulti, VssSelfPlay
+from tests.helpers import Crowd, begun, same, zeros
+
+
+class Mirror(Policy):
+    """Does what it sees: its own place. Remembers how often it was asked."""
+
+    observes = "view"
+
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+        return {"asked": np.zeros(shape[0])}
+
+    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+        memory["asked"] += 1
+        assert seen.view is not None
+        return seen.view.me.position * 5.0
+
+
+def test_anyone_can_drive_any_robot() -> None:
+    controllers: Controllers = {
+        "all": "zero",
+        "yellow": Mirror(),
+        "yellow_1": LEARN,
+        "blue_2": "uniform",
+    }
+    matches = Matches(VssSelfPlay(), 3, seed=2, controllers=controllers)
+    assert matches.agents == ("yellow_1",)
+    assert matches.play.seers.tolist() == [3, 4, 5]
+    assert matches.reset().shape == (3, 1, matches.observation_size)
+    place = matches.play.view.me.position.copy()
+    matches.step(np.full((3, 1, 2), 0.5, np.float32))
+    actions = matches.play.actions
+    assert not actions[:, :2].any()
+    assert actions[:, 2].any()
+    assert (actions[:, 4] == 0.5).all()
+    assert (actions[:, [3, 5]] == np.clip(place[:, [0, 2]] * np.float32(5.0), -1, 1)).all()
+    assert matches.state_dict()["yellow_0.asked"].tolist() == [1, 1, 1]
+
+
+def test_a_learner_sees_and_earns_the_same_whoever_else_looks() -> None:
+    alone = Matches(Crowd(), 4, seed=2, controllers={"all": "zero", "yellow_1": LEARN})
+    watched = Matches(Crowd(), 4, seed=2, controllers={"all": "zero", "yellow_1": LEARN})
+    everyone = Matches(Crowd(), 4, seed=2)
+    assert same(alone.reset(), watched.reset())
+    assert same(alone.reset(seed=4), everyone.reset(seed=4)[:, [4]])
+    actions = np.zeros((4, 6, 2), np.float32)
+    actions[:, 4] = 0.7
+    mine, ours = alone.step(actions[:, [4]]), everyone.step(actions)
+    assert same(mine.rewards, ours.rewards[:, [4]])
+    assert same(mine.observations, ours.observations[:, [4]])
+
+
+def test_matches_without_learners_play_on() -> None:
+    matches = Matches(VssMulti(max_steps=20), 3, controllers={"all": "chase"})
+    assert matches.agents == ()
+    assert matches.reset().shape == (3, 0, matches.observation_size)
+    for _ in range(20):
+        outcome = matches.step(zeros(matches))
+    assert outcome.rewards.shape == (3, 0)
+    assert outcome.truncated.all()
+
+
+def test_a_policy_of_the_wrong_shape_is_named() -> None:
+    class Short(Mirror):
+        def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+            return np.zeros(seen.shape[:2], np.float32)
+
+    matches = begun(VssSelfPlay(), controllers={"blue": Short()})
+    with pytest.raises(ValueError, match=r"Short: expected actions \(5, 3, 2\), got \(5, 3\)"):
+        matches.step(zeros(matches))

@@ -1,0 +1,75 @@
+import inspect
+from pathlib import Path
+
+import pytest
+
+import rsoccer
+from rsoccer import registry
+from rsoccer.tasks import VssMulti, VssSelfPlay
+
+
+@pytest.fixture(autouse=True)
+def as_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Names that a test registers are gone after it."""
+    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+
+
+def test_every_task_of_the_package_is_registered() -> None:
+    files = {path.stem for path in Path(rsoccer.tasks.__file__).parent.glob("*.py")}
+    registered = [type(rsoccer.make_task(name)) for name in rsoccer.list_tasks()]
+    homes = {Path(inspect.getfile(task)).stem for task in registered}
+    assert files - {"__init__", "vss"} <= homes
+
+
+def test_options_are_the_fields_of_a_task() -> None:
+    task = rsoccer.make_task("VSSMulti-v0", opponent="uniform", n_blue=2, max_steps=50)
+    assert isinstance(task, VssMulti)
+    assert (task.opponent, task.n_blue, task.max_steps) == ("uniform", 2, 50)
+    assert task.name == "VSSMulti-v0"
+    assert rsoccer.make_task("VSSSelfPlay-v0").name == "VSSSelfPlay-v0"
+
+
+def test_an_unknown_task_is_named_with_the_valid_ones() -> None:
+    with pytest.raises(ValueError, match=r"unknown task 'VSS-v9'.*'VSSMulti-v0'.*'VSSSelfPlay-v0'"):
+        rsoccer.make_task("VSS-v9")
+
+
+def test_an_unknown_option_is_named_with_the_valid_ones() -> None:
+    with pytest.raises(ValueError, match=r"VSSSelfPlay-v0: unknown option oponent.*'n_blue'"):
+        rsoccer.make_task("VSSSelfPlay-v0", oponent="ou")
+
+
+def test_a_new_task_gets_its_name() -> None:
+    class Mine(VssSelfPlay):
+        pass
+
+    rsoccer.register("Mine-v3", Mine)
+    assert "Mine-v3" in rsoccer.list_tasks()
+    assert rsoccer.make_task("Mine-v3").name == "Mine-v3"
+    rsoccer.register("Mine-v3", Mine)  # as a module that is loaded twice does
+    assert VssSelfPlay.name == "VSSSelfPlay-v0"
+
+
+def test_a_task_need_not_be_a_dataclass() -> None:
+    class Plain(VssSelfPlay):
+        def __init__(self, speed: float = 0.1) -> None:
+            super().__init__(ball_speed=speed)
+
+    rsoccer.register("Plain-v0", Plain)
+    assert rsoccer.make_task("Plain-v0", speed=0.3).max_steps == 1200
+
+
+def test_a_name_belongs_to_one_task() -> None:
+    with pytest.raises(ValueError, match="already taken by VssMulti"):
+        rsoccer.register("VSSMulti-v0", VssSelfPlay)
+
+
+@pytest.mark.parametrize("name", ["", "Mine", "Mine-v", "-v0", "My Task-v0", "9-v0"])
+def test_a_name_has_a_version(name: str) -> None:
+    with pytest.raises(ValueError, match="expected letters and a version"):
+        rsoccer.register(name, VssSelfPlay)
+
+
+def test_only_tasks_can_be_registered() -> None:
+    with pytest.raises(TypeError, match="a subclass of Task"):
+        rsoccer.register("Mine-v0", dict)  # type: ignore[arg-type]

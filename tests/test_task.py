@@ -1,0 +1,105 @@
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from rsoccer.frame import Array, Floats, Frame
+from rsoccer.matches import Matches
+from rsoccer.rng import WorldRng
+from rsoccer.task import DEFAULT_LIMIT, LEARN, Play, Task
+from rsoccer.tasks import VssMulti, VssSelfPlay
+
+
+@dataclass(frozen=True)
+class Shouting(VssSelfPlay):
+    """Shows numbers beyond any limit."""
+
+    def observation_limits(self) -> dict[str, float]:
+        return super().observation_limits() | {"quiet": 0.5}
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        shape = (len(play.frame), len(play.seers), 2, 3)
+        loud = np.full(shape, 1e9, np.float32) * np.array([-1.0, 1.0, 0.0], np.float32)
+        return {"quiet": loud[..., 0], "loud": loud}
+
+
+def played(task: Task, worlds: int = 4) -> Play:
+    matches = Matches(task, worlds, seed=1)
+    matches.reset()
+    matches.step(np.full((worlds, len(matches.agents), 2), 0.5, np.float32))
+    return matches.play
+
+
+def test_blocks_tell_where_things_are_in_the_flat_observation() -> None:
+    task = VssSelfPlay()
+    play = played(task)
+    flat = task.observe(play)
+    assert flat.shape == (4, 6, task.observation_size)
+    named = task.frame_to_observations(play)
+    assert list(named) == list(task.blocks)
+    for name, block in task.blocks.items():
+        assert named[name].shape[2:] == block.shape
+        part = flat[:, :, block.columns].reshape(4, 6, *block.shape)
+        assert np.allclose(part, named[name], atol=1e-6), name
+    assert sum(block.size for block in task.blocks.values()) == flat.shape[2]
+
+
+def test_observations_stay_within_limits() -> None:
+    task = Shouting()
+    flat = task.observe(played(task))
+    assert (flat[..., :2] == [-0.5, -0.5]).all()
+    assert set(flat[..., 2:].ravel().tolist()) == {-DEFAULT_LIMIT, DEFAULT_LIMIT, 0.0}
+    assert task.observation_high.tolist() == [0.5] * 2 + [DEFAULT_LIMIT] * 6
+    assert (task.observation_low == -task.observation_high).all()
+    assert task.observation_high.dtype == np.float32
+
+
+def test_memory_without_worlds_first_is_an_error() -> None:
+    class Forgetful(VssSelfPlay):
+        def new_memory(self, n: int) -> dict[str, Array]:
+            return {"passes": np.zeros(3)}
+
+    with pytest.raises(ValueError, match=r"new_memory: expected \(1, ...\) for 'passes'"):
+        Matches(Forgetful(), 5)  # its sizes are read off a single world
+
+
+def test_agents_are_the_robots_that_learn() -> None:
+    assert VssSelfPlay(n_blue=2, n_yellow=1).agents == ("blue_0", "blue_1", "yellow_0")
+    task = VssMulti(n_blue=2, n_yellow=1)
+    assert task.agents == ("blue_0", "blue_1")
+    assert task.default_controllers() == {"blue_0": LEARN, "blue_1": LEARN, "yellow_0": "ou"}
+
+
+def test_a_play_can_be_taken_apart_and_put_together() -> None:
+    play = played(VssSelfPlay(), 5)
+    play.memory["count"] = np.arange(5)
+    worlds = np.array([0, 3])
+    part = play.take(worlds)
+    rows, steps = play.frame.rows.copy(), play.steps.copy()
+    assert part.memory["count"].tolist() == [0, 3]
+    play.frame.rows[:] = 0.0
+    play.steps[:] = 99
+    play.memory["count"][:] = -1
+    play.rng.uniform(0.0, 1.0)
+    play.put(worlds, part)
+    assert (play.frame.rows[worlds] == rows[worlds]).all()
+    assert (play.rng[worlds].state == part.rng.state).all()
+    assert play.steps.tolist() == [steps[0], 99, 99, steps[3], 99]
+    assert play.memory["count"].tolist() == [0, -1, -1, 3, -1]
+
+
+def test_advance_swaps_now_and_before() -> None:
+    play = played(VssSelfPlay())
+    now, before = play.frame, play.last_frame
+    play.advance()
+    assert play.frame is before
+    assert play.last_frame is now
+
+
+def test_a_task_that_lacks_a_method_cannot_be_made() -> None:
+    class Lazy(Task):
+        def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+            return Frame.empty(len(rng), 1, 1)
+
+    with pytest.raises(TypeError, match="abstract"):
+        Lazy()  # type: ignore[abstract]

@@ -1,0 +1,101 @@
+import numpy as np
+import pytest
+
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NOTHING, Frame
+from rsoccer.view import View, Viewpoint
+
+
+def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
+    frame = Frame.empty(n, n_blue, n_yellow)
+    frame.rows[:] = np.random.default_rng(seed).uniform(-1, 1, frame.rows.shape)
+    frame.ball.crossed[:] = np.random.default_rng(seed).integers(0, 3, n)
+    return frame
+
+
+def seen(frame: Frame, seers: list[int], sides: tuple[str, ...] = ("blue", "yellow")) -> View:
+    viewpoint = Viewpoint(frame.n_blue, frame.n_yellow, seers, sides)
+    view = viewpoint.new_view(len(frame))
+    viewpoint.fill(frame, view)
+    return view
+
+
+def turned(frame: Frame) -> Frame:
+    """The same moment with the teams swapped and the field turned half round."""
+    other = Frame.empty(len(frame), frame.n_yellow, frame.n_blue)
+    for mine, theirs in ((other.blue, frame.yellow), (other.yellow, frame.blue)):
+        mine.position[:] = -theirs.position
+        mine.heading[:] = -theirs.heading
+        mine.velocity[:] = -theirs.velocity
+        mine.spin[:] = theirs.spin
+    other.ball.position[:] = -frame.ball.position
+    other.ball.velocity[:] = -frame.ball.velocity
+    other.ball.crossed_at[:] = -frame.ball.crossed_at
+    crossed = frame.ball.crossed
+    other.ball.crossed[crossed == GOAL_RIGHT] = GOAL_LEFT
+    other.ball.crossed[crossed == GOAL_LEFT] = GOAL_RIGHT
+    return other
+
+
+def test_blue_sees_itself_then_mates_in_a_ring_then_foes() -> None:
+    frame = random_frame(4, 3, 3)
+    view = seen(frame, [1])
+    order = [1, 2, 0, 3, 4, 5]
+    assert (view.robots.data[:, 0] == frame.robots.data[:, order]).all()
+    assert (view.me.data[:, 0] == frame.blue.data[:, 1]).all()
+    assert (view.mates.position[:, 0] == frame.blue.position[:, [2, 0]]).all()
+    assert (view.foes.spin[:, 0] == frame.yellow.spin).all()
+    assert (view.ball.data[:, 0] == frame.ball.data).all()
+
+
+def test_yellow_sees_what_blue_would_see_in_the_turned_game() -> None:
+    frame = random_frame(9, 3, 2)
+    assert {NOTHING, GOAL_RIGHT, GOAL_LEFT} == set(frame.ball.crossed.tolist())
+    yellow = seen(frame, [3, 4])
+    blue = seen(turned(frame), [0, 1])
+    assert np.array_equal(yellow.robots.data, blue.robots.data)
+    assert np.array_equal(yellow.ball.data, blue.ball.data)
+    assert not np.array_equal(yellow.ball.data, seen(frame, [0, 1]).ball.data)
+
+
+def test_teams_of_different_size_leave_slots_empty() -> None:
+    frame = random_frame(2, 1, 3)
+    view = seen(frame, [0, 2])
+    assert view.robots.data.shape[2] == 1 + 2 + 3
+    assert view.present.tolist() == [
+        [True, False, False, True, True, True],
+        [True] * 4 + [False] * 2,
+    ]
+    assert not view.robots.data[:, 0, 1:3].any()
+    assert not view.robots.data[:, 1, 4:].any()
+    assert (view.foes.position[:, 1, 0] == -frame.blue.position[:, 0]).all()
+
+
+def test_only_the_sides_that_look_need_room() -> None:
+    frame = random_frame(2, 1, 3)
+    assert seen(frame, [0], sides=("blue",)).robots.data.shape[2] == 1 + 0 + 3
+    with pytest.raises(ValueError, match="robot 2 cannot look"):
+        seen(frame, [2], sides=("blue",))
+
+
+@pytest.mark.parametrize("seats", [slice(1, 3), np.array([0, 2])])
+def test_select_shows_some_of_the_seers(seats: slice | np.ndarray) -> None:
+    view = seen(random_frame(2, 3, 3), [0, 2, 4])
+    part = view.select(seats)
+    assert (part.me.data == view.me.data[:, seats]).all()
+    assert (part.foes.data == view.foes.data[:, seats]).all()
+    assert (part.present == view.present[seats]).all()
+
+
+def test_take_and_put_are_inverse() -> None:
+    view = seen(random_frame(5, 2, 2), [0, 3])
+    worlds = np.array([1, 4])
+    part = view.take(worlds)
+    before = view.robots.data.copy()
+    view.robots.data[worlds] = 9.0
+    view.put(worlds, part)
+    assert (view.robots.data == before).all()
+    assert not np.shares_memory(part.ball.data, view.ball.data)
+
+
+def test_nobody_looking_is_fine() -> None:
+    assert seen(random_frame(3, 2, 2), []).robots.data.shape[:2] == (3, 0)
