@@ -1,0 +1,250 @@
+"""One match for PettingZoo: dictionaries by robot name, all robots at once or one after another.
+
+>>> import rsoccer
+>>> env = rsoccer.parallel_env("VSSSelfPlay-v0")
+>>> observations, infos = env.reset(seed=0)
+>>> while env.agents:
+...     actions = {agent: env.action_space(agent).sample() for agent in env.agents}
+...     observations, rewards, terminations, truncations, infos = env.step(actions)
+"""
+
+from __future__ import annotations
+
+import copy
+import secrets
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+from pettingzoo import AECEnv, ParallelEnv
+from pettingzoo.utils.conversions import parallel_to_aec
+
+from rsoccer import by_agent, checks
+from rsoccer.controllers import Controllers
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Floats
+from rsoccer.matches import Matches
+from rsoccer.registry import make_task
+from rsoccer.state import LIMIT, StateScale
+from rsoccer.task import Task
+
+if TYPE_CHECKING:
+    from rsoccer.render.window import Window
+
+RENDER_MODES = ("human", "rgb_array")
+
+Infos = dict[str, dict[str, Any]]
+
+
+def parallel_env(
+    name: str,
+    render_mode: str | None = None,
+    *,
+    controllers: Controllers | None = None,
+    max_cycles: int | None = None,
+    **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
+) -> SoccerParallelEnv:
+    """A registered task as a PettingZoo ParallelEnv; `options` are the task's own.
+
+    `controllers` names drivers for robots that shall not learn, as for `Matches`; `max_cycles`
+    is PettingZoo's word for the task's `max_steps`.
+    """
+    if max_cycles is not None:
+        options["max_steps"] = max_cycles
+    return SoccerParallelEnv(make_task(name, **options), render_mode, controllers=controllers)
+
+
+def env(
+    name: str,
+    render_mode: str | None = None,
+    **options: Any,  # noqa: ANN401  (those of parallel_env)
+) -> AECEnv[str, Floats, Floats | None]:
+    """The same match for PettingZoo's turn-by-turn API (AEC): agents act one after another."""
+    match = parallel_env(name, render_mode, **options)
+    return parallel_to_aec(match)  # type: ignore[arg-type]  # it never passes its None on to us
+
+
+class SoccerParallelEnv(ParallelEnv[str, Floats, Floats]):
+    """One match of a task; everything in and out is a dictionary by robot name.
+
+    All agents play from `reset` until the episode ends for all of them in one step: by
+    termination (a goal) or by truncation (the clock), never some by one and some by the other.
+
+    Infos are empty. Trainers turn what they find in the infos of a reset into a fixed set of
+    numbers that every later step must repeat, which facts of an ended match cannot; these are in
+    `last_metrics` instead.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        render_mode: str | None = None,
+        *,
+        controllers: Controllers | None = None,
+    ) -> None:
+        """A match that `reset` will begin; `render_mode` is "human", "rgb_array" or None."""
+        if render_mode is not None and render_mode not in RENDER_MODES:
+            raise ValueError(
+                f"render_mode: expected one of {RENDER_MODES} or None, got {render_mode!r}"
+            )
+        self.render_mode = render_mode
+        self.last_metrics: dict[str, float] = {}
+        """Facts of the last episode that ended, such as goal_score and steps; empty before."""
+        self._controllers = controllers
+        # Seeded anywhere, so that two environments that nobody seeds do not play the same match.
+        self._matches = _open(task, controllers, secrets.randbits(63))
+        self._window: Window | None = None
+        self._begun = False
+        self.agents: list[str] = []
+        self.possible_agents = list(self._matches.agents)
+        if not self.possible_agents:
+            raise ValueError("controllers: at least one robot must learn; Matches does without")
+        self.metadata = {
+            "name": task.name,
+            "render_modes": list(RENDER_MODES),
+            "render_fps": round(1.0 / task.config.time_step),
+            "is_parallelizable": True,
+        }
+        # A space for each agent: seeding one agent's samples must not seed another's.
+        low, high = self._matches.observation_low, self._matches.observation_high
+        self._observation_spaces = {agent: Box(low, high) for agent in self.possible_agents}
+        self._action_spaces = {
+            agent: Box(-1.0, 1.0, (task.action_size,)) for agent in self.possible_agents
+        }
+        self._scale = StateScale(task.config)
+        self.state_space = Box(-LIMIT, LIMIT, (self._scale.size,))
+
+    @property
+    def task(self) -> Task:
+        """The task that is played."""
+        return self._matches.task
+
+    @property
+    def max_cycles(self) -> int:
+        """Steps after which the clock ends an episode; can be set, as PettingZoo's tests do."""
+        return self.task.max_steps
+
+    @max_cycles.setter
+    def max_cycles(self, limit: int) -> None:
+        task = copy.copy(self.task)  # the caller's own task keeps its clock
+        object.__setattr__(task, "max_steps", checks.whole("max_cycles", limit, 1))
+        self._matches.task = task
+
+    def observation_space(self, agent: str) -> Box[np.float32]:
+        """Bounds of what the agent sees, (o,) float32."""
+        return self._observation_spaces[agent]
+
+    def action_space(self, agent: str) -> Box[np.float32]:
+        """Bounds of what the agent does, (action,) float32 in [-1, 1]."""
+        return self._action_spaces[agent]
+
+    def state(self) -> Floats:
+        """The whole game, absolute, (state,) float32: for critics that may see everything."""
+        state: Floats = self._scale.states(self._matches.frame.rows)[0]
+        return state
+
+    @property
+    def score(self) -> tuple[int, int]:
+        """Goals of blue and of yellow in this match: 0 to 0 until a goal ends it."""
+        crossed = self._matches.frame.ball.crossed[0]
+        return int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
+
+    @property
+    def clock(self) -> float:
+        """Seconds played of this match."""
+        return float(self._matches.play.steps[0]) * self.task.config.time_step
+
+    def reset(
+        self, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[dict[str, Floats], Infos]:
+        """Begin an episode; the same seed gives the same one, whatever was played before.
+
+        Without a seed the random streams go on. `options["frame"]` is a row (row,) to start from
+        in place of the task's own starts, laid out as `Frame.rows`; other options are left to
+        whoever else may read them.
+        """
+        if not isinstance(options, Mapping | None):
+            raise TypeError(f"options: expected a dictionary, got {type(options).__name__}")
+        row = (options or {}).get("frame")
+        if row is not None:
+            row = checks.floats("options['frame']", row, (self.task.config.row_size,))[None]
+        observations = self._matches.reset(seed, rows=row)
+        self._begun = True
+        self.agents = self.possible_agents.copy()
+        if self.render_mode == "human":
+            self.render()
+        return by_agent.split(self.possible_agents, observations), self._no_infos()
+
+    def step(
+        self, actions: Mapping[str, Floats]
+    ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
+        """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
+        if not self.agents:
+            state = "after the end of the episode" if self._begun else "before reset"
+            raise RuntimeError(f"step {state}: call reset() to begin an episode")
+        try:
+            outcome = self._matches.step(by_agent.stack(actions, self.agents))
+        except (LookupError, TypeError, ValueError):
+            by_agent.name_fault(actions, self.agents, self.task.action_size)
+            raise
+        terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
+        if terminated or truncated:
+            self.agents = []
+            self.last_metrics = {name: float(fact[0]) for name, fact in outcome.metrics.items()}
+            self.last_metrics["steps"] = float(self._matches.play.steps[0])
+        if self.render_mode == "human":
+            self.render()
+        return (
+            by_agent.split(self.possible_agents, outcome.observations),
+            dict(zip(self.possible_agents, outcome.rewards[0].tolist(), strict=True)),
+            dict.fromkeys(self.possible_agents, terminated),
+            dict.fromkeys(self.possible_agents, truncated),
+            self._no_infos(),
+        )
+
+    def _no_infos(self) -> Infos:
+        return {agent: {} for agent in self.possible_agents}
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The match as an image (height, width, 3), or in a window."""
+        if self.render_mode is None:
+            warnings.warn(f"render() needs a render_mode, one of {RENDER_MODES}", stacklevel=2)
+            return None
+        if not self._begun:
+            raise RuntimeError("render before reset: call reset() to begin an episode")
+        from rsoccer.render.image import draw_image
+
+        row = self._matches.frame.rows[0]
+        image = draw_image(self.task.config, row, score=self.score, clock=self.clock)
+        if self.render_mode == "rgb_array":
+            return image
+        if self._window is None:
+            from rsoccer.render.window import Window
+
+            self._window = Window(self.task.name, self.metadata["render_fps"])
+        self._window.show(image)
+        return None
+
+    def close(self) -> None:
+        """Close the window, if there is one; may be repeated."""
+        if self._window is not None:
+            self._window.close()
+            self._window = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All but the window: a copy, or one in another process, goes on with the same match."""
+        matches = (self.task, self._matches.state_dict())
+        return {**self.__dict__, "_window": None, "_matches": matches}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Go on where `__getstate__` was."""
+        self.__dict__.update(state)
+        task, matches = state["_matches"]
+        self._matches = _open(task, self._controllers, 0)
+        self._matches.load_state_dict(matches)
+
+
+def _open(task: Task, controllers: Controllers | None, seed: int) -> Matches:
+    return Matches(task, 1, seed, controllers=controllers, autoreset="disabled")

@@ -1,0 +1,126 @@
+"""What becomes of errors: one line on standard error, and an exit status."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rsoccer import cli
+
+
+def one_line(text: str) -> str:
+    assert text.startswith("rsoccer: ")
+    assert text.endswith("\n")
+    assert text.count("\n") == 1
+    return text
+
+
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["evaluate"], ["watch", "--seed", "one"]])
+def test_wrong_usage_ends_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as exit_:
+        cli.main(arguments)
+    assert exit_.value.code == 2
+    printed = capsys.readouterr()
+    assert "--help" in printed.err
+    assert printed.out == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["evaluate", "nobody"], "unknown policy 'nobody'.*chase"),
+        (["evaluate", "chase", "--opponents", "nobody"], "unknown policy 'nobody'"),
+        (["evaluate", "chase", "--matches", "1"], "matches: expected at least 2, got 1"),
+        (["evaluate", "chase", "--task", "VSS-v9"], "unknown task 'VSS-v9'"),
+        (["evaluate", "no/such.safetensors"], "no/such.safetensors"),
+        (["watch", "nobody", "--video", "never.mp4"], "unknown policy 'nobody'"),
+    ],
+)
+def test_wrong_input_is_one_line_and_2(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(arguments) == cli.WRONG_INPUT
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert message.split(".*")[0] in one_line(printed.err)
+
+
+def test_a_damaged_policy_file_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "policy.safetensors"
+    file.write_bytes(b"not a policy")
+    assert cli.main(["evaluate", str(file)]) == 2
+    assert "policy.safetensors is not a usable policy file" in one_line(capsys.readouterr().err)
+
+
+@pytest.mark.parametrize(
+    ("module", "arguments", "extra"),
+    [
+        ("torch", ["train", "--samples", "1"], "rsoccer[train]"),
+        ("pygame", ["watch", "--video", "never.mp4"], "rsoccer[render]"),
+        ("safetensors", ["evaluate", "{policy}"], "rsoccer[cli]"),
+        ("tyro", ["list"], "rsoccer[cli]"),
+    ],
+)
+def test_a_missing_package_comes_with_its_extra(
+    module: str, arguments: list[str], extra: str, tmp_path: Path
+) -> None:
+    policy = tmp_path / "policy.safetensors"
+    policy.write_bytes(b"")
+    given = [part.format(policy=policy) for part in arguments]
+    code = f"import sys; sys.modules[{module!r}] = None\nfrom rsoccer.cli import main\n"
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}sys.exit(main({given!r}))"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert f"pip install '{extra}'" in one_line(done.stderr)
+
+
+def test_ctrl_c_ends_with_130() -> None:
+    worker = subprocess.Popen(
+        [sys.executable, "-m", "rsoccer", "evaluate", "chase", "--matches", "1000000"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        _wait_until_it_plays(worker.pid)
+        worker.send_signal(signal.SIGINT)
+        printed = worker.communicate(timeout=30)
+    finally:
+        worker.kill()
+        worker.wait()
+    assert worker.returncode == cli.INTERRUPTED
+    assert "Traceback" not in printed[1]
+
+
+def _wait_until_it_plays(process: int) -> None:
+    """Wait for the processor time that starting up does not need."""
+    deadline = time.monotonic() + 60
+    stat = Path(f"/proc/{process}/stat")
+    if not stat.exists():
+        time.sleep(10)
+        return
+    while time.monotonic() < deadline:
+        ticks = stat.read_text().rpartition(")")[2].split()[11]
+        if int(ticks) / os.sysconf("SC_CLK_TCK") > 2.5:
+            return
+        time.sleep(0.05)
+    pytest.fail("it never played")
+
+
+def test_a_reader_that_leaves_is_no_error() -> None:
+    command = f"{sys.executable} -m rsoccer list | true"
+    done = subprocess.run(
+        ["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
