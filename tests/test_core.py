@@ -3,6 +3,7 @@
 import copy
 import pickle
 import threading
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from rsoccer._core import (
     Simulator,
     build_info,
 )
-from rsoccer.frame import Floats
+from rsoccer.frame import Array, Floats
 
 WORLDS = 3
 CONFIG = SimConfig()
@@ -124,7 +125,7 @@ def test_a_bad_step_is_refused_before_anything_moves(
     simulator = Simulator(CONFIG, WORLDS)
     driven(simulator, 5)
     before, kept = simulator.snapshot(), rows_of(simulator)
-    good = {"commands": no_commands() + 20, "out": kept.copy(), "active": None}
+    good: dict[str, Any] = {"commands": no_commands() + 20, "out": kept.copy(), "active": None}
     with pytest.raises(error, match=words):
         simulator.step(**(good | argument))
     assert simulator.snapshot() == before
@@ -139,7 +140,7 @@ def test_a_bad_step_is_refused_before_anything_moves(
     )
 )
 @settings(max_examples=200, deadline=None)
-def test_whatever_comes_as_commands_moves_or_is_refused(commands: Any) -> None:
+def test_whatever_comes_as_commands_moves_or_is_refused(commands: Array) -> None:
     simulator = Simulator(CONFIG, 1)
     before, out = simulator.snapshot(), rows_of(simulator)
     shape = no_commands(1).shape
@@ -188,7 +189,9 @@ def test_a_placed_state_reads_as_placed_velocities_included() -> None:
 
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
-def test_a_pickled_simulator_goes_on_as_the_original(duplicate: Any) -> None:
+def test_a_pickled_simulator_goes_on_as_the_original(
+    duplicate: Callable[[Simulator], Simulator],
+) -> None:
     simulator = Simulator(CONFIG, WORLDS, 2)
     driven(simulator, 30)
     twin = duplicate(simulator)

@@ -121,6 +121,7 @@ def test_restored_is_as_never_stopped(
         play_both(ours, 1, lambda actions, outcome, step: None)
         if (in_touch := touches(ours.frame, ours.task.config)) > 1:
             break
+        ours.reset(mask=ours.done)
     assert in_touch > 1, "saved while in contact"
     theirs = crowded(name, controllers, WORLDS, seed=55, autoreset=autoreset)
     theirs.load_state_dict(ours.state_dict())

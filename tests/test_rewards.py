@@ -35,7 +35,11 @@ def walk(term: str, steps: int = 60) -> tuple[Floats, Play, Play]:
     for _ in range(steps):
         matches.step(pushing(rng, matches))
         play = matches.play
-        total += rewards.approach(play) if term == "approach" else rewards.ball_to_goal(play, FIELD)
+        total += (
+            rewards.approach(play, FIELD)
+            if term == "approach"
+            else rewards.ball_to_goal(play, FIELD)
+        )
     return total, first, matches.play
 
 
@@ -51,7 +55,7 @@ def test_a_goal_is_good_for_who_attacks_that_side() -> None:
 def test_right_after_a_reset_nothing_has_come_closer() -> None:
     play = still()
     assert not rewards.ball_to_goal(play, FIELD).any()
-    assert not rewards.approach(play).any()
+    assert not rewards.approach(play, FIELD).any()
 
 
 def test_the_ball_pays_in_metres_along_the_axis() -> None:
@@ -80,21 +84,32 @@ def test_the_ball_pays_only_for_where_it_ends_up() -> None:
 def test_approach_pays_each_robot_for_its_own_way() -> None:
     play = still(1)
     play.frame.ball.position[:] = play.last_frame.ball.position[:] = 0.0
-    where = np.array([[0.3, 0], [0.2, 0], [0.5, 0], [-0.1, 0], [-0.4, 0], [-0.5, 0]])
+    # The point behind the ball is 8 cm from it, on the own goal's side.
+    where = np.array([[0.3, 0], [0.2, 0], [-0.5, 0], [-0.1, 0], [-0.4, 0], [0.5, 0]])
     play.last_frame.robots.position[:] = where
     play.frame.robots.position[:] = where - [0.05, 0.0]
     show(play)
-    assert rewards.approach(play)[0] == pytest.approx([0.05] * 3 + [-0.05] * 3, abs=1e-6)
+    expected = [0.05, 0.05, -0.05, -0.05, -0.05, 0.05]
+    assert rewards.approach(play, FIELD)[0] == pytest.approx(expected, abs=1e-6)
 
 
 def test_approach_pays_only_for_where_a_robot_ends_up() -> None:
     total, first, last = walk("approach")
-    gaps = []
-    for play in (first, last):
-        away = play.frame.robots.position - play.frame.ball.position[:, None]
-        gaps.append(np.hypot(away[..., 0], away[..., 1]))
-    assert total == pytest.approx(gaps[0] - gaps[1], abs=1e-5)
+    first.frame.rows[:], first.last_frame.rows[:] = last.frame.rows, first.frame.rows.copy()
+    show(first)
+    assert total == pytest.approx(rewards.approach(first, FIELD), abs=1e-5)
     assert np.abs(total).max() > 0.05
+
+
+def test_who_stands_before_the_ball_is_drawn_around_it() -> None:
+    """Straight at the ball from the front pays less than the same way past it."""
+    play = still(1)
+    play.frame.ball.position[:] = play.last_frame.ball.position[:] = 0.0
+    play.last_frame.robots.position[0, :2] = [0.06, 0.0], [0.06, 0.0]
+    play.frame.robots.position[0, :2] = [0.06, 0.0], [0.0, 0.06]
+    show(play)
+    straight, around = rewards.approach(play, FIELD)[0, :2]
+    assert around > straight + 0.03
 
 
 def test_one_robot_of_each_team_was_nearest() -> None:

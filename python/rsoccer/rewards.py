@@ -4,12 +4,17 @@ Terms that guide are differences of a potential between two frames, so going bac
 nothing and no memory is needed.
 """
 
+from typing import Final
+
 import numpy as np
 
 from rsoccer._core import CROSSINGS, Field
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns, Floats, Frame, Mask, length
 from rsoccer.task import Play
 from rsoccer.view import View
+
+BEHIND: Final = np.float32(0.08)
+"""Metres: half a VSSS robot, a ball's radius and two centimetres to turn in."""
 
 
 def goal(play: Play) -> Floats:
@@ -35,9 +40,13 @@ def ball_to_goal(play: Play, field: Field) -> Floats:
     return _advance_of_ball(play.view, field) - _advance_of_ball(play.last_view, field)
 
 
-def approach(play: Play) -> Floats:
-    """Metres that each seer came closer to the ball, (n, seers)."""
-    return (_distances(play.last_frame) - _distances(play.frame))[:, play.seers]
+def approach(play: Play, field: Field) -> Floats:
+    """Metres that each seer came closer to where it can drive the ball at the goal, (n, seers).
+
+    That is a point just behind the ball: who stands before the ball is drawn around it, and two
+    of one team are not paid for pushing it from opposite sides.
+    """
+    return _way_to_go(play.last_view, field) - _way_to_go(play.view, field)
 
 
 def nearest(play: Play) -> Mask:
@@ -64,6 +73,18 @@ def _advance_of_ball(view: View, field: Field) -> Floats:
     x, y = view.ball.position[..., 0], view.ball.position[..., 1]
     goal_x = np.float32(field.half_length)
     return np.float32(0.5) * (length(goal_x + x, y) - length(goal_x - x, y))
+
+
+def _way_to_go(view: View, field: Field) -> Floats:
+    """Metres from each seer to the point `BEHIND` the ball, seen from the goal; (n, seers)."""
+    ball, me = view.ball.position, view.me.position
+    x, y = np.float32(field.half_length) - ball[..., 0], -ball[..., 1]
+    per = BEHIND / np.maximum(length(x, y), BEHIND)
+    # A ball at the wall has no room behind it: then the nearest place inside counts.
+    most_x, most_y = np.float32(field.half_length) - BEHIND, np.float32(field.half_width) - BEHIND
+    target_x = np.maximum(ball[..., 0] - x * per, -most_x)
+    target_y = np.minimum(np.maximum(ball[..., 1] - y * per, -most_y), most_y)
+    return length(target_x - me[..., 0], target_y - me[..., 1])
 
 
 def _distances(frame: Frame) -> Floats:

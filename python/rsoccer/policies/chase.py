@@ -10,11 +10,12 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
 
-BEHIND: Final = np.float32(0.11)  # metres between the ball and where a run at it starts
+BEHIND: Final = np.float32(0.15)  # metres between the ball and where a run at it starts
 ASIDE: Final = np.float32(0.13)  # metres by which it passes the ball on the way there
-THROUGH: Final = np.float32(0.3)  # metres beyond the ball that it drives at
-ALIGNED: Final = np.float32(0.3)  # metres off the line, per metre from the ball, that still do
+AHEAD: Final = np.float32(0.15)  # metres ahead on the line to the ball that a run aims at
+ALIGNED: Final = np.float32(0.45)  # metres off the line, per metre from the ball, that still do
 TURN: Final = np.float32(0.8)  # how hard it turns, per sine of the angle it is off
+DAMPING: Final = np.float32(0.3)  # less of that, per share of the fastest turn, not to overshoot
 WALL: Final = np.float32(0.03)  # metres between ball and wall in which no robot fits
 CLEAR: Final = 0.005  # metres to a wall, beyond what it needs to turn on the spot
 ROOM: Final = np.float32(0.4)  # metres that mates leave round the ball
@@ -46,6 +47,7 @@ class Chase(Policy):
         self._half_width = np.float32(config.field.half_width)
         self._most_x = np.float32(config.field.half_length - clear)
         self._most_y = np.float32(config.field.half_width - clear)
+        self._damping = DAMPING * np.float32(0.5 * config.robot.track / config.robot.top_speed)
         self._slow = SLOW * np.float32(config.robot.top_speed)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
@@ -65,6 +67,7 @@ class Chase(Policy):
         ahead, left = x * cos + y * sin, y * cos - x * sin
         per = _inverse(length(x, y), NEAR)
         forward, turn = ahead * per, left * per * np.sign(ahead) * TURN
+        turn = turn - me.spin * self._damping
         backing = self._backing(me.velocity, memory["slow"]) & chases
         forward = np.where(backing, -forward, forward)
         turn = np.where(backing, rng.uniform(-1.0, 1.0, seen.shape[1:2]), turn)
@@ -78,7 +81,7 @@ class Chase(Policy):
         behind, aside = -(x * u_x + y * u_y), y * u_x - x * u_y
         ready = (behind > 0.0) & (np.abs(aside) < ALIGNED * behind)
         beside = behind < np.float32(0.5) * BEHIND
-        along = np.where(ready, THROUGH, -BEHIND)
+        along = np.where(ready, AHEAD - behind, -BEHIND)
         across = np.where(beside & ~ready, np.copysign(ASIDE, aside), np.float32(0.0))
         target_x = ball_x + along * u_x - across * u_y
         target_y = ball_y + along * u_y + across * u_x

@@ -10,13 +10,14 @@ import numpy as np
 
 from rsoccer import checks, rewards, spawn
 from rsoccer._core import ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Floats, Frame, Mask, length, span
+from rsoccer.frame import Floats, Frame, Mask, span
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play, Task
+from rsoccer.tasks import sight
 from rsoccer.view import View
 
-# Per goal, per metre, per metre, per step at full power. Against robots that stand still, a goal
-# of the `chase` script makes up more than half of what an episode pays.
+# Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
+# robots that stand still, goals are the largest part of what an episode pays.
 WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
 
 APART: Final = 0.1  # metres between centres at the start
@@ -82,8 +83,7 @@ class Vss(Task):
             "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 7)
             "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 7)
             "action": play.actions[:, play.seers],  # (n, seers, 2)
-            "ball_from_me": self._from_me(view, view.ball.position),  # (n, seers, 3)
-            "goal_from_me": self._from_me(view, self._goal),  # (n, seers, 3)
+            **sight.from_me(view, self._goal, self._per_metre, self._per_speed),
         }
 
     def observation_limits(self) -> dict[str, float]:
@@ -93,14 +93,17 @@ class Vss(Task):
             "action": 1.0,
             "ball_from_me": 3.0,
             "goal_from_me": 3.0,
+            "shot": 1.0,
+            "motion_from_me": 4.0,
+            "places_from_me": 3.0,
         } | dict.fromkeys(("me", "mates", "foes"), 2.0)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """A goal counts most. All are drawn to the ball; who is at it is paid for moving it."""
+        """A goal counts most. All are drawn behind the ball; who is at it is paid for moving it."""
         terms = {
             "goal": rewards.goal(play),
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * rewards.nearest(play),
-            "approach": rewards.approach(play),
+            "approach": rewards.approach(play, self.config.field),
             "energy": rewards.energy(play),
         }
         weighted = {name: np.float32(self.weights[name]) * term for name, term in terms.items()}
@@ -138,20 +141,6 @@ class Vss(Task):
         return np.concatenate(
             [ball.position * self._per_metre, ball.velocity * self._per_speed], axis=-1
         )
-
-    def _from_me(self, view: View, target: Floats) -> Floats:
-        """Distance of `target` (..., 2), cosine and sine of its bearing; (n, seers, 3)."""
-        me = view.me
-        x = target[..., 0] - me.position[..., 0]
-        y = target[..., 1] - me.position[..., 1]
-        cos, sin = me.heading[..., 0], me.heading[..., 1]
-        distance = length(x, y)
-        per = np.float32(1.0) / np.maximum(distance, np.float32(1e-6))
-        polar = np.empty((*distance.shape, 3), np.float32)
-        np.multiply(distance, self._per_metre, out=polar[..., 0])
-        np.multiply(x * cos + y * sin, per, out=polar[..., 1])
-        np.multiply(y * cos - x * sin, per, out=polar[..., 2])
-        return polar
 
 
 def _all_weights(given: Mapping[str, float]) -> dict[str, float]:

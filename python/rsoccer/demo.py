@@ -1,0 +1,63 @@
+"""The whole of rSoccer in a few minutes: learn to play, measure it, show it (`make demo`)."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from rsoccer.evaluate import Evaluation, evaluate, table
+from rsoccer.render.record import record_match
+from rsoccer.train import Args, train
+from rsoccer.train.curve import draw_curve
+
+TASK = "VSSSelfPlay-v0"
+SAMPLES = 4_000_000
+"""Decisions to learn from: two to three minutes on two cores."""
+
+
+def demo(out: Path, samples: int = SAMPLES, matches: int = 400) -> dict[str, Any]:
+    """Train, evaluate and film; leaves everything in `out` and returns the metrics."""
+    seconds: dict[str, float] = {}
+    started = time.monotonic()
+
+    def stage(name: str, text: str) -> None:
+        now = time.monotonic()
+        seconds[name] = now - started - sum(seconds.values())
+        sys.stdout.write(f"{text} ({seconds[name]:.0f} s)\n")
+
+    policy = train(Args(task=TASK, out=out, samples=samples, overwrite=True))
+    stage("training", f"trained on {samples:,} decisions -> {policy}")
+    untrained = out / "untrained.safetensors"
+    opponents = ("zero", "uniform", "ou", str(untrained))
+    evaluations = [evaluate(policy, foe, matches=matches, seed=1, task=TASK) for foe in opponents]
+    stage("evaluation", table(evaluations))
+    curve = draw_curve(out, out / "curve.png")
+    video = record_match(
+        out / "match.mp4",
+        task=TASK,
+        controllers={"blue": str(policy), "yellow": "ou"},
+        seed=1,
+        seconds=30.0,
+    )
+    stage("pictures", f"watch {video}; learning curve in {curve}")
+    metrics = _metrics(samples, evaluations, seconds)
+    (out / "metrics.json").write_text(json.dumps(metrics, indent=2) + "\n")
+    return metrics
+
+
+def _metrics(
+    samples: int, evaluations: list[Evaluation], seconds: dict[str, float]
+) -> dict[str, Any]:
+    return {
+        "task": TASK,
+        "samples": samples,
+        "seconds": seconds,
+        "evaluations": [evaluation.as_dict() for evaluation in evaluations],
+    }
+
+
+if __name__ == "__main__":
+    demo(Path("out/demo"))

@@ -1,0 +1,48 @@
+"""The learning curve of a run as a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from rsoccer.frame import Array
+from rsoccer.train.log import SCORE, read_progress
+
+NAMES = {
+    "ou": ("drifting robots (OU)", "#3a7d44"),
+    "past": ("past selves", "#d98e04"),
+    "latest": ("current self", "#8a8f98"),
+}
+
+
+def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
+    """Goal score against each kind of opponent over samples, as a PNG file at `path`."""
+    from matplotlib.figure import Figure
+
+    progress = read_progress(folder)
+    figure = Figure(figsize=(8.0, 4.5), dpi=130, layout="constrained")
+    axes = figure.add_subplot()
+    for kind, (label, colour) in NAMES.items():
+        scores = progress.get(f"{SCORE}_{kind}", np.zeros(0))
+        if np.isfinite(scores).any():
+            smooth = _running_mean(scores, window)
+            axes.plot(progress["samples"] / 1e6, smooth, label=label, color=colour, linewidth=2)
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    axes.set(ylim=(-1.05, 1.05), xlabel="samples (millions of decisions)")
+    axes.set_ylabel("goal score while exploring\n(wins - losses) / matches")
+    axes.set_title("Learning to play three a side")
+    axes.grid(alpha=0.25)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower right", frameon=False, title="against")
+    figure.savefig(path)
+    return path
+
+
+def _running_mean(values: Array, window: int) -> Array:
+    """Mean over the last `window` values, NaN ones left out."""
+    known = np.isfinite(values)
+    sums = np.convolve(np.where(known, values, 0.0), np.ones(window))[: len(values)]
+    counts = np.convolve(known.astype(float), np.ones(window))[: len(values)]
+    means: Array = np.divide(sums, counts, out=np.full(len(values), np.nan), where=counts > 0)
+    return means

@@ -1,0 +1,30 @@
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+QUICK = {
+    "01_hello.py": [],
+    "02_new_task.py": ["2000"],
+    "03_many_worlds.py": ["32", "200"],
+}
+
+
+def run(name: str, arguments: list[str], folder: Path) -> str:
+    """What an example prints, run from an empty folder with warnings as errors."""
+    command = [sys.executable, "-W", "error", str(EXAMPLES / name), *arguments]
+    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return ran.stdout
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_examples_run_and_say_something(name: str, tmp_path: Path) -> None:
+    assert run(name, QUICK[name], tmp_path).strip()
+
+
+def test_no_example_is_forgotten() -> None:
+    elsewhere = {"04_self_play.py"}  # trains for a minute: its parts are tested in tests/train
+    assert {path.name for path in EXAMPLES.glob("*.py")} == {*QUICK, *elsewhere}

@@ -1,0 +1,63 @@
+"""A self-play task whose matches end within seconds, by goals and by the clock."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rsoccer import register
+from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.rng import WorldRng
+from rsoccer.task import Play
+from rsoccer.tasks import VssSelfPlay
+
+NAME = "ShortSelfPlay-v0"
+FORWARD = "Forward-v0"
+
+
+@dataclass(frozen=True)
+class ShortSelfPlay(VssSelfPlay):
+    """The ball starts in front of a goal, often rolling towards it."""
+
+    max_steps: int = 25
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Robots in two columns, so that the way to the goal is free."""
+        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
+        side = np.where(rng.uniform(-1.0, 1.0) < 0, -1.0, 1.0)
+        frame.ball.position[:, 0] = 0.6 * side
+        frame.ball.velocity[:, 0] = rng.uniform(0.0, 1.0) * side
+        frame.robots.position[..., 0] = np.repeat([-0.3, 0.3], 3)
+        frame.robots.position[..., 1] = np.tile([-0.3, 0.0, 0.3], 2)
+        return frame
+
+
+@dataclass(frozen=True)
+class Forward(ShortSelfPlay):
+    """Power ahead is all that pays: easy to learn."""
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """The mean of both wheels."""
+        _, done = super().calculate_reward_and_done(play)
+        return {"forward": play.actions[:, play.seers].clip(-1, 1).mean(axis=2)}, done
+
+
+register(NAME, ShortSelfPlay)
+register(FORWARD, Forward)
+
+TINY = {
+    "task": NAME,
+    "worlds": 6,
+    "horizon": 8,
+    "samples": 6 * 3 * 8 * 6,
+    "hidden": (16,),
+    "epochs": 2,
+    "minibatches": 2,
+    "threads": 1,
+    "latest": 0.4,
+    "past": 0.4,
+    "ou": 0.2,
+    "pool_size": 2,
+    "pool_every": 1,
+    "progress": False,
+}
+"""Settings of a run of six updates that takes about a second."""

@@ -1,0 +1,67 @@
+"""Settings of a run: bad ones are refused by name."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rsoccer.train.args import Args
+
+BAD: list[tuple[str, Any]] = [
+    ("samples", 0),
+    ("worlds", 0),
+    ("threads", 0),
+    ("horizon", 0),
+    ("action_repeat", 0),
+    ("epochs", 0),
+    ("minibatches", 0),
+    ("seed", -1),
+    ("learning_rate", 0.0),
+    ("learning_rate", float("nan")),
+    ("action_std", -0.5),
+    ("gradient_norm", float("inf")),
+    ("checkpoint_seconds", 0.0),
+    ("gamma", 1.5),
+    ("gae_lambda", -0.1),
+    ("entropy_weight", -1.0),
+    ("value_weight", float("nan")),
+    ("hidden", ()),
+    ("hidden", (64, 0)),
+    ("latest", 0.9),
+    ("pool_size", 0),
+]
+
+
+@pytest.mark.parametrize(("name", "value"), BAD)
+def test_a_bad_value_is_refused_by_name(name: str, value: Any) -> None:  # noqa: ANN401
+    with pytest.raises(ValueError, match=name):
+        Args(**{name: value})
+
+
+def test_resume_and_overwrite_exclude_each_other() -> None:
+    with pytest.raises(ValueError, match="resume and overwrite"):
+        Args(resume=True, overwrite=True)
+
+
+def test_settings_survive_json() -> None:
+    args = Args(out=Path("somewhere"), hidden=(32, 16))
+    saved = json.loads(json.dumps(args.to_json()))
+    assert args.differences(saved) == []
+    assert Args(**saved) == args
+
+
+def test_only_what_changes_the_run_counts_as_a_difference() -> None:
+    saved = Args(seed=1).to_json()
+    assert Args(seed=1, samples=5, resume=True, out=Path("x")).differences(saved) == []
+    assert Args(seed=2, worlds=8).differences(saved) == [
+        "seed was 1, now 2",
+        "worlds was 512, now 8",
+    ]
+
+
+def test_reading_the_settings_needs_no_torch() -> None:
+    code = "import sys, rsoccer.train.args; sys.exit('torch' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

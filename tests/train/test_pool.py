@@ -1,0 +1,144 @@
+"""Opponents: the right mix, drawn anew each episode, old selves spread over the run."""
+
+import numpy as np
+import pytest
+
+from rsoccer.frame import Array, Floats
+from rsoccer.policies import make
+from rsoccer.policies.base import Seen
+from rsoccer.policies.network import FORMAT, Network
+from rsoccer.registry import make_task
+from rsoccer.rng import WorldRng
+from rsoccer.train.clock import Clock
+from rsoccer.train.pool import LATEST, OU, PAST, Pool, kinds
+
+TASK = make_task("VSSSelfPlay-v0")
+SHARES = {"latest": 0.5, "past": 0.3, "ou": 0.2}
+OBSERVED = 5
+
+
+def constant(action: float) -> Network:
+    """A network that always gives one action."""
+    arrays = {
+        "layers.0.weight": np.zeros((2, OBSERVED), np.float32),
+        "layers.0.bias": np.full(2, action, np.float32),
+        "mean": np.zeros(OBSERVED, np.float32),
+        "std": np.ones(OBSERVED, np.float32),
+    }
+    sizes = {"observation_size": str(OBSERVED), "action_size": "2"}
+    metadata = {"format": FORMAT, "task": "x", "activation": "tanh", "clip": "10", **sizes}
+    return Network(arrays, metadata)
+
+
+def new_pool(past: int, *, repeat: int = 1, size: int = 8) -> Pool:
+    """A pool whose latest self acts 0.5 and whose past self k acts -0.1 (k + 1)."""
+    pool = Pool(TASK, SHARES, size, repeat, Clock())
+    pool.latest = constant(0.5)
+    for slot in range(past):
+        pool.freeze(constant(-0.1 * (slot + 1)), slot)
+    return pool
+
+
+def seen(n: int) -> Seen:
+    return Seen((n, 3, 2), None, np.zeros((n, 3, OBSERVED), np.float32))
+
+
+def start(pool: Pool, n: int, seed: int = 0) -> tuple[WorldRng, dict[str, Array]]:
+    rng = WorldRng.seeded(seed, n)
+    return rng, pool.new_memory((n, 3, 2), rng)
+
+
+def test_worlds_get_opponents_in_the_shares_asked_for() -> None:
+    n = 20_000
+    _, memory = start(new_pool(past=3), n)
+    codes, counts = np.unique(memory["opponent"], return_counts=True)
+    assert codes.tolist() == [OU, LATEST, PAST, PAST + 1, PAST + 2]
+    assert counts / n == pytest.approx([0.2, 0.5, 0.1, 0.1, 0.1], abs=0.015)
+    assert np.bincount(kinds(memory["opponent"])).tolist() == [*counts[:2], counts[2:].sum()]
+
+
+def test_without_a_past_its_share_goes_to_the_latest_self() -> None:
+    _, memory = start(new_pool(past=0), 10_000)
+    assert (memory["opponent"] == OU).mean() == pytest.approx(0.2, abs=0.02)
+    assert set(memory["opponent"].tolist()) == {OU, LATEST}
+
+
+def test_each_episode_draws_anew() -> None:
+    pool = new_pool(past=3)
+    rng, first = start(pool, 500)
+    second = pool.new_memory((500, 3, 2), rng)
+    assert (first["opponent"] != second["opponent"]).mean() > 0.3
+
+
+def test_each_world_is_played_by_its_own_opponent() -> None:
+    pool = new_pool(past=2)
+    rng, memory = start(pool, 200)
+    expected = {LATEST: 0.5, PAST: -0.1, PAST + 1: -0.2}
+    actions = pool.act(seen(200), rng, memory)
+    assert actions.shape == (200, 3, 2)
+    for code, action in expected.items():
+        rows = memory["opponent"] == code
+        assert rows.any()
+        np.testing.assert_allclose(actions[rows], action, rtol=1e-6)
+    assert pool.opponents.tolist() == memory["opponent"].tolist()
+
+
+def test_drifting_worlds_drift_as_the_ou_policy_does() -> None:
+    pool, drift = new_pool(past=2), make("ou", TASK)
+    rng, memory = start(pool, 50)
+    alone, own = WorldRng.from_state(rng.state), {}
+    own = drift.new_memory((50, 3, 2), alone)
+    for _ in range(10):
+        actions = pool.act(seen(50), rng, memory)
+        expected = drift.act(seen(50), alone, own)
+    rows = memory["opponent"] == OU
+    assert rows.any()
+    assert np.abs(expected[rows]).max() > 0.05, "it has not moved, so nothing was compared"
+    np.testing.assert_array_equal(actions[rows], expected[rows])
+
+
+def test_networks_hold_a_decision_and_start_afresh_with_an_episode() -> None:
+    pool = new_pool(past=0, repeat=3)
+    rng, memory = start(pool, 40)
+    rows = memory["opponent"] == LATEST
+    shown: list[Floats] = []
+    for step in range(7):
+        pool.latest = constant(0.1 * step)
+        if step == 4:  # the match in the first world ended: it begins anew
+            fresh = pool.new_memory((1, 3, 2), rng[np.arange(1)])
+            fresh["opponent"][:] = LATEST
+            for name, array in fresh.items():
+                memory[name][:1] = array
+        shown.append(pool.act(seen(40), rng, memory)[:, 0, 0])
+    rows[0] = False
+    held = np.array(shown)
+    np.testing.assert_allclose(held[:, rows][:, 0], [0, 0, 0, 0.3, 0.3, 0.3, 0.6], rtol=1e-6)
+    np.testing.assert_allclose(held[4:, 0], [0.4, 0.4, 0.4], rtol=1e-6)
+
+
+def test_a_full_pool_stays_spread_over_the_run() -> None:
+    pool = new_pool(past=0, size=6)
+    for born in range(0, 1000, 10):
+        pool.freeze(constant(0.0), born)
+        assert len(pool.past) == len(pool.born) <= 6
+    ages = sorted(pool.born)
+    assert ages[0] == 0 and ages[-1] == 990
+    assert np.diff(ages).max() < 600, ages
+
+
+def test_a_pool_of_one_keeps_the_newest() -> None:
+    pool = new_pool(past=0, size=1)
+    for born in range(3):
+        pool.freeze(constant(0.0), born)
+    assert pool.born == [2]
+
+
+def test_it_goes_on_from_its_state() -> None:
+    pool, other = new_pool(past=3), new_pool(past=0)
+    metadata = constant(0.0).metadata
+    other.load_state_dict(pool.state_dict(), metadata)
+    assert other.born == pool.born == [0, 1, 2]
+    for mine, its in zip(pool.past, other.past, strict=True):
+        assert {k: v.tobytes() for k, v in mine.arrays().items()} == {
+            k: v.tobytes() for k, v in its.arrays().items()
+        }

@@ -1,0 +1,228 @@
+"""A run: the same again, the same after a break, and better than before."""
+
+import csv
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from rsoccer.policies.base import Seen
+from rsoccer.policies.network import Network
+from rsoccer.rng import WorldRng
+from rsoccer.train import Args, checkpoint, train
+from rsoccer.train.state import capture, restore
+from rsoccer.train.stop import Stop, Stopped
+from rsoccer.train.trainer import Trainer
+from tests.train.short_task import FORWARD, NAME, TINY
+
+
+def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
+    return Args(**{**TINY, "out": out, **changes})
+
+
+def digest(folder: Path) -> str:
+    """SHA-256 over every array of a run's checkpoint, and the plain values that count."""
+    saved = checkpoint.load(folder / checkpoint.FILE_NAME)
+    total = hashlib.sha256()
+    for name, array in sorted(saved.arrays.items()):
+        total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
+    total.update(f"{saved.facts['samples']} {saved.facts['updates']}".encode())
+    return total.hexdigest()
+
+
+def progress(folder: Path) -> list[dict[str, str]]:
+    """Rows of the log without what depends on the clock on the wall."""
+    with (folder / "progress.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    clocks = ("seconds", "samples_per_second", "time_")
+    return [{k: v for k, v in row.items() if not k.startswith(clocks)} for row in rows]
+
+
+class StopAfter(Stop):
+    """Plays a signal that comes at the given check."""
+
+    def __init__(self, checks: int) -> None:
+        super().__init__()
+        self.left = checks
+
+    def check(self) -> None:
+        self.left -= 1
+        if self.left < 0:
+            raise Stopped("played")
+
+
+def run_until(args: Args, checks: int) -> int:
+    """Train until a signal at the given check; the updates done by then."""
+    trainer = Trainer(args)
+    with pytest.raises(Stopped):
+        trainer.run(StopAfter(checks), 0)
+    return trainer.updates
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run that nothing interrupted."""
+    folder = tmp_path_factory.mktemp("whole")
+    train(tiny(folder))
+    return folder
+
+
+def test_the_run_played_what_it_should(whole: Path) -> None:
+    rows = progress(whole)
+    assert len(rows) == 6
+    assert [int(row["samples"]) for row in rows] == [144 * k for k in range(1, 7)]
+    assert sum(int(row["episodes"]) for row in rows) > 10
+    assert sum(float(row["goals_for"]) for row in rows) > 0
+    assert sum(float(row["goals_against"]) for row in rows) > 0
+    arrays = checkpoint.load(whole / checkpoint.FILE_NAME).arrays
+    assert set(arrays["worlds.yellow_0.opponent"].tolist()) & {2, 3}, "no past self plays"
+    assert arrays["pool.born"].tolist() == [5, 6]
+    settings = json.loads((whole / "args.json").read_text())
+    assert settings["task"] == NAME and settings["worlds"] == 6
+    assert list((whole / "tensorboard").iterdir())
+
+
+def test_the_policy_file_plays_what_was_learned(whole: Path) -> None:
+    trainer = Trainer(tiny(whole))
+    restore(trainer, checkpoint.load(whole / checkpoint.FILE_NAME))
+    observations = np.random.default_rng(0).normal(size=(50, 3, 54)).astype(np.float32)
+    mean, std = trainer.seen.as_floats()
+    normal = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
+    expected = trainer.model.actor(normal).detach().clamp(-1.0, 1.0).numpy()
+    seen, nobody = Seen((50, 3, 2), None, observations), WorldRng.seeded(0, 50)
+    policy = Network.load(whole / "policy.safetensors")
+    np.testing.assert_allclose(policy.act(seen, nobody, {}), expected, atol=1e-5)
+    untrained = Network.load(whole / "untrained.safetensors")
+    assert np.abs(untrained.act(seen, nobody, {}) - expected).max() > 0.01
+    assert np.abs(mean).max() > 0.1, "nothing was normalised"
+    assert policy.task_name == NAME
+
+
+def test_the_same_seed_gives_the_same_run(whole: Path, tmp_path: Path) -> None:
+    torch.manual_seed(123)  # whatever else draws random numbers
+    np.random.seed(5)  # noqa: NPY002
+    train(tiny(tmp_path / "same"))
+    assert digest(tmp_path / "same") == digest(whole)
+    train(tiny(tmp_path / "other", seed=1))
+    assert digest(tmp_path / "other") != digest(whole)
+
+
+def test_training_leaves_global_random_numbers_alone(tmp_path: Path) -> None:
+    torch.manual_seed(7)
+    np.random.seed(7)  # noqa: NPY002
+    expected = torch.rand(3).tolist(), np.random.rand(3).tolist()  # noqa: NPY002
+    torch.manual_seed(7)
+    np.random.seed(7)  # noqa: NPY002
+    train(tiny(tmp_path, samples=144))
+    assert (torch.rand(3).tolist(), np.random.rand(3).tolist()) == expected  # noqa: NPY002
+
+
+# Per update there are 8 checks while playing, 4 while learning and one between.
+@pytest.mark.parametrize(
+    ("checks", "updates"), [(0, 0), (3, 0), (13 + 4, 1), (3 * 13 + 10, 3), (5 * 13 + 12, 6)]
+)
+def test_a_resumed_run_equals_the_uninterrupted_one(
+    checks: int, updates: int, whole: Path, tmp_path: Path
+) -> None:
+    assert run_until(tiny(tmp_path), checks) == updates
+    saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
+    assert saved.facts["updates"] == updates
+    assert digest(tmp_path) != digest(whole) or updates == 6
+    train(tiny(tmp_path, resume=True))
+    assert digest(tmp_path) == digest(whole)
+    assert progress(tmp_path) == progress(whole)
+    policies = [Network.load(folder / "policy.safetensors") for folder in (tmp_path, whole)]
+    resumed, expected = (policy.arrays() for policy in policies)
+    assert all(resumed[name].tobytes() == expected[name].tobytes() for name in expected)
+
+
+def test_rows_after_the_checkpoint_are_dropped(whole: Path, tmp_path: Path) -> None:
+    run_until(tiny(tmp_path), 2 * 13)
+    with (tmp_path / "progress.csv").open("a") as file:
+        file.write("a row that was written before the machine died")
+    train(tiny(tmp_path, resume=True))
+    assert progress(tmp_path) == progress(whole)
+
+
+def test_a_task_with_one_learning_side_trains_against_its_own_opponent(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0"))
+    assert trainer.pool is None
+    assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
+    train(tiny(tmp_path, task="VSSMulti-v0", samples=144))
+    assert Network.load(tmp_path / "policy.safetensors").task_name == "VSSMulti-v0"
+
+
+def test_learning_raises_what_is_rewarded(tmp_path: Path) -> None:
+    args = tiny(
+        tmp_path,
+        task=FORWARD,
+        worlds=32,
+        epochs=8,
+        learning_rate=5e-3,
+        target_divergence=1.0,
+        samples=25 * 32 * 3 * 8,
+    )
+    trainer, rewards = Trainer(args), []
+    for _ in range(25):
+        trainer.learn(trainer.play(lambda: None), lambda: None)
+        rewards.append(trainer.row.pop("reward") / args.action_repeat)
+    assert abs(rewards[0]) < 0.1, "at first it knows nothing"
+    assert rewards[-1] > 0.6, "the best there is is 1, at full power ahead"
+
+
+def test_capturing_changes_nothing(tmp_path: Path) -> None:
+    first, second = Trainer(tiny(tmp_path)), Trainer(tiny(tmp_path))
+    for _ in range(2):
+        capture(first, 0)
+        for trainer in (first, second):
+            trainer.learn(trainer.play(lambda: None), lambda: None)
+    left, right = capture(first, 0).arrays, capture(second, 0).arrays
+    assert all(left[name].tobytes() == right[name].tobytes() for name in left)
+
+
+# -- Bad input --
+
+
+def test_a_folder_with_a_run_is_not_overwritten_unasked(whole: Path) -> None:
+    before = digest(whole)
+    with pytest.raises(ValueError, match="holds a run"):
+        train(tiny(whole))
+    assert digest(whole) == before
+
+
+def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="does not exist"):
+        train(tiny(tmp_path, resume=True))
+
+
+def test_resuming_with_other_settings_is_refused(whole: Path) -> None:
+    with pytest.raises(ValueError, match=r"gamma was 0\.995, now 0\.9"):
+        train(tiny(whole, resume=True, gamma=0.9))
+    with pytest.raises(ValueError, match="task was 'ShortSelfPlay-v0', now 'VSSMulti-v0'"):
+        train(tiny(whole, resume=True, task="VSSMulti-v0"))
+
+
+@pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.chance"])
+def test_a_checkpoint_that_lacks_something_is_refused(
+    missing: str, whole: Path, tmp_path: Path
+) -> None:
+    saved = checkpoint.load(whole / checkpoint.FILE_NAME)
+    del saved.arrays[missing]
+    checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
+    with pytest.raises(ValueError, match="does not fit"):
+        train(tiny(tmp_path, resume=True))
+
+
+def test_an_unwritable_folder_is_refused_before_training(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(ValueError, match="out must be a folder to write in"):
+        train(tiny(tmp_path / "file" / "run"))
+
+
+def test_an_unknown_task_is_refused_with_the_valid_ones(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="VSSSelfPlay-v0"):
+        train(tiny(tmp_path, task="Chess-v0"))
