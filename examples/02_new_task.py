@@ -1,0 +1,82 @@
+"""A new task by its four methods, and a robot that learns it: drive to the ball, from anywhere."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rsoccer import Frame, Play, SimConfig, Task, WorldRng, register, spawn
+from rsoccer.frame import Floats, Mask
+
+
+@dataclass(frozen=True)
+class Reach(Task):
+    """One robot, one ball: touch it before the time is up."""
+
+    max_steps: int = 120  # 3 s
+    action_size = 2
+
+    @cached_property
+    def config(self) -> SimConfig:
+        """The field for three a side, with one robot on it."""
+        return SimConfig(n_blue=1, n_yellow=0)
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Ball and robot anywhere, at least 30 cm apart."""
+        frame = Frame.empty(len(rng), 1, 0)
+        places = spawn.apart(rng, self.config.field, [0.03, 0.06], min_distance=0.3)
+        frame.ball.position[:], frame.robots.position[:, 0] = places[:, 0], places[:, 1]
+        frame.robots.heading[:] = spawn.headings(rng, 1)
+        return frame
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        """Wheel speeds, rad/s."""
+        return actions * np.float32(self.config.robot.max_wheel_speed)
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """Where the ball is as the robot faces, and how it turns."""
+        me, offset = play.view.me, play.view.ball.position - play.view.me.position
+        ahead = (offset * me.heading).sum(axis=-1)
+        left = offset[..., 1] * me.heading[..., 0] - offset[..., 0] * me.heading[..., 1]
+        return {"ball_from_me": np.stack([ahead, left], axis=-1), "spin": me.spin / 10}
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """Metres gained on the ball, and 1 for getting there, which ends it."""
+        before, now = (
+            np.linalg.norm(view.ball.position - view.me.position, axis=-1)
+            for view in (play.last_view, play.view)
+        )
+        reached = now < 0.07
+        terms = {"approach": before - now, "reached": reached.astype(np.float32)}
+        return terms, reached[:, 0]
+
+
+register("Reach-v0", Reach)
+
+
+def share_reached(policy: str, matches: int = 200) -> float:
+    """Share of matches in which the policy gets to the ball in time."""
+    from rsoccer import Matches
+
+    played = Matches("Reach-v0", matches, controllers={"blue": policy}, autoreset="disabled")
+    played.reset()
+    nobody = np.zeros((matches, 0, 2), np.float32)  # no robot is driven from outside
+    return float(sum(played.step(nobody).terminated.sum() for _ in range(120))) / matches
+
+
+def main(samples: int = 150_000) -> None:
+    """Train for some seconds, and compare with the network as it was before."""
+    from pathlib import Path
+
+    from rsoccer.train import Args, train  # needs torch; the task does not
+
+    out = Path("out/reach")
+    policy = train(Args("Reach-v0", out, samples, threads=1, worlds=128, overwrite=True))
+    before, after = share_reached(str(out / "untrained.safetensors")), share_reached(str(policy))
+    print(f"gets to the ball in {before:.0%} of matches untrained, in {after:.0%} trained")
+
+
+if __name__ == "__main__":
+    import sys
+
+    main(*map(int, sys.argv[1:]))

@@ -1,0 +1,56 @@
+"""Keeps what the last `make demo` reached, for the README: `python -m tools.keep_demo`.
+
+Copies the figures to benches/results/demo.json and the pictures to docs/.
+"""
+
+import json
+import shutil
+from dataclasses import asdict
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benches.table import RESULTS, ROOT, this_machine
+from rsoccer.render.record import film_match
+from rsoccer.render.video import write_video
+from rsoccer.train.log import read_progress
+
+DEMO = ROOT / "out" / "demo"
+DOCS = ROOT / "docs"
+
+
+def main() -> None:
+    """Keep the figures, the curve and a short match."""
+    metrics = json.loads((DEMO / "metrics.json").read_text())
+    kept = {**metrics, "training": training(DEMO), "machine": asdict(this_machine())}
+    RESULTS.mkdir(exist_ok=True)
+    (RESULTS / "demo.json").write_text(json.dumps(kept, indent=2) + "\n")
+    DOCS.mkdir(exist_ok=True)
+    shutil.copyfile(DEMO / "curve.png", DOCS / "curve.png")
+    film(metrics["task"], str(DEMO / "policy.safetensors"))
+
+
+def film(task: str, policy: str, seconds: float = 10.0) -> None:
+    """Keep a match against drifting robots, small enough for a page: every second image."""
+    teams = {"blue": policy, "yellow": "ou"}
+    images, fps = film_match(task, teams, 1, seconds, names=("LEARNED", "DRIFTING"), width=480)
+    write_video(DOCS / "match.gif", islice(images, 0, None, 2), fps / 2)
+
+
+def training(folder: Path) -> dict[str, Any]:
+    """Speed of a run and where its time went: medians over its updates."""
+    progress = read_progress(folder)
+    settings = json.loads((folder / "args.json").read_text())
+    samples = float(np.median(progress["samples_per_second"]))
+    parts = [name for name in progress if name.startswith("time_")]
+    return {
+        "samples_per_second": samples,
+        "agent_steps_per_second": samples * settings["action_repeat"],
+        "shares": {part.removeprefix("time_"): float(np.median(progress[part])) for part in parts},
+    }
+
+
+if __name__ == "__main__":
+    main()

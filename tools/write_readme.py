@@ -1,0 +1,197 @@
+"""Writes the parts of README.md that code or measurements know better: `make docs`.
+
+Each part stands between `<!-- begin:NAME -->` and `<!-- end:NAME -->`. A test compares the
+README with what this would write, so a table cannot drift from the code.
+"""
+
+import argparse
+import json
+import re
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import rsoccer
+from benches.table import ROOT, Figure, Machine, load
+from rsoccer import policies
+from rsoccer.registry import list_options
+
+README = ROOT / "README.md"
+RESULTS = ROOT / "benches" / "results"
+DEMO = RESULTS / "demo.json"
+PICTURES = {
+    "docs/match.gif": "A match after a few minutes of training",
+    "docs/curve.png": "Goal score over training",
+}
+FIGURES = {
+    "core_random": "Rust core alone, random play",
+    "core_crowd": "Rust core alone, a crowd around the ball",
+    "physics": "`Simulator`, the core from Python",
+    "matches": "`Matches`, with observations, rewards and restarts",
+    "parallel_env": "PettingZoo env",
+    "empty_parallel_env": "empty PettingZoo env of this shape",
+}
+
+
+def main() -> None:
+    """Write README.md again; with `--check`, only say whether that would change it."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--check", action="store_true", help="change nothing; 1 if it is stale")
+    text = README.read_text()
+    if not parser.parse_args().check:
+        README.write_text(written(text))
+    elif written(text) != text:
+        sys.exit("README.md is stale: run `make docs`")
+
+
+def written(readme: str) -> str:
+    """The README with every part as it should be now; ValueError for a part nobody writes."""
+    names = re.findall(r"<!-- begin:(\w+) -->", readme)
+    if unknown := sorted(set(names) - set(PARTS)):
+        raise ValueError(f"README.md: no one writes the parts {unknown}; known: {sorted(PARTS)}")
+    for name in names:
+        begin, end = f"<!-- begin:{name} -->", f"<!-- end:{name} -->"
+        text = PARTS[name]().strip("\n")
+        pattern = re.escape(begin) + ".*?" + re.escape(end)
+        new = f"{begin}\n{text}\n{end}" if text else f"{begin}\n{end}"
+        readme = re.sub(pattern, lambda _, new=new: new, readme, count=1, flags=re.DOTALL)  # type: ignore[misc]
+    return readme
+
+
+def tasks() -> str:
+    """Every registered task with its sizes."""
+    rows = [_task_row(name) for name in rsoccer.list_tasks()]
+    header = ("task", "what it is", "robots", "learners", "observation", "action", "time limit")
+    return table(header, rows)
+
+
+def _task_row(name: str) -> tuple[str, ...]:
+    task = rsoccer.make_task(name)
+    summary = (type(task).__doc__ or "").split("\n")[0]
+    return (
+        f"`{name}`",
+        summary,
+        f"{task.n_blue} v {task.n_yellow}",
+        str(len(task.agents)),
+        str(task.observation_size),
+        str(task.action_size),
+        f"{task.max_steps * task.config.time_step:g} s",
+    )
+
+
+def policy_names() -> str:
+    """The policies that come with the package, as a sentence."""
+    return ", ".join(f"`{name}`" for name in policies.names()) + ", or the path of a policy file."
+
+
+def speed() -> str:
+    """Figures of each measured machine."""
+    return "\n\n".join(_speed_of(*load(path)) for path in sorted(RESULTS.glob("*.csv")))
+
+
+def _speed_of(machine: Machine, figures: list[Figure]) -> str:
+    place = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
+    rates = [figure for figure in figures if figure.name in FIGURES]
+    worlds = sorted({figure.worlds for figure in rates})
+    rows = []
+    for name, threads in sorted({(f.name, f.threads) for f in rates}, key=_reading_order):
+        cells = {
+            f.worlds: _thousands(f.median) for f in rates if (f.name, f.threads) == (name, threads)
+        }
+        rows.append((FIGURES[name], str(threads), *(cells.get(n, "") for n in worlds)))
+    header = ("world-steps a second", "threads", *(f"{n:,} at once" for n in worlds))
+    shares = [f"{f.median:.0%} at {f.worlds:,}" for f in figures if f.name == "physics_share"]
+    return (
+        f"{place}:\n\n{table(header, rows)}\n\n"
+        f"Share of physics in `Matches` on one thread: {', '.join(shares)} at once."
+    )
+
+
+def _reading_order(case: tuple[str, int]) -> tuple[int, int]:
+    """As listed, then by threads."""
+    return list(FIGURES).index(case[0]), case[1]
+
+
+def demo() -> str:
+    """What `make demo` reached when its result was kept."""
+    if not DEMO.exists():
+        return ""
+    kept = json.loads(DEMO.read_text())
+    header = ("against", "matches", "won", "drawn", "lost", "goal score", "95% interval")
+    rows = [_evaluation_row(evaluation) for evaluation in kept["evaluations"]]
+    training, machine = kept["training"], kept["machine"]
+    shares = ", ".join(f"{name} {share:.0%}" for name, share in training["shares"].items())
+    return (
+        f"{kept['samples']:,} decisions in {kept['seconds']['training']:.0f} s on "
+        f"{machine['machine']}, {machine['cores']} cores, {machine['date']}:\n\n"
+        f"{table(header, rows)}\n\n"
+        f"Learning took {_thousands(training['samples_per_second'])} decisions, "
+        f"{_thousands(training['agent_steps_per_second'])} agent-steps, a second; "
+        f"the time went to {shares}."
+    )
+
+
+def _evaluation_row(evaluation: dict[str, Any]) -> tuple[str, ...]:
+    counts = [str(evaluation[key]) for key in ("matches", "wins", "draws", "losses")]
+    interval = f"{evaluation['low']:+.2f} to {evaluation['high']:+.2f}"
+    opponent = Path(evaluation["opponent"]).stem
+    return (opponent, *counts, f"{evaluation['goal_score']:+.2f}", interval)
+
+
+def pictures() -> str:
+    """The pictures that are there."""
+    found = [f"![{text}]({path})" for path, text in PICTURES.items() if (ROOT / path).exists()]
+    return "\n\n".join(found)
+
+
+def options() -> str:
+    """The options of each task: the fields of its dataclass."""
+    rows = []
+    for name in rsoccer.list_tasks():
+        names = list_options(type(rsoccer.make_task(name)))
+        rows.append((f"`{name}`", ", ".join(f"`{option}`" for option in names)))
+    return table(("task", "options"), rows)
+
+
+def hello() -> str:
+    """The first example."""
+    return python_block((ROOT / "examples" / "01_hello.py").read_text())
+
+
+def new_task() -> str:
+    """The second example as far as its training: the task by itself."""
+    text = (ROOT / "examples" / "02_new_task.py").read_text()
+    return python_block(text[: text.index("def share_reached")])
+
+
+def python_block(code: str) -> str:
+    """Code as a block of Markdown."""
+    return f"```python\n{code.strip()}\n```"
+
+
+def table(header: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
+    """Cells as a Markdown table."""
+    lines = [header, ("---",) * len(header), *rows]
+    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+
+
+def _thousands(value: float) -> str:
+    """Three digits, which is about what repeats."""
+    return f"{float(f'{value:.3g}'):,.0f}"
+
+
+PARTS: dict[str, Callable[[], str]] = {
+    "demo": demo,
+    "hello": hello,
+    "new_task": new_task,
+    "options": options,
+    "pictures": pictures,
+    "policies": policy_names,
+    "speed": speed,
+    "tasks": tasks,
+}
+
+
+if __name__ == "__main__":
+    main()
