@@ -46,6 +46,7 @@ register(FORWARD, Forward)
 
 TINY = {
     "task": NAME,
+    "alone": 0.34,  # three updates
     "worlds": 6,
     "horizon": 8,
     "samples": 6 * 3 * 8 * 6,

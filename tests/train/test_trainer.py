@@ -89,7 +89,7 @@ def test_the_run_played_what_it_should(whole: Path) -> None:
 def test_the_policy_file_plays_what_was_learned(whole: Path) -> None:
     trainer = Trainer(tiny(whole))
     restore(trainer, checkpoint.load(whole / checkpoint.FILE_NAME))
-    observations = np.random.default_rng(0).normal(size=(50, 3, 54)).astype(np.float32)
+    observations = np.random.default_rng(0).normal(size=(50, 3, trainer.matches.observation_size)).astype(np.float32)
     mean, std = trainer.seen.as_floats()
     normal = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
     expected = trainer.model.actor(normal).detach().clamp(-1.0, 1.0).numpy()
@@ -149,11 +149,23 @@ def test_rows_after_the_checkpoint_are_dropped(whole: Path, tmp_path: Path) -> N
 
 
 def test_a_task_with_one_learning_side_trains_against_its_own_opponent(tmp_path: Path) -> None:
-    trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0"))
+    trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", alone=0))
     assert trainer.pool is None
     assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
     train(tiny(tmp_path, task="VSSMulti-v0", samples=144))
     assert Network.load(tmp_path / "policy.safetensors").task_name == "VSSMulti-v0"
+
+
+def test_a_run_starts_with_a_lone_learner_and_goes_on_with_all(tmp_path: Path) -> None:
+    args = tiny(tmp_path)
+    trainer = Trainer(args)
+    assert trainer.matches.agents == ("blue_0",)
+    assert trainer.matches.worlds == args.worlds * 3, "as many learners as later"
+    trainer.run(Stop(), 0)
+    assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
+    assert not trainer.alone
+    shares = [row["goal_score_latest"] for row in progress(tmp_path)]
+    assert set(shares[:3]) == {"nan"}, "nobody but drifting robots at first"
 
 
 def test_learning_raises_what_is_rewarded(tmp_path: Path) -> None:
@@ -200,7 +212,7 @@ def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
 
 
 def test_resuming_with_other_settings_is_refused(whole: Path) -> None:
-    with pytest.raises(ValueError, match=r"gamma was 0\.995, now 0\.9"):
+    with pytest.raises(ValueError, match=r"gamma was 0\.97, now 0\.9"):
         train(tiny(whole, resume=True, gamma=0.9))
     with pytest.raises(ValueError, match="task was 'ShortSelfPlay-v0', now 'VSSMulti-v0'"):
         train(tiny(whole, resume=True, task="VSSMulti-v0"))

@@ -346,8 +346,9 @@ class Trainer:
         """Log the update that just ended."""
         seconds, shares = self.clock.take()
         self.spent += seconds
-        inside = shares.get("physics", 0.0) + shares.get("opponents", 0.0)
-        shares["tasks"] = shares.pop("matches") - inside
+        # The same columns whether or not a pool plays: a lone learner meets none.
+        shares = {"physics": 0.0, "opponents": 0.0, **shares}
+        shares["tasks"] = shares.pop("matches") - shares["physics"] - shares["opponents"]
         row = {
             "update": self.updates,
             "samples": self.samples,
