@@ -14,11 +14,11 @@ from rsoccer.train import Args, train
 from rsoccer.train.curve import draw_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 1_500_000
+SAMPLES = 1_250_000
 """Decisions to learn from: two to three minutes on two cores."""
 
 
-def demo(out: Path, samples: int = SAMPLES, matches: int = 400) -> dict[str, Any]:
+def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any]:
     """Train, evaluate and film; leaves everything in `out` and returns the metrics."""
     seconds: dict[str, float] = {}
     started = time.monotonic()
@@ -41,6 +41,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 400) -> dict[str, Any
         controllers={"blue": str(policy), "yellow": "ou"},
         seed=1,
         seconds=30.0,
+        names=("TRAINED", "DRIFTING"),
     )
     stage("pictures", f"watch {video}; learning curve in {curve}")
     metrics = _metrics(samples, evaluations, seconds)

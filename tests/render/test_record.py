@@ -38,14 +38,14 @@ def film(seconds: float, spy: Spy) -> list[Image]:
 
 def test_goals_are_counted_over_episodes_and_the_clock_runs_on() -> None:
     spy = Spy()
-    images = film(16.0, spy)
+    images = film(60.0, spy)
     scores = np.array([told["score"] for told in spy.drawn])
     goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
     assert len(goals) >= 2, "too few goals to show that any is kept"
     assert scores[-1].sum() == len(goals)
     assert (np.flatnonzero(np.diff(scores.sum(axis=1))) + 1).tolist() == goals
     clocks = [told["clock"] for told in spy.drawn]
-    np.testing.assert_allclose(clocks, 0.025 * np.arange(641))
+    np.testing.assert_allclose(clocks, 0.025 * np.arange(2401))
     pause = round(GOAL_PAUSE / 0.025)
     assert len(images) == len(spy.drawn) + len(goals) * (pause - 1)
     assert {told["names"] for told in spy.drawn} == {("A", "B")}
@@ -53,7 +53,7 @@ def test_goals_are_counted_over_episodes_and_the_clock_runs_on() -> None:
 
 def test_after_a_goal_a_new_episode_begins() -> None:
     spy = Spy()
-    film(16.0, spy)
+    film(60.0, spy)
     goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
     moved = [float(np.abs(b[:2] - a[:2]).max()) for a, b in pairwise(spy.rows)]
     assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is put elsewhere

@@ -28,7 +28,9 @@ class Args:
     seed: int = 0
     """the same seed, settings, machine and threads give the same run"""
     threads: int = 2
-    """threads for physics and for learning"""
+    """threads for physics"""
+    learning_threads: int = 1
+    """threads for torch; more pay for wide networks only, small ones just wait for each other"""
     resume: bool = False
     """continue the run in `out` from its last checkpoint"""
     overwrite: bool = False
@@ -130,7 +132,16 @@ class Args:
 
 
 _COUNTS = (
-    *("samples", "threads", "worlds", "horizon", "action_repeat", "epochs", "minibatches"),
+    *(
+        "samples",
+        "threads",
+        "learning_threads",
+        "worlds",
+        "horizon",
+        "action_repeat",
+        "epochs",
+        "minibatches",
+    ),
     *("pool_size", "pool_every"),
 )
 _POSITIVE = (

@@ -129,7 +129,7 @@ class Trainer:
 
     def __init__(self, args: Args) -> None:
         """A fresh run; `state.restore` turns it into a saved one."""
-        torch.set_num_threads(args.threads)
+        torch.set_num_threads(args.learning_threads)
         words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
         self.seeds = words.tolist()
         self.args, self.clock = args, Clock()
