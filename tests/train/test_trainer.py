@@ -89,7 +89,11 @@ def test_the_run_played_what_it_should(whole: Path) -> None:
 def test_the_policy_file_plays_what_was_learned(whole: Path) -> None:
     trainer = Trainer(tiny(whole))
     restore(trainer, checkpoint.load(whole / checkpoint.FILE_NAME))
-    observations = np.random.default_rng(0).normal(size=(50, 3, trainer.matches.observation_size)).astype(np.float32)
+    observations = (
+        np.random.default_rng(0)
+        .normal(size=(50, 3, trainer.matches.observation_size))
+        .astype(np.float32)
+    )
     mean, std = trainer.seen.as_floats()
     normal = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
     expected = trainer.model.actor(normal).detach().clamp(-1.0, 1.0).numpy()
@@ -159,10 +163,10 @@ def test_a_task_with_one_learning_side_trains_against_its_own_opponent(tmp_path:
 def test_a_run_starts_with_a_lone_learner_and_goes_on_with_all(tmp_path: Path) -> None:
     args = tiny(tmp_path)
     trainer = Trainer(args)
-    assert trainer.matches.agents == ("blue_0",)
+    assert list(trainer.matches.agents) == ["blue_0"]
     assert trainer.matches.worlds == args.worlds * 3, "as many learners as later"
     trainer.run(Stop(), 0)
-    assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
+    assert list(trainer.matches.agents) == ["blue_0", "blue_1", "blue_2"]
     assert not trainer.alone
     shares = [row["goal_score_latest"] for row in progress(tmp_path)]
     assert set(shares[:3]) == {"nan"}, "nobody but drifting robots at first"
