@@ -41,8 +41,11 @@ class Forward(ShortSelfPlay):
         return {"forward": play.actions[:, play.seers].clip(-1, 1).mean(axis=2)}, done
 
 
-register(NAME, ShortSelfPlay)
-register(FORWARD, Forward)
+def register_all() -> None:
+    """Make both known; not on import, since tests of every registered task would play them."""
+    register(NAME, ShortSelfPlay)
+    register(FORWARD, Forward)
+
 
 TINY = {
     "task": NAME,

@@ -18,7 +18,8 @@ SCRIPT = """
 import sys
 from pathlib import Path
 from rsoccer.train import Args, train
-from tests.train.short_task import TINY
+from tests.train.short_task import TINY, register_all
+register_all()
 train(Args(**{**TINY, "out": Path(sys.argv[1]), "samples": 10**9, "checkpoint_seconds": 999.0}))
 """
 

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 FORMAT = "rsoccer-policy-1"
 """First thing a reader looks at; a new number means that old readers must refuse."""
 
-ONE_THREAD = 2**18
-"""Multiplications up to which OpenBLAS keeps a product of matrices on one thread."""
+ONE_THREAD = 2**18  # multiplications of a product that OpenBLAS still does on one thread
 
 INSTALL_HINT = "policy files need safetensors: pip install 'rsoccer[cli]'"
 
@@ -115,11 +114,7 @@ class Network(Policy):
         return actions
 
     def _rows_at_once(self) -> int:
-        """Rows whose products NumPy computes on one thread.
-
-        For larger ones OpenBLAS wakes a thread a core, and these go on spinning on the cores that
-        the physics wants: at 150 rows of a small network that cost 100 times the product itself.
-        """
+        """Rows whose products stay on one thread: more would go on spinning on other cores."""
         return max(16, ONE_THREAD // max(weight.size for weight, _ in self.layers))
 
     def check_fits(self, task: Task, observation_size: int) -> None:
