@@ -85,9 +85,17 @@ def test_a_missing_package_comes_with_its_extra(
     assert f"pip install '{extra}'" in one_line(done.stderr)
 
 
+# Shells start background jobs with SIGINT ignored, and their children inherit that.
+HEEDING_SIGINT = """
+import runpy, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+runpy.run_module("rsoccer", run_name="__main__", alter_sys=True)
+"""
+
+
 def test_ctrl_c_ends_with_130() -> None:
     worker = subprocess.Popen(
-        [sys.executable, "-m", "rsoccer", "evaluate", "chase", "--matches", "1000000"],
+        [sys.executable, "-c", HEEDING_SIGINT, "evaluate", "chase", "--matches", "1000000"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

@@ -14,7 +14,7 @@ from rsoccer.train import Args, train
 from rsoccer.train.curve import draw_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 1_250_000
+SAMPLES = 1_600_000
 """Decisions to learn from: two to three minutes on two cores."""
 
 

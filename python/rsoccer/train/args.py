@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any
 
 FREE_ON_RESUME = ("out", "resume", "overwrite", "samples", "checkpoint_seconds", "progress")
-"""Fields that a resumed run may set: they do not change what an update computes."""
+"""Fields that a resumed run may set. Of these only `samples` changes what an update computes: the
+step size falls towards the end that it names."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,7 @@ class Args:
     ou: float = 0.15
     """share of matches against random drifting (an Ornstein-Uhlenbeck process)"""
     pool_size: int = 8
-    """frozen past selves kept; when full, one of the older ones at random makes room"""
+    """frozen past selves kept; when full, the one closest in age to its neighbours makes room"""
     pool_every: int = 10
     """updates between two additions to the frozen past selves"""
 
