@@ -34,7 +34,7 @@ class Crowd(VssSelfPlay):
 
 def touches(frame: Frame, config: SimConfig) -> int:
     """Pairs that certainly touch: their inscribed circles are within a millimetre."""
-    half = config.robot.size / 2
+    half = config.robot.side / 2
     robots, ball = frame.robots.position, frame.ball.position[:, None]
     to_ball = _distances(robots, ball) < half + config.ball.radius + 1e-3
     to_robots = _distances(robots[:, :, None], robots[:, None]) < 2 * half + 1e-3

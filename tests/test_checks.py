@@ -72,7 +72,7 @@ def test_wrong_options_are_refused(
         ({"seed": "x"}, TypeError, "seed: expected a whole number"),
         ({"mask": np.ones(4, np.bool_)}, ValueError, r"mask: expected bool \(5,\)"),
         ({"mask": np.ones(5)}, ValueError, "mask: expected bool"),
-        ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 49\)"),
+        ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 80\)"),
     ],
 )
 def test_wrong_resets_are_refused(
@@ -112,7 +112,7 @@ def test_a_state_of_other_matches_is_refused_and_changes_nothing() -> None:
     odd["rng.green_0"] = odd.pop("rng.yellow_0")
     with pytest.raises(ValueError, match=r"state: missing or unknown \['rng.green_0'"):
         matches.load_state_dict(odd)
-    with pytest.raises(ValueError, match=r"state: expected float32 \(5, 49\) for 'frame'"):
+    with pytest.raises(ValueError, match=r"state: expected float32 \(5, 80\) for 'frame'"):
         matches.load_state_dict(before | {"frame": before["frame"][:3]})
     with pytest.raises(ValueError, match="snapshot"):
         matches.load_state_dict(

@@ -160,7 +160,8 @@ def test_impossible_starts_name_world_and_robots() -> None:
     before = simulator.snapshot()
     robot = len(BALL_COLUMNS)
     onto, outside, heading = out[:2].copy(), out[:2].copy(), out[:2].copy()
-    onto[1, robot : robot + 2] = onto[1, robot + 7 : robot + 9] + 0.01
+    mate = robot + len(ROBOT_COLUMNS)
+    onto[1, robot : robot + 2] = onto[1, mate : mate + 2] + 0.01
     outside[0, 0] = 5.0
     heading[1, robot + 2] = 0.3
     mask = np.array([True, False, True])
@@ -168,7 +169,7 @@ def test_impossible_starts_name_world_and_robots() -> None:
         (onto, "world 2: blue_0 and blue_1 overlap by"),
         (outside, r"world 0: ball is outside the field, at \(5.000, 0.000\) m"),
         (heading, "world 2: the heading of blue_0 must be a unit vector"),
-        (out[:1], r"rows must have shape \(2, 49\), got \(1, 49\)"),
+        (out[:1], r"rows must have shape \(2, 80\), got \(1, 80\)"),
     ]:
         with pytest.raises(ValueError, match=words):
             simulator.place(mask, rows, out)

@@ -54,7 +54,8 @@ def test_names_are_views_not_copies() -> None:
 def test_an_empty_frame_is_zeros_and_robots_face_right() -> None:
     frame = Frame.empty(2, 1, 1)
     assert (frame.robots.heading == [1.0, 0.0]).all()
-    assert frame.rows.sum() == 4.0
+    assert (frame.ball.last_touch == -1.0).all()
+    assert frame.rows.sum() == 4.0 - 2.0
     assert len(frame) == 2
 
 

@@ -61,10 +61,10 @@ def test_a_match_starts_from_a_given_frame() -> None:
 @pytest.mark.parametrize(
     ("row", "error", "message"),
     [
-        (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(49,\).*\(3,\)"),
+        (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(80,\).*\(3,\)"),
         ("left", TypeError, r"options\['frame'\].*float32"),
-        (np.full(49, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
-        (np.zeros(49, np.float32), ValueError, "blue_0.*unit vector"),
+        (np.full(80, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
+        (np.zeros(80, np.float32), ValueError, "blue_0.*unit vector"),
         (crowded(), ValueError, "blue_0.*yellow_2"),
     ],
 )

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig, Simulator, spawn
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from tests.helpers import same
 
@@ -54,12 +55,11 @@ def test_the_simulator_accepts_every_start() -> None:
     rows = np.zeros((n, CONFIG.row_size), np.float32)
     for _ in range(10):
         places = spawn.apart(rng, CONFIG.field, RADII)
-        frame = rows.copy()
-        frame[:, :2] = places[:, 0]
-        robots = frame[:, -42:].reshape(n, 6, 7)
-        robots[..., :2] = places[:, 1:]
-        robots[..., 2:4] = spawn.headings(rng, 6)
-        simulator.place(np.ones(n, np.bool_), frame, rows.copy())
+        frame = Frame.empty(n, 3, 3)
+        frame.ball.position[:] = places[:, 0]
+        frame.robots.position[:] = places[:, 1:]
+        frame.robots.heading[:] = spawn.headings(rng, 6)
+        simulator.place(np.ones(n, np.bool_), frame.rows, rows)
 
 
 def test_what_does_not_fit_is_an_error_not_an_endless_search() -> None:

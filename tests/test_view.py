@@ -9,6 +9,7 @@ def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
     frame = Frame.empty(n, n_blue, n_yellow)
     frame.rows[:] = np.random.default_rng(seed).uniform(-1, 1, frame.rows.shape)
     frame.ball.crossed[:] = np.random.default_rng(seed).integers(0, 3, n)
+    frame.ball.last_touch[:] = -1
     return frame
 
 
@@ -23,13 +24,13 @@ def turned(frame: Frame) -> Frame:
     """The same moment with the teams swapped and the field turned half round."""
     other = Frame.empty(len(frame), frame.n_yellow, frame.n_blue)
     for mine, theirs in ((other.blue, frame.yellow), (other.yellow, frame.blue)):
-        mine.position[:] = -theirs.position
-        mine.heading[:] = -theirs.heading
-        mine.velocity[:] = -theirs.velocity
-        mine.spin[:] = theirs.spin
-    other.ball.position[:] = -frame.ball.position
-    other.ball.velocity[:] = -frame.ball.velocity
-    other.ball.crossed_at[:] = -frame.ball.crossed_at
+        mine.data[:] = theirs.data
+        for vector in (mine.position, mine.heading, mine.velocity):
+            vector *= -1
+    other.ball.data[:] = frame.ball.data
+    horizontal = other.ball.spin[..., :2]
+    for vector in (other.ball.position, other.ball.velocity, other.ball.crossed_at, horizontal):
+        vector *= -1
     crossed = frame.ball.crossed
     other.ball.crossed[crossed == GOAL_RIGHT] = GOAL_LEFT
     other.ball.crossed[crossed == GOAL_LEFT] = GOAL_RIGHT

@@ -5,16 +5,19 @@ its name. Positions in metres, velocities in m/s, angles in radians; the origin 
 field, x points at yellow's goal, y to the left, and blue attacks towards +x.
 """
 
-from typing import final
+from collections.abc import Sequence
+from typing import ClassVar, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
     "BALL_COLUMNS",
+    "BALL_PARAMETERS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
     "ROBOT_COLUMNS",
+    "ROBOT_PARAMETERS",
     "BallModel",
     "Field",
     "RobotModel",
@@ -24,22 +27,49 @@ __all__ = [
 ]
 
 BALL_COLUMNS: tuple[str, ...]
-"""Names of the ball's columns. `crossed` is a position in `CROSSINGS`: what the ball's centre
-crossed during the last control step, at `crossed_x`, `crossed_y`."""
+"""Names of the ball's columns.
+
+Position (`z` is the height of its lowest point, 0 on the floor), velocity, `spin_x`, `spin_y`,
+`spin_z` (rad/s), `last_touch` (place of the robot in the row, or -1), and `crossed` (a position in
+`CROSSINGS`): what its centre crossed first during the last control step, at `crossed_x`,
+`crossed_y`, `crossed_z`."""
 ROBOT_COLUMNS: tuple[str, ...]
-"""Names of a robot's columns: position, heading as `cos` and `sin`, velocity, turn rate."""
+"""Names of a robot's columns.
+
+Position, heading as `cos` and `sin`, velocity, turn rate, `infrared` (1 if the ball cuts its beam),
+and of the last control step: `touched_ball` and `touched_foe` (1 or 0) and `crash_speed`, the
+closing speed of its hardest contact with a robot."""
 COMMAND_COLUMNS: dict[str, tuple[str, ...]]
-"""Names of a command's columns, by kind of drive. `differential`: wheel speeds, rad/s."""
+"""Names of a command's columns, by kind of drive.
+
+`differential`: wheel speeds (rad/s). `omni`: velocity forward and left (m/s), turn rate (rad/s),
+kick forward and upward (m/s, relative to the front; 0 is none), share of the dribbler's speed.
+`omni_wheels`: four wheel speeds (rad/s) in place of the first three."""
 CROSSINGS: tuple[str, ...]
-"""Meanings of the ball's `crossed` column."""
+"""Meanings of the ball's `crossed` column: goals at +x (right) and -x (left), the goal lines beside
+or over them, touch lines at +y (left) and -y (right)."""
+BALL_PARAMETERS: tuple[str, ...]
+"""Factors on the ball's numbers that a world may have of its own."""
+ROBOT_PARAMETERS: tuple[str, ...]
+"""Factors on each robot's numbers that a world may have of its own."""
 
 def build_info() -> dict[str, str | int]:
     """How this module was built: `version`, `profile` ("release", "debug"), `physics` number."""
 
 @final
 class Field:
-    """A walled field, its lines and marks. Metres; goals are pockets behind the goal lines."""
+    """A field: play area, goals, walls, lines and marks. Metres, to the middle of lines.
 
+    `Field("ssl_b", width=5.0)` is the preset with some numbers replaced. What a league does not
+    have is 0.
+
+    Raises:
+        ValueError: no such preset or number, or numbers that make no field.
+    """
+
+    PRESETS: ClassVar[tuple[str, ...]]
+
+    def __new__(cls, name: str, **numbers: float) -> Field: ...
     @property
     def name(self) -> str: ...
     @property
@@ -47,19 +77,31 @@ class Field:
     @property
     def width(self) -> float: ...
     @property
-    def half_length(self) -> float: ...
+    def goal_line_margin(self) -> float:
+        """From a goal line to the wall behind it; 0 where the line is at the wall."""
+
     @property
-    def half_width(self) -> float: ...
+    def touch_line_margin(self) -> float: ...
     @property
     def goal_width(self) -> float: ...
     @property
     def goal_depth(self) -> float: ...
     @property
+    def goal_height(self) -> float:
+        """Under which the ball is in the goal; SSL: under the bar."""
+
+    @property
+    def goal_wall(self) -> float:
+        """Thickness of a goal's own walls; 0: a gap in the table's wall."""
+
+    @property
     def corner(self) -> float:
         """Leg of the 45-degree block in each corner."""
 
     @property
-    def wall_height(self) -> float: ...
+    def wall_height(self) -> float:
+        """0: nothing flies over the walls."""
+
     @property
     def center_radius(self) -> float: ...
     @property
@@ -71,8 +113,20 @@ class Field:
         """Along x."""
 
     @property
+    def inner_area_width(self) -> float:
+        """Of the smaller area inside, along y."""
+
+    @property
+    def inner_area_depth(self) -> float: ...
+    @property
+    def area_arc_width(self) -> float:
+        """Chord of the arc on the area's front."""
+
+    @property
+    def area_arc_depth(self) -> float: ...
+    @property
     def penalty_mark(self) -> float:
-        """Distance from the centre, along x."""
+        """Distance from the goal line that is shot at."""
 
     @property
     def free_ball_x(self) -> float: ...
@@ -81,45 +135,39 @@ class Field:
     @property
     def line_width(self) -> float: ...
     @property
+    def half_length(self) -> float: ...
+    @property
+    def half_width(self) -> float: ...
+    @property
+    def reach_x(self) -> float:
+        """How far from the centre anything gets along x."""
+
+    @property
+    def reach_y(self) -> float: ...
+    @property
     def max_robots(self) -> int:
         """Most robots that the league lets a side field."""
 
+    def to_json(self) -> str: ...
+    @classmethod
+    def from_json(cls, text: str) -> Field: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-
-@final
-class RobotModel:
-    """A robot as data. SI units."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def drive(self) -> str:
-        """Kind of drive: a key of `COMMAND_COLUMNS`."""
-
-    @property
-    def size(self) -> float:
-        """Side of the square."""
-
-    @property
-    def bounding_radius(self) -> float: ...
-    @property
-    def mass(self) -> float: ...
-    @property
-    def wheel_radius(self) -> float: ...
-    @property
-    def track(self) -> float: ...
-    @property
-    def max_wheel_speed(self) -> float: ...
-    @property
-    def top_speed(self) -> float: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class BallModel:
-    """A ball as data. SI units."""
+    """A ball and what it rolls on and hits. SI units.
 
+    `BallModel("ssl_tigers", rolling_deceleration=0.3)` is the preset with some numbers replaced.
+
+    Raises:
+        ValueError: no such preset or number, or numbers that make no ball.
+    """
+
+    PRESETS: ClassVar[tuple[str, ...]]
+
+    def __new__(cls, name: str, **numbers: float) -> BallModel: ...
     @property
     def name(self) -> str: ...
     @property
@@ -127,21 +175,178 @@ class BallModel:
     @property
     def mass(self) -> float: ...
     @property
+    def sliding_deceleration(self) -> float:
+        """While its lowest point slips."""
+
+    @property
     def rolling_deceleration(self) -> float: ...
+    @property
+    def rolling_share(self) -> float:
+        """Share of a kick's speed at which it comes to roll."""
+
+    @property
+    def spin_deceleration(self) -> float:
+        """rad/s², about the vertical axis."""
+
+    @property
+    def hop_first(self) -> float:
+        """Share of the speed along the floor kept by the first touch-down."""
+
+    @property
+    def hop_later(self) -> float: ...
+    @property
+    def hop_up(self) -> float:
+        """Share of the vertical speed kept."""
+
     @property
     def robot_restitution(self) -> float: ...
     @property
-    def wall_restitution(self) -> float: ...
-    @property
     def robot_friction(self) -> float: ...
     @property
+    def wall_restitution(self) -> float: ...
+    @property
     def wall_friction(self) -> float: ...
+    @property
+    def goal_back_restitution(self) -> float: ...
+    @property
+    def goal_back_friction(self) -> float: ...
+    def to_json(self) -> str: ...
+    @classmethod
+    def from_json(cls, text: str) -> BallModel: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[object, tuple[str]]: ...
+
+@final
+class RobotModel:
+    """A robot as data. SI units. A number that its kind does not have raises `AttributeError`.
+
+    `RobotModel("ssl_generic", max_kick=6.5)` is the preset with some numbers replaced.
+
+    Raises:
+        ValueError: no such preset or number, or numbers that make no robot.
+    """
+
+    PRESETS: ClassVar[tuple[str, ...]]
+
+    def __new__(cls, name: str, **numbers: float) -> RobotModel: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def side(self) -> float:
+        """Of a square body."""
+
+    @property
+    def radius(self) -> float:
+        """Of a round body."""
+
+    @property
+    def front(self) -> float:
+        """From the centre of a round body to its flat front."""
+
+    @property
+    def height(self) -> float: ...
+    @property
+    def mass(self) -> float: ...
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def friction(self) -> float: ...
+    @property
+    def wheel_radius(self) -> float: ...
+    @property
+    def max_wheel_speed(self) -> float: ...
+    @property
+    def track(self) -> float:
+        """Effective distance of two wheels."""
+
+    @property
+    def motor_torque(self) -> float: ...
+    @property
+    def forward_grip(self) -> float: ...
+    @property
+    def side_grip(self) -> float: ...
+    @property
+    def wheel_distance(self) -> float:
+        """From the centre to each of four wheels."""
+
+    @property
+    def max_speed(self) -> float: ...
+    @property
+    def max_turn_rate(self) -> float: ...
+    @property
+    def speed_up(self) -> float: ...
+    @property
+    def brake(self) -> float: ...
+    @property
+    def turn_speed_up(self) -> float: ...
+    @property
+    def turn_brake(self) -> float: ...
+    @property
+    def traction(self) -> float:
+        """Most acceleration that the wheels transmit."""
+
+    @property
+    def mouth_width(self) -> float: ...
+    @property
+    def beam_distance(self) -> float: ...
+    @property
+    def beam_height(self) -> float: ...
+    @property
+    def max_kick(self) -> float: ...
+    @property
+    def max_chip(self) -> float: ...
+    @property
+    def recharge(self) -> float: ...
+    @property
+    def kick_keeps(self) -> float:
+        """Share of the ball's speed across the front that a kick leaves."""
+
+    @property
+    def grip(self) -> float:
+        """Strongest force of the dribbler, N."""
+
+    @property
+    def bar_speed(self) -> float:
+        """Surface speed of the dribbler's bar."""
+
+    @property
+    def bar_restitution(self) -> float: ...
+    @property
+    def bar_friction(self) -> float: ...
+    @property
+    def bounding_radius(self) -> float: ...
+    @property
+    def top_speed(self) -> float: ...
+    @property
+    def top_turn_rate(self) -> float: ...
+    @property
+    def has_mouth(self) -> bool:
+        """Whether it has beam, kicker and dribbler."""
+
+    @property
+    def drive(self) -> str:
+        """Kind of drive: a key of `COMMAND_COLUMNS`."""
+
+    @property
+    def wheel_angles(self) -> list[float]:
+        """Places of four wheels, degrees from the front, counter-clockwise."""
+
+    @property
+    def command_columns(self) -> tuple[str, ...]: ...
+    def to_json(self) -> str: ...
+    @classmethod
+    def from_json(cls, text: str) -> RobotModel: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class SimConfig:
     """What is fixed for the life of a simulator: field, models, team sizes, time steps.
+
+    `robot` is one model for all, or one for each robot, blue first. Robot and ball default to the
+    league's: `vss_440rpm` and `vss_rsim`, `ssl_generic` and `ssl_tigers`.
 
     Raises:
         ValueError: a name that is no preset, more robots than the league allows, or times (s) that
@@ -150,19 +355,25 @@ class SimConfig:
 
     def __new__(
         cls,
-        field: str = "vss_3v3",
+        field: str | Field = "vss_3v3",
         n_blue: int = 3,
         n_yellow: int = 3,
         *,
-        robot: str = "vss_440rpm",
-        ball: str = "vss_rsim",
+        robot: str | RobotModel | Sequence[str | RobotModel] | None = None,
+        ball: str | BallModel | None = None,
         time_step: float = 0.025,
         tick: float = 0.005,
     ) -> SimConfig: ...
     @property
     def field(self) -> Field: ...
     @property
-    def robot(self) -> RobotModel: ...
+    def robots(self) -> tuple[RobotModel, ...]:
+        """Models of all robots, blue first."""
+
+    @property
+    def robot(self) -> RobotModel:
+        """The model that all robots share; ValueError if they do not."""
+
     @property
     def ball(self) -> BallModel: ...
     @property
@@ -186,7 +397,13 @@ class SimConfig:
         """Length of a state row."""
 
     @property
-    def command_columns(self) -> tuple[str, ...]: ...
+    def parameters_size(self) -> int:
+        """Length of a world's row of parameters: the ball's, then each robot's."""
+
+    @property
+    def command_columns(self) -> tuple[str, ...]:
+        """Names of a command's columns; of the longest, where robots differ."""
+
     def to_json(self) -> str: ...
     @classmethod
     def from_json(cls, text: str) -> SimConfig: ...
@@ -214,12 +431,18 @@ class Simulator:
     @property
     def threads(self) -> int: ...
     def place(
-        self, worlds: NDArray[np.bool_], rows: NDArray[np.float32], out: NDArray[np.float32]
+        self,
+        worlds: NDArray[np.bool_],
+        rows: NDArray[np.float32],
+        out: NDArray[np.float32],
+        params: NDArray[np.float32] | None = None,
     ) -> None:
         """Start new matches in the worlds of a mask (n,).
 
-        `rows` (number of True, row) says where; positions, headings and velocities count. The rows
-        of the placed worlds, as they now read, are written into `out` (n, row).
+        `rows` (number of True, row) says where; positions, headings, velocities and the ball's spin
+        count. The rows of the placed worlds, as they now read, are written into `out` (n, row).
+        `params` (number of True, parameters) are factors on the models' numbers for these worlds:
+        `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot. Without them the models count.
 
         Raises:
             ValueError: bodies in each other or outside, wrong shapes. Nothing has changed.
@@ -235,8 +458,8 @@ class Simulator:
         """One control step; releases the GIL.
 
         `commands` (n, robots, command) are finite; beyond what a robot can do they count as the
-        most that it can. Rows go into `out` (n, row); those of worlds outside the mask `active`
-        (n,) stay as they are.
+        most that it can. A robot with a shorter command reads the first columns. Rows go into
+        `out` (n, row); those of worlds outside the mask `active` (n,) stay as they are.
 
         Raises:
             ValueError: wrong shapes or values that are not finite. Nothing has moved.

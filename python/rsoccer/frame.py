@@ -37,6 +37,10 @@ class BallColumns:
 
     _POSITION = span(BALL_COLUMNS, "x", "y")
     _VELOCITY = span(BALL_COLUMNS, "v_x", "v_y")
+    _HEIGHT = BALL_COLUMNS.index("z")
+    _RISE = BALL_COLUMNS.index("v_z")
+    _SPIN = span(BALL_COLUMNS, "spin_x", "spin_y", "spin_z")
+    _LAST_TOUCH = BALL_COLUMNS.index("last_touch")
     _CROSSED = BALL_COLUMNS.index("crossed")
     _CROSSED_AT = span(BALL_COLUMNS, "crossed_x", "crossed_y")
 
@@ -55,8 +59,28 @@ class BallColumns:
         return self.data[..., self._VELOCITY]
 
     @property
+    def height(self) -> Floats:
+        """(...) metres, of its lowest point; 0 on the floor."""
+        return self.data[..., self._HEIGHT]
+
+    @property
+    def rise(self) -> Floats:
+        """(...) metres per second upward."""
+        return self.data[..., self._RISE]
+
+    @property
+    def spin(self) -> Floats:
+        """(..., 3) radians per second about the field's axes."""
+        return self.data[..., self._SPIN]
+
+    @property
+    def last_touch(self) -> Floats:
+        """(...) the robot that touched it last, by its place in the frame; -1 for none."""
+        return self.data[..., self._LAST_TOUCH]
+
+    @property
     def crossed(self) -> Floats:
-        """(...) what its centre crossed in the last step: NOTHING, GOAL_RIGHT or GOAL_LEFT."""
+        """(...) what its centre crossed in the last step, a position in `CROSSINGS`."""
         return self.data[..., self._CROSSED]
 
     @property
@@ -74,6 +98,10 @@ class RobotColumns:
     _HEADING = span(ROBOT_COLUMNS, "cos", "sin")
     _VELOCITY = span(ROBOT_COLUMNS, "v_x", "v_y")
     _SPIN = ROBOT_COLUMNS.index("v_theta")
+    _INFRARED = ROBOT_COLUMNS.index("infrared")
+    _TOUCHED_BALL = ROBOT_COLUMNS.index("touched_ball")
+    _TOUCHED_FOE = ROBOT_COLUMNS.index("touched_foe")
+    _CRASH_SPEED = ROBOT_COLUMNS.index("crash_speed")
 
     def __init__(self, data: Floats) -> None:
         """Name the columns of `data` (..., robot column)."""
@@ -99,6 +127,26 @@ class RobotColumns:
         """(...) radians per second, positive to the left."""
         return self.data[..., self._SPIN]
 
+    @property
+    def infrared(self) -> Floats:
+        """(...) 1 where the ball cuts its break beam, else 0."""
+        return self.data[..., self._INFRARED]
+
+    @property
+    def touched_ball(self) -> Floats:
+        """(...) 1 where it touched the ball in the last step, else 0."""
+        return self.data[..., self._TOUCHED_BALL]
+
+    @property
+    def touched_foe(self) -> Floats:
+        """(...) 1 where it touched a robot of the other side in the last step, else 0."""
+        return self.data[..., self._TOUCHED_FOE]
+
+    @property
+    def crash_speed(self) -> Floats:
+        """(...) m/s, closing speed of its hardest contact with a robot in the last step."""
+        return self.data[..., self._CRASH_SPEED]
+
 
 class Frame:
     """One moment in each of n worlds, absolute; named views onto `rows` (n, row)."""
@@ -121,9 +169,10 @@ class Frame:
 
     @classmethod
     def empty(cls, n: int, n_blue: int, n_yellow: int) -> "Frame":
-        """A frame of zeros, all robots facing +x, to be filled in."""
+        """A frame of zeros, nobody on the ball yet, all robots facing +x, to be filled in."""
         frame = cls(np.zeros((n, row_size(n_blue, n_yellow)), np.float32), n_blue, n_yellow)
         frame.robots.heading[..., 0] = 1.0
+        frame.ball.last_touch[:] = -1.0
         return frame
 
     def copy(self) -> "Frame":

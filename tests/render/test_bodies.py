@@ -13,8 +13,8 @@ ROBOT, BALL = SimConfig().robot, SimConfig().ball
 def test_a_robot_covers_its_square_and_no_more() -> None:
     shapes = draw_robot(ROBOT, Pose((0.0, 0.0), 1.0, 0.0), palette.BLUE, 0)
     points = [p for shape in shapes if isinstance(shape, Polygon) for p in shape.points]
-    assert max(abs(x) for x, _ in points) == pytest.approx(ROBOT.size / 2)
-    assert max(abs(y) for _, y in points) == pytest.approx(ROBOT.size / 2)
+    assert max(abs(x) for x, _ in points) == pytest.approx(ROBOT.side / 2)
+    assert max(abs(y) for _, y in points) == pytest.approx(ROBOT.side / 2)
 
 
 def test_the_arrow_points_where_the_robot_looks() -> None:
@@ -25,7 +25,7 @@ def test_the_arrow_points_where_the_robot_looks() -> None:
     tip = arrow[0].points[0]
     ahead = (tip[0] - 0.3) * heading[0] + (tip[1] + 0.2) * heading[1]
     assert ahead == pytest.approx(math.dist(tip, (0.3, -0.2)))
-    assert 0.3 * ROBOT.size < ahead < ROBOT.size / 2
+    assert 0.3 * ROBOT.side < ahead < ROBOT.side / 2
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def test_every_robot_shows_the_colour_of_its_team(
     image, empty = draw_image(config, row, width=width), ground_image(config, width)
     frame = Frame(row[None], config.n_blue, config.n_yellow)
     colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
-    size = config.robot.size
+    size = config.robot.side
     robots = zip(frame.robots.position[0].tolist(), frame.robots.heading[0].tolist(), strict=True)
     for (position, heading), color in zip(robots, colors, strict=True):
         pose = Pose((position[0], position[1]), *heading)

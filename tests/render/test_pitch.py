@@ -58,7 +58,7 @@ def test_lines_are_where_the_field_says(name: str) -> None:
     x, y = field.free_ball_x, field.free_ball_y
     assert marks == {
         (0.0, 0.0),
-        *((side * field.penalty_mark, 0.0) for side in (-1, 1)),
+        *((side * (field.half_length - field.penalty_mark), 0.0) for side in (-1, 1)),
         *((i * x, j * y) for i in (-1, 1) for j in (-1, 1)),
     }
     white = [s for s in shapes if isinstance(s, Line) and s.color == palette.LINES]

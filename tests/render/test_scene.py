@@ -67,7 +67,7 @@ def test_a_mirrored_row_gives_mirrored_shapes(
 def test_a_scene_depends_on_nothing_but_what_it_is_given(config: SimConfig, row: Floats) -> None:
     before = row.copy()
     first = draw_ground(config) + draw_play(config, row, PLAIN)
-    draw_play(SimConfig("vss_5v5", 1, 2), np.zeros(28, np.float32), Board((9, 9), 99.0))
+    draw_play(SimConfig("vss_5v5", 1, 2), Frame.empty(1, 1, 2).rows[0], Board((9, 9), 99.0))
     assert draw_ground(config) + draw_play(config, row, PLAIN) == first
     assert hash(first)  # frozen all the way down
     np.testing.assert_array_equal(row, before)
@@ -78,7 +78,7 @@ def test_every_robot_is_drawn_with_its_number(config: SimConfig, row: Floats) ->
     assert [text.text for text in texts] == ["0", "1", "2", "0", "1", "2"]
     frame = Frame(row[None], config.n_blue, config.n_yellow)
     for text, position in zip(texts, frame.robots.position[0], strict=True):
-        assert np.hypot(*(position - text.center)) < config.robot.size / 4
+        assert np.hypot(*(position - text.center)) < config.robot.side / 4
 
 
 def test_teams_of_different_size_are_drawn() -> None:

@@ -31,7 +31,7 @@ impl Player {
         if self.step % EPISODE == 0 {
             let worlds = self.batch.worlds();
             let starts = self.scene.start.repeat(worlds);
-            self.batch.place(&vec![true; worlds], &starts, &mut self.rows).expect("valid");
+            self.batch.place(&vec![true; worlds], &starts, None, &mut self.rows).expect("valid");
         }
         let each = self.rows.chunks_exact(self.scene.config.row_size()).enumerate();
         self.commands.clear();
@@ -82,7 +82,7 @@ fn place(criterion: &mut Criterion) {
     let scene = scenes::chase();
     let mut world = scene.world();
     criterion.bench_function("vss_3v3_place", |bencher| {
-        bencher.iter(|| world.place(black_box(&scene.start)).expect("valid"));
+        bencher.iter(|| world.place(black_box(&scene.start), None).expect("valid"));
     });
 }
 

@@ -1,6 +1,6 @@
 //! One match, from the kick-off until somebody scores: `cargo run --release --example one_match`.
 
-use rsim_core::columns::crossing_name;
+use rsim_core::columns::{ball_column, crossing_name};
 use rsim_core::scenes;
 
 #[allow(clippy::print_stdout)] // it talks to the person who runs it
@@ -11,9 +11,10 @@ fn main() {
     for step in 0..4000 {
         world.step(&scene.commands(&row, step, 3)).expect("the state stays finite");
         world.write_row(&mut row);
-        if row[4] != 0.0 {
+        let crossed = row[ball_column("crossed")];
+        if crossed != 0.0 {
             let seconds = step as f32 * scene.config.time_step;
-            println!("{} crossed after {seconds:.1} s", crossing_name(row[4]));
+            println!("{} crossed after {seconds:.1} s", crossing_name(crossed));
             return;
         }
     }

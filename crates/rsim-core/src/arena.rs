@@ -1,64 +1,191 @@
-//! The solid parts of a field: side walls, end walls, goal pockets, corner blocks.
+//! The solid parts of a field: walls, goals, corner blocks, and the fence that ends the world.
 
 use rapier2d::math::{Pose, Vector};
 use rapier2d::parry::shape::Cuboid;
 
-use crate::Field;
+use crate::ball_model::Surface;
+use crate::outline::Outline;
+use crate::{BallModel, Field};
 
-/// A fixed rectangle.
+/// A fixed block that stands on the floor, or a bar above it.
 #[derive(Debug, Clone)]
 pub(crate) struct Wall {
-    pub(crate) shape: Cuboid,
     pub(crate) pose: Pose,
+    half: Vector,
+    /// Heights between which it is, m.
+    pub(crate) bottom: f32,
+    pub(crate) top: f32,
+    part: Part,
+}
+
+/// What a wall is part of: it decides how the ball comes off it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Wall,
+    GoalBack,
+}
+
+impl Wall {
+    pub(crate) fn shape(&self) -> Cuboid {
+        Cuboid::new(self.half)
+    }
+
+    pub(crate) fn outline(&self) -> Outline {
+        Outline::Box { half: self.half }
+    }
+
+    /// Whether a ball on the floor can meet it.
+    pub(crate) fn stands_on_floor(&self) -> bool {
+        self.bottom == 0.0
+    }
+
+    /// How a ball comes off it.
+    pub(crate) fn surface(&self, ball: &BallModel) -> Surface {
+        match self.part {
+            Part::Wall => ball.wall,
+            Part::GoalBack => ball.goal_back,
+        }
+    }
 }
 
 /// How far walls reach outward. More than anything travels in a tick, so that nothing that is
 /// pushed into a wall comes out of its far side.
 const THICKNESS: f32 = 0.3;
 
-/// The walls of a field. Rectangles only: the cheapest shape after the disc, and all that a VSSS
-/// field needs.
+/// Higher than anything flies.
+const SKY: f32 = f32::INFINITY;
+
+/// The walls of a field. Rectangles only: the cheapest shape after the disc, and all that the
+/// fields need.
 pub(crate) fn walls(field: &Field) -> Vec<Wall> {
-    let (half_length, half_width) = (field.half_length(), field.half_width());
-    let outer_x = half_length + field.goal_depth + THICKNESS;
-    let outer_y = half_width + THICKNESS;
-    let mouth = field.goal_width / 2.0;
-    let back = half_length + field.goal_depth;
     let mut walls = Vec::new();
     for side in [1.0, -1.0] {
-        walls.push(between([-outer_x, side * half_width], [outer_x, side * outer_y]));
-        walls.push(between([side * back, -mouth], [side * outer_x, mouth]));
+        walls.push(side_wall(field, side));
         for end in [1.0, -1.0] {
-            walls.push(between(
-                [end * half_length, side * mouth],
-                [end * outer_x, side * half_width],
-            ));
-            walls.push(corner_block(field, end, side));
+            walls.push(goal_side(field, end, side));
+            if field.corner > 0.0 {
+                walls.push(corner_block(field, end, side));
+            }
         }
+    }
+    for end in [1.0, -1.0] {
+        walls.push(goal_back(field, end));
+        if field.goal_wall > 0.0 {
+            walls.push(end_wall(field, end));
+            walls.push(goal_bar(field, end));
+        }
+    }
+    if field.wall_height > 0.0 {
+        walls.extend(fence(field));
     }
     walls
 }
 
-/// The axis-aligned rectangle with these opposite corners.
-fn between(a: [f32; 2], b: [f32; 2]) -> Wall {
+/// Whatever the walls around the field end in.
+fn wall_top(field: &Field) -> f32 {
+    if field.wall_height > 0.0 { field.wall_height } else { SKY }
+}
+
+/// Where the walls around the field end outward.
+fn outer(field: &Field) -> Vector {
+    Vector::new(field.reach_x(), field.reach_y()) + Vector::splat(THICKNESS)
+}
+
+fn side_wall(field: &Field, side: f32) -> Wall {
+    let outer = outer(field);
+    between([-outer.x, side * field.reach_y()], [outer.x, side * outer.y], wall_top(field))
+}
+
+/// The wall behind a goal that stands free.
+fn end_wall(field: &Field, end: f32) -> Wall {
+    let (inner, outer) = (field.reach_x(), outer(field));
+    between([end * inner, -outer.y], [end * outer.x, outer.y], wall_top(field))
+}
+
+/// What is beside a goal's mouth: the table's end wall, or the goal's own side, which reaches back
+/// to the wall behind it.
+fn goal_side(field: &Field, end: f32, side: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let near = [end * field.half_length(), side * mouth];
+    if field.goal_wall > 0.0 {
+        let far = [end * field.reach_x(), side * (mouth + field.goal_wall)];
+        between(near, far, field.goal_height + field.goal_wall)
+    } else {
+        between(near, [end * outer(field).x, side * field.half_width()], wall_top(field))
+    }
+}
+
+fn goal_back(field: &Field, end: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let (back, top) = (field.half_length() + field.goal_depth, wall_top(field));
+    let (far, top) = if field.goal_wall > 0.0 {
+        (field.reach_x(), field.goal_height + field.goal_wall)
+    } else {
+        (outer(field).x, top)
+    };
+    let wall = between([end * back, -mouth], [end * far, mouth], top);
+    Wall { part: Part::GoalBack, ..wall }
+}
+
+/// The bar above a goal's mouth, and the net that covers the goal, as one plate.
+fn goal_bar(field: &Field, end: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let near = [end * field.half_length(), -mouth];
+    let far = [end * (field.half_length() + field.goal_depth), mouth];
+    let wall = between(near, far, field.goal_height + field.goal_wall);
+    Wall { bottom: field.goal_height, ..wall }
+}
+
+/// Around walls that can be flown over: nothing gets farther.
+fn fence(field: &Field) -> [Wall; 4] {
+    let inner = outer(field);
+    let outer = inner + Vector::splat(THICKNESS);
+    [
+        between([-outer.x, inner.y], [outer.x, outer.y], SKY),
+        between([-outer.x, -outer.y], [outer.x, -inner.y], SKY),
+        between([inner.x, -outer.y], [outer.x, outer.y], SKY),
+        between([-outer.x, -outer.y], [-inner.x, outer.y], SKY),
+    ]
+    // It stands on the walls: who is on the floor never meets it.
+    .map(|wall| Wall { bottom: field.wall_height, ..wall })
+}
+
+/// The axis-aligned block with these opposite corners.
+fn between(a: [f32; 2], b: [f32; 2], top: f32) -> Wall {
     let (a, b) = (Vector::from(a), Vector::from(b));
-    Wall { shape: Cuboid::new((b - a).abs() / 2.0), pose: Pose::from_translation((a + b) / 2.0) }
+    Wall {
+        pose: Pose::from_translation((a + b) / 2.0),
+        half: (b - a).abs() / 2.0,
+        bottom: 0.0,
+        top,
+        part: Part::Wall,
+    }
 }
 
 /// A rectangle turned by 45 degrees, whose inner face cuts the corner off.
 fn corner_block(field: &Field, end: f32, side: f32) -> Wall {
     let face = field.corner * std::f32::consts::SQRT_2;
     let inset = field.corner / 2.0;
-    let middle = Vector::new(field.half_length() - inset, field.half_width() - inset);
+    let corner = Vector::new(field.half_length() + field.goal_line_margin, field.reach_y());
+    let middle = corner - Vector::splat(inset);
     let outward = Vector::splat(std::f32::consts::FRAC_1_SQRT_2);
     // As deep as the corner is far from the face: it ends inside the walls.
     let half_depth = face / 2.0;
     let center = middle + outward * half_depth;
     Wall {
-        shape: Cuboid::new(Vector::new(half_depth, face / 2.0)),
         pose: Pose::new(
             Vector::new(end * center.x, side * center.y),
             end * side * std::f32::consts::FRAC_PI_4,
         ),
+        half: Vector::new(half_depth, face / 2.0),
+        bottom: 0.0,
+        top: wall_top(field),
+        part: Part::Wall,
     }
+}
+
+/// How far from the centre a body at height `z` can be: over a low wall it can be beyond it.
+pub(crate) fn wall_reach(field: &Field, z: f32) -> Vector {
+    let walls = Vector::new(field.reach_x(), field.reach_y());
+    if z < wall_top(field) { walls } else { walls + Vector::splat(THICKNESS) }
 }

@@ -77,8 +77,9 @@ impl Batch {
         self.pool.as_ref().map_or(1, |pool| pool.threads.current_num_threads())
     }
 
-    /// Starts new matches in the worlds of the mask. `rows` has one row for each of them, `out` one
-    /// for every world; those of the placed ones are written.
+    /// Starts new matches in the worlds of the mask. `rows` has one row for each of them, and so has
+    /// `parameters` where it is given (see [`World::place`]); `out` has one for every world; those of
+    /// the placed ones are written.
     ///
     /// # Errors
     /// The first world whose row no match can start from; then no world has changed.
@@ -86,21 +87,25 @@ impl Batch {
         &mut self,
         mask: &[bool],
         rows: &[f32],
+        parameters: Option<&[f32]>,
         out: &mut [f32],
     ) -> Result<(), PlaceError> {
+        let parameters_size = self.config().parameters_size();
         let size = self.config().row_size();
         let chosen = || (0..mask.len()).filter(|&world| mask[world]);
         debug_assert_eq!(rows.len(), chosen().count() * size);
-        let motions = chosen()
+        let starts = chosen()
             .zip(rows.chunks_exact(size))
-            .map(|(world, row)| {
+            .enumerate()
+            .map(|(nth, (world, row))| {
+                let own = parameters.map(|all| &all[nth * parameters_size..][..parameters_size]);
                 self.worlds[world]
-                    .motions(row)
+                    .check(row, own)
                     .map_err(|error| PlaceError::InWorld { world, error: Box::new(error) })
             })
             .collect::<Result<Vec<_>, _>>()?;
-        for (world, motions) in chosen().zip(motions) {
-            self.worlds[world].start(&motions);
+        for (world, start) in chosen().zip(starts) {
+            self.worlds[world].start(&start);
             self.worlds[world].write_row(&mut out[world * size..][..size]);
         }
         Ok(())

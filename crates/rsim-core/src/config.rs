@@ -4,19 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::{BallModel, ConfigError, Field, RobotModel, columns};
 
-/// Field, models, team sizes and time steps.
+/// Field, models, teams and time steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SimConfig {
     /// Where the match is played.
     pub field: Field,
-    /// What every robot is.
-    pub robot: RobotModel,
     /// What is played with.
     pub ball: BallModel,
-    /// Robots of the first team.
-    pub n_blue: usize,
+    /// Robots of the first team. They need not be alike.
+    pub blue: Vec<RobotModel>,
     /// Robots of the second team.
-    pub n_yellow: usize,
+    pub yellow: Vec<RobotModel>,
     /// Length of a control step, s. Commands hold for it.
     pub time_step: f32,
     /// Length of a physics tick, s. Shorter is truer and slower.
@@ -24,20 +22,44 @@ pub struct SimConfig {
 }
 
 impl SimConfig {
-    /// IEEE VSSS, three a side, at the paper's 25 ms control step of 5 ms ticks.
-    pub const VSS_3V3: Self = Self {
-        field: Field::VSS_3V3,
-        robot: RobotModel::VSS_440RPM,
-        ball: BallModel::VSS_RSIM,
-        n_blue: 3,
-        n_yellow: 3,
-        time_step: 0.025,
-        tick: 0.005,
-    };
+    /// Teams of so many robots of one model, at the paper's 25 ms control step of 5 ms ticks.
+    pub fn new(
+        field: Field,
+        ball: BallModel,
+        robot: &RobotModel,
+        n_blue: usize,
+        n_yellow: usize,
+    ) -> Self {
+        Self {
+            field,
+            ball,
+            blue: vec![robot.clone(); n_blue],
+            yellow: vec![robot.clone(); n_yellow],
+            time_step: 0.025,
+            tick: 0.005,
+        }
+    }
+
+    /// IEEE VSSS on the field for three a side.
+    pub fn vss(n_blue: usize, n_yellow: usize) -> Self {
+        let robot = RobotModel::VSS_440RPM;
+        Self::new(Field::VSS_3V3, BallModel::VSS_RSIM, &robot, n_blue, n_yellow)
+    }
+
+    /// SSL on the field of division B.
+    pub fn ssl(n_blue: usize, n_yellow: usize) -> Self {
+        let robot = RobotModel::SSL_GENERIC;
+        Self::new(Field::SSL_B, BallModel::SSL_TIGERS, &robot, n_blue, n_yellow)
+    }
+
+    /// Models of all robots, in the order of a row.
+    pub fn robots(&self) -> impl Iterator<Item = &RobotModel> {
+        self.blue.iter().chain(&self.yellow)
+    }
 
     /// Robots of both teams.
     pub fn n_robots(&self) -> usize {
-        self.n_blue + self.n_yellow
+        self.blue.len() + self.yellow.len()
     }
 
     /// Length of a state row.
@@ -45,9 +67,20 @@ impl SimConfig {
         columns::row_size(self.n_robots())
     }
 
+    /// Length of a world's row of parameters.
+    pub fn parameters_size(&self) -> usize {
+        columns::parameters_size(self.n_robots())
+    }
+
+    /// Columns of one robot's command: as many as the robot with the longest command needs. The
+    /// others read theirs from the first.
+    pub fn command_columns(&self) -> usize {
+        self.robots().map(|robot| robot.command_columns().len()).max().unwrap_or(0)
+    }
+
     /// Length of the commands of one world.
     pub fn command_size(&self) -> usize {
-        self.n_robots() * columns::DIFFERENTIAL_COLUMNS.len()
+        self.n_robots() * self.command_columns()
     }
 
     /// Physics ticks in a control step.
@@ -59,10 +92,10 @@ impl SimConfig {
 
     /// Name of robot `index` of the row: `blue_0`, ..., `yellow_0`, ...
     pub fn robot_name(&self, index: usize) -> String {
-        if index < self.n_blue {
+        if index < self.blue.len() {
             format!("blue_{index}")
         } else {
-            format!("yellow_{}", index - self.n_blue)
+            format!("yellow_{}", index - self.blue.len())
         }
     }
 
@@ -72,8 +105,8 @@ impl SimConfig {
     /// The first thing that is wrong, by name.
     pub fn validate(&self) -> Result<(), ConfigError> {
         self.field.validate()?;
-        self.robot.validate()?;
         self.ball.validate()?;
+        self.robots().try_for_each(RobotModel::validate)?;
         positive("time_step", self.time_step)?;
         positive("tick", self.tick)?;
         let ratio = self.time_step / self.tick;
@@ -83,7 +116,7 @@ impl SimConfig {
                 self.time_step, self.tick
             )));
         }
-        for (name, got) in [("n_blue", self.n_blue), ("n_yellow", self.n_yellow)] {
+        for (name, got) in [("n_blue", self.blue.len()), ("n_yellow", self.yellow.len())] {
             if got > self.field.max_robots {
                 return Err(ConfigError::TooManyRobots {
                     name,
@@ -114,5 +147,21 @@ pub(crate) fn find_preset<T: Clone>(
 
 /// Checks that a quantity is positive and finite.
 pub(crate) fn positive(name: &'static str, got: f32) -> Result<(), ConfigError> {
-    if got > 0.0 && got.is_finite() { Ok(()) } else { Err(ConfigError::NotPositive { name, got }) }
+    let expected = "positive and finite";
+    if got > 0.0 && got.is_finite() { Ok(()) } else { Err(refused(name, expected, got)) }
+}
+
+/// Checks that a quantity is finite and not negative.
+pub(crate) fn not_negative(name: &'static str, got: f32) -> Result<(), ConfigError> {
+    let expected = "finite and not negative";
+    if got >= 0.0 && got.is_finite() { Ok(()) } else { Err(refused(name, expected, got)) }
+}
+
+/// Checks that a quantity is a share of something.
+pub(crate) fn share(name: &'static str, got: f32) -> Result<(), ConfigError> {
+    if (0.0..=1.0).contains(&got) { Ok(()) } else { Err(refused(name, "between 0 and 1", got)) }
+}
+
+fn refused(name: &'static str, expected: &'static str, got: f32) -> ConfigError {
+    ConfigError::Number { name, expected, got }
 }

@@ -13,11 +13,13 @@ pub enum ConfigError {
         /// What came.
         got: String,
     },
-    /// A quantity that must be positive and finite and is not.
-    #[error("{name} must be positive and finite, got {got}")]
-    NotPositive {
+    /// A quantity that is out of its range.
+    #[error("{name} must be {expected}, got {got}")]
+    Number {
         /// Which quantity.
         name: &'static str,
+        /// Its range.
+        expected: &'static str,
         /// What came.
         got: f32,
     },
@@ -91,6 +93,15 @@ pub enum PlaceError {
         /// Which body.
         who: String,
     },
+    /// A ball below the floor.
+    #[error("the ball must not be below the floor, got z = {z} m")]
+    Below {
+        /// Where, metres.
+        z: f32,
+    },
+    /// Parameters that make no ball or robot.
+    #[error("params: {0}")]
+    Parameters(ConfigError),
     /// The same, in one world of many.
     #[error("world {world}: {error}")]
     InWorld {

@@ -11,26 +11,42 @@
 
 mod arena;
 mod ball;
+mod ball_model;
 mod batch;
 pub mod columns;
 mod config;
+mod contacts;
 mod crossing;
 mod drive;
 mod engine;
 mod error;
 mod field;
-mod models;
+mod flight;
+mod handling;
+mod impact;
+mod mouth;
+mod mouth_model;
+mod obstacle;
+mod outline;
+mod physique;
 mod placement;
+mod robot_model;
+mod robot_presets;
+mod row;
 pub mod scenes;
 mod snapshot;
+mod tick;
+mod touch;
 mod world;
 
+pub use ball_model::{BallModel, Hop, Surface};
 pub use batch::Batch;
 pub use config::SimConfig;
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use field::Field;
-pub use models::{BallModel, DifferentialDrive, RobotModel};
+pub use mouth_model::Mouth;
+pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
 pub use world::World;
 
 /// Number of the physics: raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 1;
+pub const PHYSICS_VERSION: u32 = 2;

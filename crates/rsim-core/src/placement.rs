@@ -1,13 +1,17 @@
 //! Whether a row is a state that a match can start from. Checked before anything moves.
 
-use rapier2d::math::{Pose, Rotation, Vector};
+use rapier2d::glamx::Vec3;
+use rapier2d::math::{Pose, Vector};
 use rapier2d::parry::query;
-use rapier2d::parry::shape::{Ball, Cuboid, Shape};
+use rapier2d::parry::shape::{Ball as Disc, Cuboid, Shape, SharedShape};
 
-use crate::arena::{Wall, walls};
+use crate::arena::{Wall, wall_reach};
+use crate::ball::Ball;
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
-use crate::engine::Motion;
-use crate::{PlaceError, SimConfig};
+use crate::engine::{BALL, Motion, rotation};
+use crate::physique::Physique;
+use crate::robot_model::Body;
+use crate::{Field, PlaceError, SimConfig};
 
 /// Depth up to which bodies may overlap, m: what a running match may show under pressure, so that
 /// each of its states can be placed again.
@@ -20,46 +24,66 @@ const HEADING_TOLERANCE: f32 = 1e-3;
 /// was read can be placed again without a change.
 const HEADING_ERROR: f32 = 1e-5;
 
+/// Where everything is and how it moves, as a row asks for it.
+#[derive(Debug, Clone)]
+pub(crate) struct Start {
+    /// Ball, then robots.
+    pub(crate) motions: Vec<Motion>,
+    pub(crate) ball: Ball,
+}
+
 /// Checks starting rows against the field and the models.
 pub(crate) struct Placement {
-    walls: Vec<Wall>,
-    ball: Ball,
-    robot: Cuboid,
-    reach: Vector,
+    field: Field,
+    walls: Vec<(Wall, Cuboid)>,
+    ball: Disc,
+    robots: Vec<SharedShape>,
     names: Vec<String>,
 }
 
 impl Placement {
-    pub(crate) fn new(config: &SimConfig) -> Self {
-        let field = &config.field;
-        let robots = (0..config.n_robots()).map(|index| config.robot_name(index));
+    pub(crate) fn new(config: &SimConfig, walls: &[Wall]) -> Self {
+        let names = (0..config.n_robots()).map(|index| config.robot_name(index));
+        let shapes = config.robots().map(|model| match model.body {
+            Body::Square { side } => SharedShape::cuboid(side / 2.0, side / 2.0),
+            Body::Round { radius, .. } => SharedShape::ball(radius),
+        });
         Self {
-            walls: walls(field),
-            ball: Ball::new(config.ball.radius),
-            robot: Cuboid::new(Vector::splat(config.robot.size / 2.0)),
-            reach: Vector::new(field.half_length() + field.goal_depth, field.half_width()),
-            names: std::iter::once("ball".to_owned()).chain(robots).collect(),
+            field: config.field.clone(),
+            walls: walls.iter().map(|wall| (wall.clone(), wall.shape())).collect(),
+            ball: Disc::new(config.ball.radius),
+            robots: shapes.collect(),
+            names: std::iter::once("ball".to_owned()).chain(names).collect(),
         }
     }
 
-    /// The motions that `row` asks for, ball first.
-    pub(crate) fn read(&self, row: &[f32]) -> Result<Vec<Motion>, PlaceError> {
-        let (ball, robots) = row.split_at(BALL_COLUMNS.len());
-        let mut motions = vec![ball_motion(ball)];
-        motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(robot_motion));
-        for (who, motion) in motions.iter_mut().enumerate() {
-            self.check_alone(who, motion)?;
+    /// The start that `row` asks for. `physique` says how high robots are in that world.
+    pub(crate) fn read(&self, row: &[f32], physique: &Physique) -> Result<Start, PlaceError> {
+        let (columns, robots) = row.split_at(BALL_COLUMNS.len());
+        let (motion, ball) = read_ball(columns);
+        let mut motions = vec![motion];
+        motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(read_robot));
+        if !(ball.z.is_finite() && ball.v_z.is_finite() && ball.spin.is_finite()) {
+            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
         }
-        for second in 0..motions.len() {
-            for first in 0..second {
-                self.check_pair(first, second, &motions)?;
+        if ball.z < 0.0 {
+            return Err(PlaceError::Below { z: ball.z });
+        }
+        for (who, motion) in motions.iter_mut().enumerate() {
+            self.check_alone(who, motion, if who == BALL { ball.z } else { 0.0 })?;
+        }
+        for second in 1..motions.len() {
+            self.check_ball(second, &motions, &ball, physique)?;
+            for first in 1..second {
+                let [a, b] = [first, second].map(|who| (&motions[who], self.shape(who)));
+                self.refuse_depth([first, second], depth(&pose(a.0), a.1, &pose(b.0), b.1))?;
             }
         }
-        Ok(motions)
+        Ok(Start { motions, ball })
     }
 
     /// Checks a body by itself, and makes its heading a unit vector.
-    fn check_alone(&self, who: usize, motion: &mut Motion) -> Result<(), PlaceError> {
+    fn check_alone(&self, who: usize, motion: &mut Motion, z: f32) -> Result<(), PlaceError> {
         let name = || self.names[who].clone();
         let Motion { position, heading, velocity, spin } = *motion;
         if !(position.is_finite()
@@ -75,23 +99,36 @@ impl Placement {
         if (heading.length_squared() - 1.0).abs() > HEADING_ERROR {
             motion.heading = heading.normalize();
         }
-        let inside = position.abs().cmple(self.reach).all();
-        if !inside
-            || self.walls.iter().any(|wall| self.depth_in_wall(who, motion, wall) > TOLERANCE)
-        {
+        let inside = position.abs().cmple(wall_reach(&self.field, z)).all();
+        let in_wall = |(wall, shape): &(Wall, Cuboid)| {
+            let level = z < wall.top && z + 2.0 * self.ball.radius > wall.bottom;
+            level && depth(&pose(motion), self.shape(who), &wall.pose, shape) > TOLERANCE
+        };
+        if !inside || self.walls.iter().any(in_wall) {
             return Err(PlaceError::Outside { who: name(), x: position.x, y: position.y });
         }
         Ok(())
     }
 
-    fn check_pair(
+    /// Checks the ball against the outline of a robot that it does not fly over.
+    fn check_ball(
         &self,
-        first: usize,
-        second: usize,
+        who: usize,
         motions: &[Motion],
+        ball: &Ball,
+        physique: &Physique,
     ) -> Result<(), PlaceError> {
-        let (a, b) = (&motions[first], &motions[second]);
-        let depth = depth(&pose(a), self.shape(first), &pose(b), self.shape(second));
+        let (robot, motion) = (&physique.robots[who - 1], &motions[who]);
+        if ball.z >= robot.model.height {
+            return Ok(());
+        }
+        let center = motions[BALL].position;
+        let heading = rotation(motion.heading);
+        let nearest = robot.outline.nearest_at(motion.position, heading, center);
+        self.refuse_depth([BALL, who], self.ball.radius - nearest.distance)
+    }
+
+    fn refuse_depth(&self, [first, second]: [usize; 2], depth: f32) -> Result<(), PlaceError> {
         if depth > TOLERANCE {
             return Err(PlaceError::Overlap {
                 first: self.names[first].clone(),
@@ -102,12 +139,8 @@ impl Placement {
         Ok(())
     }
 
-    fn depth_in_wall(&self, who: usize, motion: &Motion, wall: &Wall) -> f32 {
-        depth(&pose(motion), self.shape(who), &wall.pose, &wall.shape)
-    }
-
     fn shape(&self, who: usize) -> &dyn Shape {
-        if who == 0 { &self.ball } else { &self.robot }
+        if who == BALL { &self.ball } else { &*self.robots[who - 1] }
     }
 }
 
@@ -119,21 +152,25 @@ fn depth(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> f32 {
 }
 
 fn pose(motion: &Motion) -> Pose {
-    Pose::from_parts(motion.position, Rotation { re: motion.heading.x, im: motion.heading.y })
+    Pose::from_parts(motion.position, rotation(motion.heading))
 }
 
-fn ball_motion(columns: &[f32]) -> Motion {
-    let [x, y, v_x, v_y, ..] = columns else { unreachable!("a ball has {BALL_COLUMNS:?}") };
-    Motion {
+fn read_ball(columns: &[f32]) -> (Motion, Ball) {
+    let [x, y, z, v_x, v_y, v_z, spin_x, spin_y, spin_z, ..] = columns else {
+        unreachable!("a ball has {BALL_COLUMNS:?}")
+    };
+    let motion = Motion {
         position: Vector::new(*x, *y),
         heading: Vector::X,
         velocity: Vector::new(*v_x, *v_y),
         spin: 0.0,
-    }
+    };
+    let spin = Vec3::new(*spin_x, *spin_y, *spin_z);
+    (motion, Ball { z: *z, v_z: *v_z, spin, hops: 0 })
 }
 
-fn robot_motion(columns: &[f32]) -> Motion {
-    let [x, y, cos, sin, v_x, v_y, v_theta] = columns else {
+fn read_robot(columns: &[f32]) -> Motion {
+    let [x, y, cos, sin, v_x, v_y, v_theta, ..] = columns else {
         unreachable!("a robot has {ROBOT_COLUMNS:?}")
     };
     Motion {

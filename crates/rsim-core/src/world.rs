@@ -3,15 +3,19 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
+use rapier2d::math::Vector;
 use serde::{Deserialize, Serialize};
 
-use crate::ball::Roll;
-use crate::columns::{BALL_COLUMNS, DIFFERENTIAL_COLUMNS, ROBOT_COLUMNS};
+use crate::arena::{Wall, walls};
+use crate::ball::Ball;
 use crate::crossing::Crossing;
-use crate::drive::{Drive, Limits};
+use crate::drive::Drive;
 use crate::engine::{Engine, Motion, NonFinite, Scratch};
-use crate::placement::Placement;
-use crate::{ConfigError, PlaceError, SimConfig, StepError};
+use crate::physique::Physique;
+use crate::placement::{Placement, Start};
+use crate::tick::Tick;
+use crate::touch::Touched;
+use crate::{ConfigError, PlaceError, SimConfig, StepError, row};
 
 thread_local! {
     /// One per thread and not per world: a world keeps only what a match is.
@@ -30,8 +34,10 @@ pub struct World {
 /// What all worlds of one configuration share.
 pub(crate) struct Fixed {
     pub(crate) config: SimConfig,
-    limits: Limits,
+    pub(crate) walls: Vec<Wall>,
+    physique: Physique,
     placement: Placement,
+    pub(crate) command_columns: usize,
     /// A world that nobody has touched. Starting from it leaves nothing of an earlier match.
     pristine: State,
 }
@@ -39,11 +45,25 @@ pub(crate) struct Fixed {
 /// What a match is at one instant.
 #[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct State {
-    engine: Engine,
-    drives: Vec<Drive>,
-    crossing: Crossing,
+    pub(crate) engine: Engine,
+    pub(crate) ball: Ball,
+    pub(crate) robots: Vec<Robot>,
+    pub(crate) touched: Touched,
+    pub(crate) crossing: Crossing,
+    /// The bodies of a world that differs from the models.
+    own: Option<Box<Physique>>,
     /// Whether a number left the finite ones; only placing the world anew mends it.
     broken: bool,
+}
+
+/// What a robot remembers from one tick to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct Robot {
+    pub(crate) drive: Drive,
+    /// s until its kicker is charged.
+    pub(crate) recharging: f32,
+    /// Share of its dribbler's speed at which it runs.
+    pub(crate) dribbling: f32,
 }
 
 impl World {
@@ -53,10 +73,14 @@ impl World {
     /// What [`SimConfig::validate`] finds.
     pub fn new(config: &SimConfig) -> Result<Self, ConfigError> {
         config.validate()?;
+        let (physique, walls) = (Physique::of(config), walls(&config.field));
         let mut pristine = State {
-            engine: Engine::new(config),
-            drives: vec![Drive::default(); config.n_robots()],
+            engine: Engine::new(config, &physique, &walls),
+            ball: Ball::default(),
+            robots: vec![Robot::default(); config.n_robots()],
+            touched: Touched::new(config.n_robots()),
             crossing: Crossing::default(),
+            own: None,
             broken: false,
         };
         for (body, motion) in line_up(config).iter().enumerate() {
@@ -64,8 +88,10 @@ impl World {
         }
         let rules = Arc::new(Fixed {
             config: config.clone(),
-            limits: Limits::of(&config.robot, config.tick),
-            placement: Placement::new(config),
+            placement: Placement::new(config, &walls),
+            walls,
+            physique,
+            command_columns: config.command_columns(),
             pristine: pristine.clone(),
         });
         Ok(Self { rules, state: pristine })
@@ -76,32 +102,49 @@ impl World {
         &self.rules.config
     }
 
-    /// Starts a new match from `row`, of which positions, headings and velocities count.
+    /// Starts a new match from `row`, of which positions, headings, velocities and the ball's spin
+    /// count. `parameters` are factors on the models' numbers, in the order of
+    /// [`crate::columns::BALL_PARAMETERS`] and, for each robot,
+    /// [`crate::columns::ROBOT_PARAMETERS`]; without them the models count as they are.
     ///
     /// # Errors
-    /// Bodies outside the field or in each other; then nothing has changed.
-    pub fn place(&mut self, row: &[f32]) -> Result<(), PlaceError> {
-        let motions = self.motions(row)?;
-        self.start(&motions);
+    /// Bodies outside the field or in each other, or parameters out of range; then nothing has
+    /// changed.
+    pub fn place(&mut self, row: &[f32], parameters: Option<&[f32]>) -> Result<(), PlaceError> {
+        let start = self.check(row, parameters)?;
+        self.start(&start);
         Ok(())
     }
 
-    /// The motions that `row` asks for, checked.
-    pub(crate) fn motions(&self, row: &[f32]) -> Result<Vec<Motion>, PlaceError> {
+    /// What `row` and `parameters` ask for, checked.
+    pub(crate) fn check(
+        &self,
+        row: &[f32],
+        parameters: Option<&[f32]>,
+    ) -> Result<Checked, PlaceError> {
         debug_assert_eq!(row.len(), self.config().row_size());
-        self.rules.placement.read(row)
+        let own = parameters.map(|factors| Physique::varied(self.config(), factors));
+        let own = own.transpose().map_err(PlaceError::Parameters)?.map(Box::new);
+        let physique = own.as_deref().unwrap_or(&self.rules.physique);
+        Ok(Checked { start: self.rules.placement.read(row, physique)?, own })
     }
 
-    /// Starts a new match with these motions.
-    pub(crate) fn start(&mut self, motions: &[Motion]) {
+    /// Starts a new match.
+    pub(crate) fn start(&mut self, checked: &Checked) {
         self.state.clone_from(&self.rules.pristine);
-        for (body, motion) in motions.iter().enumerate() {
+        self.state.own.clone_from(&checked.own);
+        if let Some(own) = &self.state.own {
+            self.state.engine.set_masses(own);
+        }
+        for (body, motion) in checked.start.motions.iter().enumerate() {
             self.state.engine.set_motion(body, motion);
         }
+        self.state.ball = checked.start.ball;
     }
 
-    /// One control step. `commands` are each robot's `[left, right]` wheel speeds in rad/s;
-    /// speeds that the motors cannot reach count as their top speed.
+    /// One control step. `commands` has a row a robot, as wide as the longest command in the match;
+    /// a robot reads the columns that its model names, from the first. What motors and kickers
+    /// cannot reach counts as the most that they can.
     ///
     /// # Errors
     /// The state became non-finite; only [`World::place`] mends it.
@@ -111,89 +154,50 @@ impl World {
             return Err(StepError { world: 0 });
         }
         self.state.crossing = Crossing::default();
+        self.state.touched.forget();
+        let rules = &*self.rules;
+        let state = &mut self.state;
+        let own = state.own.take();
+        let tick = Tick { rules, physique: own.as_deref().unwrap_or(&rules.physique), commands };
         let stepped = SCRATCH.with_borrow_mut(|scratch| {
-            (0..self.rules.config.ticks_per_step()).try_for_each(|_| self.tick(commands, scratch))
+            (0..rules.config.ticks_per_step()).try_for_each(|_| tick.advance(state, scratch))
         });
+        state.own = own;
         stepped.map_err(|NonFinite| {
             self.state.broken = true;
             StepError { world: 0 }
         })
     }
 
-    fn tick(&mut self, commands: &[f32], scratch: &mut Scratch) -> Result<(), NonFinite> {
-        let ball_before = self.state.engine.motion(BALL);
-        let roll =
-            Roll::over(&self.rules.config.ball, ball_before.velocity, self.rules.config.tick);
-        roll.begin(&mut self.state.engine);
-        self.drive_robots(commands);
-        self.state.engine.step(scratch)?;
-        self.feel_loads();
-        roll.finish(&mut self.state.engine);
-        let ball_after = self.state.engine.motion(BALL).position;
-        self.state.crossing.watch(&self.rules.config.field, ball_before.position, ball_after);
-        Ok(())
-    }
-
-    fn drive_robots(&mut self, commands: &[f32]) {
-        let wheels = commands.chunks_exact(DIFFERENTIAL_COLUMNS.len());
-        for (index, (drive, wheels)) in self.state.drives.iter_mut().zip(wheels).enumerate() {
-            let motion = self.state.engine.motion(robot(index));
-            let (force, torque) = drive.pull(&self.rules.limits, [wheels[0], wheels[1]], &motion);
-            self.state.engine.push(robot(index), force, torque);
-        }
-    }
-
-    fn feel_loads(&mut self) {
-        for (index, drive) in self.state.drives.iter_mut().enumerate() {
-            drive.feel(&self.rules.limits, &self.state.engine.motion(robot(index)));
-        }
-    }
-
     /// Writes the state. Pure: writing twice writes the same.
-    pub fn write_row(&self, row: &mut [f32]) {
-        let (ball, robots) = row.split_at_mut(BALL_COLUMNS.len());
-        let Motion { position, velocity, .. } = self.state.engine.motion(BALL);
-        let Crossing { code, at } = self.state.crossing;
-        ball.copy_from_slice(&[
-            position.x,
-            position.y,
-            velocity.x,
-            velocity.y,
-            f32::from(code),
-            at.x,
-            at.y,
-        ]);
-        for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
-            let Motion { position, heading, velocity, spin } =
-                self.state.engine.motion(robot(index));
-            columns.copy_from_slice(&[
-                position.x, position.y, heading.x, heading.y, velocity.x, velocity.y, spin,
-            ]);
-        }
+    pub fn write_row(&self, out: &mut [f32]) {
+        row::write(self.physique(), &self.state, out);
     }
 
     /// Pairs of bodies or walls that touch: what makes a scene a crowd.
     pub fn contacts(&self) -> usize {
         self.state.engine.contacts()
     }
+
+    fn physique(&self) -> &Physique {
+        self.state.own.as_deref().unwrap_or(&self.rules.physique)
+    }
 }
 
-const BALL: usize = 0;
-
-/// The body of robot `index`.
-const fn robot(index: usize) -> usize {
-    index + 1
+/// A start that nothing speaks against.
+pub(crate) struct Checked {
+    start: Start,
+    own: Option<Box<Physique>>,
 }
 
 /// Each team in a line across the middle of its half, facing the other's goal.
 fn line_up(config: &SimConfig) -> Vec<Motion> {
-    use rapier2d::math::Vector;
     let still = |position, heading| Motion { position, heading, velocity: Vector::ZERO, spin: 0.0 };
     let spacing = config.field.width / (config.field.max_robots + 1) as f32;
     let mut motions = vec![still(Vector::ZERO, Vector::X)];
-    for (count, side) in [(config.n_blue, -1.0), (config.n_yellow, 1.0)] {
-        for index in 0..count {
-            let y = (index as f32 - (count as f32 - 1.0) / 2.0) * spacing;
+    for (team, side) in [(&config.blue, -1.0), (&config.yellow, 1.0)] {
+        for index in 0..team.len() {
+            let y = (index as f32 - (team.len() as f32 - 1.0) / 2.0) * spacing;
             let x = side * config.field.length / 4.0;
             motions.push(still(Vector::new(x, y), Vector::new(-side, 0.0)));
         }

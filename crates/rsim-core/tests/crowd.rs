@@ -34,7 +34,7 @@ fn long_play_stays_sound() {
             check(&scene, &row, step);
             contacts += world.contacts();
             if step % 400 == 399 {
-                world.place(&scene.start).expect("valid");
+                world.place(&scene.start, None).expect("valid");
                 row.copy_from_slice(&scene.start);
             }
         }
@@ -49,7 +49,7 @@ fn states_of_a_crowd_can_be_placed_again() {
     assert!(contacts > 1000);
     let mut other = scene.world();
     for row in rows.chunks_exact(scene.config.row_size()).step_by(7) {
-        other.place(row).expect("a state of a running match is a state to start from");
+        other.place(row, None).expect("a state of a running match is a state to start from");
         let mut read = row.to_vec();
         other.write_row(&mut read);
         assert_eq!(read[..4], row[..4], "the ball is where it was put");

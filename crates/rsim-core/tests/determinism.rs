@@ -1,4 +1,5 @@
 //! Same start, same commands, same bytes: whatever the threads, the neighbours and the history.
+#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
 
 use rsim_core::Batch;
 use rsim_core::scenes::{self, Scene};
@@ -61,7 +62,7 @@ fn a_placed_world_keeps_nothing_of_its_past() {
     assert!(contacts > 500, "only {contacts} contacts: the comparison would prove little");
     let mut used = scenes::chase().world();
     scenes::chase().play(&mut used, 137);
-    used.place(&scene.start).expect("valid");
+    used.place(&scene.start, None).expect("valid");
     assert!(scene.play(&mut used, 100).0 == fresh);
 }
 

@@ -1,13 +1,18 @@
 //! A differential drive against its closed form: speeds, accelerations, arcs, pushes, skids.
 
-use rsim_core::scenes::{lone_robot, robots};
-use rsim_core::{RobotModel, SimConfig, World, scenes::Scene};
+use rsim_core::scenes::{Driver, lone_robot, robots};
+use rsim_core::{DifferentialDrive, Drive, RobotModel, SimConfig, World, scenes::Scene};
 
 /// Robot 0 after `steps` control steps.
 fn after(scene: &Scene, steps: u64) -> Vec<f32> {
     let (rows, _) = scene.play(&mut scene.world(), steps);
     let last = &rows[rows.len() - scene.config.row_size()..];
     robots(last).next().expect("a robot").to_vec()
+}
+
+fn wheels(model: &RobotModel) -> DifferentialDrive {
+    let Drive::Differential(drive) = model.drive else { panic!("{} has other wheels", model.name) };
+    drive
 }
 
 fn close(got: f32, expected: f32, tolerance: f32) {
@@ -47,11 +52,10 @@ fn unequal_wheels_drive_the_arc_of_the_closed_form() {
         let scene = lone_robot([left, right]);
         scene.play(&mut scene.world(), 60)
     };
-    let model = RobotModel::VSS_440RPM;
-    let radius = model.drive.track / 2.0 * (right + left) / (right - left);
+    let radius = wheels(&RobotModel::VSS_440RPM).track / 2.0 * (right + left) / (right - left);
     // The curvature, from three positions of the steady part.
     let at = |step: usize| {
-        let size = SimConfig { n_blue: 1, n_yellow: 0, ..SimConfig::VSS_3V3 }.row_size();
+        let size = SimConfig::vss(1, 0).row_size();
         let robot = robots(&rows[step * size..][..size]).next().expect("a robot");
         [robot[0], robot[1]]
     };
@@ -103,12 +107,12 @@ fn a_robot_against_the_wall_stalls_and_stays_straight() {
 fn a_heavier_robot_pushes_a_standing_one_away() {
     // Two robots of one model are equally strong; the pusher's own brakes decide. At rest both
     // stay, so pushing needs a start: what counts is that nobody passes through anybody.
-    let config = SimConfig { n_blue: 1, n_yellow: 1, ..SimConfig::VSS_3V3 };
+    let config = SimConfig::vss(1, 1);
     let mut scene = Scene::at(
         "head_on",
         config,
         &[[-0.2, 0.0, 0.0], [0.2, 0.0, 180.0]],
-        rsim_core::scenes::Driver::Constant([46.0, 46.0]),
+        Driver::Constant(vec![vec![46.0, 46.0]; 2]),
     );
     scene.set_ball([0.0, 0.6], [0.0, 0.0]);
     let mut world: World = scene.world();

@@ -1,7 +1,7 @@
 //! What nobody can play with is refused, by name, and changes nothing.
 
 use rsim_core::scenes::{self, robots_mut};
-use rsim_core::{Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
+use rsim_core::{BallModel, Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
 
 fn message(config: &SimConfig) -> String {
     World::new(config).err().expect("refused").to_string()
@@ -9,19 +9,38 @@ fn message(config: &SimConfig) -> String {
 
 #[test]
 fn configurations_are_checked_by_name() {
-    let good = SimConfig::VSS_3V3;
+    let good = SimConfig::vss(3, 3);
     assert!(World::new(&good).is_ok());
-    assert!(message(&SimConfig { time_step: -0.025, ..good.clone() }).contains("time_step"));
-    assert!(message(&SimConfig { time_step: f32::NAN, ..good.clone() }).contains("time_step"));
-    assert!(message(&SimConfig { tick: 0.0, ..good.clone() }).contains("tick"));
-    assert!(message(&SimConfig { tick: 0.004, ..good.clone() }).contains("whole number of ticks"));
-    assert!(message(&SimConfig { n_blue: 6, ..good.clone() }).contains("n_blue must be at most 5"));
-    let mut odd = good.clone();
-    odd.robot.mass = -1.0;
-    assert!(message(&odd).contains("robot.mass"));
-    let mut odd = good;
-    odd.field.goal_width = 2.0;
-    assert!(message(&odd).contains("field.goal_width"));
+    let spoilt = |spoil: &dyn Fn(&mut SimConfig)| {
+        let mut config = good.clone();
+        spoil(&mut config);
+        message(&config)
+    };
+    assert!(spoilt(&|config| config.time_step = -0.025).contains("time_step"));
+    assert!(spoilt(&|config| config.time_step = f32::NAN).contains("time_step"));
+    assert!(spoilt(&|config| config.tick = 0.0).contains("tick"));
+    assert!(spoilt(&|config| config.tick = 0.004).contains("whole number of ticks"));
+    assert!(message(&SimConfig::vss(6, 3)).contains("n_blue must be at most 5"));
+    assert!(message(&SimConfig::ssl(3, 12)).contains("n_yellow must be at most 11"));
+    assert!(spoilt(&|config| config.yellow[1].mass = -1.0).contains("robot.mass"));
+    assert!(spoilt(&|config| config.field.goal_width = 2.0).contains("field.goal_width"));
+    assert!(spoilt(&|config| config.field.goal_wall = 0.02).contains("field.goal_wall"));
+    assert!(spoilt(&|config| config.ball.wall.restitution = 1.2).contains("wall_restitution"));
+    assert!(spoilt(&|config| config.ball.rolling_share = 1.0).contains("rolling_share"));
+}
+
+#[test]
+fn every_preset_makes_a_match() {
+    for field in Field::PRESETS {
+        for robot in RobotModel::PRESETS {
+            for ball in BallModel::PRESETS {
+                let config = SimConfig::new(field.clone(), ball.clone(), &robot, 1, 2);
+                let label = format!("{} {} {}", field.name, robot.name, ball.name);
+                let mut world = World::new(&config).expect(&label);
+                world.step(&vec![1.0; config.command_size()]).expect(&label);
+            }
+        }
+    }
 }
 
 #[test]
@@ -36,7 +55,7 @@ fn presets_are_found_by_name() {
 #[test]
 fn a_batch_needs_worlds_and_threads() {
     for (worlds, threads, name) in [(0, 1, "worlds"), (1, 0, "threads"), (1, 100_000, "threads")] {
-        let error = Batch::new(&SimConfig::VSS_3V3, worlds, threads).err().expect("refused");
+        let error = Batch::new(&SimConfig::vss(3, 3), worlds, threads).err().expect("refused");
         assert!(error.to_string().contains(name), "{error}");
     }
 }
@@ -82,7 +101,7 @@ fn impossible_starts_are_refused_and_change_nothing() {
     ];
     let before = scene.play(&mut world.clone(), 3).0;
     for (expected, row) in cases {
-        let error = world.place(&row).expect_err(expected).to_string();
+        let error = world.place(&row, None).expect_err(expected).to_string();
         assert!(error.contains(expected), "{error} should say {expected}");
     }
     assert_eq!(scene.play(&mut world, 3).0, before);
@@ -96,7 +115,7 @@ fn an_impossible_start_in_one_world_leaves_all_worlds() {
     let mut starts = scene.start.repeat(2);
     starts[0] = 0.1;
     starts[scene.start.len()] = f32::INFINITY;
-    let error = batch.place(&[true, false, true], &starts, &mut rows).expect_err("refused");
+    let error = batch.place(&[true, false, true], &starts, None, &mut rows).expect_err("refused");
     assert!(matches!(error, PlaceError::InWorld { world: 2, .. }), "{error}");
     batch.read(&mut rows);
     assert_eq!(rows, before);

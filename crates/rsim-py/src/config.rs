@@ -1,4 +1,4 @@
-//! Configuration: frozen mirrors of the core's data.
+//! Configuration: what a simulator is built from.
 
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -6,6 +6,8 @@ use std::hash::{Hash, Hasher};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
+
+use crate::models::{BallModel, Field, Named, RobotModel, shortest};
 
 /// What is fixed for the life of a simulator.
 #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
@@ -16,27 +18,33 @@ pub(crate) struct SimConfig(pub(crate) rsim_core::SimConfig);
 impl SimConfig {
     #[new]
     #[pyo3(signature = (
-        field = "vss_3v3", n_blue = 3, n_yellow = 3, *,
-        robot = "vss_440rpm", ball = "vss_rsim", time_step = 0.025, tick = 0.005
-    ))]
+        field = Named::Preset("vss_3v3".to_owned()), n_blue = 3, n_yellow = 3, *,
+        robot = None, ball = None, time_step = 0.025, tick = 0.005
+    ), text_signature = "(field='vss_3v3', n_blue=3, n_yellow=3, *, robot=None, ball=None, \
+        time_step=0.025, tick=0.005)")]
     fn new(
-        field: &str,
+        field: Named<Field>,
         n_blue: i64,
         n_yellow: i64,
-        robot: &str,
-        ball: &str,
+        robot: Option<Robots>,
+        ball: Option<Named<BallModel>>,
         time_step: f32,
         tick: f32,
     ) -> PyResult<Self> {
-        let config = rsim_core::SimConfig {
-            field: rsim_core::Field::preset(field).map_err(invalid)?,
-            robot: rsim_core::RobotModel::preset(robot).map_err(invalid)?,
-            ball: rsim_core::BallModel::preset(ball).map_err(invalid)?,
-            n_blue: count("n_blue", n_blue)?,
-            n_yellow: count("n_yellow", n_yellow)?,
-            time_step,
-            tick,
+        let field = field.found()?.0;
+        let (n_blue, n_yellow) = (count("n_blue", n_blue)?, count("n_yellow", n_yellow)?);
+        let ball = match ball {
+            Some(ball) => ball.found()?.0,
+            None if is_ssl(&field) => rsim_core::BallModel::SSL_TIGERS,
+            None => rsim_core::BallModel::VSS_RSIM,
         };
+        let mut blue = match robot {
+            Some(robot) => robot.models(n_blue + n_yellow)?,
+            None if is_ssl(&field) => vec![rsim_core::RobotModel::SSL_GENERIC; n_blue + n_yellow],
+            None => vec![rsim_core::RobotModel::VSS_440RPM; n_blue + n_yellow],
+        };
+        let yellow = blue.split_off(n_blue);
+        let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick };
         config.validate().map_err(invalid)?;
         Ok(Self(config))
     }
@@ -47,8 +55,18 @@ impl SimConfig {
     }
 
     #[getter]
-    fn robot(&self) -> RobotModel {
-        RobotModel(self.0.robot.clone())
+    fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.0.robots().map(|model| RobotModel(model.clone())).collect::<Vec<_>>())
+    }
+
+    #[getter]
+    fn robot(&self) -> PyResult<RobotModel> {
+        let mut robots = self.0.robots();
+        match robots.next() {
+            Some(first) if robots.all(|model| model == first) => Ok(RobotModel(first.clone())),
+            Some(_) => Err(PyValueError::new_err("robots differ: use `robots`, one for each")),
+            None => Err(PyValueError::new_err("there are no robots")),
+        }
     }
 
     #[getter]
@@ -58,12 +76,12 @@ impl SimConfig {
 
     #[getter]
     fn n_blue(&self) -> usize {
-        self.0.n_blue
+        self.0.blue.len()
     }
 
     #[getter]
     fn n_yellow(&self) -> usize {
-        self.0.n_yellow
+        self.0.yellow.len()
     }
 
     #[getter]
@@ -92,9 +110,14 @@ impl SimConfig {
     }
 
     #[getter]
-    #[allow(clippy::unused_self)] // there is one kind of drive
+    fn parameters_size(&self) -> usize {
+        self.0.parameters_size()
+    }
+
+    #[getter]
     fn command_columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, rsim_core::columns::DIFFERENTIAL_COLUMNS)
+        let columns = self.0.robots().map(rsim_core::RobotModel::command_columns);
+        PyTuple::new(py, columns.max_by_key(|columns| columns.len()).unwrap_or_default())
     }
 
     fn to_json(&self) -> String {
@@ -118,12 +141,16 @@ impl SimConfig {
 
     fn __repr__(&self) -> String {
         let config = &self.0;
+        let robots: Vec<&str> = config.robots().map(|model| &*model.name).collect();
+        let robots = match robots.first() {
+            Some(first) if robots.iter().all(|name| name == first) => format!("{first:?}"),
+            _ => format!("{robots:?}"),
+        };
         format!(
-            "SimConfig({:?}, {}, {}, robot={:?}, ball={:?}, time_step={}, tick={})",
+            "SimConfig({:?}, {}, {}, robot={robots}, ball={:?}, time_step={}, tick={})",
             config.field.name,
-            config.n_blue,
-            config.n_yellow,
-            config.robot.name,
+            config.blue.len(),
+            config.yellow.len(),
             config.ball.name,
             config.time_step,
             config.tick
@@ -132,6 +159,33 @@ impl SimConfig {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         Ok((py.get_type::<Self>().getattr("from_json")?, (self.to_json(),)))
+    }
+}
+
+/// What an SSL field is known by: goals that stand free.
+fn is_ssl(field: &rsim_core::Field) -> bool {
+    field.goal_wall > 0.0
+}
+
+/// Models of robots: one for all, or one for each.
+#[derive(FromPyObject)]
+enum Robots {
+    All(Named<RobotModel>),
+    Each(Vec<Named<RobotModel>>),
+}
+
+impl Robots {
+    fn models(self, n_robots: usize) -> PyResult<Vec<rsim_core::RobotModel>> {
+        match self {
+            Self::All(robot) => Ok(vec![robot.found()?.0; n_robots]),
+            Self::Each(robots) if robots.len() == n_robots => {
+                robots.into_iter().map(|robot| Ok(robot.found()?.0)).collect()
+            }
+            Self::Each(robots) => Err(PyValueError::new_err(format!(
+                "robot must be one model or one for each of {n_robots} robots, got {}",
+                robots.len()
+            ))),
+        }
     }
 }
 
@@ -145,117 +199,3 @@ pub(crate) fn count(name: &str, value: i64) -> PyResult<usize> {
     usize::try_from(value)
         .map_err(|_| PyValueError::new_err(format!("{name} must not be negative, got {value}")))
 }
-
-/// The double that prints like this float: 0.005 and not 0.004999999888241291.
-fn shortest(value: f32) -> f64 {
-    value.to_string().parse().expect("a printed float is a float")
-}
-
-/// A frozen Python class around a struct of the core, with a getter per number.
-macro_rules! mirror {
-    ($name:ident, $core:ty, $doc:literal, [$($field:ident),*], [$($method:ident),*], { $($extra:tt)* }) => {
-        #[doc = $doc]
-        #[pyclass(frozen, eq, module = "rsoccer._core")]
-        #[derive(Clone, PartialEq)]
-        pub(crate) struct $name($core);
-
-        #[pymethods]
-        impl $name {
-            #[getter]
-            fn name(&self) -> &str {
-                &self.0.name
-            }
-
-            $(#[getter]
-            fn $field(&self) -> f64 {
-                shortest(self.0.$field)
-            })*
-
-            $(#[getter]
-            fn $method(&self) -> f64 {
-                shortest(self.0.$method())
-            })*
-
-            $($extra)*
-
-            fn __repr__(&self) -> String {
-                format!("{:?}", self.0)
-            }
-        }
-    };
-}
-
-mirror!(
-    Field,
-    rsim_core::Field,
-    "A walled field, its lines and marks. Metres.",
-    [
-        length,
-        width,
-        goal_width,
-        goal_depth,
-        corner,
-        wall_height,
-        center_radius,
-        goal_area_width,
-        goal_area_depth,
-        penalty_mark,
-        free_ball_x,
-        free_ball_y,
-        line_width
-    ],
-    [half_length, half_width],
-    {
-        #[getter]
-        fn max_robots(&self) -> usize {
-            self.0.max_robots
-        }
-    }
-);
-
-mirror!(
-    RobotModel,
-    rsim_core::RobotModel,
-    "A robot as data. SI units.",
-    [size, mass],
-    [top_speed, bounding_radius],
-    {
-        #[getter]
-        fn wheel_radius(&self) -> f64 {
-            shortest(self.0.drive.wheel_radius)
-        }
-
-        #[getter]
-        fn track(&self) -> f64 {
-            shortest(self.0.drive.track)
-        }
-
-        #[getter]
-        fn max_wheel_speed(&self) -> f64 {
-            shortest(self.0.drive.max_wheel_speed)
-        }
-
-        #[getter]
-        #[allow(clippy::unused_self)] // there is one kind of drive
-        fn drive(&self) -> &'static str {
-            "differential"
-        }
-    }
-);
-
-mirror!(
-    BallModel,
-    rsim_core::BallModel,
-    "A ball as data. SI units.",
-    [
-        radius,
-        mass,
-        rolling_deceleration,
-        robot_restitution,
-        wall_restitution,
-        robot_friction,
-        wall_friction
-    ],
-    [],
-    {}
-);

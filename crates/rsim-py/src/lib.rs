@@ -5,6 +5,7 @@
 
 mod arrays;
 mod config;
+mod models;
 mod simulator;
 
 use pyo3::prelude::*;
@@ -13,7 +14,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::config::{BallModel, Field, RobotModel, SimConfig};
+    use crate::config::SimConfig;
+    #[pymodule_export]
+    use crate::models::{BallModel, Field, RobotModel};
     #[pymodule_export]
     use crate::simulator::Simulator;
 
@@ -29,6 +32,10 @@ mod _core {
         module.add("CROSSINGS", PyTuple::new(py, columns::CROSSINGS)?)?;
         let commands = PyDict::new(py);
         commands.set_item("differential", PyTuple::new(py, columns::DIFFERENTIAL_COLUMNS)?)?;
+        commands.set_item("omni", PyTuple::new(py, columns::OMNI_COLUMNS)?)?;
+        commands.set_item("omni_wheels", PyTuple::new(py, columns::OMNI_WHEELS_COLUMNS)?)?;
+        module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
+        module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)
     }
 

@@ -37,21 +37,27 @@ impl Simulator {
         self.0.threads()
     }
 
+    #[pyo3(signature = (worlds, rows, out, params = None))]
     fn place(
         &mut self,
         py: Python<'_>,
         worlds: &Bound<'_, PyAny>,
         rows: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
+        params: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
         let mask = values(&mask);
         let chosen = mask.iter().filter(|&&chosen| chosen).count();
         let rows: Rows = readable("rows", rows, &[chosen, self.row_size()])?;
         let rows = values(&rows);
+        let params_shape = [chosen, self.0.config().parameters_size()];
+        let params: Option<Rows> =
+            params.map(|params| readable("params", params, &params_shape)).transpose()?;
+        let params = params.as_ref().map(values);
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| self.0.place(&mask, &rows, out)).map_err(invalid)
+        py.detach(|| self.0.place(&mask, &rows, params.as_deref(), out)).map_err(invalid)
     }
 
     #[pyo3(signature = (commands, out, active = None))]
@@ -63,7 +69,7 @@ impl Simulator {
         active: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let robots = self.0.config().n_robots();
-        let columns = rsim_core::columns::DIFFERENTIAL_COLUMNS.len();
+        let columns = self.0.config().command_columns();
         let commands: Commands =
             readable("commands", commands, &[self.0.worlds(), robots, columns])?;
         let commands = values(&commands);

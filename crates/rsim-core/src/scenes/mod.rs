@@ -1,7 +1,11 @@
 //! Named situations, shared by tests, benchmarks and examples.
 
-use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+mod driver;
+
+use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use crate::{Batch, SimConfig, World};
+
+pub use driver::Driver;
 
 /// A start, and how its robots are driven.
 #[derive(Debug, Clone)]
@@ -12,48 +16,73 @@ pub struct Scene {
     pub config: SimConfig,
     /// The row that it starts from.
     pub start: Vec<f32>,
+    /// The factors on the models' numbers that it is played with.
+    pub parameters: Option<Vec<f32>>,
     /// What the robots do.
     pub driver: Driver,
 }
 
-/// How the robots of a scene are driven.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Driver {
-    /// Every robot gets these wheel speeds, rad/s.
-    Constant([f32; 2]),
-    /// Each robot's wheel speeds are drawn anew every ten steps.
-    Random,
-    /// All robots drive at the ball, all the time: a crowd.
-    Chase,
-}
-
 /// Nobody drives, one ball rolls along x with nothing in its way for 1.2 m.
 pub fn rolling_ball(speed: f32) -> Scene {
-    let mut scene = vss_3v3("rolling_ball", &LINED_UP, Driver::Constant([0.0, 0.0]));
+    let mut scene = Scene::at("rolling_ball", SimConfig::vss(3, 3), &LINED_UP, Driver::STILL);
     scene.set_ball([-0.6, 0.0], [speed, 0.0]);
     scene
 }
 
 /// Six robots spread over the field, driving at random.
 pub fn random_play() -> Scene {
-    vss_3v3("random", &SPREAD, Driver::Random)
+    Scene::at("random", SimConfig::vss(3, 3), &SPREAD, Driver::Random)
 }
 
 /// Six robots that all chase the ball: contacts all the time.
 pub fn chase() -> Scene {
-    vss_3v3("crowd", &SPREAD, Driver::Chase)
+    Scene::at("crowd", SimConfig::vss(3, 3), &SPREAD, Driver::Chase)
 }
 
 /// Six robots and the ball within 25 cm, pushing: many contacts from the first tick.
 pub fn crowded_kickoff() -> Scene {
-    vss_3v3("crowded_kickoff", &CROWDED, Driver::Chase)
+    Scene::at("crowded_kickoff", SimConfig::vss(3, 3), &CROWDED, Driver::Chase)
 }
 
-/// Robot 0 alone in the middle of an empty field, at rest, facing +x.
+/// SSL teams lined up in their halves, driving, kicking and dribbling at random.
+pub fn ssl_random(config: SimConfig) -> Scene {
+    Scene::lined_up("ssl_random", config, Driver::Random)
+}
+
+/// SSL teams that all chase the ball.
+pub fn ssl_chase(config: SimConfig) -> Scene {
+    Scene::lined_up("ssl_crowd", config, Driver::Chase)
+}
+
+/// Robot 0 alone in the middle of an empty VSSS field, at rest, facing +x.
 pub fn lone_robot(wheels: [f32; 2]) -> Scene {
-    let config = SimConfig { n_blue: 1, n_yellow: 0, ..SimConfig::VSS_3V3 };
-    let mut scene = Scene::at("lone_robot", config, &[[0.0, 0.0, 0.0]], Driver::Constant(wheels));
+    let driver = Driver::Constant(vec![wheels.to_vec()]);
+    let mut scene = Scene::at("lone_robot", SimConfig::vss(1, 0), &[[0.0, 0.0, 0.0]], driver);
     scene.set_ball([0.0, 0.6], [0.0, 0.0]);
+    scene
+}
+
+/// An SSL robot alone in the middle of an empty field of division B, at rest, facing +x.
+pub fn lone_omni(command: &[f32]) -> Scene {
+    let driver = Driver::Constant(vec![command.to_vec()]);
+    let mut scene = Scene::at("lone_omni", SimConfig::ssl(1, 0), &[[0.0, 0.0, 0.0]], driver);
+    scene.set_ball([0.0, 2.5], [0.0, 0.0]);
+    scene
+}
+
+/// An SSL robot at the centre, facing +x, with the ball at rest at its front.
+pub fn ball_in_mouth(command: &[f32]) -> Scene {
+    let mut scene = Scene { name: "ball_in_mouth", ..lone_omni(command) };
+    let touching = scene.config.blue[0].front() + scene.config.ball.radius;
+    scene.set_ball([touching, 0.0], [0.0, 0.0]);
+    scene
+}
+
+/// A ball alone on a field.
+pub fn lone_ball(config: SimConfig, position: [f32; 2], velocity: [f32; 2]) -> Scene {
+    let config = SimConfig { blue: Vec::new(), yellow: Vec::new(), ..config };
+    let mut scene = Scene::at("lone_ball", config, &[], Driver::STILL);
+    scene.set_ball(position, velocity);
     scene
 }
 
@@ -83,10 +112,6 @@ const CROWDED: [[f32; 3]; 6] = [
     [0.07, -0.1, 135.0],
 ];
 
-fn vss_3v3(name: &'static str, poses: &[[f32; 3]], driver: Driver) -> Scene {
-    Scene::at(name, SimConfig::VSS_3V3, poses, driver)
-}
-
 impl Scene {
     /// Robots at these poses (x and y in m, heading in degrees), ball at rest at the centre.
     ///
@@ -99,13 +124,37 @@ impl Scene {
             let (sin, cos) = degrees.to_radians().sin_cos();
             columns[..4].copy_from_slice(&[*x, *y, cos, sin]);
         }
-        Self { name, config, start, driver }
+        Self { name, config, start, parameters: None, driver }
     }
 
-    /// Puts the ball somewhere, with a velocity.
+    /// Everybody where a new world has them.
+    ///
+    /// # Panics
+    /// When no match can be played with `config`: a slip in this file or in a test.
+    pub fn lined_up(name: &'static str, config: SimConfig, driver: Driver) -> Self {
+        let mut start = vec![0.0; config.row_size()];
+        World::new(&config).expect("a valid configuration").write_row(&mut start);
+        Self { name, config, start, parameters: None, driver }
+    }
+
+    /// Puts the ball on the floor somewhere, with a velocity and without spin.
     pub fn set_ball(&mut self, position: [f32; 2], velocity: [f32; 2]) {
         self.start[..2].copy_from_slice(&position);
-        self.start[2..4].copy_from_slice(&velocity);
+        let v_x = ball_column("v_x");
+        self.start[v_x..v_x + 2].copy_from_slice(&velocity);
+    }
+
+    /// Sets a column of the ball.
+    pub fn set_ball_column(&mut self, name: &str, value: f32) {
+        self.start[ball_column(name)] = value;
+    }
+
+    /// Sets a column of a robot.
+    ///
+    /// # Panics
+    /// When there is no such robot.
+    pub fn set_robot_column(&mut self, robot: usize, name: &str, value: f32) {
+        robots_mut(&mut self.start).nth(robot).expect("a robot")[robot_column(name)] = value;
     }
 
     /// A match at the start of the scene.
@@ -114,7 +163,7 @@ impl Scene {
     /// When the scene is not one that a match can start from: a slip in this file or in a test.
     pub fn world(&self) -> World {
         let mut world = World::new(&self.config).expect("the scene's configuration is valid");
-        world.place(&self.start).expect("the scene's start is valid");
+        world.place(&self.start, self.parameters.as_deref()).expect("the scene's start is valid");
         world
     }
 
@@ -126,21 +175,23 @@ impl Scene {
         let mut batch = Batch::new(&self.config, worlds, threads).expect("a valid configuration");
         let mut rows = vec![0.0; worlds * self.config.row_size()];
         let starts = self.start.repeat(worlds);
-        batch.place(&vec![true; worlds], &starts, &mut rows).expect("a valid start");
+        batch.place(&vec![true; worlds], &starts, None, &mut rows).expect("a valid start");
         (batch, rows)
     }
 
     /// Commands of one world at control step `step`, given its row. `seed` sets random play apart.
     pub fn commands(&self, row: &[f32], step: u64, seed: u64) -> Vec<f32> {
-        let wheels = |(index, robot): (usize, &[f32])| match self.driver {
-            Driver::Constant(wheels) => wheels,
-            Driver::Random => {
-                let draw = |wheel: u64| uniform(seed ^ (step / 10 * 64 + index as u64 * 2 + wheel));
-                [draw(0), draw(1)].map(|share| share * self.config.robot.drive.max_wheel_speed)
-            }
-            Driver::Chase => self.wheels_towards(robot, [row[0], row[1]]),
-        };
-        robots(row).enumerate().flat_map(wheels).collect()
+        let columns = self.config.command_columns();
+        let mut commands = vec![0.0; self.config.command_size()];
+        let each = commands.chunks_exact_mut(columns.max(1)).zip(self.config.robots());
+        for (index, (command, (model, robot))) in
+            each.zip(robots(row)).map(|((c, m), r)| (c, (m, r))).enumerate()
+        {
+            let key = seed ^ (step / 10 * 64 + index as u64 * 8);
+            let told = self.driver.command(index, model, robot, [row[0], row[1]], key);
+            command[..told.len()].copy_from_slice(&told);
+        }
+        commands
     }
 
     /// Plays `steps` control steps of one world and returns the rows, and the contacts seen.
@@ -160,14 +211,18 @@ impl Scene {
         (rows, contacts)
     }
 
-    fn wheels_towards(&self, robot: &[f32], target: [f32; 2]) -> [f32; 2] {
-        let [x, y, cos, sin, ..] = robot else { unreachable!("a robot has {ROBOT_COLUMNS:?}") };
-        let (to_x, to_y) = (target[0] - x, target[1] - y);
-        let (ahead, aside) = (to_x * cos + to_y * sin, to_y * cos - to_x * sin);
-        let top = self.config.robot.drive.max_wheel_speed;
-        let turn = aside.atan2(ahead) * 0.3;
-        [(1.0 - turn) * top, (1.0 + turn) * top]
+    /// The row after `steps` control steps.
+    pub fn after(&self, steps: u64) -> Vec<f32> {
+        let (rows, _) = self.play(&mut self.world(), steps);
+        rows[rows.len() - self.config.row_size()..].to_vec()
     }
+}
+
+/// Whole steps of `length` in so many seconds.
+pub fn steps(seconds: f32, length: f32) -> u64 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // scenes last seconds
+    let steps = (seconds / length).round() as u64;
+    steps
 }
 
 /// The columns of each robot in a row.

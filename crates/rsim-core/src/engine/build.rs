@@ -1,0 +1,99 @@
+//! Which bodies and walls a match has, and the engine's settings for bodies of a few centimetres.
+
+use rapier2d::prelude::*;
+
+use super::{BALL_LABEL, Engine, Partner, label};
+use crate::SimConfig;
+use crate::arena::Wall;
+use crate::physique::Physique;
+use crate::robot_model::Body;
+
+impl Engine {
+    pub(crate) fn new(config: &SimConfig, physique: &Physique, walls: &[Wall]) -> Self {
+        let mut engine = Self {
+            parameters: parameters(config.tick),
+            islands: IslandManager::new(),
+            broad_phase: BroadPhaseBvh::new(),
+            narrow_phase: NarrowPhase::new(),
+            bodies: RigidBodySet::new(),
+            colliders: ColliderSet::new(),
+            handles: Vec::new(),
+        };
+        engine.insert_ball(physique);
+        for index in 0..physique.robots.len() {
+            engine.insert_robot(physique, index);
+        }
+        for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
+            let collider = ColliderBuilder::new(SharedShape::new(wall.shape()))
+                .position(wall.pose)
+                .restitution(WALL_RESTITUTION)
+                .friction(WALL_FRICTION);
+            engine.colliders.insert(collider.user_data(label(Partner::Wall(index))));
+        }
+        engine.set_masses(physique);
+        engine
+    }
+
+    fn insert_ball(&mut self, physique: &Physique) {
+        let ball = &physique.ball;
+        // Its bounce and friction are solved in closed form, and its spin has three axes: the engine
+        // only keeps it out of others.
+        let collider = ColliderBuilder::ball(ball.radius)
+            .restitution(0.0)
+            .restitution_combine_rule(CoefficientCombineRule::Min)
+            .friction(0.0)
+            .friction_combine_rule(CoefficientCombineRule::Min)
+            .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
+            .user_data(BALL_LABEL);
+        // Seen ahead, so that a fast ball does not pass through a robot between two ticks.
+        let body = awake().soft_ccd_prediction(3.0 * ball.radius).lock_rotations();
+        self.insert(body, collider);
+    }
+
+    fn insert_robot(&mut self, physique: &Physique, index: usize) {
+        let model = &physique.robots[index].model;
+        let shape = match model.body {
+            Body::Square { side } => SharedShape::cuboid(side / 2.0, side / 2.0),
+            // Among robots and walls the cheapest shape does; the ball meets the true outline.
+            Body::Round { radius, .. } => SharedShape::ball(radius),
+        };
+        let collider = ColliderBuilder::new(shape)
+            .restitution(model.restitution)
+            .friction(model.friction)
+            .user_data(label(Partner::Robot(index)));
+        self.insert(awake(), collider);
+    }
+
+    fn insert(&mut self, body: RigidBodyBuilder, collider: ColliderBuilder) {
+        let handle = self.bodies.insert(body);
+        self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
+        self.handles.push(handle);
+    }
+}
+
+/// Robots against walls, averaged with the robot's own: as robots against robots. Nobody has
+/// published how a robot comes off a wall.
+const WALL_RESTITUTION: f32 = 0.2;
+const WALL_FRICTION: f32 = 0.2;
+
+fn awake() -> RigidBodyBuilder {
+    // Sleeping would freeze a slowly rolling ball, and a robot that waits for its command.
+    RigidBodyBuilder::dynamic().can_sleep(false)
+}
+
+/// Settings for bodies of a few centimetres. The engine's defaults suit bodies of a metre.
+fn parameters(tick: f32) -> IntegrationParameters {
+    IntegrationParameters {
+        dt: tick,
+        // Scales the engine's tolerances: contacts are predicted 2 mm ahead instead of 20 mm.
+        length_unit: 0.1,
+        // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).
+        contact_softness: SpringCoefficients::new(200.0, 2.0),
+        static_contact_softness: SpringCoefficients::new(400.0, 2.0),
+        normalized_allowed_linear_error: 0.000_5,
+        normalized_max_corrective_velocity: 10.0,
+        // Its allowed drift is a quarter of the ball at this scale.
+        contact_recycling: false,
+        ..IntegrationParameters::default()
+    }
+}

@@ -1,0 +1,83 @@
+//! How the robots of a scene are driven.
+
+use super::uniform;
+use crate::columns::{OMNI_COLUMNS, ROBOT_COLUMNS};
+use crate::{Drive, RobotModel};
+
+/// How the robots of a scene are driven.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Driver {
+    /// A command for each robot; who has none stands still.
+    Constant(Vec<Vec<f32>>),
+    /// Each robot's command is drawn anew every ten steps.
+    Random,
+    /// All robots drive at the ball, all the time: a crowd.
+    Chase,
+}
+
+impl Driver {
+    /// Nobody moves.
+    pub const STILL: Self = Self::Constant(Vec::new());
+
+    /// What robot `index` is told. `robot` is its part of the row, `key` sets random play apart.
+    pub(super) fn command(
+        &self,
+        index: usize,
+        model: &RobotModel,
+        robot: &[f32],
+        ball: [f32; 2],
+        key: u64,
+    ) -> Vec<f32> {
+        match self {
+            Self::Constant(all) => all.get(index).cloned().unwrap_or_default(),
+            Self::Random => random_command(model, key),
+            Self::Chase => towards(model, robot, ball),
+        }
+    }
+}
+
+/// What a robot is told in random play. `key` decides.
+fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
+    let draw = |nth: u64| uniform(key.wrapping_add(nth));
+    match &model.drive {
+        Drive::Differential(drive) => [0, 1].map(|nth| draw(nth) * drive.max_wheel_speed).to_vec(),
+        Drive::Omni(drive) | Drive::OmniWheels(drive) => {
+            let kicker = [draw(3), draw(4), draw(5)].map(|share| share.max(0.0));
+            let kicker = [kicker[0] * 8.0, kicker[1] * 6.0 * kicker[2], kicker[2]];
+            let body = [
+                draw(0) * drive.max_speed,
+                draw(1) * drive.max_speed,
+                draw(2) * drive.max_turn_rate / 2.0,
+            ];
+            let wheels = [draw(0), draw(1), draw(2), draw(6)].map(|s| s * drive.max_wheel_speed);
+            let mut command = match model.drive {
+                Drive::OmniWheels(_) => wheels.to_vec(),
+                _ => body.to_vec(),
+            };
+            command.extend(kicker);
+            command
+        }
+    }
+}
+
+/// What drives a robot at `target`, facing it.
+fn towards(model: &RobotModel, robot: &[f32], target: [f32; 2]) -> Vec<f32> {
+    let [x, y, cos, sin, ..] = robot else { unreachable!("a robot has {ROBOT_COLUMNS:?}") };
+    let (to_x, to_y) = (target[0] - x, target[1] - y);
+    let (ahead, aside) = (to_x * cos + to_y * sin, to_y * cos - to_x * sin);
+    let bearing = aside.atan2(ahead);
+    match &model.drive {
+        Drive::Differential(drive) => {
+            let turn = bearing * 0.3;
+            [(1.0 - turn) * drive.max_wheel_speed, (1.0 + turn) * drive.max_wheel_speed].to_vec()
+        }
+        Drive::Omni(drive) | Drive::OmniWheels(drive) => {
+            let away = ahead.hypot(aside).max(1e-3);
+            let mut command = vec![0.0; OMNI_COLUMNS.len()];
+            command[0] = ahead / away * drive.max_speed;
+            command[1] = aside / away * drive.max_speed;
+            command[2] = 5.0 * bearing;
+            command
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The ball off walls and robots: its preset's restitution, and Coulomb's friction for what is
+//! along the surface.
+#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+
+use rsim_core::columns::ball_column;
+use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
+use rsim_core::{BallModel, SimConfig, Surface};
+
+/// A floor that does nothing, so that only the bounce changes the ball.
+fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
+    let ball = BallModel {
+        sliding_deceleration: 0.0,
+        rolling_deceleration: 0.0,
+        spin_deceleration: 0.0,
+        ..ball.clone()
+    };
+    SimConfig { ball, ..SimConfig::ssl(n_blue, 0) }
+}
+
+/// What Coulomb's law makes of a ball that hits a wall: speeds back and along it, and the spin about
+/// the vertical axis (rad/s), from its speeds towards and along it.
+fn coulomb(surface: Surface, radius: f32, towards: f32, along: f32) -> (f32, f32, f32) {
+    // A solid sphere stops slipping when friction has taken 2/7 of the slip.
+    let taken = (surface.friction * (1.0 + surface.restitution) * towards).min(2.0 / 7.0 * along);
+    (surface.restitution * towards, along - taken, 2.5 * taken / radius)
+}
+
+#[test]
+fn a_wall_gives_back_its_restitution_at_every_speed() {
+    for ball in BallModel::PRESETS {
+        for speed in [0.5, 1.0, 2.0, 4.0, 8.0] {
+            for tick in [0.0025, 0.005, 0.0125] {
+                let config = SimConfig { tick, ..slippery(&ball, 0) };
+                let row = lone_ball(config, [0.1, 3.1], [0.0, speed]).after(20);
+                let back = -row[ball_column("v_y")] / speed;
+                let expected = ball.wall.restitution;
+                assert!((back - expected).abs() < 0.01, "{} {speed} m/s: {back}", ball.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn steep_and_grazing_bounces_obey_coulomb() {
+    for ball in BallModel::PRESETS {
+        for (speed, degrees) in [(2.0_f32, 45.0_f32), (6.0, 45.0), (4.0, 15.0), (4.0, 75.0)] {
+            let (towards, along) = (degrees.to_radians().sin(), degrees.to_radians().cos());
+            let (towards, along) = (speed * towards, speed * along);
+            let scene = lone_ball(slippery(&ball, 0), [-2.0, 3.1], [along, towards]);
+            let row = scene.after(20);
+            let (back, left, spin) = coulomb(ball.wall, ball.radius, towards, along);
+            for (what, got, expected) in [
+                ("back", -row[ball_column("v_y")], back),
+                ("along", row[ball_column("v_x")], left),
+                ("spin", row[ball_column("spin_z")], spin),
+            ] {
+                let error = (got / expected - 1.0).abs();
+                let label = format!("{} {speed} m/s at {degrees} degrees", ball.name);
+                assert!(error < 0.05, "{label}, {what}: {got}, Coulomb says {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_spin_of_a_bounce_fades_by_its_law() {
+    let mut config = slippery(&BallModel::SSL_TIGERS, 0);
+    config.ball.spin_deceleration = BallModel::SSL_TIGERS.spin_deceleration;
+    let (spin_z, scene) = (ball_column("spin_z"), lone_ball(config, [-2.0, 3.1], [2.0, 2.0]));
+    let (early, late) = (scene.after(8)[spin_z], scene.after(48)[spin_z]);
+    assert!((early - late - 10.0).abs() < 0.1, "10 rad/s in a second: {early}, {late}");
+}
+
+/// An SSL robot at the centre; the ball comes at it from `degrees` of its front.
+fn at_robot(ball: &BallModel, degrees: f32, speed: f32) -> Scene {
+    let poses = [[0.0, 0.0, 0.0]];
+    let mut scene = Scene::at("at_robot", slippery(ball, 1), &poses, Driver::STILL);
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    scene.set_ball([0.3 * cos, 0.3 * sin], [-speed * cos, -speed * sin]);
+    scene
+}
+
+#[test]
+fn a_robot_gives_back_its_restitution_at_front_and_side() {
+    for ball in BallModel::PRESETS {
+        for speed in [0.5, 1.0, 2.0, 4.0, 8.0] {
+            for degrees in [0.0_f32, 90.0, 180.0, -100.0] {
+                let scene = at_robot(&ball, degrees, speed);
+                let (rows, _) = scene.play(&mut scene.world(), 60);
+                // What leaves, against the robot that gave way: it is the closing speed that counts.
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let outward = |x: f32, y: f32| x * cos + y * sin;
+                let after = rows
+                    .chunks_exact(scene.config.row_size())
+                    .find(|row| outward(row[ball_column("v_x")], row[ball_column("v_y")]) > 0.0);
+                let row = after.expect("it bounced");
+                let ball_speed = outward(row[ball_column("v_x")], row[ball_column("v_y")]);
+                // The wheels brake the robot between the bounce and the end of the step: momentum
+                // tells how fast it was.
+                let model = &scene.config.blue[0];
+                let given = ball.mass * (ball_speed + speed) / model.mass;
+                let back = (ball_speed + given) / speed;
+                let expected = ball.robot.restitution;
+                assert!(
+                    (back - expected).abs() < 0.01,
+                    "{} {speed} m/s at {degrees}: {back}, not {expected}",
+                    ball.name
+                );
+                let robot = robots(row).next().expect("a robot");
+                assert!(outward(robot[4], robot[5]) <= 1e-4, "it was pushed back");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wall_takes_spin_from_a_rolling_ball_by_the_same_law() {
+    // Its front goes down the wall: the slip is the speed that it came with, and friction takes 5/7
+    // of it, or 2.5 mu (1 + e) of the closing speed if that is less.
+    for ball in BallModel::PRESETS {
+        let speed = 2.0;
+        let mut scene = lone_ball(slippery(&ball, 0), [0.0, 3.1], [0.0, speed]);
+        scene.config.ball.sliding_deceleration = 0.0;
+        scene.set_ball_column("spin_x", -speed / ball.radius);
+        let row = scene.after(8);
+        let taken = 2.5 * ball.wall.friction * (1.0 + ball.wall.restitution);
+        let expected = -speed / ball.radius * (1.0 - taken.min(5.0 / 7.0));
+        let got = row[ball_column("spin_x")];
+        assert!((got / expected - 1.0).abs() < 0.05, "{}: {got}, not {expected}", ball.name);
+        assert_eq!(row[ball_column("z")], 0.0, "it stays on the floor");
+    }
+}

@@ -1,0 +1,79 @@
+//! What a row says that happened during a step: touches, crashes, lines.
+#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+
+use rsim_core::SimConfig;
+use rsim_core::columns::{ball_column, crossing_name, robot_column};
+use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
+
+fn column(row: &[f32], robot: usize, name: &str) -> f32 {
+    robots(row).nth(robot).expect("a robot")[robot_column(name)]
+}
+
+#[test]
+fn a_touch_is_told_in_its_step_and_the_last_toucher_stays() {
+    let poses = [[0.5, 0.0, 180.0], [-0.5, 0.0, 0.0]];
+    let mut scene = Scene::at("touches", SimConfig::ssl(1, 1), &poses, Driver::STILL);
+    scene.set_ball([0.2, 0.0], [3.0, 0.0]);
+    let (rows, _) = scene.play(&mut scene.world(), 40);
+    let rows: Vec<&[f32]> = rows.chunks_exact(scene.config.row_size()).collect();
+    let touches = |robot: usize| {
+        let steps = rows.iter().enumerate();
+        let touched = steps.filter(|(_, row)| column(row, robot, "touched_ball") == 1.0);
+        touched.map(|(step, _)| step).collect::<Vec<_>>()
+    };
+    let (blue, yellow) = (touches(0), touches(1));
+    assert!(!blue.is_empty() && !yellow.is_empty(), "it went from one to the other");
+    assert!(blue[0] < yellow[0]);
+    let last = |step: usize| rows[step][ball_column("last_touch")];
+    assert_eq!(last(blue[0] - 1), -1.0);
+    assert_eq!(last(blue[0]), 0.0);
+    assert_eq!(last(yellow[0] - 1), 0.0);
+    assert_eq!(last(yellow[0]), 1.0);
+}
+
+#[test]
+fn a_crash_is_as_fast_as_the_robots_came_together() {
+    // Blue 0 meets yellow 0 head on; blue 1 runs into blue 2.
+    let config = SimConfig::ssl(3, 1);
+    let poses = [[-0.5, 0.0, 0.0], [-0.5, 1.0, 0.0], [0.2, 1.0, 0.0], [0.5, 0.0, 180.0]];
+    let told = [2.0, 1.0, 0.0, 1.0].map(|forward| vec![forward, 0.0, 0.0]).to_vec();
+    let mut scene = Scene::at("crash", config, &poses, Driver::Constant(told));
+    scene.set_ball([0.0, -2.0], [0.0, 0.0]);
+    let (rows, _) = scene.play(&mut scene.world(), 60);
+    let rows: Vec<&[f32]> = rows.chunks_exact(scene.config.row_size()).collect();
+    let worst =
+        |robot: usize| rows.iter().map(|row| column(row, robot, "crash_speed")).fold(0.0, f32::max);
+    let touched_foe =
+        |robot: usize| rows.iter().any(|row| column(row, robot, "touched_foe") == 1.0);
+    assert!((worst(0) - 3.0).abs() < 0.1, "2 and 1 m/s: {}", worst(0));
+    assert_eq!(worst(0), worst(3));
+    assert!((worst(1) - 1.0).abs() < 0.05, "1 m/s into a mate: {}", worst(1));
+    assert!(touched_foe(0) && touched_foe(3) && !touched_foe(1) && !touched_foe(2));
+}
+
+#[test]
+fn lines_are_told_with_place_and_height() {
+    for (from, velocity, line, at) in [
+        ([4.0, 0.2], [4.0, 0.0], "goal_right", [4.5, 0.2]),
+        ([-4.0, 0.2], [-4.0, 0.0], "goal_left", [-4.5, 0.2]),
+        ([4.0, 1.2], [4.0, 0.0], "goal_line_right", [4.5, 1.2]),
+        ([-4.0, 1.2], [-4.0, 0.0], "goal_line_left", [-4.5, 1.2]),
+        ([1.0, 2.5], [0.0, 4.0], "touch_line_left", [1.0, 3.0]),
+        ([1.0, -2.5], [0.0, -4.0], "touch_line_right", [1.0, -3.0]),
+    ] {
+        let scene = lone_ball(SimConfig::ssl(0, 0), from, velocity);
+        let (rows, _) = scene.play(&mut scene.world(), 12);
+        let crossed: Vec<&[f32]> = rows
+            .chunks_exact(scene.config.row_size())
+            .filter(|row| row[ball_column("crossed")] != 0.0)
+            .collect();
+        assert_eq!(crossed.len(), 1, "{line}: told in one step only");
+        assert_eq!(crossing_name(crossed[0][ball_column("crossed")]), line);
+        let crossed_x = ball_column("crossed_x");
+        let [x, y, z] = [0, 1, 2].map(|part| crossed[0][crossed_x + part]);
+        assert!(
+            (x - at[0]).abs() < 1e-3 && (y - at[1]).abs() < 1e-3 && z == 0.0,
+            "{line}: {x} {y}"
+        );
+    }
+}

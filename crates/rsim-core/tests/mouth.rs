@@ -1,0 +1,206 @@
+//! Beam, kicker and dribbler: what a robot does to a ball in its mouth.
+#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+
+use rsim_core::columns::{ball_column, robot_column};
+use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_omni, robots, steps};
+use rsim_core::{RobotModel, SimConfig};
+
+const DRIBBLE: [f32; 3] = [0.0, 0.0, 1.0];
+
+/// A command: velocity of the body, and the dribbler on.
+fn dribbling(body: [f32; 3]) -> Vec<f32> {
+    [body, DRIBBLE].concat()
+}
+
+fn robot(row: &[f32], index: usize) -> &[f32] {
+    robots(row).nth(index).expect("a robot")
+}
+
+/// From the robot's front to the ball's surface.
+fn gap(scene: &Scene, row: &[f32], index: usize) -> f32 {
+    let (model, robot) = (&scene.config.blue[0], robot(row, index));
+    let (x, y) = (row[0] - robot[0], row[1] - robot[1]);
+    x * robot[2] + y * robot[3] - model.front() - scene.config.ball.radius
+}
+
+/// Whether the beam sees the ball after each step.
+fn seen(scene: &Scene, steps: u64) -> Vec<bool> {
+    let (rows, _) = scene.play(&mut scene.world(), steps);
+    let infrared = robot_column("infrared");
+    rows.chunks_exact(scene.config.row_size()).map(|row| robot(row, 0)[infrared] == 1.0).collect()
+}
+
+#[test]
+fn a_kick_has_the_speed_that_it_was_told_in_the_robots_direction() {
+    for degrees in [0.0_f32, 50.0, 180.0, 290.0] {
+        for speed in [1.0, 4.0, 6.5] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, speed, 0.0, 0.0]);
+            scene.config.time_step = scene.config.tick;
+            scene.set_robot_column(0, "cos", cos);
+            scene.set_robot_column(0, "sin", sin);
+            let away = scene.config.blue[0].front() + scene.config.ball.radius;
+            scene.set_ball([away * cos, away * sin], [0.0, 0.0]);
+            let row = scene.after(1);
+            let (v_x, v_y) = (row[ball_column("v_x")], row[ball_column("v_y")]);
+            let (along, across) = (v_x * cos + v_y * sin, v_y * cos - v_x * sin);
+            assert!((along / speed - 1.0).abs() < 0.02, "{speed} m/s at {degrees}: {along}");
+            assert!(across.abs() < 0.02 * speed);
+            assert_eq!(row[ball_column("last_touch")], 0.0);
+            assert_eq!(robot(&row, 0)[robot_column("touched_ball")], 1.0);
+        }
+    }
+}
+
+#[test]
+fn the_devices_limits_hold() {
+    for (told, most) in [([20.0, 0.0], 8.0_f32), ([20.0, 20.0], 8.0)] {
+        let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, told[0], told[1], 0.0]);
+        scene.config.time_step = scene.config.tick;
+        let row = scene.after(1);
+        let speed = row[ball_column("v_x")].hypot(row[ball_column("v_z")]);
+        assert!((speed / most - 1.0).abs() < 0.02, "{told:?}: {speed}");
+    }
+}
+
+#[test]
+fn there_is_no_kick_without_the_ball_in_the_mouth() {
+    let kick = [0.0, 0.0, 0.0, 5.0, 0.0, 0.0];
+    let front = 0.0715 + 0.0215;
+    for place in [[front + 0.012, 0.0], [front, 0.034], [-0.12, 0.0], [0.0, 0.12]] {
+        let mut scene = lone_omni(&kick);
+        scene.set_ball(place, [0.0, 0.0]);
+        let row = scene.after(2);
+        assert_eq!(row[ball_column("v_x")], 0.0, "ball at {place:?}");
+        assert_eq!(row[ball_column("last_touch")], -1.0);
+    }
+}
+
+#[test]
+fn a_kicker_that_is_not_charged_waits() {
+    // The back of a goal right before the mouth sends the ball back before it is charged.
+    let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);
+    scene.config.time_step = scene.config.tick;
+    let (recharge, tick) =
+        (scene.config.blue[0].mouth.expect("a mouth").recharge, scene.config.tick);
+    scene.set_robot_column(0, "x", 4.52);
+    scene.set_ball([4.52 + 0.0715 + 0.0215, 0.0], [0.0, 0.0]);
+    let (rows, _) = scene.play(&mut scene.world(), 120);
+    let v_x = ball_column("v_x");
+    let speeds: Vec<f32> = rows.chunks_exact(scene.config.row_size()).map(|row| row[v_x]).collect();
+    let kicked = |speed: &f32| *speed > 4.0;
+    let kicks: Vec<usize> = speeds
+        .windows(2)
+        .enumerate()
+        .filter(|(_, pair)| kicked(&pair[1]) && !kicked(&pair[0]))
+        .map(|(step, _)| step)
+        .collect();
+    assert!(!kicks.is_empty(), "it kicks again when it is charged: {speeds:?}");
+    for pair in kicks.windows(2) {
+        assert!((pair[1] - pair[0]) as f32 * tick >= recharge - 1e-4, "kicks at {kicks:?}");
+    }
+    // The first kick was in the first tick.
+    assert!((kicks[0] + 1) as f32 * tick >= recharge - 1e-4, "kicks at {kicks:?}");
+}
+
+#[test]
+fn the_dribbler_holds_the_ball_in_turns_and_backwards_and_forwards() {
+    for (what, body) in [
+        ("turning", [0.0, 0.0, 3.0]),
+        ("turning the other way", [0.0, 0.0, -3.0]),
+        ("backwards", [-0.5, 0.0, 0.0]),
+        ("forwards", [1.0, 0.0, 0.0]),
+        ("sideways", [0.0, 0.5, 0.0]),
+    ] {
+        let scene = ball_in_mouth(&dribbling(body));
+        let seen = seen(&scene, 80);
+        assert!(seen.iter().all(|seen| *seen), "{what}: {seen:?}");
+        let row = scene.after(80);
+        assert!(gap(&scene, &row, 0).abs() < 5e-3, "{what}: {} m", gap(&scene, &row, 0));
+    }
+}
+
+#[test]
+fn without_the_dribbler_those_moves_lose_it() {
+    for body in [[0.0, 0.0, 3.0], [-0.5, 0.0, 0.0]] {
+        let seen = seen(&ball_in_mouth(&body), 80);
+        assert!(!seen[79], "{body:?}");
+    }
+}
+
+#[test]
+fn beyond_the_grip_the_ball_is_lost() {
+    // 0.5 N hold 46 g in a circle of 93 mm up to 10.8 rad/s.
+    assert!(seen(&ball_in_mouth(&dribbling([0.0, 0.0, 9.0])), 80)[79]);
+    assert!(!seen(&ball_in_mouth(&dribbling([0.0, 0.0, 15.0])), 80)[79]);
+}
+
+#[test]
+fn the_dribbler_gives_back_spin() {
+    let row = ball_in_mouth(&dribbling([0.0, 0.0, 0.0])).after(40);
+    let rim = row[ball_column("spin_y")] * 0.0215;
+    assert!((rim + 2.0).abs() < 0.1, "the bar's 2 m/s backwards: {rim}");
+}
+
+#[test]
+fn off_releases_within_a_tick() {
+    // In a turn only the grip bends the ball's way. From the tick after, it goes straight.
+    let mut scene = ball_in_mouth(&dribbling([0.0, 0.0, 3.0]));
+    scene.config.time_step = scene.config.tick;
+    let mut world = scene.world();
+    let mut row = scene.play(&mut world, 200).0;
+    row = row[row.len() - scene.config.row_size()..].to_vec();
+    let off = [0.0, 0.0, 3.0, 0.0, 0.0, 0.0];
+    let [v_x, v_y] = ["v_x", "v_y"].map(ball_column);
+    let mut velocities = vec![[row[v_x], row[v_y]]];
+    for _ in 0..3 {
+        world.step(&off).expect("finite");
+        world.write_row(&mut row);
+        velocities.push([row[v_x], row[v_y]]);
+    }
+    let floor = scene.config.ball.sliding_deceleration * scene.config.tick;
+    for pair in velocities.windows(2) {
+        let change = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+        assert!(change <= floor * 1.05, "only the floor acts: {change} m/s in a tick");
+    }
+    let apart = scene.config.time_step;
+    for _ in 0..steps(1.0, apart) {
+        world.step(&off).expect("finite");
+    }
+    world.write_row(&mut row);
+    assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "and it is out of the mouth");
+}
+
+#[test]
+fn holding_the_ball_does_not_slow_the_robot() {
+    for body in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
+        let with = ball_in_mouth(&dribbling(body));
+        let mut without = with.clone();
+        without.set_ball([0.0, 2.5], [0.0, 0.0]);
+        let way = |scene: &Scene| {
+            let row = scene.after(60);
+            robot(&row, 0)[0].hypot(robot(&row, 0)[1])
+        };
+        let (with, without) = (way(&with), way(&without));
+        assert!((with / without - 1.0).abs() < 0.05, "{body:?}: {with} m, {without} m without");
+    }
+}
+
+#[test]
+fn another_robot_can_take_the_ball() {
+    // Nose to nose over the ball, both dribbling; yellow backs off with more grip behind it.
+    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
+    let told = vec![vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0], dribbling([-0.3, 0.0, 0.0])];
+    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    scene.set_ball([front, 0.0], [0.0, 0.0]);
+    let row = scene.after(60);
+    assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
+    // And from one that holds it, by pushing it out sideways.
+    let poses = [[0.0, 0.0, 0.0], [front, 0.16, -90.0]];
+    let told = vec![dribbling([0.0; 3]), dribbling([1.0, 0.0, 0.0])];
+    let mut scene = Scene::at("knock", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    scene.set_ball([front, 0.0], [0.0, 0.0]);
+    let row = scene.after(60);
+    assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "blue has lost it: {row:?}");
+}

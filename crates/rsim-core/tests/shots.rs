@@ -1,0 +1,128 @@
+//! Fast shots: none passes through anything, none comes off what it only passes near.
+#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+
+use rsim_core::columns::{ball_column, crossing_name};
+use rsim_core::scenes::{Driver, Scene, lone_ball, uniform};
+use rsim_core::{Field, SimConfig};
+
+const SPEED: f32 = 10.0; // m/s: 50 mm a tick, more than the ball is wide
+const SHOTS: u64 = 1000;
+
+/// A shot from `from` at `to`.
+fn shoot(scene: &mut Scene, from: [f32; 2], to: [f32; 2]) {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let length = way[0].hypot(way[1]);
+    scene.set_ball(from, way.map(|part| part / length * SPEED));
+}
+
+fn rows(scene: &Scene, steps: u64) -> Vec<Vec<f32>> {
+    let (rows, _) = scene.play(&mut scene.world(), steps);
+    rows.chunks_exact(scene.config.row_size()).map(<[f32]>::to_vec).collect()
+}
+
+#[test]
+fn none_passes_a_wall() {
+    for (config, reach) in [
+        (SimConfig::vss(0, 0), [0.85, 0.65]),
+        (SimConfig::ssl(0, 0), [4.8, 3.3]),
+        (SimConfig { field: Field::SSL_A, ..SimConfig::ssl(0, 0) }, [6.6, 4.8]),
+    ] {
+        let half = [config.field.half_length(), config.field.half_width()];
+        for shot in 0..SHOTS {
+            let mut scene = lone_ball(config.clone(), [0.0, 0.0], [0.0, 0.0]);
+            let draw = |nth: u64| uniform(shot + nth * 5000);
+            let from = [draw(0) * half[0] * 0.8, draw(1) * half[1] * 0.8];
+            shoot(&mut scene, from, [draw(2) * 2.0 * half[0], draw(3) * 2.0 * half[1]]);
+            for row in rows(&scene, 24) {
+                let inside = row[0].abs() < reach[0] && row[1].abs() < reach[1];
+                assert!(inside, "{} shot {shot} is at {:?}", scene.config.field.name, &row[..2]);
+            }
+        }
+    }
+}
+
+#[test]
+fn none_passes_the_sides_and_the_back_of_a_goal() {
+    let mut kept_out = 0;
+    let mut goals = 0;
+    for shot in 0..SHOTS {
+        let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
+        let draw = |nth: u64| uniform(shot + nth * 5000);
+        // Half at the 20 mm side from beside the goal, half through the mouth at the back.
+        let beside = shot % 2 == 0;
+        if beside {
+            let from = [4.65 + 0.1 * draw(0), 0.9 + 0.3 * draw(1)];
+            shoot(&mut scene, from, [4.62 + 0.1 * draw(2), 0.0]);
+        } else {
+            shoot(&mut scene, [3.5 + draw(0), 0.4 * draw(1)], [4.7, 0.48 * draw(2)]);
+        }
+        // Later one from beside may come round the post, which is no fault.
+        let rows = rows(&scene, if beside { 4 } else { 12 });
+        for row in &rows {
+            let in_goal = row[0] > 4.52 && row[1].abs() < 0.5;
+            assert!(!(beside && in_goal), "shot {shot} went in from the side");
+            assert!(row[0] < 4.68 || row[1].abs() > 0.5, "shot {shot} passed the back");
+            let in_side = row[0] > 4.52 && (row[1].abs() - 0.51).abs() < 0.009;
+            assert!(!in_side, "shot {shot} is in the goal's side at {:?}", &row[..2]);
+        }
+        kept_out += u32::from(beside);
+        let name = |row: &Vec<f32>| crossing_name(row[ball_column("crossed")]);
+        goals += u32::from(!beside && rows.iter().any(|row| name(row) == "goal_right"));
+    }
+    assert!(kept_out == 500 && goals > 450, "{kept_out} kept out, {goals} goals");
+}
+
+#[test]
+fn none_passes_a_robot() {
+    for (config, half) in [(SimConfig::vss(1, 0), 0.0375), (SimConfig::ssl(1, 0), 0.0715)] {
+        let mut stopped = 0;
+        for shot in 0..SHOTS {
+            let degrees = 180.0 * uniform(shot + 77);
+            let mut scene = Scene::at("at", config.clone(), &[[0.0, 0.0, degrees]], Driver::STILL);
+            let draw = |nth: u64| uniform(shot + nth * 5000);
+            let from = [-0.4 + 0.1 * draw(0), 0.3 * draw(1)];
+            shoot(&mut scene, from, [0.0, 0.8 * half * draw(2)]);
+            let direction = [-from[0], -from[1]];
+            // Undisturbed it would be half a metre behind the robot after 0.1 s.
+            let last = rows(&scene, 4).pop().expect("a row");
+            let behind = last[0] * direction[0] + last[1] * direction[1];
+            let moving = last[ball_column("v_x")].hypot(last[ball_column("v_x") + 1]);
+            assert!(!(behind > 0.1 && moving > 0.95 * SPEED), "shot {shot} passed: {last:?}");
+            stopped += u32::from(last[ball_column("last_touch")] == 0.0);
+        }
+        assert_eq!(stopped, 1000, "every shot touched the robot");
+    }
+}
+
+#[test]
+fn none_comes_off_what_it_only_passes_near() {
+    let gap = 0.002;
+    for (config, clear) in [(SimConfig::vss(1, 0), 0.0375), (SimConfig::ssl(1, 0), 0.09)] {
+        for shot in 0..SHOTS {
+            let mut scene = Scene::at("near", config.clone(), &[[0.0, 0.0, 0.0]], Driver::STILL);
+            let side = if shot % 2 == 0 { 1.0 } else { -1.0 };
+            let y = side * (clear + config.ball.radius + gap);
+            shoot(&mut scene, [-0.3 + 0.025 * uniform(shot), y], [1.0, y]);
+            for row in rows(&scene, 2) {
+                assert!((row[1] - y).abs() < 1e-6, "shot {shot} was bent: {row:?}");
+                assert_eq!(row[ball_column("last_touch")], -1.0, "shot {shot} touched");
+            }
+        }
+    }
+    for shot in 0..SHOTS {
+        let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
+        // Past the front edge of a goal's side, and along a wall.
+        let y = if shot % 2 == 0 { 0.52 + 0.0215 + gap } else { 3.3 - 0.0215 - gap };
+        shoot(&mut scene, [3.9 + 0.025 * uniform(shot), y], [9.0, y]);
+        for row in rows(&scene, 3).iter().filter(|row| row[0] < 4.7) {
+            assert!((row[1] - y).abs() < 1e-6, "shot {shot} was bent: {row:?}");
+        }
+    }
+}
+
+#[test]
+fn corner_blocks_send_it_round_the_corner() {
+    // Along the side wall into the corner: a right wall would send it straight back.
+    let row = lone_ball(SimConfig::vss(0, 0), [0.4, 0.62], [2.0, 0.0]).after(12);
+    assert!(row[ball_column("v_y")] < -0.2, "it leaves the corner inward: {row:?}");
+}
