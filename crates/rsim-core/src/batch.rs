@@ -190,3 +190,36 @@ impl Batch {
         Header::new(self.config(), self.worlds.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rapier2d::math::Vector;
+
+    use super::*;
+    use crate::engine::{BALL, robot};
+    use crate::scenes;
+
+    #[test]
+    fn a_state_that_is_not_finite_names_its_world_and_can_be_placed_anew() {
+        let scene = scenes::ssl_random(SimConfig::ssl(1, 1));
+        for body in [BALL, robot(0), robot(1)] {
+            for wrong in [f32::NAN, f32::INFINITY] {
+                let (mut batch, mut rows) = scene.batch(3, 1);
+                let told = vec![1.0; 3 * scene.config.command_size()];
+                batch.worlds[1].state.engine.set_velocity(body, Vector::new(wrong, 0.0));
+                for _ in 0..2 {
+                    // Lost until it is placed; the others go on.
+                    let before = rows.clone();
+                    assert_eq!(batch.step(&told, &mut rows, None), Err(StepError { world: 1 }));
+                    let size = scene.config.row_size();
+                    assert_ne!(rows[..size], before[..size]);
+                    assert_eq!(rows[size..2 * size], before[size..2 * size]);
+                }
+                let mask = [false, true, false];
+                batch.place(&mask, &scene.start, None, &mut rows).expect("valid");
+                assert_eq!(batch.step(&told, &mut rows, None), Ok(()));
+                assert!(rows.iter().all(|value| value.is_finite()));
+            }
+        }
+    }
+}

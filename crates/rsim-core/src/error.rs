@@ -1,5 +1,7 @@
 //! Everything that can be wrong, in one place; the binding maps these to Python exceptions.
 
+use crate::placement::FASTEST;
+
 /// A configuration that no match can be played with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConfigError {
@@ -92,6 +94,14 @@ pub enum PlaceError {
     NotFinite {
         /// Which body.
         who: String,
+    },
+    /// A body that is faster than anything in the game, and than what contacts are looked for.
+    #[error("{who} moves at {speed:.1} m/s; at most {FASTEST} m/s can be placed")]
+    TooFast {
+        /// Which body.
+        who: String,
+        /// How fast.
+        speed: f32,
     },
     /// A ball below the floor.
     #[error("the ball must not be below the floor, got z = {z} m")]

@@ -89,8 +89,11 @@ impl Physique {
         let ball = varied_ball(&config.ball, ball);
         ball.validate()?;
         let robots = config.robots().zip(robots.chunks_exact(ROBOT_PARAMETERS.len()));
-        let robots = robots.map(|(model, factors)| varied_robot(model, factors, config.tick));
-        Ok(Self { ball, robots: robots.collect() })
+        let robots = robots.map(|(model, factors)| {
+            let body = varied_robot(model, factors, config.tick);
+            body.model.validate().map(|()| body)
+        });
+        Ok(Self { ball, robots: robots.collect::<Result<_, _>>()? })
     }
 }
 

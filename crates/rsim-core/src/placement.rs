@@ -17,6 +17,9 @@ use crate::{Field, PlaceError, SimConfig};
 /// each of its states can be placed again.
 const TOLERANCE: f32 = 2e-3;
 
+/// Fastest that a body may move at the start, m/s. Kicks reach 14 m/s with the robot's own speed.
+pub(crate) const FASTEST: f32 = 20.0;
+
 /// Allowed error of the length of a heading; it is made exact afterwards.
 const HEADING_TOLERANCE: f32 = 1e-3;
 
@@ -85,13 +88,13 @@ impl Placement {
     /// Checks a body by itself, and makes its heading a unit vector.
     fn check_alone(&self, who: usize, motion: &mut Motion, z: f32) -> Result<(), PlaceError> {
         let name = || self.names[who].clone();
-        let Motion { position, heading, velocity, spin } = *motion;
-        if !(position.is_finite()
-            && heading.is_finite()
-            && velocity.is_finite()
-            && spin.is_finite())
-        {
+        let Motion { position, heading, .. } = *motion;
+        if !motion.is_finite() {
             return Err(PlaceError::NotFinite { who: name() });
+        }
+        let speed = motion.velocity.length();
+        if speed > FASTEST {
+            return Err(PlaceError::TooFast { who: name(), speed });
         }
         if (heading.length() - 1.0).abs() > HEADING_TOLERANCE {
             return Err(PlaceError::Heading { who: name(), cos: heading.x, sin: heading.y });

@@ -56,6 +56,17 @@ pub(crate) struct State {
     broken: bool,
 }
 
+impl State {
+    /// The engine notices only what it integrates itself, so everything is looked at.
+    fn check(&self) -> Result<(), NonFinite> {
+        let Ball { z, v_z, spin, .. } = self.ball;
+        let ball = z.is_finite() && v_z.is_finite() && spin.is_finite();
+        let finite =
+            ball && (0..=self.robots.len()).all(|body| self.engine.motion(body).is_finite());
+        if finite { Ok(()) } else { Err(NonFinite) }
+    }
+}
+
 /// What a robot remembers from one tick to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Robot {
@@ -163,7 +174,7 @@ impl World {
             (0..rules.config.ticks_per_step()).try_for_each(|_| tick.advance(state, scratch))
         });
         state.own = own;
-        stepped.map_err(|NonFinite| {
+        stepped.and_then(|()| self.state.check()).map_err(|NonFinite| {
             self.state.broken = true;
             StepError { world: 0 }
         })

@@ -67,6 +67,42 @@ fn unequal_wheels_drive_the_arc_of_the_closed_form() {
 }
 
 #[test]
+fn wheels_that_differ_by_2_percent_drive_the_arc_of_the_closed_form() {
+    let (left, right) = (20.0, 20.4);
+    let mut scene = lone_robot([left, right]);
+    scene.set_robot_column(0, "x", -0.65);
+    let drive = wheels(&RobotModel::VSS_440RPM);
+    let radius = drive.track / 2.0 * (right + left) / (right - left); // 3.95 m
+    let [early, late] = [8, 88].map(|steps| after(&scene, steps));
+    // On a circle the chord between two places bends by half the angle between their headings.
+    let chord = (late[0] - early[0]).hypot(late[1] - early[1]);
+    let turned = late[3].atan2(late[2]) - early[3].atan2(early[2]);
+    close(chord / (2.0 * (turned / 2.0).sin()), radius, 0.01 * radius);
+    let travelled = drive.wheel_radius * (left + right) / 2.0 * 2.0; // m/s times 2 s
+    close(turned, travelled / radius, 0.01 * travelled / radius);
+}
+
+#[test]
+fn the_faster_preset_responds_as_its_numbers_say() {
+    let model = RobotModel::VSS_650RPM;
+    let drive = wheels(&model);
+    let preset = |command: [f32; 2], steps: u64| {
+        let mut scene = lone_robot(command);
+        scene.config.blue = vec![model.clone()];
+        scene.set_robot_column(0, "x", -0.6);
+        after(&scene, steps)
+    };
+    let full = [drive.max_wheel_speed; 2];
+    // Tyres give 0.6 g, the motors would give 32 m/s².
+    close(preset(full, 4)[4], 0.6 * 9.81 * 0.1, 0.005);
+    close(preset(full, 4)[0] + 0.6, 0.5 * 0.6 * 9.81 * 0.01, 0.001);
+    let top = drive.wheel_radius * drive.max_wheel_speed; // 1.7 m/s, after 0.289 s
+    close(preset(full, 11)[4], 0.6 * 9.81 * 0.275, 0.01);
+    close(preset(full, 13)[4], top, 1e-3);
+    close(preset([-20.0, 20.0], 20)[6], 2.0 * 20.0 * drive.wheel_radius / drive.track, 0.05);
+}
+
+#[test]
 fn commands_beyond_the_motors_count_as_their_top_speed() {
     assert_eq!(after(&lone_robot([1e9, 1e9]), 30), after(&lone_robot([46.077, 46.077]), 30));
 }

@@ -1,5 +1,6 @@
 //! What nobody can play with is refused, by name, and changes nothing.
 
+use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
 use rsim_core::{BallModel, Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
 
@@ -72,7 +73,7 @@ fn impossible_starts_are_refused_and_change_nothing() {
     let set = |row: &mut Vec<f32>, robot: usize, column: usize, value: f32| {
         robots_mut(row).nth(robot).expect("a robot")[column] = value;
     };
-    let cases: [(&str, Vec<f32>); 7] = [
+    let cases: [(&str, Vec<f32>); 9] = [
         ("blue_0", spoil(&|row| set(row, 0, 0, 0.9))),
         ("outside", spoil(&|row| set(row, 4, 1, 0.63))),
         (
@@ -83,6 +84,8 @@ fn impossible_starts_are_refused_and_change_nothing() {
             }),
         ),
         ("yellow_2", spoil(&|row| set(row, 5, 2, 0.5))),
+        ("ball moves at 21.0 m/s", spoil(&|row| row[ball_column("v_x")] = 21.0)),
+        ("below the floor", spoil(&|row| row[ball_column("z")] = -0.1)),
         ("not finite", spoil(&|row| row[0] = f32::NAN)),
         (
             "ball and blue_1 overlap",

@@ -6,6 +6,7 @@ use super::{BALL_LABEL, Engine, Partner, label};
 use crate::SimConfig;
 use crate::arena::Wall;
 use crate::physique::Physique;
+use crate::placement::FASTEST;
 use crate::robot_model::Body;
 
 impl Engine {
@@ -19,7 +20,7 @@ impl Engine {
             colliders: ColliderSet::new(),
             handles: Vec::new(),
         };
-        engine.insert_ball(physique);
+        engine.insert_ball(physique, config.tick);
         for index in 0..physique.robots.len() {
             engine.insert_robot(physique, index);
         }
@@ -34,7 +35,7 @@ impl Engine {
         engine
     }
 
-    fn insert_ball(&mut self, physique: &Physique) {
+    fn insert_ball(&mut self, physique: &Physique, tick: f32) {
         let ball = &physique.ball;
         // Its bounce and friction are solved in closed form, and its spin has three axes: the engine
         // only keeps it out of others.
@@ -45,8 +46,8 @@ impl Engine {
             .friction_combine_rule(CoefficientCombineRule::Min)
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
             .user_data(BALL_LABEL);
-        // Seen ahead, so that a fast ball does not pass through a robot between two ticks.
-        let body = awake().soft_ccd_prediction(3.0 * ball.radius).lock_rotations();
+        // Seen ahead, so that the fastest ball does not pass through a robot between two ticks.
+        let body = awake().soft_ccd_prediction(FASTEST * tick).lock_rotations();
         self.insert(body, collider);
     }
 

@@ -31,6 +31,15 @@ pub(crate) struct Motion {
     pub(crate) spin: f32,
 }
 
+impl Motion {
+    pub(crate) fn is_finite(&self) -> bool {
+        self.position.is_finite()
+            && self.heading.is_finite()
+            && self.velocity.is_finite()
+            && self.spin.is_finite()
+    }
+}
+
 /// What a body is in contact with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Partner {
