@@ -17,7 +17,7 @@ from rsoccer.policies.base import Policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Play, Task
-from rsoccer.tasks import VssMulti, VssSelfPlay
+from rsoccer.tasks import VssMulti, VssSelfPlay, VssSingle
 from rsoccer.view import View
 
 __all__ = [
@@ -33,6 +33,7 @@ __all__ = [
     "View",
     "VssMulti",
     "VssSelfPlay",
+    "VssSingle",
     "WorldRng",
     "__version__",
     "build_info",

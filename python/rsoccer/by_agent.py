@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.frame import Array, Floats
+from rsoccer.task import Task
 
 
-def stack(actions: Mapping[str, Floats], agents: Sequence[str]) -> Array:
+def stack(actions: Mapping[str, Array], agents: Sequence[str], task: Task) -> Array:
     """Actions side by side, (1, agents, action); what they hold is for `Matches` to check."""
-    rows = [np.asarray(actions[agent]) for agent in agents]
+    rows = [np.asarray(spaces.numbers(task, actions[agent])) for agent in agents]
     if len(actions) != len(agents) or any(row.dtype.kind != "f" for row in rows):
         raise ValueError("see name_fault")  # else one agent's integers would pass unseen
     return np.array([rows])
@@ -23,7 +24,7 @@ def split(agents: Sequence[str], rows: Floats) -> dict[str, Floats]:
     return dict(zip(agents, rows[0], strict=True))
 
 
-def name_fault(actions: object, agents: Sequence[str], size: int) -> None:
+def name_fault(actions: object, agents: Sequence[str], task: Task) -> None:
     """Raise an error that names the agent whose action is missing, unknown or wrong, if any.
 
     Asked only after a failure: looking at each agent on its own costs more than a step's rest.
@@ -38,4 +39,9 @@ def name_fault(actions: object, agents: Sequence[str], size: int) -> None:
             f"missing {missing}, unknown {unknown}"
         )
     for agent in agents:
-        checks.floats(f"actions[{agent!r}]", actions[agent], (size,))
+        name = f"actions[{agent!r}]"
+        try:
+            row = spaces.numbers(task, actions[agent])
+        except (TypeError, ValueError) as error:
+            raise type(error)(name + str(error).removeprefix("actions")) from None
+        checks.floats(name, row, (task.action_size,))

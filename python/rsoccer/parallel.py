@@ -22,11 +22,12 @@ from numpy.typing import NDArray
 from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils.conversions import parallel_to_aec
 
-from rsoccer import by_agent, checks
+from rsoccer import by_agent, checks, spaces
 from rsoccer.controllers import Controllers
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Floats
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Array, Floats
 from rsoccer.matches import Matches
 from rsoccer.registry import make_task
+from rsoccer.spaces import ActionSpace
 from rsoccer.state import LIMIT, StateScale
 from rsoccer.task import Task
 
@@ -63,10 +64,10 @@ def env(
 ) -> AECEnv[str, Floats, Floats | None]:
     """The same match for PettingZoo's turn-by-turn API (AEC): agents act one after another."""
     match = parallel_env(name, render_mode, **options)
-    return parallel_to_aec(match)  # type: ignore[arg-type]  # it never passes its None on to us
+    return parallel_to_aec(match)
 
 
-class SoccerParallelEnv(ParallelEnv[str, Floats, Floats]):
+class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
     """One match of a task; everything in and out is a dictionary by robot name.
 
     All agents play from `reset` until the episode ends for all of them in one step: by
@@ -108,11 +109,9 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Floats]):
             "is_parallelizable": True,
         }
         # A space for each agent: seeding one agent's samples must not seed another's.
-        low, high = self._matches.observation_low, self._matches.observation_high
-        self._observation_spaces = {agent: Box(low, high) for agent in self.possible_agents}
-        self._action_spaces = {
-            agent: Box(-1.0, 1.0, (task.action_size,)) for agent in self.possible_agents
-        }
+        agents = self.possible_agents
+        self._observation_spaces = {agent: spaces.observation_space(task) for agent in agents}
+        self._action_spaces = {agent: spaces.action_space(task) for agent in agents}
         self._scale = StateScale(task.config)
         self.state_space = Box(-LIMIT, LIMIT, (self._scale.size,))
 
@@ -136,8 +135,8 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Floats]):
         """Bounds of what the agent sees, (o,) float32."""
         return self._observation_spaces[agent]
 
-    def action_space(self, agent: str) -> Box[np.float32]:
-        """Bounds of what the agent does, (action,) float32 in [-1, 1]."""
+    def action_space(self, agent: str) -> ActionSpace:
+        """What the agent does: (action,) float32 in [-1, 1], or a choice of a discrete task."""
         return self._action_spaces[agent]
 
     def state(self) -> Floats:
@@ -178,16 +177,16 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Floats]):
         return by_agent.split(self.possible_agents, observations), self._no_infos()
 
     def step(
-        self, actions: Mapping[str, Floats]
+        self, actions: Mapping[str, Array]
     ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
         """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
         if not self.agents:
             state = "after the end of the episode" if self._begun else "before reset"
             raise RuntimeError(f"step {state}: call reset() to begin an episode")
         try:
-            outcome = self._matches.step(by_agent.stack(actions, self.agents))
+            outcome = self._matches.step(by_agent.stack(actions, self.agents, self.task))
         except (LookupError, TypeError, ValueError):
-            by_agent.name_fault(actions, self.agents, self.task.action_size)
+            by_agent.name_fault(actions, self.agents, self.task)
             raise
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         if terminated or truncated:

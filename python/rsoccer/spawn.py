@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer._core import Field
-from rsoccer.frame import Floats, Mask
+from rsoccer._core import BallModel, Field
+from rsoccer.frame import BallColumns, Floats, Mask
 from rsoccer.rng import WorldRng
 
 TRIES: Final = 1000
@@ -50,6 +50,13 @@ def velocities(rng: WorldRng, top_speed: float) -> Floats:
     """Random velocities (n, 2), m/s: any direction, any speed up to `top_speed`."""
     speed = rng.uniform(0.0, top_speed)
     return speed[:, None] * headings(rng, 1)[:, 0]
+
+
+def roll(ball: BallColumns, model: BallModel) -> None:
+    """Give balls that move along the floor the spin of rolling; without it they slide first."""
+    per_metre = np.float32(1.0 / model.radius)
+    ball.spin[..., 0] = -ball.velocity[..., 1] * per_metre
+    ball.spin[..., 1] = ball.velocity[..., 0] * per_metre
 
 
 def _draw(rng: WorldRng, box: Floats) -> Floats:

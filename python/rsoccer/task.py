@@ -138,6 +138,11 @@ class Task(ABC):
         """Facts of each world (n,) that count at the end of an episode."""
         return {}
 
+    @property
+    def action_table(self) -> Floats | None:
+        """Actions (choices, action) that agents choose from; None where they give numbers."""
+        return None
+
     def default_controllers(self) -> dict[str, str | Learn]:
         """Who drives each robot if nobody says otherwise: `LEARN` or a policy's name."""
         return dict.fromkeys(self.robots, LEARN)

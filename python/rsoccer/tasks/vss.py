@@ -20,6 +20,12 @@ from rsoccer.view import View
 # robots that stand still, goals are the largest part of what an episode pays.
 WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
 
+# Left and right power: forward, back, turns on the spot and in arcs, stop.
+CHOICES: Final = np.array(
+    [[1, 1], [-1, -1], [-1, 1], [1, -1], [0.5, 1], [1, 0.5], [-0.5, -1], [-1, -0.5], [0, 0]],
+    np.float32,
+)
+
 APART: Final = 0.1  # metres between centres at the start
 MOTION: Final = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
 
@@ -37,6 +43,7 @@ class Vss(Task):
     ball_speed: float = 0.0  # m/s, the most that the ball starts with
     weights: Mapping[str, float] = field(default_factory=dict)  # in place of those in WEIGHTS
     robot: str = "vss_440rpm"  # a robot model of the simulator
+    discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
 
     action_size = 2  # left and right wheel, of their top speed
 
@@ -65,6 +72,7 @@ class Vss(Task):
         frame.robots.position[:] = places[:, 1:]
         frame.robots.heading[:] = spawn.headings(rng, robots)
         frame.ball.velocity[:] = spawn.velocities(rng, self.ball_speed)
+        spawn.roll(frame.ball, self.config.ball)
         return frame
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
@@ -108,6 +116,11 @@ class Vss(Task):
         }
         weighted = {name: np.float32(self.weights[name]) * term for name, term in terms.items()}
         return weighted, rewards.scored(play)
+
+    @property
+    def action_table(self) -> Floats | None:
+        """CHOICES, if agents choose."""
+        return CHOICES if self.discrete else None
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""
