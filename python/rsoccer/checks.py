@@ -1,5 +1,6 @@
 """Checks of what comes from outside: each raises before anything has changed."""
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -63,6 +64,23 @@ def commands(value: Array, shape: tuple[int, ...]) -> Floats:
     if value.shape != shape:
         raise ValueError(f"get_commands: expected shape {shape}, got {value.shape}")
     return np.array(value, np.float32, order="C")  # a copy: it is kept, and cleared at restarts
+
+
+def weights(
+    given: Mapping[str, float] | str, default: Mapping[str, float], paper: Mapping[str, float]
+) -> dict[str, float]:
+    """The default weights with those given in their place, or the paper's."""
+    if isinstance(given, str):
+        if given != "paper":
+            raise ValueError(f"weights: expected a mapping or 'paper', got {given!r}")
+        given = paper
+    unknown = sorted(set(given) - set(default))
+    if unknown:
+        raise ValueError(f"weights: unknown {unknown}; valid are {list(default)}")
+    for name, weight in given.items():
+        if not math.isfinite(weight):
+            raise ValueError(f"weights: expected a finite number for {name!r}, got {weight}")
+    return {**default, **given}
 
 
 def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:

@@ -153,8 +153,23 @@ class Matches:
         # The older buffer takes the new rows, so that nothing has changed if the step fails.
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
+        self._put_back(active)
         self._viewpoint.fill(play.frame, play.view)
         play.steps += 1
+
+    def _put_back(self, active: Mask | None) -> None:
+        """Go on from elsewhere in worlds where the task says so."""
+        play, found = self.play, self.task.put_back(self.play.frame)
+        if found is None:
+            return
+        worlds, rows = found
+        if active is not None:
+            worlds, rows = worlds[active[worlds]], rows[active[worlds]]
+        mask = np.zeros(self.worlds, np.bool_)
+        mask[worlds] = True
+        self._simulator.place(mask, np.ascontiguousarray(rows), out=play.frame.rows)
+        play.last_frame.rows[worlds] = play.frame.rows[worlds]
+        self._viewpoint.fill(play.last_frame, play.last_view)
 
     def _judge(self) -> Outcome:
         """What the step is worth and where it led, before anything begins again."""

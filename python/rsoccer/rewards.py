@@ -4,6 +4,7 @@ Terms that guide are differences of a potential between two frames, so going bac
 nothing and no memory is needed.
 """
 
+from collections.abc import Mapping
 from typing import Final
 
 import numpy as np
@@ -57,6 +58,13 @@ def nearest(play: Play) -> Mask:
     """
     distance = _distances(play.last_frame)
     return np.equal(distance, _least(distance, play.frame))[:, play.seers]
+
+
+def weighted(terms: dict[str, Floats], weights: Mapping[str, float] | str) -> dict[str, Floats]:
+    """Terms times their weights; a task's `weights` are numbers once it is made."""
+    if isinstance(weights, str):
+        raise TypeError(f"weights: expected numbers by name, got {weights!r}")
+    return {name: np.float32(weights[name]) * term for name, term in terms.items()}
 
 
 def energy(play: Play) -> Floats:

@@ -1,6 +1,6 @@
 """Starts: where things are when an episode begins. Each world draws from its own stream only."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
@@ -10,6 +10,8 @@ from rsoccer.frame import BallColumns, Floats, Mask
 from rsoccer.rng import WorldRng
 
 TRIES: Final = 1000
+Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]
+
 MARGIN: Final = 1e-3  # metres; what float32 and the simulator may see differently
 
 
@@ -21,23 +23,34 @@ def apart(rng: WorldRng, field: Field, radii: Sequence[float], min_distance: flo
     """
     radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
     box = np.array([field.half_length, field.half_width], np.float32) - radius[:, None]
-    gaps = np.maximum(radius[:, None] + radius, np.float32(min_distance))
     # A block's face is the line |x| + |y| = const at 45 degrees, hence the root of two.
     reach = field.half_length + field.half_width - field.corner - np.float32(2**0.5) * radius
-    gaps = np.tril(gaps, -1)  # of two that are too close, the later one is drawn again
-    places = _draw(rng, box)
-    for _ in range(TRIES):
-        bad = _misplaced(places, gaps, reach)
-        worlds = np.flatnonzero(bad.any(axis=1))
-        if not len(worlds):
-            return places
-        part = rng[worlds]
-        places[worlds] = np.where(bad[worlds, :, None], _draw(part, box), places[worlds])
-        rng.put(worlds, part)
-    raise ValueError(
-        f"no room for {len(radii)} things of radii {list(radii)} m, {min_distance} m apart, "
-        f"in a field of {field.length} x {field.width} m"
-    )
+
+    def cornered(places: Floats) -> Mask:
+        beyond: Mask = np.abs(places[..., 0]) + np.abs(places[..., 1]) > reach
+        return beyond
+
+    where = f"in a field of {field.length} x {field.width} m"
+    return _scattered(rng, (-box, box), radii, min_distance, cornered, where)
+
+
+def inside(
+    rng: WorldRng,
+    box: Box,
+    radii: Sequence[float],
+    min_distance: float = 0.0,
+    forbidden: Callable[[Floats], Mask] | None = None,
+) -> Floats:
+    """Random places (n, things, 2) of things of these radii in a box, metres.
+
+    `box` is its least and its greatest corner; `forbidden` says of places (n, things, 2) which are
+    not allowed (n, things). Otherwise as `apart`.
+    """
+    shape = (len(radii), 2)
+    corners = tuple(np.broadcast_to(np.asarray(corner, np.float32), shape) for corner in box)
+    none = forbidden or (lambda places: np.zeros(places.shape[:2], np.bool_))
+    where = f"between {tuple(box[0])} and {tuple(box[1])} m"
+    return _scattered(rng, (corners[0], corners[1]), radii, min_distance, none, where)
 
 
 def headings(rng: WorldRng, robots: int) -> Floats:
@@ -59,15 +72,43 @@ def roll(ball: BallColumns, model: BallModel) -> None:
     ball.spin[..., 1] = ball.velocity[..., 0] * per_metre
 
 
-def _draw(rng: WorldRng, box: Floats) -> Floats:
-    return rng.uniform(-1.0, 1.0, box.shape) * box
+def _scattered(
+    rng: WorldRng,
+    box: tuple[Floats, Floats],
+    radii: Sequence[float],
+    min_distance: float,
+    forbidden: Callable[[Floats], Mask],
+    where: str,
+) -> Floats:
+    """Places (n, things, 2) in boxes (things, 2), drawn until nothing is misplaced."""
+    radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
+    gaps = np.maximum(radius[:, None] + radius, np.float32(min_distance))
+    gaps = np.tril(gaps, -1)  # of two that are too close, the later one is drawn again
+    places = _draw(rng, box)
+    for _ in range(TRIES):
+        bad = _too_close(places, gaps) | forbidden(places)
+        worlds = np.flatnonzero(bad.any(axis=1))
+        if not len(worlds):
+            return places
+        part = rng[worlds]
+        places[worlds] = np.where(bad[worlds, :, None], _draw(part, box), places[worlds])
+        rng.put(worlds, part)
+    raise ValueError(
+        f"no room for {len(radii)} things of radii {list(radii)} m, {min_distance} m apart, {where}"
+    )
 
 
-def _misplaced(places: Floats, gaps: Floats, reach: Floats) -> Mask:
-    """(n, things) which are too close to an earlier one, or in a corner."""
+def _draw(rng: WorldRng, box: tuple[Floats, Floats]) -> Floats:
+    low, high = box
+    middle, half = (low + high) * np.float32(0.5), (high - low) * np.float32(0.5)
+    return middle + rng.uniform(-1.0, 1.0, low.shape) * half
+
+
+def _too_close(places: Floats, gaps: Floats) -> Mask:
+    """(n, things) which are too close to an earlier one."""
     x, y = places[..., 0], places[..., 1]
     across = x[:, :, None] - x[:, None, :]
     along = y[:, :, None] - y[:, None, :]
-    close = across * across + along * along < gaps * gaps
-    cornered = np.abs(x) + np.abs(y) > reach
-    return close.any(axis=2) | cornered
+    close = np.less(across * across + along * along, gaps * gaps)
+    too_close: Mask = close.any(axis=2)
+    return too_close

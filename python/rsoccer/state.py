@@ -21,9 +21,13 @@ class StateScale:
 
     def __init__(self, config: SimConfig) -> None:
         """Find by name the columns to show."""
-        top_speed, half_length = config.robot.top_speed, config.field.half_length
+        fastest = max(config.robots, key=lambda robot: robot.top_speed)
+        top_speed, half_length = fastest.top_speed, config.field.half_length
         scales = {"x": half_length, "y": half_length, "v_x": top_speed, "v_y": top_speed}
-        turns = {"cos": 1.0, "sin": 1.0, "v_theta": 2.0 * top_speed / config.robot.track}
+        turns = {"cos": 1.0, "sin": 1.0, "v_theta": fastest.top_turn_rate}
+        if any(robot.has_mouth for robot in config.robots):
+            scales |= {"z": half_length, "v_z": top_speed}
+            turns["infrared"] = 1.0
         columns = [*BALL_COLUMNS, *ROBOT_COLUMNS * config.n_robots]
         shown = [(place, name) for place, name in enumerate(columns) if name in scales | turns]
         self._columns = np.array([place for place, _ in shown])

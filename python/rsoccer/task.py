@@ -134,6 +134,14 @@ class Task(ABC):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Weighted terms, each (n, seers) or (n, 1), and whether each world's task ended (n,)."""
 
+    def put_back(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
+        """Worlds (k,) in which play goes on from elsewhere, and from which rows (k, row); or None.
+
+        Asked after each step: for a ball that left the field and comes back. What was between is
+        not to be rewarded, so there `last_frame` becomes equal to `frame`.
+        """
+        return None
+
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Facts of each world (n,) that count at the end of an episode."""
         return {}

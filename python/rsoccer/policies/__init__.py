@@ -6,6 +6,7 @@ from typing import Final
 
 from rsoccer.policies.base import Policy, Seen
 from rsoccer.policies.chase import Chase
+from rsoccer.policies.hold import Hold, Receive
 from rsoccer.policies.ou import OrnsteinUhlenbeck
 from rsoccer.policies.uniform import Uniform
 from rsoccer.policies.zero import Zero
@@ -15,7 +16,9 @@ __all__ = ["Policy", "Seen", "make", "names"]
 
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "chase": Chase,
+    "hold": Hold,
     "ou": lambda task: OrnsteinUhlenbeck(),
+    "receive": Receive,
     "uniform": lambda task: Uniform(),
     "zero": lambda task: Zero(),
 }

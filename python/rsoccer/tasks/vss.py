@@ -9,16 +9,19 @@ from typing import Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Floats, Frame, Mask, span
+from rsoccer._core import SimConfig
+from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play, Task
 from rsoccer.tasks import sight
-from rsoccer.view import View
+from rsoccer.tasks.scales import Scales
 
 # Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
 # robots that stand still, goals are the largest part of what an episode pays.
 WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
+
+# The mix of the paper's time, in these terms: a goal is some 10% of what an episode pays there.
+PAPER_WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 64.0, "approach": 20.0, "energy": 0.0184}
 
 # Left and right power: forward, back, turns on the spot and in arcs, stop.
 CHOICES: Final = np.array(
@@ -27,7 +30,6 @@ CHOICES: Final = np.array(
 )
 
 APART: Final = 0.1  # metres between centres at the start
-MOTION: Final = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ class Vss(Task):
     n_yellow: int = 3
     max_steps: int = 1200  # 30 s
     ball_speed: float = 0.0  # m/s, the most that the ball starts with
-    weights: Mapping[str, float] = field(default_factory=dict)  # in place of those in WEIGHTS
+    weights: Mapping[str, float] | str = field(default_factory=dict)  # in place of WEIGHTS; "paper"
     robot: str = "vss_440rpm"  # a robot model of the simulator
     discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
 
@@ -54,7 +56,7 @@ class Vss(Task):
         checks.whole("max_steps", self.max_steps, 1)
         if not 0.0 <= self.ball_speed < math.inf:
             raise ValueError(f"ball_speed: expected 0 or more m/s, got {self.ball_speed}")
-        object.__setattr__(self, "weights", _all_weights(self.weights))
+        object.__setattr__(self, "weights", checks.weights(self.weights, WEIGHTS, PAPER_WEIGHTS))
         self.config  # noqa: B018  (the simulator knows what fields and robots there are)
 
     @cached_property
@@ -81,17 +83,15 @@ class Vss(Task):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """The whole game in the robot's view, and ball and goal from where it stands and faces."""
-        view = play.view
-        n, seers, slots = view.robots.data.shape[:3]
-        motion = view.robots.data[..., MOTION].reshape(n, seers, -1)
-        robots = (motion * self._motion_scale[: motion.shape[2]]).reshape(n, seers, slots, -1)
+        view, scales = play.view, self._scales
+        robots = scales.robots(view)
         return {
-            "ball": self._scaled_ball(view),  # (n, seers, 4)
+            "ball": scales.ball(view),  # (n, seers, 4)
             "me": robots[:, :, 0],  # (n, seers, 7)
             "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 7)
             "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 7)
             "action": play.actions[:, play.seers],  # (n, seers, 2)
-            **sight.from_me(view, self._goal, self._per_metre, self._per_speed),
+            **sight.from_me(view, self._goal, scales.per_metre, scales.per_speed),
         }
 
     def observation_limits(self) -> dict[str, float]:
@@ -114,8 +114,7 @@ class Vss(Task):
             "approach": rewards.approach(play, self.config.field),
             "energy": rewards.energy(play),
         }
-        weighted = {name: np.float32(self.weights[name]) * term for name, term in terms.items()}
-        return weighted, rewards.scored(play)
+        return rewards.weighted(terms, self.weights), rewards.scored(play)
 
     @property
     def action_table(self) -> Floats | None:
@@ -127,41 +126,10 @@ class Vss(Task):
         return {"goal_score": rewards.goals_at(play.frame.ball)}
 
     @cached_property
-    def _per_metre(self) -> np.float32:
-        return np.float32(1.0 / self.config.field.half_length)
-
-    @cached_property
-    def _per_speed(self) -> np.float32:
-        return np.float32(1.0 / self.config.robot.top_speed)
+    def _scales(self) -> Scales:
+        return Scales(self.config)
 
     @cached_property
     def _goal(self) -> Floats:
         """(2,) metres, the middle of the goal attacked."""
         return np.array([self.config.field.half_length, 0.0], np.float32)
-
-    @cached_property
-    def _motion_scale(self) -> Floats:
-        """Scales of all slots' motion side by side, so that one long product does them all."""
-        robot = self.config.robot
-        place, speed = [float(self._per_metre)] * 2, [float(self._per_speed)] * 2
-        spin = 0.5 * robot.track / robot.top_speed  # per rad/s, of turning on the spot
-        one = np.array([*place, 1.0, 1.0, *speed, spin], np.float32)
-        return np.tile(one, self.n_blue + self.n_yellow + max(self.n_blue, self.n_yellow))
-
-    def _scaled_ball(self, view: View) -> Floats:
-        """Where the ball is and goes, (n, seers, 4)."""
-        ball = view.ball
-        return np.concatenate(
-            [ball.position * self._per_metre, ball.velocity * self._per_speed], axis=-1
-        )
-
-
-def _all_weights(given: Mapping[str, float]) -> dict[str, float]:
-    """The default weights with those given in their place."""
-    unknown = sorted(set(given) - set(WEIGHTS))
-    if unknown:
-        raise ValueError(f"weights: unknown {unknown}; valid are {list(WEIGHTS)}")
-    for name, weight in given.items():
-        if not math.isfinite(weight):
-            raise ValueError(f"weights: expected a finite number for {name!r}, got {weight}")
-    return {**WEIGHTS, **given}

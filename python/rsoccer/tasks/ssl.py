@@ -1,0 +1,176 @@
+"""What all SSL tasks share: the field of the hardware challenges, actions, observations.
+
+An action is five numbers in [-1, 1]: velocity along the axes of the field as the robot's side sees
+it (or of the robot, by option), turn rate, kick (none below 0, up to the legal limit) and dribbler
+(off below 0).
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field as default
+from functools import cached_property
+from typing import ClassVar, Final
+
+import numpy as np
+
+from rsoccer import checks
+from rsoccer._core import COMMAND_COLUMNS, SimConfig
+from rsoccer.frame import Array, Floats, Frame, length
+from rsoccer.task import Play, Task
+from rsoccer.tasks import sight
+from rsoccer.tasks.scales import Scales
+from rsoccer.view import View
+
+TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
+LEGAL_KICK: Final = 6.5  # m/s, SSL rules
+AXES: Final = ("field", "robot")
+
+_BODY: Final = COMMAND_COLUMNS["omni"]
+_KICK, _DRIBBLER = _BODY.index("kick_v_x"), _BODY.index("dribbler")
+
+# What agents that choose may do: stand, eight ways to drive, turn left and right, each with the
+# dribbler running; kick, standing; in the order of an action's numbers.
+_WAYS = [(x, y, 0.0) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)]
+CHOICES: Final = np.array(
+    [(*way, -1.0, 1.0) for way in [*_WAYS, (0.0, 0.0, 0.5), (0.0, 0.0, -0.5)]]
+    + [(0.0, 0.0, 0.0, 1.0, -1.0)],
+    np.float32,
+)
+
+
+@dataclass(frozen=True)
+class Ssl(Task):
+    """A task on an SSL field; subclasses say what is to be done."""
+
+    field: str = "ssl_challenge"  # a field of the simulator
+    max_steps: int = 1200  # 30 s
+    axes: str = "field"  # of the velocities: "field" or "robot"
+    weights: Mapping[str, float] | str = default(default_factory=dict)  # replace WEIGHTS; "paper"
+    robot: str = "ssl_generic"  # a robot model of the simulator
+    ball: str = "ssl_tigers"  # a ball of the simulator
+    discrete: bool = False  # whether agents choose one of CHOICES instead of five numbers
+
+    action_size = 5
+    WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+
+    def __post_init__(self) -> None:
+        """Refuse options that make no task, by name."""
+        checks.whole("max_steps", self.max_steps, 1)
+        if self.axes not in AXES:
+            raise ValueError(f"axes: expected one of {AXES}, got {self.axes!r}")
+        weights = checks.weights(self.weights, self.WEIGHTS, self.PAPER_WEIGHTS)
+        object.__setattr__(self, "weights", weights)
+        if self.config.robot.drive != "omni":
+            raise ValueError(f"robot: expected one told its body's velocity, got {self.robot!r}")
+
+    def team_sizes(self) -> tuple[int, int]:
+        """Robots of blue and of yellow."""
+        return 1, 0
+
+    @cached_property
+    def config(self) -> SimConfig:
+        """25 ms steps; the field, robots and ball that the options name."""
+        n_blue, n_yellow = self.team_sizes()
+        return SimConfig(self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball)
+
+    @property
+    def action_table(self) -> Floats | None:
+        """CHOICES, if agents choose."""
+        return CHOICES if self.discrete else None
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
+        commands = np.zeros((*actions.shape[:2], len(_BODY)), np.float32)
+        x, y = actions[..., 0] * self._top_speed, actions[..., 1] * self._top_speed
+        if self.axes == "field":
+            heading = play.frame.robots.heading * self._side_signs[:, None]
+            cos, sin = heading[..., 0], heading[..., 1]
+            x, y = x * cos + y * sin, y * cos - x * sin
+        commands[..., 0], commands[..., 1] = x, y
+        commands[..., 2] = actions[..., 2] * np.float32(TURN)
+        commands[..., _KICK] = np.maximum(actions[..., 3], 0.0) * self._kick
+        commands[..., _DRIBBLER] = actions[..., 4] > 0.0
+        return commands
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """The whole game in the robot's view, and where ball and goal are from it."""
+        view, scales = play.view, self.scales
+        robots = scales.robots(view, beam=True)
+        return {
+            "ball": scales.ball_in_space(view),  # (n, seers, 6)
+            "me": robots[:, :, 0],  # (n, seers, 8)
+            "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 8)
+            "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 8)
+            "action": play.actions[:, play.seers],  # (n, seers, 5)
+            **sight.from_me(view, self.goal, scales.per_metre, scales.per_speed),
+        }
+
+    def observation_limits(self) -> dict[str, float]:
+        """In half lengths of the field and top speeds of a robot."""
+        return {
+            "ball": 4.0,
+            "action": 1.0,
+            "ball_from_me": 3.0,
+            "goal_from_me": 3.0,
+            "shot": 1.0,
+            "motion_from_me": 4.0,
+            "places_from_me": 3.0,
+        } | dict.fromkeys(("me", "mates", "foes"), 2.0)
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Scales of the observations."""
+        return Scales(self.config)
+
+    @cached_property
+    def goal(self) -> Floats:
+        """(2,) metres, the middle of the goal attacked."""
+        return np.array([self.config.field.half_length, 0.0], np.float32)
+
+    @cached_property
+    def reach(self) -> np.float32:
+        """Metres from a robot's centre to that of a ball at its front."""
+        return np.float32(self.config.robot.front + self.config.ball.radius)
+
+    @cached_property
+    def _top_speed(self) -> np.float32:
+        return np.float32(self.config.robot.top_speed)
+
+    @cached_property
+    def _kick(self) -> np.float32:
+        return np.float32(min(self.config.robot.max_kick, LEGAL_KICK))
+
+    @cached_property
+    def _side_signs(self) -> Floats:
+        """(robots,) -1 for yellow, whose game is turned half round."""
+        return np.repeat(np.array([1.0, -1.0], np.float32), self.team_sizes())
+
+
+def before_mouth(view: View, reach: np.float32) -> Floats:
+    """Metres from where a ball in each seer's mouth would be to the ball, (n, seers).
+
+    Nothing only for who faces the ball, so it draws a robot near and round to it.
+    """
+    me, ball = view.me, view.ball.position
+    at = me.position + me.heading * reach
+    return length(ball[..., 0] - at[..., 0], ball[..., 1] - at[..., 1])
+
+
+def approach(play: Play, reach: np.float32) -> Floats:
+    """Metres that the ball came closer to each seer's mouth, (n, seers)."""
+    return before_mouth(play.last_view, reach) - before_mouth(play.view, reach)
+
+
+def ball_at_mouth(frame: Frame, robot: int, reach: np.float32) -> Floats:
+    """Where a ball in the mouth of `robot` is, (n, 2) metres."""
+    robots = frame.robots
+    at: Floats = robots.position[:, robot] + robots.heading[:, robot] * reach
+    return at
+
+
+def half_turned(poses: Array) -> Array:
+    """Poses (..., 3) of x, y and heading for the other goal: the field turned half round."""
+    turned = np.asarray(poses, np.float64) * [-1.0, -1.0, 1.0]
+    turned[..., 2] += np.pi
+    return turned

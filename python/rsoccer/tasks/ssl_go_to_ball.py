@@ -1,0 +1,93 @@
+"""`SSLGoToBall-v0`: drive to the ball and take it into the mouth."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from rsoccer import checks, rewards, spawn
+from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.rng import WorldRng
+from rsoccer.task import LEARN, Learn, Play
+from rsoccer.tasks.ssl import Ssl, approach
+
+APART = 0.2  # metres between centres at the start
+MOST_FOES = 6
+
+
+@dataclass(frozen=True)
+class SslGoToBall(Ssl):
+    """blue_0 is to cut its own beam with the ball, so it has to come from the right side.
+
+    The ball lies anywhere, and so do up to six foes that do not move. Leaving the field ends it.
+    """
+
+    foes: int = 0  # robots that stand in the way
+
+    WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "reached": 5.0,
+        "approach": 1.0,
+        "left_field": -2.0,
+        "energy": 0.0005,
+    }
+    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "reached": 1.0,
+        "approach": 0.14,  # the paper's is by the field's diagonal
+        "left_field": 0.0,
+        "energy": 0.0001,
+    }
+
+    def __post_init__(self) -> None:
+        """Refuse options that make no task, by name."""
+        checks.whole("foes", self.foes, 0)
+        if self.foes > MOST_FOES:
+            raise ValueError(f"foes: expected at most {MOST_FOES}, got {self.foes}")
+        super().__post_init__()
+
+    def team_sizes(self) -> tuple[int, int]:
+        """One against those that stand."""
+        return 1, self.foes
+
+    def default_controllers(self) -> dict[str, str | Learn]:
+        """blue_0 learns, foes stand."""
+        return dict.fromkeys(self.robots, "zero") | {"blue_0": LEARN}
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Ball and robots anywhere, apart, facing anywhere."""
+        robots = 1 + self.foes
+        frame = Frame.empty(len(rng), 1, self.foes)
+        radii = [self.config.ball.radius] + [self.config.robot.bounding_radius] * robots
+        places = spawn.apart(rng, self.config.field, radii, APART)
+        frame.ball.position[:] = places[:, 0]
+        frame.robots.position[:] = places[:, 1:]
+        frame.robots.heading[:] = spawn.headings(rng, robots)
+        return frame
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """The ball in the mouth counts most; coming nearer to that is paid, leaving costs."""
+        reached, left = self._reached(play.frame), self._left(play.frame)
+        terms = {
+            "reached": reached[:, None].astype(np.float32),
+            "approach": approach(play, self.reach),
+            "left_field": left[:, None].astype(np.float32),
+            "energy": rewards.energy(play),
+        }
+        return rewards.weighted(terms, self.weights), reached | left
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """`reached`: 1 if blue_0 has the ball, else 0; `seconds` that it took."""
+        return {
+            "reached": self._reached(play.frame).astype(np.float32),
+            "seconds": play.steps.astype(np.float32) * np.float32(self.config.time_step),
+        }
+
+    def _reached(self, frame: Frame) -> Mask:
+        return np.greater(frame.blue.infrared[:, 0], 0.5)
+
+    def _left(self, frame: Frame) -> Mask:
+        position, field = np.abs(frame.blue.position[:, 0]), self.config.field
+        return np.logical_or(
+            position[:, 0] > np.float32(field.half_length),
+            position[:, 1] > np.float32(field.half_width),
+        )

@@ -1,0 +1,84 @@
+"""`SSLPassEnduranceMulti-v0`: two learners pass to and fro. Hardware challenge 4, multi."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Final
+
+import numpy as np
+
+from rsoccer import rewards
+from rsoccer.frame import Array, Floats, Frame, Mask, length
+from rsoccer.task import Play
+from rsoccer.tasks.ssl import approach
+from rsoccer.tasks.ssl_pass import FREE, SslPass
+
+LONG: Final = np.float32(1.5)
+"""Metres between kick and reception from which a pass counts: neighbours farm nothing."""
+
+
+@dataclass(frozen=True)
+class SslPassEnduranceMulti(SslPass):
+    """Both robots learn; as many passes as they can in 30 s. One that does not arrive ends it."""
+
+    WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "passes": 5.0,
+        "ball_to_mate": 0.5,
+        "approach": 0.5,
+        "failed": -1.0,
+        "energy": 0.0005,
+    }
+    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "passes": 10.0,
+        "ball_to_mate": 1.11,  # the paper's scale: 0.9014 m
+        "approach": 0.0,
+        "failed": -1.0,
+        "energy": 0.0001,
+    }
+
+    def new_memory(self, n: int) -> dict[str, Array]:
+        """Who had the ball last, where it was then, whether it is on its way, passes so far."""
+        return {
+            "holder": np.zeros(n, np.int64),
+            "left_at": np.zeros((n, 2), np.float32),
+            "on_its_way": np.zeros(n, np.bool_),
+            "passes": np.zeros(n, np.int64),
+        }
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """Passes count most; a ball that nears the mate and a mate that nears it are paid."""
+        worlds, memory = np.arange(len(play.frame)), play.memory
+        mate = 1 - memory["holder"]
+        distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
+        nearer = (last - distance)[worlds, mate]
+        waits = mate[:, None] == play.seers  # (n, seers) who does not have the ball
+        passed = self._passed(play.frame, memory, worlds, mate)
+        far = distance[worlds, memory["holder"]] > self.reach + FREE
+        memory["on_its_way"] |= far
+        receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
+        missed = memory["on_its_way"] & self.missed(play.frame, receiver)
+        failed = missed | self.out(play.frame)
+        terms = {
+            "passes": passed[:, None].astype(np.float32),
+            "ball_to_mate": nearer[:, None],
+            "approach": approach(play, self.reach) * waits,
+            "failed": failed[:, None].astype(np.float32),
+            "energy": rewards.energy(play),
+        }
+        return rewards.weighted(terms, self.weights), failed
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """`passes`: how many counted."""
+        return {"passes": play.memory["passes"].astype(np.float32)}
+
+    def _passed(self, frame: Frame, memory: dict[str, Array], worlds: Array, mate: Array) -> Mask:
+        """(n,) whether the mate has received a pass that counts; who holds the ball is noted."""
+        holds = frame.blue.infrared > 0.5  # (n, 2)
+        received = holds[worlds, mate]
+        way = frame.ball.position - memory["left_at"]
+        passed: Mask = received & memory["on_its_way"] & (length(way[:, 0], way[:, 1]) >= LONG)
+        memory["passes"] += passed
+        memory["holder"][:] = np.where(received, mate, memory["holder"])
+        held = holds.any(axis=1)
+        memory["on_its_way"] &= ~held
+        memory["left_at"][held] = frame.ball.position[held]
+        return passed
