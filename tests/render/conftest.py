@@ -1,10 +1,11 @@
-"""A moment of play that every drawing test can use: all robots apart, a fast ball."""
+"""Moments of play that every drawing test can use: all robots apart, a fast ball."""
 
 import math
 
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer._core import Field
 from rsoccer.frame import Floats, Frame
 
 
@@ -15,12 +16,27 @@ def config() -> SimConfig:
 
 @pytest.fixture
 def row(config: SimConfig) -> Floats:
+    return moment(config)
+
+
+@pytest.fixture(params=Field.PRESETS)
+def any_config(request: pytest.FixtureRequest) -> SimConfig:
+    return SimConfig(request.param, 3, 3)
+
+
+@pytest.fixture
+def any_row(any_config: SimConfig) -> Floats:
+    return moment(any_config)
+
+
+def moment(config: SimConfig) -> Floats:
     frame = Frame.empty(1, config.n_blue, config.n_yellow)
-    frame.ball.position[0] = 0.12, 0.41
+    x, y = config.field.half_length, config.field.half_width
+    frame.ball.position[0] = 0.16 * x, 0.63 * y
     frame.ball.velocity[0] = 1.1, 0.5
     for i in range(config.n_robots):
         angle = 0.7 * i - 1.3
-        frame.robots.position[0, i] = -0.5 + 0.2 * i, 0.3 * math.sin(2.0 * i)
+        frame.robots.position[0, i] = (-0.67 + 0.27 * i) * x, 0.46 * y * math.sin(2.0 * i)
         frame.robots.heading[0, i] = math.cos(angle), math.sin(angle)
-    filled: Floats = frame.rows[0]
-    return filled
+    row: Floats = frame.rows[0]
+    return row

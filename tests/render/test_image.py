@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer._core import Field, RobotModel
 from rsoccer.frame import Floats, Frame
 from rsoccer.render import Image, Renderer, draw_image, palette
-from rsoccer.render.image import WIDTHS, _renderer
+from rsoccer.render.image import DEFAULT_WIDTHS, WIDTHS, _renderer, default_width
+from rsoccer.render.overlay import draw_area
+from rsoccer.render.pitch import is_table, wall_thickness
 from rsoccer.render.scoreboard import scene_bounds
-from rsoccer.render.shapes import Color, Point, Pose
+from rsoccer.render.shapes import Bounds, Color, Point, Pose
 
 SIZES = [320, 640, 1280]
 
@@ -30,21 +33,65 @@ def close(color: Color, other: Color, tolerance: int = 30) -> bool:
     return max(abs(a - b) for a, b in zip(color, other, strict=True)) <= tolerance
 
 
+def check_colors(config: SimConfig, row: Floats, width: int | None) -> None:
+    """Every robot shows the colour of its team, which was not there without it."""
+    image, empty = draw_image(config, row, width=width), ground_image(config, width)
+    frame = Frame(row[None], config.n_blue, config.n_yellow)
+    colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
+    robots = zip(frame.robots.position[0].tolist(), frame.robots.heading[0].tolist(), strict=True)
+    for model, (position, heading), color in zip(config.robots, robots, colors, strict=True):
+        pose = Pose((position[0], position[1]), *heading)
+        # Parts of the cover that neither number nor front reach.
+        x, y = (
+            (-0.34 * model.side, 0.24 * model.side) if hasattr(model, "side") else (-0.012, 0.058)
+        )
+        for place in pose.place(((x, y), (x, -y))):
+            assert close(pixel(image, config, place), color), (place, color)
+            assert not close(pixel(empty, config, place), color)
+
+
 @pytest.mark.parametrize("width", SIZES)
 def test_every_robot_shows_the_colour_of_its_team(
     config: SimConfig, row: Floats, width: int
 ) -> None:
-    image, empty = draw_image(config, row, width=width), ground_image(config, width)
-    frame = Frame(row[None], config.n_blue, config.n_yellow)
-    colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
-    size = config.robot.side
-    robots = zip(frame.robots.position[0].tolist(), frame.robots.heading[0].tolist(), strict=True)
-    for (position, heading), color in zip(robots, colors, strict=True):
-        pose = Pose((position[0], position[1]), *heading)
-        # The rear corners of the cover: neither number nor arrow is there.
-        for corner in pose.place(((-0.34 * size, 0.24 * size), (-0.34 * size, -0.24 * size))):
-            assert close(pixel(image, config, corner), color), (corner, color)
-            assert not close(pixel(empty, config, corner), color)
+    check_colors(config, row, width)
+
+
+def test_at_its_default_size_every_field_shows_its_robots_and_the_ball(
+    any_config: SimConfig, any_row: Floats
+) -> None:
+    check_colors(any_config, any_row, None)
+    x, y = Frame(any_row[None], 3, 3).ball.position[0].tolist()
+    beside = 0.35 * any_config.ball.radius  # away from the highlight
+    ball = pixel(draw_image(any_config, any_row), any_config, (x + beside, y - beside))
+    assert close(ball, palette.ORANGE, 60)
+
+
+@pytest.mark.parametrize("name", Field.PRESETS)
+def test_a_default_image_is_large_enough_to_read_and_fits_a_screen(name: str) -> None:
+    config = SimConfig(name, 1, 1)
+    width = default_width(config)
+    low, high = DEFAULT_WIDTHS
+    assert low <= width <= high
+    scale = width / scene_bounds(config.field).width
+    assert 2 * reach(config.robot) * scale > 16
+    assert Renderer(config).width == width
+    assert Renderer(config).height <= 1080
+    assert default_width(config, 1000) == max(1000, width)
+
+
+def test_fields_ask_for_different_widths() -> None:
+    widths = {name: default_width(SimConfig(name, 1, 1)) for name in Field.PRESETS}
+    assert widths["vss_3v3"] == DEFAULT_WIDTHS[0] < widths["ssl_b"] < widths["ssl_a"]
+
+
+def test_a_field_without_robots_is_drawn() -> None:
+    config = SimConfig("ssl_b", 0, 0)
+    assert draw_image(config, Frame.empty(1, 0, 0).rows[0]).shape[1] == DEFAULT_WIDTHS[0]
+
+
+def reach(model: RobotModel) -> float:
+    return model.side / 2 if hasattr(model, "side") else model.radius
 
 
 @pytest.mark.parametrize("width", SIZES)
@@ -54,26 +101,46 @@ def test_the_ball_is_orange(config: SimConfig, row: Floats, width: int) -> None:
     assert not close(pixel(ground_image(config, width), config, ball), palette.ORANGE)
 
 
-@pytest.mark.parametrize("name", ["vss_3v3", "vss_5v5"])
+@pytest.mark.parametrize("name", Field.PRESETS)
 def test_goals_and_lines_are_visible(name: str) -> None:
     config = SimConfig(name, 1, 1)
     image = ground_image(config, 1280)
     field = config.field
-    carpet = pixel(image, config, (0.31 * field.length, 0.3 * field.width))
+    floor = pixel(image, config, (0.31 * field.length, 0.3 * field.width))
+    assert close(floor, palette.TABLE if is_table(field) else palette.CARPET, 2)
     line = pixel(image, config, (0.0, 0.4 * field.width))
-    assert sum(line) - sum(carpet) > 300
+    assert sum(line) - sum(floor) > 180
     pocket = field.half_length + 0.45 * field.goal_depth
     left, right = (pixel(image, config, (x, 0.02)) for x in (-pocket, pocket))
-    assert left[2] - carpet[2] > 40  # blue's
-    assert right[0] - carpet[0] > 40  # yellow's
-    wall = pixel(image, config, (0.3, field.half_width + field.wall_height / 4))
+    assert left[2] - floor[2] > 40  # blue's
+    assert right[0] - floor[0] > 40  # yellow's
+    wall = pixel(image, config, (0.3, field.reach_y + wall_thickness(field) / 2))
     assert close(wall, palette.WALL, 8)
-    inside_corner_block = field.corner / 4
-    corner = (field.half_length - inside_corner_block, field.half_width - inside_corner_block)
-    assert close(pixel(image, config, corner), palette.WALL, 8)
 
 
-def ground_image(config: SimConfig, width: int) -> Image:
+@pytest.mark.parametrize("name", Field.PRESETS)
+def test_corner_blocks_and_margins_look_like_what_they_are(name: str) -> None:
+    field = Field(name)
+    image, config = ground_image(SimConfig(name, 1, 1), 1280), SimConfig(name, 1, 1)
+    if field.corner:
+        inside = field.corner / 4
+        block = (field.half_length - inside, field.half_width - inside)
+        assert close(pixel(image, config, block), palette.WALL, 8)
+    if field.touch_line_margin:
+        beyond = (0.2 * field.length, field.half_width + field.touch_line_margin / 2)
+        assert close(pixel(image, config, beyond), palette.CARPET, 2)
+    assert field.corner or field.touch_line_margin
+
+
+def test_extras_are_painted(config: SimConfig, row: Floats) -> None:
+    extras = draw_area(config.field, Bounds(-0.7, -0.6, -0.5, -0.4))
+    plain, marked = draw_image(config, row), draw_image(config, row, extras=extras)
+    inside, outside = (-0.62, -0.48), (0.62, -0.48)
+    assert pixel(plain, config, inside) != pixel(marked, config, inside)
+    assert pixel(plain, config, outside) == pixel(marked, config, outside)
+
+
+def ground_image(config: SimConfig, width: int | None) -> Image:
     """The field with all bodies in one corner of it."""
     frame = Frame.empty(1, config.n_blue, config.n_yellow)
     aside = (-0.8 * config.field.half_length, -0.8 * config.field.half_width)

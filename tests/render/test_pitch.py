@@ -3,12 +3,14 @@ from collections.abc import Iterable
 
 import pytest
 
-from rsoccer import SimConfig
+from rsoccer._core import Field
 from rsoccer.render import palette
-from rsoccer.render.pitch import arena_bounds, draw_pitch
+from rsoccer.render.pitch import arena_bounds, draw_pitch, is_table, wall_thickness
 from rsoccer.render.shapes import Arc, Circle, Line, Point, Polygon, Shape, Text
 
-FIELDS = ["vss_3v3", "vss_5v5"]
+FIELDS = pytest.mark.parametrize(
+    "field", [Field(name) for name in Field.PRESETS], ids=Field.PRESETS
+)
 
 
 def outline(shape: Shape) -> tuple[Point, ...]:
@@ -24,21 +26,33 @@ def outline(shape: Shape) -> tuple[Point, ...]:
 def seen(shapes: Iterable[Shape], sign: int) -> Counter[frozenset[Point]]:
     """What the shapes cover, as they are (1) or turned half round (-1)."""
     return Counter(
-        frozenset((round(sign * x, 6) + 0.0, round(sign * y, 6) + 0.0) for x, y in outline(shape))
+        frozenset((round(sign * x, 5) + 0.0, round(sign * y, 5) + 0.0) for x, y in outline(shape))
         for shape in shapes
     )
 
 
-@pytest.mark.parametrize("name", FIELDS)
-def test_a_field_turned_half_round_is_the_same_field(name: str) -> None:
-    shapes = draw_pitch(SimConfig(name).field)
+def floor(field: Field) -> Polygon:
+    """The surface that is played on."""
+    surfaces = (palette.TABLE, palette.CARPET)
+    (found,) = (s for s in draw_pitch(field) if isinstance(s, Polygon) and s.color in surfaces)
+    return found
+
+
+def test_tables_and_carpets_are_looked_at() -> None:
+    kinds = {name: is_table(Field(name)) for name in Field.PRESETS}
+    assert set(kinds.values()) == {True, False}
+    assert kinds == {name: name.startswith("vss") for name in kinds}
+
+
+@FIELDS
+def test_a_field_turned_half_round_is_the_same_field(field: Field) -> None:
+    shapes = draw_pitch(field)
     assert len(shapes) > 30
     assert seen(shapes, 1) == seen(shapes, -1)
 
 
-@pytest.mark.parametrize("name", FIELDS)
-def test_everything_lies_within_the_picture(name: str) -> None:
-    field = SimConfig(name).field
+@FIELDS
+def test_everything_lies_within_the_picture(field: Field) -> None:
     bounds = arena_bounds(field)
     for shape in draw_pitch(field):
         for x, y in outline(shape):
@@ -46,35 +60,20 @@ def test_everything_lies_within_the_picture(name: str) -> None:
             assert bounds.bottom < y < bounds.top
 
 
-@pytest.mark.parametrize("name", FIELDS)
-def test_lines_are_where_the_field_says(name: str) -> None:
-    field = SimConfig(name).field
-    shapes = draw_pitch(field)
-    circles = [shape for shape in shapes if isinstance(shape, Arc)]
-    assert [(circle.center, circle.radius) for circle in circles] == [
-        ((0.0, 0.0), field.center_radius)
-    ]
-    marks = {shape.center for shape in shapes if isinstance(shape, Circle)}
-    x, y = field.free_ball_x, field.free_ball_y
-    assert marks == {
-        (0.0, 0.0),
-        *((side * (field.half_length - field.penalty_mark), 0.0) for side in (-1, 1)),
-        *((i * x, j * y) for i in (-1, 1) for j in (-1, 1)),
-    }
-    white = [s for s in shapes if isinstance(s, Line) and s.color == palette.LINES]
-    fronts = {abs(line.start[0]) for line in white if line.start[0] == line.end[0]}
-    front = field.half_length - field.goal_area_depth
-    assert {0.0, front, field.half_length} == fronts
-    assert {line.width for line in white} == {field.line_width}
+@FIELDS
+def test_the_floor_reaches_to_where_the_walls_stand(field: Field) -> None:
+    ground = floor(field)
+    assert ground.color == (palette.TABLE if is_table(field) else palette.CARPET)
+    assert max(y for _, y in ground.points) == pytest.approx(field.reach_y)
+    pocket = field.goal_depth if is_table(field) else 0.0
+    assert max(x for x, _ in ground.points) == pytest.approx(field.reach_x - pocket)
+    assert len(ground.points) == (8 if field.corner else 4)
+    carpeted = max(x for x, _ in ground.points) - field.half_length
+    assert carpeted == pytest.approx(field.goal_line_margin)
 
 
-def test_each_goal_has_the_colour_of_the_team_that_defends_it() -> None:
-    field = SimConfig().field
-    for side, color in ((-1, palette.BLUE), (1, palette.YELLOW)):
-        back = side * (field.half_length + field.goal_depth)
-        ends = [
-            shape
-            for shape in draw_pitch(field)
-            if isinstance(shape, Line) and shape.start[0] == shape.end[0] == back
-        ]
-        assert [line.color for line in ends] == [color]
+@FIELDS
+def test_walls_are_seen_whether_or_not_they_have_a_height(field: Field) -> None:
+    assert 0.02 < wall_thickness(field) < 0.1
+    slabs = [s for s in draw_pitch(field) if s.color == palette.WALL]
+    assert len(slabs) == (2 if is_table(field) else 1)  # a table's goals have walls around them

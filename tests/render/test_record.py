@@ -9,8 +9,8 @@ from PIL import Image as Pillow
 
 from rsoccer import Matches
 from rsoccer.frame import Floats
-from rsoccer.render import Image, Renderer, record_match
-from rsoccer.render.record import GOAL_PAUSE, _film
+from rsoccer.render import Image, Renderer, film_match, record_match
+from rsoccer.render.record import GOAL_PAUSE, LEAST_WIDTH, _film
 
 CHASE = {"all": "chase"}
 SCORING_SEED = 3
@@ -76,6 +76,12 @@ def test_the_same_seed_records_the_same_match(tmp_path: Path) -> None:
         for i, seed in enumerate((5, 5, 6))
     ]
     assert videos[0] == videos[1] != videos[2]
+
+
+def test_a_video_is_wide_enough_to_read_without_being_told() -> None:
+    images, fps = film_match(controllers=CHASE, seconds=0.1)
+    assert next(images).shape[1] == LEAST_WIDTH
+    assert fps == pytest.approx(40.0)
 
 
 def test_a_robot_without_a_policy_is_named(tmp_path: Path) -> None:

@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer._core import RobotModel
 from rsoccer.frame import Floats, Frame
 from rsoccer.render import palette
+from rsoccer.render.overlay import draw_target
+from rsoccer.render.robot import draw_robot
 from rsoccer.render.scene import draw_ground, draw_play
 from rsoccer.render.scoreboard import Board, draw_score
-from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Shape, Text
+from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Pose, Shape, Text
 
 PLAIN = Board()
 MIRRORS = [(-1, 1), (1, -1), (-1, -1)]
@@ -54,11 +57,11 @@ def bodies(config: SimConfig, row: Floats) -> list[Shape]:
 
 @pytest.mark.parametrize("mirror", MIRRORS)
 def test_a_mirrored_row_gives_mirrored_shapes(
-    config: SimConfig, row: Floats, mirror: tuple[int, int]
+    any_config: SimConfig, any_row: Floats, mirror: tuple[int, int]
 ) -> None:
-    original = bodies(config, row)
-    assert len(original) > 6 * config.n_robots
-    mirrored = bodies(config, mirrored_row(config, row, mirror))
+    original = bodies(any_config, any_row)
+    assert len(original) > 5 * any_config.n_robots
+    mirrored = bodies(any_config, mirrored_row(any_config, any_row, mirror))
     expected = Counter(looks(s, mirror) for s in original)  # left wheels become right ones
     assert Counter(looks(s) for s in mirrored) == expected
     assert Counter(looks(s) for s in original) != expected
@@ -73,12 +76,70 @@ def test_a_scene_depends_on_nothing_but_what_it_is_given(config: SimConfig, row:
     np.testing.assert_array_equal(row, before)
 
 
-def test_every_robot_is_drawn_with_its_number(config: SimConfig, row: Floats) -> None:
-    texts = [shape for shape in bodies(config, row) if isinstance(shape, Text)]
+def test_every_robot_is_drawn_with_its_number(any_config: SimConfig, any_row: Floats) -> None:
+    config = any_config
+    texts = [shape for shape in bodies(config, any_row) if isinstance(shape, Text)]
     assert [text.text for text in texts] == ["0", "1", "2", "0", "1", "2"]
-    frame = Frame(row[None], config.n_blue, config.n_yellow)
+    frame = Frame(any_row[None], config.n_blue, config.n_yellow)
     for text, position in zip(texts, frame.robots.position[0], strict=True):
-        assert np.hypot(*(position - text.center)) < config.robot.side / 4
+        assert np.hypot(*(position - text.center)) < config.robot.bounding_radius / 4
+
+
+def test_each_robot_is_drawn_as_its_own_model() -> None:
+    names = ["ssl_generic", "vss_440rpm", "ssl_ubc", "ssl_erforce"]
+    config = SimConfig("ssl_b", 3, 1, robot=names)
+    frame = Frame.empty(1, 3, 1)
+    poses = [Pose((0.5 * i, 0.0), 1.0, 0.0) for i in range(4)]
+    for i, pose in enumerate(poses):
+        frame.robots.position[0, i] = pose.center
+    play = draw_play(config, frame.rows[0], PLAIN)
+    teams = [(palette.BLUE, i) for i in range(3)] + [(palette.YELLOW, 0)]
+    for name, pose, (color, number) in zip(names, poses, teams, strict=True):
+        expected = draw_robot(RobotModel(name), pose, color, number)
+        assert set(expected) <= set(play), name
+
+
+def test_the_mouth_that_has_the_ball_is_lit() -> None:
+    config = SimConfig("ssl_b", 2, 2)
+    frame = Frame.empty(1, 2, 2)
+    frame.robots.position[0, :, 0] = np.arange(4)
+    assert not any(s.color == palette.LIT for s in draw_play(config, frame.rows[0], PLAIN))
+    frame.robots.infrared[0, 2] = 1.0
+    lit = [s for s in draw_play(config, frame.rows[0], PLAIN) if s.color == palette.LIT]
+    assert lit
+    for shape in lit:
+        assert isinstance(shape, Polygon)
+        assert all(2.0 < x < 2.1 for x, _ in shape.points)  # ahead of the third robot
+
+
+def test_a_ball_in_flight_is_seen_to_fly(any_config: SimConfig, any_row: Floats) -> None:
+    def widths(row: Floats) -> list[float]:
+        play = draw_play(any_config, row, PLAIN)
+        return [s.radius for s in play if isinstance(s, Circle) and s.color == palette.ORANGE]
+
+    flying = Frame(any_row[None].copy(), any_config.n_blue, any_config.n_yellow)
+    flying.ball.height[0] = 0.4
+    (low,), (high,) = widths(any_row), widths(flying.rows[0])
+    assert low == any_config.ball.radius < high
+
+
+def test_a_shadow_lies_under_the_robots_and_the_ball_above_them() -> None:
+    config = SimConfig("ssl_b", 1, 1)
+    frame = Frame.empty(1, 1, 1)
+    frame.ball.height[0] = 0.4
+    play = draw_play(config, frame.rows[0], PLAIN)
+    covers = [i for i, s in enumerate(play) if s.color in (palette.BLUE, palette.YELLOW)]
+    discs = [(i, s) for i, s in enumerate(play) if isinstance(s, Circle)]
+    (shadow,) = (i for i, s in discs if s.color == palette.SHADOW)
+    (ball,) = (i for i, s in discs if s.color == palette.ORANGE)
+    assert shadow < min(covers) < max(covers) < ball
+
+
+def test_extras_lie_under_everything_that_moves(any_config: SimConfig, any_row: Floats) -> None:
+    extras = [*draw_target(any_config.field, (0.0, 0.0), 0.1)]
+    play = draw_play(any_config, any_row, PLAIN, extras)
+    assert play[: len(extras)] == tuple(extras)
+    assert play[len(extras) :] == draw_play(any_config, any_row, PLAIN)
 
 
 def test_teams_of_different_size_are_drawn() -> None:

@@ -1,6 +1,7 @@
 import pytest
 
 from rsoccer import SimConfig
+from rsoccer._core import Field
 from rsoccer.render.pitch import arena_bounds
 from rsoccer.render.scoreboard import (
     Board,
@@ -30,9 +31,11 @@ def test_blue_is_on_the_left_and_yellow_on_the_right() -> None:
     assert [text.text for text in ordered] == ["HOME", "3", "1:01", "12", "AWAY"]
 
 
-def test_the_board_is_above_the_arena_and_within_the_picture() -> None:
-    bounds, arena = scene_bounds(FIELD), arena_bounds(FIELD)
-    points = [p for s in draw_board(FIELD) if isinstance(s, Polygon) for p in s.points]
+@pytest.mark.parametrize("name", Field.PRESETS)
+def test_the_board_is_above_the_arena_and_within_the_picture(name: str) -> None:
+    field = Field(name)
+    bounds, arena = scene_bounds(field), arena_bounds(field)
+    points = [p for s in draw_board(field) if isinstance(s, Polygon) for p in s.points]
     assert points
     assert min(y for _, y in points) >= arena.top
     assert max(y for _, y in points) < bounds.top

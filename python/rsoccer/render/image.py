@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -11,8 +13,10 @@ from numpy.typing import NDArray
 from rsoccer.frame import Array
 from rsoccer.render.library import pygame
 from rsoccer.render.paint import Camera, Painter
+from rsoccer.render.robot import robot_outlines
 from rsoccer.render.scene import draw_ground, draw_play
 from rsoccer.render.scoreboard import Board, scene_bounds
+from rsoccer.render.shapes import Shape
 
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
@@ -22,14 +26,30 @@ Image: TypeAlias = NDArray[np.uint8]
 
 WIDTHS = (64, 4096)
 """Narrowest and widest image, pixels."""
+DEFAULT_WIDTHS = (640, 1280)
+"""Narrowest and widest image where no width is asked for, pixels."""
+ROBOT_PIXELS = 18
+"""Pixels across the smallest robot that it takes to read its number."""
+
+
+def default_width(config: SimConfig, least: int = DEFAULT_WIDTHS[0]) -> int:
+    """The width, pixels, at which robots can be told apart: `least`, or more on a large field."""
+    sizes = (robot_outlines(robot).size for robot in config.robots)
+    smallest = min(sizes, default=math.inf)
+    width = scene_bounds(config.field).width / smallest * ROBOT_PIXELS
+    return max(least, min(2 * round(width / 2), DEFAULT_WIDTHS[1]))
 
 
 class Renderer:
     """Draws rows of one configuration at one size; keeps the field, which does not change."""
 
-    def __init__(self, config: SimConfig, width: int = 640) -> None:
-        """Draw the field once; `width` in pixels, the height follows and both are even."""
+    def __init__(self, config: SimConfig, width: int | None = None) -> None:
+        """Draw the field once; `width` in pixels, the height follows and both are even.
+
+        Without a `width` it is the one at which robots can be told apart.
+        """
         low, high = WIDTHS
+        width = default_width(config) if width is None else width
         if not low <= width <= high:
             raise ValueError(f"width: expected {low} to {high} pixels, got {width}")
         bounds = scene_bounds(config.field)
@@ -53,11 +73,15 @@ class Renderer:
         clock: float = 0.0,
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         caption: str = "",
+        extras: Sequence[Shape] = (),
     ) -> Image:
-        """A fresh image of one world's row (row,); pairs are blue's, yellow's; clock in seconds."""
+        """A fresh image of one world's row (row,); pairs are blue's, yellow's; clock in seconds.
+
+        `extras` are further shapes on the floor, such as those of `rsoccer.render.overlay`.
+        """
         board = Board(score, clock, names, caption)
         canvas = self._ground.copy()
-        self._painter.paint(canvas, draw_play(self.config, row, board))
+        self._painter.paint(canvas, draw_play(self.config, row, board, extras))
         return _pixels(canvas)
 
 
@@ -69,15 +93,16 @@ def draw_image(
     clock: float = 0.0,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     caption: str = "",
-    width: int = 640,
+    extras: Sequence[Shape] = (),
+    width: int | None = None,
 ) -> Image:
     """A fresh image of one row, `width` pixels wide; for many, keep a `Renderer`."""
     renderer = _renderer(config, width)
-    return renderer.draw(row, score=score, clock=clock, names=names, caption=caption)
+    return renderer.draw(row, score=score, clock=clock, names=names, caption=caption, extras=extras)
 
 
 @lru_cache(maxsize=4)
-def _renderer(config: SimConfig, width: int) -> Renderer:
+def _renderer(config: SimConfig, width: int | None) -> Renderer:
     """The last few renderers: the field costs more than what moves on it."""
     return Renderer(config, width)
 

@@ -13,7 +13,8 @@ INK: Color = (22, 25, 30, 255)
 BACKDROP: Color = (14, 17, 22, 255)
 WALL: Color = (62, 71, 84, 255)
 WALL_EDGE: Color = (106, 119, 136, 255)
-CARPET: Color = (32, 38, 46, 255)
+TABLE: Color = (32, 38, 46, 255)
+CARPET: Color = (36, 92, 62, 255)
 LINES: Color = (222, 228, 235, 255)
 BOARD: Color = (36, 43, 53, 255)
 MUTED: Color = (172, 183, 197, 255)
@@ -21,7 +22,13 @@ SHADOW: Color = (4, 6, 9, 150)
 TYRE: Color = (14, 16, 19, 255)
 SHINE: Color = (255, 226, 200, 150)
 TRAIL: Color = (255, 112, 32, 42)
+HALO: Color = (255, 240, 222, 96)
 VEIL: Color = (14, 17, 22, 205)
+BAR: Color = (196, 205, 215, 255)
+LIT: Color = (88, 255, 168, 255)
+
+PENDING: Color = (255, 92, 190, 255)
+DONE: Color = (126, 242, 176, 255)
 
 
 def mix(color: Color, other: Color, share: float) -> Color:

@@ -11,12 +11,14 @@ import numpy as np
 from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
-from rsoccer.render.image import Image, Renderer
+from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.video import write_video
 from rsoccer.task import Task
 
 GOAL_PAUSE = 0.8
 """Seconds that the picture stands still at a goal, before the next episode begins."""
+LEAST_WIDTH = 720
+"""Width of a video where no other is asked for and robots can be told apart at it, pixels."""
 
 
 def record_match(
@@ -27,12 +29,13 @@ def record_match(
     seconds: float = 30.0,
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
-    width: int = 720,
+    width: int | None = None,
 ) -> Path:
     """Play `seconds` of a match, episode after episode, into an .mp4 or .gif; the path written.
 
     `controllers` are those of `Matches` and must leave no robot to a learner; `names` stand on the
-    score board, blue's first.
+    score board, blue's first. Without a `width`, in pixels, it is one at which robots can be told
+    apart.
     """
     images, fps = film_match(task, controllers, seed, seconds, names=names, width=width)
     return write_video(path, images, fps)
@@ -45,7 +48,7 @@ def film_match(
     seconds: float = 30.0,
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
-    width: int = 720,
+    width: int | None = None,
 ) -> tuple[Iterator[Image], float]:
     """The images that `record_match` writes, played while they are drawn, and images a second."""
     if not (math.isfinite(seconds) and seconds > 0):
@@ -56,6 +59,7 @@ def film_match(
             f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
         )
     config = matches.task.config
+    width = default_width(config, LEAST_WIDTH) if width is None else width
     return _film(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step
 
 

@@ -5,14 +5,16 @@ A scene is its ground, which never changes and so can be kept, and its play on t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from rsoccer.frame import Array, Frame, RobotColumns
 from rsoccer.render import palette
-from rsoccer.render.bodies import draw_ball, draw_robot, draw_trail
+from rsoccer.render.ball import draw_ball, draw_halo, draw_shadow, draw_trail
 from rsoccer.render.pitch import draw_pitch
+from rsoccer.render.robot import draw_robot
 from rsoccer.render.scoreboard import (
     Board,
     draw_board,
@@ -23,7 +25,7 @@ from rsoccer.render.scoreboard import (
 from rsoccer.render.shapes import Color, Polygon, Pose, Shape, rectangle
 
 if TYPE_CHECKING:
-    from rsoccer._core import SimConfig
+    from rsoccer._core import RobotModel, SimConfig
 
 
 def draw_ground(config: SimConfig) -> tuple[Shape, ...]:
@@ -33,28 +35,41 @@ def draw_ground(config: SimConfig) -> tuple[Shape, ...]:
     return (backdrop, *draw_pitch(config.field), *draw_board(config.field))
 
 
-def draw_play(config: SimConfig, row: Array, board: Board) -> tuple[Shape, ...]:
-    """Robots, ball and board of one world's row (row,)."""
+def draw_play(
+    config: SimConfig, row: Array, board: Board, extras: Sequence[Shape] = ()
+) -> tuple[Shape, ...]:
+    """Robots, ball and board of one world's row (row,); `extras` lie on the floor under them."""
     frame = Frame(_checked(config, row)[None], config.n_blue, config.n_yellow)
     ball, velocity = _pair(frame.ball.position[0]), _pair(frame.ball.velocity[0])
+    height = float(frame.ball.height[0])
+    blue, yellow = config.robots[: config.n_blue], config.robots[config.n_blue :]
     return (
+        *extras,
+        *draw_halo(config.ball, ball, scene_bounds(config.field).width),
         *draw_trail(config.ball, ball, velocity),
-        *_draw_team(config, frame.blue, palette.BLUE),
-        *_draw_team(config, frame.yellow, palette.YELLOW),
-        *draw_ball(config.ball, ball),
+        *draw_shadow(config.ball, ball, height),
+        *_draw_team(blue, frame.blue, palette.BLUE),
+        *_draw_team(yellow, frame.yellow, palette.YELLOW),
+        *draw_ball(config.ball, ball, height),
         *draw_score(config.field, board),
         *draw_caption(config.field, board.caption),
     )
 
 
-def _draw_team(config: SimConfig, robots: RobotColumns, color: Color) -> tuple[Shape, ...]:
+def _draw_team(
+    models: Sequence[RobotModel], robots: RobotColumns, color: Color
+) -> tuple[Shape, ...]:
     """All robots of one team in the first world."""
-    poses = zip(robots.position[0], robots.heading[0], strict=True)
+    states = zip(models, robots.position[0], robots.heading[0], robots.infrared[0], strict=True)
     return tuple(
         shape
-        for number, (position, (cos, sin)) in enumerate(poses)
+        for number, (model, position, (cos, sin), infrared) in enumerate(states)
         for shape in draw_robot(
-            config.robot, Pose(_pair(position), float(cos), float(sin)), color, number
+            model,
+            Pose(_pair(position), float(cos), float(sin)),
+            color,
+            number,
+            lit=bool(infrared > 0),
         )
     )
 

@@ -1,0 +1,65 @@
+"""Goals as seen from above: pockets in a table's walls, or boxes that stand on a carpet."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from rsoccer.render import palette
+from rsoccer.render.shapes import Color, Line, Polygon, Shape, rectangle, stroke
+
+if TYPE_CHECKING:
+    from rsoccer._core import Field
+
+TINT = 0.38
+"""How much of its team's colour the floor of a goal shows."""
+
+
+def draw_goals(field: Field, edge: float) -> tuple[Shape, ...]:
+    """Blue's at -x and yellow's at +x; `edge`: thickness of the rim of a goal in a wall, metres."""
+    return (
+        *_draw_goal(field, -1, palette.BLUE, edge),
+        *_draw_goal(field, 1, palette.YELLOW, edge),
+    )
+
+
+def _draw_goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shape, ...]:
+    """The goal at the end `side` (-1 or 1), in the colour of the team that defends it."""
+    mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
+    y = field.goal_width / 2
+    pocket = ((mouth, y), (back, y), (back, -y), (mouth, -y))
+    frame = _frame(field, side, color) if field.goal_wall > 0 else stroke(pocket, edge, color)
+    return (
+        Polygon(pocket, palette.mix(palette.TABLE, color, TINT)),
+        *_net(field, side, palette.fade(color, 0.45)),
+        *frame,
+    )
+
+
+def _frame(field: Field, side: int, color: Color) -> tuple[Shape, ...]:
+    """Walls of a goal that stands free: its sides reach the wall behind and shut off the gap."""
+    mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
+    behind = side * (field.half_length + field.goal_line_margin)
+    y, wall = field.goal_width / 2, field.goal_wall
+    return (
+        Polygon(rectangle(back, -y, behind, y), palette.mix(palette.TABLE, color, 0.08)),
+        Polygon(rectangle(mouth, y, behind, y + wall), color),
+        Polygon(rectangle(mouth, -y - wall, behind, -y), color),
+        Polygon(rectangle(back, -y, back + side * wall, y), color),
+    )
+
+
+def _net(field: Field, side: int, color: Color) -> tuple[Line, ...]:
+    """Threads of the net: a square grid with four meshes along the depth."""
+    mesh = field.goal_depth / 4
+    rows = math.floor(field.goal_width / 2 / mesh)
+    front, back = (side * (field.half_length + d) for d in (0.0, field.goal_depth))
+    y = field.goal_width / 2
+    along = [
+        Line((front, i * mesh), (back, i * mesh), mesh / 16, color) for i in range(-rows, rows + 1)
+    ]
+    across = [
+        Line((x, -y), (x, y), mesh / 16, color)
+        for x in (front + side * i * mesh for i in range(1, 4))
+    ]
+    return (*along, *across)

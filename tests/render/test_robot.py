@@ -1,0 +1,122 @@
+import json
+import math
+
+import pytest
+
+from rsoccer._core import RobotModel
+from rsoccer.render import palette
+from rsoccer.render.robot import draw_robot, robot_outlines
+from rsoccer.render.shapes import Color, Point, Polygon, Pose, Shape, Text
+
+ORIGIN = Pose((0.0, 0.0), 1.0, 0.0)
+SQUARE, ROUND = RobotModel("vss_440rpm"), RobotModel("ssl_generic")
+TOOTHLESS = RobotModel.from_json(json.dumps({**json.loads(ROUND.to_json()), "mouth": None}))
+BITING = RobotModel.from_json(
+    json.dumps({**json.loads(SQUARE.to_json()), "mouth": json.loads(ROUND.to_json())["mouth"]})
+)
+MODELS = [*map(RobotModel, RobotModel.PRESETS), TOOTHLESS, BITING]
+
+
+def name(model: RobotModel) -> str:
+    return f"{model.name}-{'mouth' if model.has_mouth else 'plain'}"
+
+
+def points(shapes: tuple[Shape, ...]) -> list[Point]:
+    return [p for shape in shapes if isinstance(shape, Polygon) for p in shape.points]
+
+
+def reach(model: RobotModel) -> tuple[float, float, float]:
+    """How far a body reaches backwards, forwards and sideways."""
+    if hasattr(model, "side"):
+        return model.side / 2, model.side / 2, model.side / 2
+    return model.radius, model.front, model.radius
+
+
+def test_all_kinds_of_robots_are_looked_at() -> None:
+    assert len(MODELS) > 10
+    assert {(hasattr(m, "side"), m.has_mouth) for m in MODELS} == {
+        (square, mouth) for square in (False, True) for mouth in (False, True)
+    }
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+def test_a_robot_covers_its_body_and_no_more(model: RobotModel) -> None:
+    drawn = points(draw_robot(model, ORIGIN, palette.BLUE, 0))
+    back, front, side = reach(model)
+    assert max(x for x, _ in drawn) == pytest.approx(front)
+    # A round outline is drawn by chords, whose corners need not lie at its very ends.
+    for got, expected in (
+        (-min(x for x, _ in drawn), back),
+        (max(y for _, y in drawn), side),
+        (-min(y for _, y in drawn), side),
+    ):
+        assert got <= expected + 1e-9
+        assert got == pytest.approx(expected, abs=2e-4)
+    assert max(math.hypot(*p) for p in drawn) <= model.bounding_radius + 1e-6
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+def test_what_marks_the_front_is_ahead(model: RobotModel) -> None:
+    center, heading = (0.3, -0.2), (math.cos(2.0), math.sin(2.0))
+    shapes = draw_robot(model, Pose(center, *heading), palette.BLUE, 4)
+    marks = [s for s in shapes if s.color in (palette.WHITE, palette.BAR)]
+    fronts = points(tuple(marks))
+    assert fronts
+    _, front, side = reach(model)
+    for x, y in fronts:
+        ahead = (x - center[0]) * heading[0] + (y - center[1]) * heading[1]
+        assert 0.35 * side < ahead < front + 1e-9
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+def test_a_mouth_is_as_wide_as_it_is_and_lights_up_with_the_ball(model: RobotModel) -> None:
+    dark = draw_robot(model, ORIGIN, palette.BLUE, 0)
+    alight = draw_robot(model, ORIGIN, palette.BLUE, 0, lit=True)
+    bars = [s.points for s in dark if isinstance(s, Polygon) and s.color == palette.BAR]
+    glowing = [s.points for s in alight if s.color == palette.LIT and isinstance(s, Polygon)]
+    assert not any(s.color == palette.LIT for s in dark)
+    if not model.has_mouth:
+        assert bars == glowing == []
+        assert alight == dark
+        return
+    assert set(glowing) == set(bars) != set()
+    assert len(glowing) > len(bars)  # with a glow around it
+    _, front, side = reach(model)
+    flat = side if hasattr(model, "side") else math.sqrt(side**2 - front**2)
+    assert max(y for _, y in bars[0]) == pytest.approx(min(model.mouth_width / 2, flat))
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+def test_wheels_are_seen_only_where_they_stand_beside_the_cover(model: RobotModel) -> None:
+    shapes = draw_robot(model, ORIGIN, palette.YELLOW, 0)
+    wheels = [shape for shape in shapes if shape.color == palette.TYRE]
+    assert len(wheels) == (2 if model.drive == "differential" else 0)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+@pytest.mark.parametrize(
+    ("color", "ink"), [(palette.BLUE, palette.WHITE), (palette.YELLOW, palette.INK)]
+)
+def test_the_number_stands_out_and_fits_on_the_cover(
+    model: RobotModel, color: Color, ink: Color
+) -> None:
+    texts = [s for s in draw_robot(model, ORIGIN, color, 10) if isinstance(s, Text)]
+    assert [(text.text, text.color) for text in texts] == [("10", ink)]
+    size = robot_outlines(model).size
+    assert 0.3 * size < texts[0].height < texts[0].max_width < 0.7 * size
+
+
+def test_a_round_robot_is_set_off_from_its_carpet() -> None:
+    def light(color: Color) -> float:
+        return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+
+    for color in (palette.BLUE, palette.YELLOW):
+        _, hull, *_ = draw_robot(ROUND, ORIGIN, color, 0)
+        assert light(hull.color) < 0.65 * light(palette.CARPET)
+
+
+def test_a_round_robot_without_a_flat_front_still_shows_where_it_looks() -> None:
+    blunt = RobotModel("ssl_generic", front=ROUND.radius)
+    shapes = draw_robot(blunt, ORIGIN, palette.BLUE, 0)
+    arrows = [s for s in shapes if isinstance(s, Polygon) and s.color == palette.WHITE]
+    assert [arrow.points[0] > (0.0, 0.0) for arrow in arrows] == [True]
