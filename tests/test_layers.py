@@ -13,8 +13,8 @@ ROOT = Path(rsoccer.__file__).parent
 # A package stands for all that is in it. Modules of one layer do not import each other.
 LAYERS = [
     {"_core"},
-    {"files", "frame"},
-    {"rng", "state", "view"},
+    {"files", "frame", "markers"},
+    {"rng", "state", "view", "entities"},
     {"checks"},
     {"task", "outcome", "simulator"},
     {"spaces"},

@@ -100,8 +100,8 @@ class Watch:
     """of play; after a goal a new episode begins"""
     speed: float = 1.0
     """of the window's clock: 2 is twice as fast as life"""
-    width: int = 720
-    """of the picture, in pixels"""
+    width: int | None = None
+    """of the picture, in pixels; one at which robots can be told apart if not given"""
     video: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
     """write an .mp4 or .gif file in place of the window; needs no display"""
 

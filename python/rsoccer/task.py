@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rsoccer import checks
 from rsoccer._core import SimConfig
 from rsoccer.frame import Array, Floats, Frame, Mask, robot_names
+from rsoccer.markers import Marker
 from rsoccer.rng import WorldRng
 from rsoccer.view import SIDES, View, Viewpoint
 
@@ -133,6 +134,10 @@ class Task(ABC):
     @abstractmethod
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Weighted terms, each (n, seers) or (n, 1), and whether each world's task ended (n,)."""
+
+    def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
+        """What a picture of one world shows on the floor: targets, gates, areas."""
+        return ()
 
     def put_back(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
         """Worlds (k,) in which play goes on from elsewhere, and from which rows (k, row); or None.

@@ -12,6 +12,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
 from rsoccer.render.image import Image, Renderer, default_width
+from rsoccer.render.markers import marked
 from rsoccer.render.video import write_video
 from rsoccer.task import Task
 
@@ -72,7 +73,7 @@ def _film(
     blue = yellow = 0
     matches.reset()
     row = matches.frame.rows[0]
-    yield renderer.draw(row, names=names)
+    yield renderer.draw(row, names=names, extras=marked(matches))
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
             matches.reset()
@@ -86,6 +87,7 @@ def _film(
             clock=step * time_step,
             names=names,
             caption="goal" if scored else "",
+            extras=marked(matches),
         )
         for _ in range(math.ceil(GOAL_PAUSE / time_step) if scored else 1):
             yield image

@@ -8,6 +8,7 @@ import numpy as np
 
 from rsoccer import rewards
 from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.markers import Area, Marker
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl, approach
 
@@ -54,6 +55,11 @@ class SslAttack(Ssl):
             "energy": rewards.energy(play),
         }
         return rewards.weighted(terms, self.weights), failed | rewards.scored(play)
+
+    def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
+        """The half that ball and attacker have to stay in."""
+        field = self.config.field
+        return (Area((0.0, -field.half_width), (field.half_length, field.half_width)),)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`goal_score`: 1 for a goal, -1 for one against, else 0."""

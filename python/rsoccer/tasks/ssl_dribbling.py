@@ -8,6 +8,7 @@ import numpy as np
 
 from rsoccer import rewards
 from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.markers import Gate, Marker
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.courses import COURSES, Course
@@ -109,6 +110,27 @@ class SslDribbling(Ssl):
         }
         complete = passed >= len(self.course.gates)
         return rewards.weighted(terms, self.weights), failed | complete
+
+    def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
+        """The gates, each once, as its next crossing has it; done when none is left."""
+        passed = int(play.memory["passed"][world])
+        # From the last crossing back: what stays of each gate is its first crossing that is left.
+        gates = {
+            (first, last): self._marker(first, last, way, place < passed)
+            for place, (first, last, way) in reversed(list(enumerate(self.course.gates)))
+            if place >= passed
+        }
+        for first, last, way in self.course.gates[:passed]:
+            gates.setdefault((first, last), self._marker(first, last, way, True))
+        return tuple(gates.values())
+
+    def _marker(self, first: float, last: float, way: float, done: bool) -> Gate:
+        """A gate of the course; who crosses x upward has greater y to the left, y: lesser x."""
+        if self.course.crosses == 0:
+            low, high = (self.course.line, first), (self.course.line, last)
+            return Gate(high, low, done) if way > 0 else Gate(low, high, done)
+        low, high = (first, self.course.line), (last, self.course.line)
+        return Gate(low, high, done) if way > 0 else Gate(high, low, done)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`gates`: how many were crossed."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from rsoccer import checks, rewards, spawn
 from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.markers import Marker, Target
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl, approach
@@ -74,6 +75,11 @@ class SslGoToBall(Ssl):
             "energy": rewards.energy(play),
         }
         return rewards.weighted(terms, self.weights), reached | left
+
+    def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
+        """The ball as the target."""
+        x, y = play.frame.ball.position[world].tolist()
+        return (Target((x, y), 3.0 * self.config.ball.radius),)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`reached`: 1 if blue_0 has the ball, else 0; `seconds` that it took."""

@@ -8,7 +8,9 @@ import numpy as np
 
 from rsoccer import spawn
 from rsoccer.frame import Floats, Frame, Mask, length
+from rsoccer.markers import Marker, Target, Way
 from rsoccer.rng import WorldRng
+from rsoccer.task import Play
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 
 APART: Final = 1.6  # metres between the two at the start: more than a pass must be long
@@ -40,6 +42,18 @@ class SslPass(Ssl):
         frame.blue.heading[:] = spawn.headings(rng, 2)
         frame.ball.position[:] = ball_at_mouth(frame, 0, self.reach)
         return frame
+
+    def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
+        """The way from the ball to who is to get it."""
+        receiver = self.receiver(play, world)
+        ball_x, ball_y = play.frame.ball.position[world].tolist()
+        mate_x, mate_y = play.frame.blue.position[world, receiver].tolist()
+        radius = 1.5 * self.config.robot.bounding_radius
+        return Way((ball_x, ball_y), (mate_x, mate_y)), Target((mate_x, mate_y), radius)
+
+    def receiver(self, play: Play, world: int) -> int:
+        """Which robot is to get the ball."""
+        return 1
 
     def to_ball(self, frame: Frame) -> Floats:
         """Metres from each robot to the ball, (n, 2)."""

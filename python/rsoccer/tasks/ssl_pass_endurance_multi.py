@@ -66,6 +66,10 @@ class SslPassEnduranceMulti(SslPass):
         }
         return rewards.weighted(terms, self.weights), failed
 
+    def receiver(self, play: Play, world: int) -> int:
+        """Who did not have the ball last."""
+        return 1 - int(play.memory["holder"][world])
+
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`passes`: how many counted."""
         return {"passes": play.memory["passes"].astype(np.float32)}
