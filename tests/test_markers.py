@@ -1,0 +1,59 @@
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches
+from rsoccer.markers import Area, Gate, Target, Way
+from rsoccer.render.markers import draw_markers, marked
+from rsoccer.tasks.courses import COURSES, Course
+
+SHOWN = {
+    "SSLGoToBall-v0": {Target},
+    "SSLStaticDefenders-v0": {Area},
+    "SSLContestedPossession-v0": {Area},
+    "SSLDribbling-v0": {Gate},
+    "SSLPassEndurance-v0": {Target, Way},
+    "SSLPassEnduranceMulti-v0": {Target, Way},
+}
+
+
+@pytest.mark.parametrize("name", rsoccer.list_tasks())
+def test_tasks_mark_what_their_play_is_about(name: str) -> None:
+    matches = Matches(name, worlds=2)
+    matches.reset()
+    for world in range(2):
+        markers = matches.task.markers(matches.play, world)
+        assert {type(marker) for marker in markers} == SHOWN.get(name, set())
+        shapes = marked(matches, world)
+        assert shapes == draw_markers(matches.task.config.field, markers)
+        assert bool(shapes) == bool(markers)
+
+
+@pytest.mark.parametrize(("passed", "done"), [(0, 0), (1, 1), (2, 2), (4, 2), (6, 3), (7, 4)])
+def test_gates_are_done_once_no_crossing_is_left(passed: int, done: int) -> None:
+    matches = Matches("SSLDribbling-v0")
+    matches.reset()
+    matches.play.memory["passed"][:] = passed
+    gates = matches.task.markers(matches.play, 0)
+    assert len(gates) == 4
+    assert sum(isinstance(gate, Gate) and gate.done for gate in gates) == done
+
+
+@pytest.mark.parametrize("course", COURSES.values(), ids=COURSES.keys())
+def test_a_gate_has_its_left_post_to_the_left_of_who_goes_through(course: Course) -> None:
+    scenario = next(name for name, known in COURSES.items() if known is course)
+    matches = Matches(rsoccer.make_task("SSLDribbling-v0", scenario=scenario))
+    matches.reset()
+    first_ways: dict[tuple[float, float], float] = {}
+    for first, last, way in course.gates:
+        first_ways.setdefault((first, last), way)
+    markers = matches.task.markers(matches.play, 0)
+    assert len(markers) == len(first_ways)
+    for gate in markers:
+        assert isinstance(gate, Gate)
+        along = 1 - course.crosses
+        ends = sorted((gate.left[along], gate.right[along]))
+        forward = np.zeros(2)
+        forward[course.crosses] = first_ways[ends[0], ends[1]]
+        left = np.array([-forward[1], forward[0]])
+        assert np.subtract(gate.left, gate.right) @ left > 0
