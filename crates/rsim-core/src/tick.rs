@@ -55,7 +55,8 @@ impl Tick<'_> {
         let (way, end) = start.after(ball, length);
         let mean = way / length;
         state.engine.set_velocity(BALL, mean);
-        state.engine.step(scratch, &BallHooks { physique: self.physique, flies: false })?;
+        let hooks = BallHooks { physique: self.physique, flies: false };
+        state.engine.step(scratch, &hooks, &self.rules.room)?;
         let mut now = Rolling { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
         if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
             now = now.after(ball, length / 2.0).1;
@@ -74,7 +75,8 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
-        state.engine.step(scratch, &BallHooks { physique: self.physique, flies: true })?;
+        let hooks = BallHooks { physique: self.physique, flies: true };
+        state.engine.step(scratch, &hooks, &self.rules.room)?;
         let flight = Flight {
             physique: self.physique,
             walls: &self.rules.walls,

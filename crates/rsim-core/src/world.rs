@@ -10,7 +10,7 @@ use crate::arena::{Wall, walls};
 use crate::ball::Ball;
 use crate::crossing::Crossing;
 use crate::drive::Drive;
-use crate::engine::{Engine, Motion, NonFinite, Scratch};
+use crate::engine::{Engine, Motion, NonFinite, Room, Scratch};
 use crate::physique::Physique;
 use crate::placement::{Placement, Start};
 use crate::tick::Tick;
@@ -35,6 +35,7 @@ pub struct World {
 pub(crate) struct Fixed {
     pub(crate) config: SimConfig,
     pub(crate) walls: Vec<Wall>,
+    pub(crate) room: Room,
     physique: Physique,
     placement: Placement,
     pub(crate) command_columns: usize,
@@ -100,6 +101,7 @@ impl World {
         let rules = Arc::new(Fixed {
             config: config.clone(),
             placement: Placement::new(config, &walls),
+            room: Room::of(&config.field, &walls),
             walls,
             physique,
             command_columns: config.command_columns(),
@@ -178,6 +180,12 @@ impl World {
             self.state.broken = true;
             StepError { world: 0 }
         })
+    }
+
+    /// Has every tick go through the contact solver, also those in which nothing can touch. Slower,
+    /// and the same but for rounding: for tests and benchmarks that compare.
+    pub fn never_skip(&mut self) {
+        self.state.engine.never_skip();
     }
 
     /// Writes the state. Pure: writing twice writes the same.

@@ -1,8 +1,9 @@
 //! Which bodies and walls a match has, and the engine's settings for bodies of a few centimetres.
 
+use rapier2d::math::Vector;
 use rapier2d::prelude::*;
 
-use super::{BALL_LABEL, Engine, Partner, label};
+use super::{BALL_LABEL, Engine, Inverse, Motion, Partner, Push, label};
 use crate::SimConfig;
 use crate::arena::Wall;
 use crate::physique::Physique;
@@ -19,6 +20,12 @@ impl Engine {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
             handles: Vec::new(),
+            motions: Vec::new(),
+            pushes: Vec::new(),
+            inverses: Vec::new(),
+            moved: Vec::new(),
+            clear: false,
+            skips: true,
         };
         engine.insert_ball(physique, config.tick);
         for index in 0..physique.robots.len() {
@@ -69,6 +76,15 @@ impl Engine {
         let handle = self.bodies.insert(body);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.handles.push(handle);
+        self.motions.push(Motion {
+            position: Vector::ZERO,
+            heading: Vector::X,
+            velocity: Vector::ZERO,
+            spin: 0.0,
+        });
+        self.pushes.push(Push::default());
+        self.inverses.push(Inverse::default());
+        self.moved.push(false);
     }
 }
 

@@ -3,14 +3,17 @@
 
 mod ball_hooks;
 mod build;
+mod quiet;
 
-use rapier2d::math::{Pose, Rotation, Vector};
+use rapier2d::geometry::NEW_CONTACT_BIT;
+use rapier2d::math::{Pose, Vector};
 use rapier2d::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::physique::Physique;
 
 pub(crate) use ball_hooks::{BallHooks, rotation};
+pub(crate) use quiet::Room;
 
 /// The body that is the ball.
 pub(crate) const BALL: usize = 0;
@@ -21,7 +24,7 @@ pub(crate) const fn robot(index: usize) -> usize {
 }
 
 /// Where a body is and how it moves in the plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Motion {
     pub(crate) position: Vector,
     /// Cosine and sine of the heading.
@@ -67,6 +70,31 @@ pub(crate) struct Engine {
     bodies: RigidBodySet,
     colliders: ColliderSet,
     handles: Vec<RigidBodyHandle>,
+    /// Where the bodies are and how they move: what counts between ticks. The solver's own copies
+    /// may lag behind.
+    motions: Vec<Motion>,
+    pushes: Vec<Push>,
+    inverses: Vec<Inverse>,
+    /// Which bodies are elsewhere than the solver has them.
+    moved: Vec<bool>,
+    /// Whether the solver's last tick left nothing in contact.
+    clear: bool,
+    /// Whether ticks in which nothing can touch go without the solver.
+    skips: bool,
+}
+
+/// Force (N) and torque (N m) on a body during the next tick.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+struct Push {
+    force: Vector,
+    torque: f32,
+}
+
+/// 1/kg and 1/(kg m²) of a body.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+struct Inverse {
+    mass: f32,
+    inertia: f32,
 }
 
 /// What the engine works with during a step: one per thread, empty between steps.
@@ -98,66 +126,59 @@ pub(crate) struct NonFinite;
 impl Engine {
     /// Gives the bodies the masses of another physique.
     pub(crate) fn set_masses(&mut self, physique: &Physique) {
-        self.set_mass(BALL, MassProperties::new(Vector::ZERO, physique.ball.mass, 1.0));
+        // The ball does not turn in the plane: its spin has three axes and is kept elsewhere.
+        self.set_mass(BALL, physique.ball.mass, 1.0);
+        self.inverses[BALL].inertia = 0.0;
         for (index, body) in physique.robots.iter().enumerate() {
-            let model = &body.model;
-            let properties = MassProperties::new(Vector::ZERO, model.mass, model.inertia());
-            self.set_mass(robot(index), properties);
+            self.set_mass(robot(index), body.model.mass, body.model.inertia());
         }
     }
 
-    fn set_mass(&mut self, body: usize, properties: MassProperties) {
+    fn set_mass(&mut self, body: usize, mass: f32, inertia: f32) {
+        self.inverses[body] = Inverse { mass: 1.0 / mass, inertia: 1.0 / inertia };
+        let properties = MassProperties::new(Vector::ZERO, mass, inertia);
         let body = &mut self.bodies[self.handles[body]];
         self.colliders[body.colliders()[0]].set_mass_properties(properties);
-        // At once: the engine itself would see it in its next step, after the first kick.
+        // At once: the solver itself would see it in its next step, after the first kick.
         body.recompute_mass_properties_from_colliders(&self.colliders);
     }
 
     pub(crate) fn motion(&self, body: usize) -> Motion {
-        let body = &self.bodies[self.handles[body]];
-        let rotation = body.rotation();
-        Motion {
-            position: body.translation(),
-            heading: Vector::new(rotation.re, rotation.im),
-            velocity: body.linvel(),
-            spin: body.angvel(),
-        }
+        self.motions[body]
     }
 
     /// Puts a body somewhere. `heading` must be a unit vector.
     pub(crate) fn set_motion(&mut self, body: usize, motion: &Motion) {
-        let body = &mut self.bodies[self.handles[body]];
-        let rotation = Rotation { re: motion.heading.x, im: motion.heading.y };
-        body.set_position(Pose::from_parts(motion.position, rotation), true);
-        body.set_linvel(motion.velocity, true);
-        body.set_angvel(motion.spin, true);
+        self.motions[body] = *motion;
+        self.moved[body] = true;
     }
 
     /// Puts the ball somewhere, with a velocity.
     pub(crate) fn set_ball(&mut self, position: Vector, velocity: Vector) {
-        let body = &mut self.bodies[self.handles[BALL]];
-        body.set_translation(position, true);
-        body.set_linvel(velocity, true);
+        let ball = &mut self.motions[BALL];
+        (ball.position, ball.velocity) = (position, velocity);
+        self.moved[BALL] = true;
     }
 
     pub(crate) fn set_velocity(&mut self, body: usize, velocity: Vector) {
-        self.bodies[self.handles[body]].set_linvel(velocity, true);
+        self.motions[body].velocity = velocity;
     }
 
     /// An impulse (N s) on a body, at `arm` from its centre of mass.
     pub(crate) fn hit(&mut self, body: usize, impulse: Vector, arm: Vector) {
-        let body = &mut self.bodies[self.handles[body]];
-        body.apply_impulse(impulse, true);
-        body.apply_torque_impulse(arm.perp_dot(impulse), true);
+        let (motion, inverse) = (&mut self.motions[body], &self.inverses[body]);
+        motion.velocity += impulse * inverse.mass;
+        motion.spin += arm.perp_dot(impulse) * inverse.inertia;
     }
 
     /// Force (N) and torque (N m) on a body during the next tick.
     pub(crate) fn push(&mut self, body: usize, force: Vector, torque: f32) {
-        let body = &mut self.bodies[self.handles[body]];
-        body.reset_forces(false);
-        body.reset_torques(false);
-        body.add_force(force, true);
-        body.add_torque(torque, true);
+        self.pushes[body] = Push { force, torque };
+    }
+
+    /// Has every tick solved, also those in which nothing can touch: for comparison.
+    pub(crate) fn never_skip(&mut self) {
+        self.skips = false;
     }
 
     /// One tick.
@@ -165,7 +186,19 @@ impl Engine {
         &mut self,
         scratch: &mut Scratch,
         ball: &BallHooks,
+        room: &Room,
     ) -> Result<(), NonFinite> {
+        if self.skips && self.clear && self.is_quiet(ball, room) {
+            self.coast();
+            return Ok(());
+        }
+        self.tell_solver();
+        let solved = self.solve(scratch, ball);
+        self.ask_solver();
+        solved
+    }
+
+    fn solve(&mut self, scratch: &mut Scratch, ball: &BallHooks) -> Result<(), NonFinite> {
         scratch.pipeline.step(
             Vector::ZERO,
             &self.parameters,
@@ -182,6 +215,37 @@ impl Engine {
             &(),
         );
         if scratch.pipeline.quarantine().bodies().is_empty() { Ok(()) } else { Err(NonFinite) }
+    }
+
+    fn tell_solver(&mut self) {
+        for (index, handle) in self.handles.iter().enumerate() {
+            let (body, motion) = (&mut self.bodies[*handle], &self.motions[index]);
+            if std::mem::take(&mut self.moved[index]) {
+                let heading = rotation(motion.heading);
+                body.set_position(Pose::from_parts(motion.position, heading), true);
+            }
+            body.set_linvel(motion.velocity, true);
+            body.set_angvel(motion.spin, true);
+            let push = &self.pushes[index];
+            body.reset_forces(false);
+            body.reset_torques(false);
+            body.add_force(push.force, true);
+            body.add_torque(push.torque, true);
+        }
+    }
+
+    fn ask_solver(&mut self) {
+        for (motion, handle) in self.motions.iter_mut().zip(&self.handles) {
+            let body = &self.bodies[*handle];
+            let rotation = body.rotation();
+            *motion = Motion {
+                position: body.translation(),
+                heading: Vector::new(rotation.re, rotation.im),
+                velocity: body.linvel(),
+                spin: body.angvel(),
+            };
+        }
+        self.clear = self.contacts() == 0;
     }
 
     /// What pressed on the ball in the last tick.
@@ -220,7 +284,13 @@ fn pressed(pair: &ContactPair) -> Option<(Vector, f32)> {
     let manifolds = pair.manifolds().iter();
     manifolds
         .map(|manifold| {
-            (manifold.data.normal, manifold.points.iter().map(|p| p.data.impulse).sum())
+            // Only contacts that were solved in this tick: others keep old impulses.
+            let solved = manifold.data.solver_contacts.iter();
+            let points = solved.map(|contact| {
+                let point = (contact.contact_id[0] & !NEW_CONTACT_BIT) as usize;
+                manifold.points[point].data.impulse
+            });
+            (manifold.data.normal, points.sum())
         })
         .find(|(_, pressing): &(Vector, f32)| *pressing > 0.0)
 }

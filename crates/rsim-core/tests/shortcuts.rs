@@ -1,0 +1,69 @@
+//! Ticks in which nothing can touch go without the contact solver. That changes rounding, no more.
+
+use rsim_core::columns::{BALL_COLUMNS, ball_column};
+use rsim_core::scenes::{self, Scene};
+use rsim_core::{Field, SimConfig};
+
+/// Scenes with and without contacts, in both leagues.
+fn all() -> Vec<Scene> {
+    let ssl_a = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    vec![
+        scenes::random_play(),
+        scenes::chase(),
+        scenes::ssl_random(SimConfig::ssl(1, 1)),
+        scenes::ssl_random(SimConfig::ssl(6, 6)),
+        scenes::ssl_random(ssl_a),
+        scenes::ssl_chase(SimConfig::ssl(6, 6)),
+    ]
+}
+
+/// Largest difference of two rows; spins as speeds of the ball's rim.
+fn difference(a: &[f32], b: &[f32]) -> f32 {
+    let spin = ball_column("spin_x")..=ball_column("spin_z");
+    let pairs = a.iter().zip(b).enumerate();
+    let scaled = pairs.map(|(column, (a, b))| {
+        let scale =
+            if column < BALL_COLUMNS.len() && spin.contains(&column) { 0.0215 } else { 1.0 };
+        (a - b).abs() * scale
+    });
+    scaled.fold(0.0, f32::max)
+}
+
+#[test]
+fn a_tick_with_the_solver_is_a_tick_without_but_for_rounding() {
+    for mut scene in all() {
+        scene.config.time_step = scene.config.tick;
+        let mut world = scene.world();
+        let (mut row, mut other) = (scene.start.clone(), scene.start.clone());
+        let mut quiet = 0;
+        for step in 0..2000 {
+            let commands = scene.commands(&row, step / 5, 5);
+            let mut solved = world.clone();
+            solved.never_skip();
+            solved.step(&commands).expect("finite");
+            world.step(&commands).expect("finite");
+            solved.write_row(&mut other);
+            world.write_row(&mut row);
+            quiet += u32::from(world.contacts() == 0);
+            let error = difference(&row, &other);
+            assert!(error < 2e-5, "{} tick {step}: {error}\n{row:?}\n{other:?}", scene.name);
+        }
+        let expected = if scene.name.ends_with("crowd") { 10 } else { 100 };
+        assert!(quiet > expected, "{}: only {quiet} ticks without contacts", scene.name);
+    }
+}
+
+#[test]
+fn a_whole_scene_without_contacts_is_the_same_but_for_rounding() {
+    let scene = scenes::lone_omni(&[1.0, 0.4, 3.0]);
+    let mut solved = scene.world();
+    solved.never_skip();
+    let (rows, contacts) = scene.play(&mut scene.world(), 80);
+    let (other, _) = scene.play(&mut solved, 80);
+    assert_eq!(contacts, 0);
+    let error = difference(
+        &rows[rows.len() - scene.config.row_size()..],
+        &other[other.len() - scene.config.row_size()..],
+    );
+    assert!(error < 1e-4, "{error}");
+}
