@@ -11,7 +11,7 @@ RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.to
 export PYTHON CARGO
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: nothing compiles twice
 
-.PHONY: help venv demo test check-format check-lint check-rust check-python format docs bench clean
+.PHONY: help venv demo test check-format check-lint check-rust check-python format docs physics soak bench clean
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -48,6 +48,12 @@ format: $(VENV)/tools ## format everything
 
 docs: $(VENV)/built ## write the README's tables and picture again from code and results
 	$(BIN)/python -m tools.write_readme
+
+physics: $(VENV)/built ## measure the physics again; write its page and draw its pictures
+	$(BIN)/python -m tools.physics
+
+soak: $(VENV)/tools ## ten million ticks of random play on every field (some minutes)
+	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test soak
 
 bench: $(VENV)/built ## measure speed on this machine (some minutes; needs it quiet)
 	$(CARGO) bench --locked --bench step

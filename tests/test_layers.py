@@ -16,12 +16,13 @@ LAYERS = [
     {"files", "frame", "markers"},
     {"rng", "state", "view", "entities"},
     {"checks"},
-    {"task", "outcome", "simulator"},
-    {"spaces"},
+    {"task", "outcome", "simulator", "compat"},
+    {"spaces", "ids"},
     {"by_agent", "registry", "spawn", "rewards", "policies"},
     {"controllers"},
     {"matches"},
-    {"parallel", "evaluate", "tasks"},
+    {"stage"},
+    {"parallel", "single", "vector", "evaluate", "tasks"},
     {"__init__"},
     {"testing", "render", "train"},
     {"commands", "demo"},
@@ -30,7 +31,7 @@ LAYERS = [
 ]
 
 # A door draws, but only when asked to: what draws is imported then and there.
-LATE = {("parallel", "render")}
+LATE = {("stage", "render")}
 
 
 def module_of(path: Path) -> str:

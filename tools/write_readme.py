@@ -1,14 +1,12 @@
 """Writes the parts of README.md that code or measurements know better: `make docs`.
 
-Each part stands between `<!-- begin:NAME -->` and `<!-- end:NAME -->`. A test compares the
-README with what this would write, so a table cannot drift from the code.
+A test compares the README with what this would write, so a table cannot drift from the code.
 """
 
 import argparse
 import json
-import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +14,7 @@ import rsoccer
 from benches.table import ROOT, Figure, Machine, load
 from rsoccer import policies
 from rsoccer.registry import list_options
+from tools.parts import filled, table
 
 README = ROOT / "README.md"
 RESULTS = ROOT / "benches" / "results"
@@ -47,16 +46,7 @@ def main() -> None:
 
 def written(readme: str) -> str:
     """The README with every part as it should be now; ValueError for a part nobody writes."""
-    names = re.findall(r"<!-- begin:(\w+) -->", readme)
-    if unknown := sorted(set(names) - set(PARTS)):
-        raise ValueError(f"README.md: no one writes the parts {unknown}; known: {sorted(PARTS)}")
-    for name in names:
-        begin, end = f"<!-- begin:{name} -->", f"<!-- end:{name} -->"
-        text = PARTS[name]().strip("\n")
-        pattern = re.escape(begin) + ".*?" + re.escape(end)
-        new = f"{begin}\n{text}\n{end}" if text else f"{begin}\n{end}"
-        readme = re.sub(pattern, lambda _, new=new: new, readme, count=1, flags=re.DOTALL)  # type: ignore[misc]
-    return readme
+    return filled(readme, PARTS, README.name)
 
 
 def tasks() -> str:
@@ -168,12 +158,6 @@ def new_task() -> str:
 def python_block(code: str) -> str:
     """Code as a block of Markdown."""
     return f"```python\n{code.strip()}\n```"
-
-
-def table(header: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
-    """Cells as a Markdown table."""
-    lines = [header, ("---",) * len(header), *rows]
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
 def _thousands(value: float) -> str:

@@ -1,0 +1,1 @@
+"""Interfaces of other simulators on top of this one, so that code written for them runs."""

@@ -1,0 +1,89 @@
+"""The old simulator's fields, balls and robots: its numbers, for this one's physics.
+
+Numbers: robocin/rSim at b413932 (release 1.2), as its `get_field_params` reports them or as its
+behaviour was measured.
+"""
+
+import math
+from typing import Final
+
+from rsoccer._core import BallModel, Field, RobotModel
+
+# Division A's end walls have stood further back since 2026, and goals for five a side are deeper.
+VSS_FIELDS: Final = (Field("vss_3v3"), Field("vss_5v5", goal_depth=0.10))
+SSL_FIELDS: Final = (Field("ssl_a", goal_line_margin=0.3), Field("ssl_b"), Field("ssl_challenge"))
+
+VSS_BALL: Final = BallModel("vss_rsim", radius=0.0215, mass=0.043)
+SSL_BALL: Final = BallModel("grsim", mass=0.043)
+
+VSS_ROBOT: Final = RobotModel("vss_440rpm")  # is the old one: 440 rpm, 120 g and two wheels of 15 g
+
+SSL_ROBOT: Final = RobotModel(
+    "ssl_generic",
+    radius=0.09,
+    front=0.081,
+    height=0.15,
+    mass=2.42,  # body 2.2, four wheels of 0.05, kicker 0.02 kg
+    wheel_radius=0.02475,
+    wheel_distance=0.09,
+    max_wheel_speed=163.04868,  # 1557 rpm
+    # It had no limit but its wheels', which are reached before these: 5.7 m/s, 44.8 rad/s.
+    max_speed=6.0,
+    max_turn_rate=50.0,
+    # Step responses as measured, forward; sideways it managed 2.41 m/s².
+    speed_up=3.33,
+    brake=3.80,
+    turn_speed_up=96.0,
+    turn_brake=96.0,
+    mouth_width=0.08,
+    beam_distance=0.01,
+    # It had no limit; this is the strongest kicker of the league.
+    max_kick=10.0,
+    max_chip=10.0,
+)
+
+KICKER_THICKNESS: Final = 0.005  # m; reported only, the front is where its face is
+
+
+def vss_parameters(field: Field) -> dict[str, float]:
+    """What `get_field_params` says of a VSS field; what its robots have not is -1."""
+    return {
+        **_field_parameters(field, VSS_BALL),
+        "rbt_distance_center_kicker": -1.0,
+        "rbt_kicker_thickness": -1.0,
+        "rbt_kicker_width": -1.0,
+        **_wheel_parameters([90.0, 270.0, -1.0, -1.0], VSS_ROBOT),
+        "rbt_radius": VSS_ROBOT.side / 2,
+    }
+
+
+def ssl_parameters(field: Field) -> dict[str, float]:
+    """What `get_field_params` says of an SSL field."""
+    return {
+        **_field_parameters(field, SSL_BALL),
+        "rbt_distance_center_kicker": SSL_ROBOT.front,
+        "rbt_kicker_thickness": KICKER_THICKNESS,
+        "rbt_kicker_width": SSL_ROBOT.mouth_width,
+        **_wheel_parameters(SSL_ROBOT.wheel_angles, SSL_ROBOT),
+        "rbt_radius": SSL_ROBOT.radius,
+    }
+
+
+def _field_parameters(field: Field, ball: BallModel) -> dict[str, float]:
+    return {
+        "length": field.length,
+        "width": field.width,
+        "penalty_length": field.goal_area_depth,
+        "penalty_width": field.goal_area_width,
+        "goal_width": field.goal_width,
+        "goal_depth": field.goal_depth,
+        "ball_radius": ball.radius,
+    }
+
+
+def _wheel_parameters(angles: list[float], robot: RobotModel) -> dict[str, float]:
+    return {
+        **{f"rbt_wheel{i}_angle": angle for i, angle in enumerate(angles)},
+        "rbt_wheel_radius": robot.wheel_radius,
+        "rbt_motor_max_rpm": round(robot.max_wheel_speed * 30.0 / math.pi, 3),
+    }

@@ -1,0 +1,129 @@
+"""The acceptance of the physics, measured through Python, and the page that shows it."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from rsoccer._core import BallModel, Field, RobotModel
+from tools.physics import cited
+from tools.physics.__main__ import PICTURES
+from tools.physics.check import EXACT, Check, Line, Tolerance, percent, within
+from tools.physics.closed_form import RollOut, Surface, bounce, floor
+from tools.physics.page import PAGE, alike, shown, written
+from tools.physics.topics import MODULES, TOPICS, checks
+
+TEXT = PAGE.read_text()
+
+# Section 3.4 of the facts: slide end (m), speed at 3 m and 6 m, stop (m).
+TABULATED = {
+    ("ssl_tigers", 6.5): (3.9, 4.92, 4.21, 40),
+    ("ssl_tigers", 4.0): (1.48, 2.51, 2.18, 15.2),
+    ("ssl_tigers", 2.0): (0.37, 0.64, None, 3.8),
+    ("ssl_erforce", 6.5): (3.9, 5.05, 4.39, 35),
+    ("ssl_erforce", 4.0): (1.46, 2.61, 2.20, 13.3),
+    ("grsim", 6.5): (1.05, 4.24, 3.71, 15.8),
+    ("grsim", 4.0): (0.40, 2.05, None, 6.0),
+    ("grsim", 2.0): (0.10, None, None, 1.5),
+}
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_every_number_is_within_its_tolerance(topic: str) -> None:
+    found = checks(topic)
+    assert len(found) >= 10
+    assert not [str(check) for check in found if not check.holds]
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.TOPIC)
+def test_every_line_of_a_topic_is_measured(module: object) -> None:
+    lines = [value for value in vars(module).values() if isinstance(value, Line)]
+    topic = lines[0].topic
+    assert {line.what for line in lines} == {check.what for check in checks(topic)}
+    assert len({line.what for line in lines}) == len(lines), "lines are told apart by `what`"
+
+
+def test_a_number_that_is_off_would_be_noticed() -> None:
+    def off(tolerance: Tolerance, reference: float, measured: float) -> Check:
+        return Line("topic", "what", "m", tolerance)("case", reference, measured)
+
+    assert off(percent(3), 2.0, 2.05).holds
+    assert not off(percent(3), 2.0, 2.07).holds
+    assert off(within(0.01), 0.3, 0.309).holds
+    assert not off(within(0.01), 0.3, 0.311).holds
+    assert off(EXACT, 6, 6).holds
+    assert not off(EXACT, 6, 5).holds
+    assert not off(within(0.01), 0.3, math.nan).holds
+    assert not off(EXACT, 0.0, math.nan).holds
+
+
+@pytest.mark.parametrize(("name", "kick"), TABULATED)
+def test_the_closed_form_gives_the_tabulated_rows(name: str, kick: float) -> None:
+    form = RollOut(cited.BALLS[name], kick)
+    slide, at_3, at_6, stop = TABULATED[name, kick]
+    assert form.slide_way == pytest.approx(slide, rel=0.02)
+    assert form.stop == pytest.approx(stop, rel=0.01)
+    for way, expected in ((3.0, at_3), (6.0, at_6)):
+        speed = form.speed_at(way)
+        assert speed == (None if expected is None else pytest.approx(expected, abs=0.006))
+
+
+def test_both_closed_forms_of_the_floor_agree() -> None:
+    ball = cited.BALLS["ssl_tigers"]
+    for time in (0.2, 1.0, 5.0):
+        way, velocity, _ = floor(ball, np.array([4.0, 0, 0]), np.zeros(3), time)
+        assert (way[0], velocity[0]) == pytest.approx(RollOut(ball, 4.0).after(time))
+
+
+def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
+    ball, wall = cited.BALLS["ssl_tigers"], Surface(0.3, 0.35)
+    normal = np.array([0.0, -1.0, 0.0])
+    steep, spin = bounce(ball, wall, np.array([0.5, 4.0, 0.0]), np.zeros(3), normal)
+    assert steep == pytest.approx([0.5 * 5 / 7, -1.2, 0.0])
+    assert spin[2] * ball.radius == pytest.approx(0.5 * 5 / 7), "it rolls along the wall"
+    flat, _ = bounce(ball, wall, np.array([4.0, 1.0, 0.0]), np.zeros(3), normal)
+    assert flat == pytest.approx([4.0 - 0.35 * 1.3, -0.3, 0.0])
+
+
+def test_every_preset_is_cited() -> None:
+    assert set(BallModel.PRESETS) == set(cited.BALLS)
+    assert set(RobotModel.PRESETS) == set(cited.SSL_ROBOTS) | set(cited.VSS_ROBOTS)
+    assert set(Field.PRESETS) == set(cited.FIELDS)
+
+
+def test_the_page_shows_every_topic_as_it_is_measured_now() -> None:
+    parts = re.findall(r"<!-- begin:(\w+) -->", TEXT)
+    assert set(TOPICS) <= set(parts)
+    assert alike(TEXT, written(TEXT)), "docs/physics.md is stale: run `make physics`"
+
+
+def test_a_stale_page_would_be_noticed() -> None:
+    row = "| top speed | 2 | `vss_440rpm` | 1.198 m/s | 1.198 m/s |"
+    assert row in TEXT
+    assert alike(row, row.replace("1.198 m/s |", "1.199 m/s |")), "another processor's last digit"
+    assert not alike(TEXT, TEXT.replace(row, row.replace("1.198", "1.190")))
+    assert not alike("| 3 / 0.26 |", "| 3 / 0.27 |"), "presets are exact"
+    assert not alike(TEXT, TEXT.replace("top speed", "topmost speed"))
+
+
+def test_numbers_show_as_many_digits_as_they_are_worth() -> None:
+    assert shown(1.19799, percent(1)) == "1.198"
+    assert shown(-1e-7, within(0.01)) == "0.000"
+    assert shown(0.30001, within(0.01)) == "0.300"
+    assert shown(1000.0, EXACT) == "1000"
+
+
+def test_the_page_shows_every_picture_and_none_is_large() -> None:
+    shown_pictures = re.findall(r"\]\((physics_\w+\.png)\)", TEXT)
+    assert sorted(shown_pictures) == sorted(f"physics_{name}.png" for name in PICTURES)
+    for name in shown_pictures:
+        assert 10_000 < (PAGE.parent / name).stat().st_size < 150_000
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_pictures_are_drawn_from_what_happens(name: str) -> None:
+    lines = [line for axes in PICTURES[name]().axes for line in axes.get_lines()]
+    assert len(lines) >= 3
+    for line in lines:
+        assert np.isfinite(np.asarray(line.get_xydata())).all()

@@ -1,0 +1,198 @@
+"""Numbers of the literature, written down once more: what the presets are held against.
+
+Nothing here is read from the simulator, so that a slip in a preset shows.
+"""
+
+from dataclasses import dataclass, field, replace
+
+G = 9.81  # m/s²
+SOLID_SPHERE = 2 / 5  # moment of inertia, of m r²
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball model as published. The names are those of `BallModel`."""
+
+    source: str
+    radius: float = 0.0215
+    mass: float = 0.046
+    sliding_deceleration: float = 3.0
+    rolling_deceleration: float = 0.26
+    rolling_share: float = 2 / 3
+    spin_deceleration: float = 10.0
+    hop_first: float = 0.80
+    hop_later: float = 0.85
+    hop_up: float = 0.47
+    robot_restitution: float = 0.55
+    robot_friction: float = 0.2
+    wall_restitution: float = 0.3
+    wall_friction: float = 0.35
+    goal_back_restitution: float = 0.1
+    goal_back_friction: float = 0.5
+
+
+TIGERS = Ball("TIGERs, Sumatra `BallParameters.java`; walls and friction: ER-Force's simulator")
+ERFORCE = replace(
+    TIGERS,
+    source="ER-Force, `field-properties/field.txt` and their measured restitution",
+    sliding_deceleration=2.79,
+    rolling_deceleration=0.33,
+    rolling_share=0.70,
+    hop_first=0.60,
+    hop_later=1.0,
+    hop_up=0.70,
+    robot_restitution=0.60,
+)
+VISION = replace(
+    ERFORCE,
+    source="ssl-vision, `field.cpp`: before a venue sets its own",
+    sliding_deceleration=3.0,
+    rolling_deceleration=0.40,
+    hop_later=0.95,
+)
+GRSIM = replace(
+    ERFORCE,
+    source="grSim's report and measurements of rSim's SSL ball (along an axis)",
+    sliding_deceleration=10.3,
+    rolling_deceleration=0.70,
+    hop_later=0.96,
+    hop_up=0.42,
+    wall_restitution=0.5,
+    goal_back_restitution=0.5,
+    goal_back_friction=0.35,
+)
+RSIM_VSS = replace(
+    GRSIM,
+    source="measured on rSim's VSS ball; size and mass: VSSS rules",
+    radius=0.0427 / 2,
+    sliding_deceleration=9.9,
+    rolling_deceleration=0.14,
+)
+BALLS = {
+    "ssl_tigers": TIGERS,
+    "ssl_erforce": ERFORCE,
+    "ssl_vision": VISION,
+    "grsim": GRSIM,
+    "vss_rsim": RSIM_VSS,
+}
+
+
+@dataclass(frozen=True)
+class SslRobot:
+    """A robot of the official virtual tournament, `robot-specs.yaml`. SI units."""
+
+    radius: float
+    height: float
+    mass: float
+    max_kick: float
+    max_chip: float
+    front: float
+    mouth_width: float
+    max_speed: float = 3.7
+    max_turn_rate: float = 26.2
+    speed_up: float = 4.7
+    brake: float = 5.9
+    turn_speed_up: float = 50.8
+    turn_brake: float = 51.6
+
+
+SSL_ROBOTS = {
+    "ssl_generic": SslRobot(0.090, 0.143, 2.7, 8, 8, 0.0715, 0.065),
+    "ssl_generic_wheels": SslRobot(0.090, 0.143, 2.7, 8, 8, 0.0715, 0.065),
+    "ssl_unknown": SslRobot(0.090, 0.143, 2.7, 6, 6, 0.0715, 0.065, 2, 5, 2, 2, 20, 20),
+    "ssl_tigers": SslRobot(0.090, 0.143, 2.7, 8, 8, 0.0715, 0.065),
+    "ssl_erforce": SslRobot(0.089, 0.138, 1.5, 8, 8, 0.067, 0.070),
+    "ssl_robocin": SslRobot(0.088, 0.148, 2.45, 10, 8, 0.0669, 0.072),
+    "ssl_twente": SslRobot(0.090, 0.149, 2.32, 7.5, 7.35, 0.070, 0.070),
+    "ssl_ubc": SslRobot(0.090, 0.150, 2.5, 7, 7, 0.070, 0.088),
+    "ssl_kiks": SslRobot(0.089, 0.132, 2.6, 8, 8, 0.070, 0.081),
+    "ssl_robodragons": SslRobot(0.090, 0.125, 2.4, 6.5, 6.5, 0.0715, 0.075),
+}
+GENERIC = SSL_ROBOTS["ssl_generic"]
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number, its unit, and who says so."""
+
+    value: float
+    unit: str
+    source: str
+
+
+SSL_SHARED = {
+    "max_speed": Number(3.7, "m/s", "`robot-specs.yaml`, all listed teams"),
+    "max_turn_rate": Number(26.2, "rad/s", "likewise"),
+    "speed_up": Number(4.7, "m/s²", "likewise"),
+    "brake": Number(5.9, "m/s²", "likewise"),
+    "turn_speed_up": Number(50.8, "rad/s²", "likewise"),
+    "turn_brake": Number(51.6, "rad/s²", "likewise"),
+    "traction": Number(6.9, "m/s²", "SSL-A-Team: a wheel on carpet, 0.7 g"),
+    "beam_distance": Number(0.010, "m", "rSim: the ball within 10 mm of the plate"),
+    "beam_height": Number(0.0215, "m", "ours: through the middle of a ball on the floor"),
+    "recharge": Number(0.1, "s", "ER-Force's simulator asks for at least that"),
+    "kick_keeps": Number(0.35, "", "TIGERs: speed kept across the front in a redirect"),
+    "grip": Number(0.5, "N", "TIGERs: least force of their bar on the ball"),
+    "bar_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s at the bar's surface"),
+    "bar_restitution": Number(0.2, "", "ER-Force: ball on dribbler bar"),
+    "bar_friction": Number(1.5, "", "likewise"),
+    "restitution": Number(0.2, "", "TIGERs' simulator, robot on robot"),
+    "friction": Number(0.2, "", "none published for two robots; ER-Force's for ball on robot"),
+}
+
+
+@dataclass(frozen=True)
+class VssRobot:
+    """A robot on two wheels. SI units."""
+
+    source: str
+    side: float
+    mass: float
+    wheel_radius: float
+    track: float
+    rpm: float
+    forward_grip: float  # m/s², along the wheels
+    side_grip: float  # m/s², along the axle
+    height: float
+    motor_torque: float
+
+
+VSS_ROBOTS = {
+    "vss_440rpm": VssRobot(
+        "rSim's VSS robot: its source; track and forward grip measured; side grip 1.0 g",
+        *(0.075, 0.15, 0.026, 0.0782, 440, 6.85, G, 0.075, 0.0725),
+    ),
+    "vss_650rpm": VssRobot(
+        "TraveSim, from CAD; Pololu 50:1 motors; field friction 0.6",
+        *(0.078, 0.18, 0.025, 0.071, 650, 0.6 * G, 0.6 * G, 0.062, 0.073),
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Pitch:
+    """A field by its rules. Metres."""
+
+    source: str
+    numbers: dict[str, float] = field(default_factory=dict)
+
+
+def _pitch(source: str, *sizes: float, **more: float) -> Pitch:
+    names = ("length", "width", "goal_width", "goal_depth", "goal_height")
+    return Pitch(source, dict(zip(names, sizes, strict=True)) | more)
+
+
+# What both VSSS and all SSL fields share, by their rules.
+_SSL = {"touch_line_margin": 0.3, "goal_wall": 0.02, "center_radius": 0.5, "line_width": 0.01}
+_VSS = {"corner": 0.07, "wall_height": 0.05, "penalty_mark": 0.375, "line_width": 0.003}
+FIELDS = {
+    "vss_3v3": _pitch("VSSS rules, VSSReferee", 1.5, 1.3, 0.4, 0.1, 0.05, **_VSS),
+    "vss_5v5": _pitch("VSSReferee", 2.2, 1.8, 0.4, 0.15, 0.05, **_VSS),
+    "ssl_a": _pitch(
+        "SSL rules 2026", 12, 9, 1.8, 0.18, 0.16, goal_line_margin=0.6, penalty_mark=8, **_SSL
+    ),
+    "ssl_b": _pitch(
+        "SSL rules 2026", 9, 6, 1.0, 0.18, 0.16, goal_line_margin=0.3, penalty_mark=6, **_SSL
+    ),
+    "ssl_challenge": _pitch("SSL hardware challenges 2021", 6, 4, 0.7, 0.18, 0.16, **_SSL),
+}

@@ -1,0 +1,43 @@
+"""All that is checked, by topic."""
+
+from functools import cache
+
+from tools.physics import (
+    air,
+    bounces,
+    differential,
+    dribbler,
+    floor,
+    kicker,
+    mirror,
+    omni,
+    parameters,
+    placing,
+    presets,
+    pushing,
+    shots,
+)
+from tools.physics.check import Check
+
+MODULES = (
+    floor,
+    air,
+    bounces,
+    omni,
+    differential,
+    kicker,
+    dribbler,
+    pushing,
+    shots,
+    mirror,
+    placing,
+    parameters,
+    presets,
+)
+TOPICS = {module.TOPIC: module.checks for module in MODULES}
+
+
+@cache
+def checks(topic: str) -> tuple[Check, ...]:
+    """What is measured of a topic; measured once."""
+    return tuple(TOPICS[topic]())
