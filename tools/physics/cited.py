@@ -34,7 +34,7 @@ class Ball:
 TIGERS = Ball("TIGERs, Sumatra `BallParameters.java`; walls and friction: ER-Force's simulator")
 ERFORCE = replace(
     TIGERS,
-    source="ER-Force, `field-properties/field.txt` and their measured restitution",
+    source="ER-Force, field-properties/field.txt, and their measured restitution",
     sliding_deceleration=2.79,
     rolling_deceleration=0.33,
     rolling_share=0.70,
