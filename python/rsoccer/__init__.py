@@ -5,7 +5,8 @@
     >>> observations = matches.reset()  # (1024, 6, o)
 
 `Matches` is the step loop, as arrays; `parallel_env` and `env` are PettingZoo's two interfaces to
-the same thing; a `Task` says what the robots are to learn.
+the same thing, `single_env` and `vector_env` Gymnasium's for one learner; a `Task` says what the
+robots are to learn.
 """
 
 from rsoccer._core import SimConfig, Simulator, build_info
@@ -16,8 +17,10 @@ from rsoccer.parallel import env, parallel_env
 from rsoccer.policies.base import Policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
+from rsoccer.single import single_env
 from rsoccer.task import LEARN, Play, Task
 from rsoccer.tasks import VssMulti, VssSelfPlay, VssSingle
+from rsoccer.vector import vector_env
 from rsoccer.view import View
 
 __all__ = [
@@ -43,6 +46,8 @@ __all__ = [
     "make_task",
     "parallel_env",
     "register",
+    "single_env",
+    "vector_env",
 ]
 
 __version__ = str(build_info()["version"])

@@ -17,6 +17,21 @@ def whole(name: str, value: object, least: int) -> int:
     return int(value)
 
 
+def seeds(value: object, n: int) -> list[int | None] | None:
+    """A seed for each of n worlds, None where its streams shall go on; None if all shall.
+
+    A whole number is the first world's seed and the others' count up from it.
+    """
+    if value is None:
+        return None
+    if not isinstance(value, list | tuple | np.ndarray):
+        first = whole("seed", value, 0)
+        return list(range(first, first + n))
+    if len(value) != n:
+        raise ValueError(f"seed: expected a number or {n} of them, got {len(value)}")
+    return [None if seed is None else whole("seed", seed, 0) for seed in value]
+
+
 def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
     """A finite, C-contiguous float32 array of this shape; other floating types are cast."""
     array = np.asarray(value)

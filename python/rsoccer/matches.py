@@ -4,7 +4,7 @@ Every front door (PettingZoo, evaluation, trainer, video) is a thin layer over `
 world is a batch of one. Resets, whole or partial, go through one door: `Matches._begin`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -25,6 +25,8 @@ __all__ = ["AUTORESETS", "Matches", "Outcome"]
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
 Indices = NDArray[np.intp]
+Seed = int | Sequence[int | None] | None  # of the first world, or one for each
+Seeds = list[int | None]
 Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
 
@@ -87,19 +89,18 @@ class Matches:
         return self._done.copy()
 
     def reset(
-        self, seed: int | None = None, mask: Mask | None = None, rows: Floats | None = None
+        self, seed: Seed = None, mask: Mask | None = None, rows: Floats | None = None
     ) -> Floats:
         """Begin new episodes in the worlds of `mask`, or all; what all show, (n, agents, o).
 
-        Without a seed the random streams go on. `rows` (k, row) are starts for the k worlds of
-        the mask, in place of the task's own.
+        World i gets `seed + i`, or `seed[i]`; without a seed its random streams go on. `rows`
+        (k, row) are starts for the k worlds of the mask, in place of the task's own.
         """
-        if seed is not None:
-            seed = checks.whole("seed", seed, 0)
+        seeds = checks.seeds(seed, self.worlds)
         worlds = np.flatnonzero(checks.mask(mask, self.worlds))
         if rows is not None:
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
-        self._begin(worlds, rows, seed)
+        self._begin(worlds, rows, seeds)
         return self._of_learners(self._observations)
 
     def step(self, actions: Floats) -> Outcome:
@@ -216,11 +217,13 @@ class Matches:
             self._begin(np.flatnonzero(ended))
         outcome.observations = self._of_learners(self._observations)
 
-    def _begin(self, worlds: Indices, rows: Floats | None = None, seed: int | None = None) -> None:
+    def _begin(
+        self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
+    ) -> None:
         """Start episodes in some worlds, from `rows` (k, row) or the task's own starts."""
         if not len(worlds):
             return
-        start, *others = self._next_streams(worlds, seed)
+        start, *others = self._next_streams(worlds, seeds)
         if rows is None:
             rows = self.task.get_initial_positions_frame(start).rows
         mask = np.zeros(self.worlds, np.bool_)
@@ -236,12 +239,15 @@ class Matches:
         self._done[worlds] = False
         self._begun[worlds] = True
 
-    def _next_streams(self, worlds: Indices, seed: int | None) -> list[WorldRng]:
+    def _next_streams(self, worlds: Indices, seeds: Seeds | None) -> list[WorldRng]:
         """Streams of some worlds, for starts, the task and each crew: as they are, or seeded."""
-        if seed is None:
-            return [rng[worlds] for rng in self._streams().values()]
-        root = WorldRng.seeded(seed, self.worlds)[worlds]
-        return [root.split(name) for name in self._streams()]
+        streams = {name: rng[worlds] for name, rng in self._streams().items()}
+        if seeds is not None:
+            fresh = {i: seed for i, w in enumerate(worlds) if (seed := seeds[w]) is not None}
+            told, root = np.array(list(fresh), np.intp), WorldRng.seeded_each([*fresh.values()])
+            for name, rng in streams.items():
+                rng.put(told, root.split(name))
+        return list(streams.values())
 
     def _streams(self) -> dict[str, WorldRng]:
         """All streams by name."""

@@ -10,31 +10,33 @@
 
 from __future__ import annotations
 
-import copy
 import secrets
-import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
-from numpy.typing import NDArray
 from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils.conversions import parallel_to_aec
 
-from rsoccer import by_agent, checks, spaces
+from rsoccer import by_agent, spaces
 from rsoccer.controllers import Controllers
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Array, Floats
-from rsoccer.matches import Matches
+from rsoccer.frame import Array, Floats
 from rsoccer.registry import make_task
 from rsoccer.spaces import ActionSpace
+from rsoccer.stage import (
+    RENDER_MODES,
+    Image,
+    Screen,
+    StageMatches,
+    facts,
+    frames_per_second,
+    reset_options,
+    starts,
+    timed,
+)
 from rsoccer.state import LIMIT, StateScale
 from rsoccer.task import Task
-
-if TYPE_CHECKING:
-    from rsoccer.render.window import Window
-
-RENDER_MODES = ("human", "rgb_array")
 
 Infos = dict[str, dict[str, Any]]
 
@@ -86,18 +88,14 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         controllers: Controllers | None = None,
     ) -> None:
         """A match that `reset` will begin; `render_mode` is "human", "rgb_array" or None."""
-        if render_mode is not None and render_mode not in RENDER_MODES:
-            raise ValueError(
-                f"render_mode: expected one of {RENDER_MODES} or None, got {render_mode!r}"
-            )
+        self._screen = Screen(render_mode, task)
         self.render_mode = render_mode
         self.last_metrics: dict[str, float] = {}
         """Facts of the last episode that ended, such as goal_score and steps; empty before."""
-        self._controllers = controllers
         # Seeded anywhere, so that two environments that nobody seeds do not play the same match.
-        self._matches = _open(task, controllers, secrets.randbits(63))
-        self._window: Window | None = None
-        self._begun = False
+        self._matches = StageMatches(
+            task, 1, secrets.randbits(63), controllers=controllers, autoreset="disabled"
+        )
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
         if not self.possible_agents:
@@ -105,7 +103,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         self.metadata = {
             "name": task.name,
             "render_modes": list(RENDER_MODES),
-            "render_fps": round(1.0 / task.config.time_step),
+            "render_fps": frames_per_second(task),
             "is_parallelizable": True,
         }
         # A space for each agent: seeding one agent's samples must not seed another's.
@@ -127,9 +125,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
 
     @max_cycles.setter
     def max_cycles(self, limit: int) -> None:
-        task = copy.copy(self.task)  # the caller's own task keeps its clock
-        object.__setattr__(task, "max_steps", checks.whole("max_cycles", limit, 1))
-        self._matches.task = task
+        self._matches.task = timed(self.task, "max_cycles", limit)
 
     def observation_space(self, agent: str) -> Box[np.float32]:
         """Bounds of what the agent sees, (o,) float32."""
@@ -147,13 +143,12 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
     @property
     def score(self) -> tuple[int, int]:
         """Goals of blue and of yellow in this match: 0 to 0 until a goal ends it."""
-        crossed = self._matches.frame.ball.crossed[0]
-        return int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
+        return self._matches.score()
 
     @property
     def clock(self) -> float:
         """Seconds played of this match."""
-        return float(self._matches.play.steps[0]) * self.task.config.time_step
+        return self._matches.clock()
 
     def reset(
         self, seed: int | None = None, options: Mapping[str, Any] | None = None
@@ -164,13 +159,8 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         in place of the task's own starts, laid out as `Frame.rows`; other options are left to
         whoever else may read them.
         """
-        if not isinstance(options, Mapping | None):
-            raise TypeError(f"options: expected a dictionary, got {type(options).__name__}")
-        row = (options or {}).get("frame")
-        if row is not None:
-            row = checks.floats("options['frame']", row, (self.task.config.row_size,))[None]
+        row = starts(reset_options(options), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=row)
-        self._begun = True
         self.agents = self.possible_agents.copy()
         if self.render_mode == "human":
             self.render()
@@ -180,9 +170,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         self, actions: Mapping[str, Array]
     ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
         """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
-        if not self.agents:
-            state = "after the end of the episode" if self._begun else "before reset"
-            raise RuntimeError(f"step {state}: call reset() to begin an episode")
+        self._matches.check_turn()
         try:
             outcome = self._matches.step(by_agent.stack(actions, self.agents, self.task))
         except (LookupError, TypeError, ValueError):
@@ -191,8 +179,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         if terminated or truncated:
             self.agents = []
-            self.last_metrics = {name: float(fact[0]) for name, fact in outcome.metrics.items()}
-            self.last_metrics["steps"] = float(self._matches.play.steps[0])
+            self.last_metrics = facts(outcome, self._matches)
         if self.render_mode == "human":
             self.render()
         return (
@@ -206,44 +193,10 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
     def _no_infos(self) -> Infos:
         return {agent: {} for agent in self.possible_agents}
 
-    def render(self) -> NDArray[np.uint8] | None:
+    def render(self) -> Image | None:
         """The match as an image (height, width, 3), or in a window."""
-        if self.render_mode is None:
-            warnings.warn(f"render() needs a render_mode, one of {RENDER_MODES}", stacklevel=2)
-            return None
-        if not self._begun:
-            raise RuntimeError("render before reset: call reset() to begin an episode")
-        from rsoccer.render.image import draw_image
-
-        row = self._matches.frame.rows[0]
-        image = draw_image(self.task.config, row, score=self.score, clock=self.clock)
-        if self.render_mode == "rgb_array":
-            return image
-        if self._window is None:
-            from rsoccer.render.window import Window
-
-            self._window = Window(self.task.name, self.metadata["render_fps"])
-        self._window.show(image)
-        return None
+        return self._screen.show(self._matches)
 
     def close(self) -> None:
         """Close the window, if there is one; may be repeated."""
-        if self._window is not None:
-            self._window.close()
-            self._window = None
-
-    def __getstate__(self) -> dict[str, Any]:
-        """All but the window: a copy, or one in another process, goes on with the same match."""
-        matches = (self.task, self._matches.state_dict())
-        return {**self.__dict__, "_window": None, "_matches": matches}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """Go on where `__getstate__` was."""
-        self.__dict__.update(state)
-        task, matches = state["_matches"]
-        self._matches = _open(task, self._controllers, 0)
-        self._matches.load_state_dict(matches)
-
-
-def _open(task: Task, controllers: Controllers | None, seed: int) -> Matches:
-    return Matches(task, 1, seed, controllers=controllers, autoreset="disabled")
+        self._screen.close()

@@ -4,6 +4,7 @@ import inspect
 import re
 from typing import Any, Final
 
+from rsoccer import ids
 from rsoccer.task import Task
 
 _TASKS: Final[dict[str, type[Task]]] = {}
@@ -11,7 +12,10 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 
 
 def register(name: str, task_class: type[Task]) -> None:
-    """Make a task known by `name`, such as "MyTask-v0", which its tasks then carry."""
+    """Make a task known by `name`, such as "MyTask-v0", which its tasks then carry.
+
+    Gymnasium and PettingZoo know it as "rsoccer/MyTask-v0", the former where one robot learns.
+    """
     if not _NAME.fullmatch(name):
         raise ValueError(f"name: expected letters and a version, like 'MyTask-v0', got {name!r}")
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
@@ -20,6 +24,7 @@ def register(name: str, task_class: type[Task]) -> None:
         raise ValueError(f"name: {name!r} is already taken by {_TASKS[name].__qualname__}")
     task_class.name = name
     _TASKS[name] = task_class
+    ids.announce(name, task_class)
 
 
 def list_tasks() -> list[str]:

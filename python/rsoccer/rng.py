@@ -7,6 +7,7 @@ row `i` of a batch seeded `s` draws the same bits as a single world seeded `s + 
 
 import math
 import zlib
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -35,8 +36,12 @@ class WorldRng:
     @classmethod
     def seeded(cls, base: int, n: int) -> "WorldRng":
         """Streams of n worlds: row i is the stream of a single world seeded `base + i`."""
-        seeds = np.arange(n, dtype=np.uint64) + np.uint64(base % _WORD)
-        return cls(_mixed(_mixed(seeds * _STRIDE + _STRIDE)))
+        return cls(_begun(np.arange(n, dtype=np.uint64) + np.uint64(base % _WORD)))
+
+    @classmethod
+    def seeded_each(cls, seeds: Sequence[int]) -> "WorldRng":
+        """Streams of worlds with seeds of their own: row i as a single world's, `seeds[i]`."""
+        return cls(_begun(np.array([seed % _WORD for seed in seeds], np.uint64)))
 
     @classmethod
     def from_state(cls, state: Words) -> "WorldRng":
@@ -100,6 +105,11 @@ class WorldRng:
         words = _mixed(self._state[:, None] + steps)
         self._state = self._state + np.uint64(count * _GOLDEN % _WORD)
         return words
+
+
+def _begun(seeds: Words) -> Words:
+    """Where the streams of these seeds begin."""
+    return _mixed(_mixed(seeds * _STRIDE + _STRIDE))
 
 
 def _mixed(words: Words) -> Words:

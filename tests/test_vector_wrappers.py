@@ -1,0 +1,78 @@
+"""Gymnasium's wrappers see in our matches what they see in its own loop over single envs."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
+from gymnasium.wrappers import vector as wrappers
+
+from rsoccer.single import single_env
+from rsoccer.vector import vector_env
+from tests.lone_learner import plain
+
+N = 3
+MODES = list(AutoresetMode)
+FOUR = np.full(2, 4.0, np.float32)
+
+Wrap = Callable[[VectorEnv[Any, Any, Any]], VectorEnv[Any, Any, Any]]
+
+
+def both(mode: AutoresetMode, wrap: Wrap) -> list[VectorEnv[Any, Any, Any]]:
+    theirs = SyncVectorEnv([lambda: single_env("VSS-v0", max_steps=7)] * N, autoreset_mode=mode)
+    return [wrap(vector_env("VSS-v0", N, max_steps=7, autoreset_mode=mode)), wrap(theirs)]
+
+
+def played(envs: VectorEnv[Any, Any, Any], mode: AutoresetMode, high: float = 1.0) -> list[Any]:
+    """All that some episodes return but for the time they took; asks for all ends at once."""
+    rng = np.random.default_rng(0)
+    transcript = [plain(envs.reset(seed=3))]
+    for _ in range(24):
+        *arrays, infos = envs.step(rng.uniform(-high, high, (N, 2)).astype(np.float32))
+        infos.get("episode", {}).pop("t", None)
+        transcript.append(plain([*arrays, infos]))
+        if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).all():
+            transcript.append(plain(envs.reset()))
+    return transcript
+
+
+@pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
+@pytest.mark.parametrize(
+    ("wrap", "high"),
+    [
+        (wrappers.RecordEpisodeStatistics, 1.0),
+        (wrappers.NormalizeReward, 1.0),
+        (lambda envs: wrappers.RescaleAction(envs, -FOUR, FOUR), 4.0),
+    ],
+    ids=["RecordEpisodeStatistics", "NormalizeReward", "RescaleAction"],
+)
+def test_wrappers_work_in_every_mode(mode: AutoresetMode, wrap: Wrap, high: float) -> None:
+    ours, theirs = both(mode, wrap)
+    assert played(ours, mode, high) == played(theirs, mode, high)
+
+
+def test_observations_can_be_normalized() -> None:
+    ours, theirs = both(AutoresetMode.NEXT_STEP, wrappers.NormalizeObservation)
+    mode = AutoresetMode.NEXT_STEP
+    assert played(ours, mode) == played(theirs, mode)
+
+
+def test_statistics_forget_only_the_matches_that_begin() -> None:
+    """Gymnasium's own loop takes the mask out of the options before its wrapper has read it."""
+    envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
+    envs.reset(seed=0)
+    actions = np.zeros((2, 2), np.float32)
+    for _ in range(3):
+        envs.step(actions)
+    envs.reset(options={"reset_mask": np.array([False, True])})
+    assert envs.episode_lengths.tolist() == [3, 0]
+
+
+def test_episodes_are_recorded_with_our_facts() -> None:
+    envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
+    envs.reset(seed=0)
+    for _ in range(9):
+        infos = envs.step(np.zeros((2, 2), np.float32))[4]
+    assert infos["episode"]["l"].tolist() == infos["steps"].tolist() == [9, 9]
+    assert infos["_goal_score"].all()
