@@ -1,12 +1,13 @@
-//! Throughput of the physics alone: control steps (25 ms of 5 ms ticks) per second, one thread.
+//! Throughput of the physics alone: control steps (25 ms of 5 ms ticks) per second.
 //!
-//! Scene x worlds. A scene starts over every 400 steps, so that a crowd does not end in a corner.
+//! League and team sizes x what goes on x worlds x threads. A scene starts over every 400 steps, so
+//! that a crowd does not end in a corner.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rsim_core::Batch;
-use rsim_core::scenes::{self, Scene};
+use rsim_core::scenes::{self, Driver, Scene};
+use rsim_core::{Batch, Field, SimConfig};
 
 /// Steps between two starts of a scene.
 const EPISODE: u64 = 400;
@@ -46,21 +47,68 @@ impl Player {
     }
 }
 
-/// A benchmark of a crowd without a crowd would be worth nothing.
-fn assert_contacts(scene: &Scene, at_least: usize) {
-    let (_, contacts) = scene.play(&mut scene.world(), EPISODE);
-    assert!(contacts >= at_least, "{}: {contacts} contacts in {EPISODE} steps", scene.name);
+/// A scene to be timed, and how much has to happen in it: a benchmark of a crowd without a crowd
+/// would be worth nothing.
+struct Case {
+    /// League and team sizes.
+    teams: &'static str,
+    scene: Scene,
+    /// Contacts in an episode, at least and at most.
+    contacts: std::ops::RangeInclusive<usize>,
+}
+
+fn cases() -> Vec<Case> {
+    let most = usize::MAX;
+    let mut cases = vec![
+        Case { teams: "vss_3v3", scene: scenes::vss_free(), contacts: 0..=0 },
+        Case { teams: "vss_3v3", scene: scenes::random_play(), contacts: 50..=most },
+        Case { teams: "vss_3v3", scene: scenes::chase(), contacts: 1000..=most },
+    ];
+    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    for driver in [Driver::Random, Driver::Chase] {
+        let (name, contacts) = named(&driver, 50, 1000);
+        let scene = Scene::lined_up(name, vss_5v5.clone(), driver);
+        cases.push(Case { teams: "vss_5v5", scene, contacts: contacts..=most });
+    }
+    let ssl_a = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    for (teams, config, random, crowd) in [
+        ("ssl_1v1", SimConfig::ssl(1, 1), 1, 20),
+        ("ssl_6v6", SimConfig::ssl(6, 6), 20, 1000),
+        ("ssl_11v11", ssl_a, 20, 2000),
+    ] {
+        for driver in [Driver::STILL, Driver::Random, Driver::Chase] {
+            let (name, contacts) = named(&driver, random, crowd);
+            let free = driver == Driver::STILL;
+            let mut scene = Scene::lined_up(name, config.clone(), driver);
+            if free {
+                scene.set_ball([0.0, 0.3], [0.0, 1.0]);
+            }
+            let contacts = if free { 0..=0 } else { contacts..=most };
+            cases.push(Case { teams, scene, contacts });
+        }
+    }
+    cases
+}
+
+/// Label of a driver, and the contacts that it must come to: in random play, or in a crowd.
+fn named(driver: &Driver, random: usize, crowd: usize) -> (&'static str, usize) {
+    match driver {
+        Driver::Constant(_) => ("free", 0),
+        Driver::Random => ("random", random),
+        Driver::Chase => ("crowd", crowd),
+    }
 }
 
 fn step(criterion: &mut Criterion) {
-    let scenes = [(scenes::random_play(), 50), (scenes::chase(), 1000)];
-    let mut group = criterion.benchmark_group("vss_3v3_step");
-    for (scene, contacts) in scenes {
-        assert_contacts(&scene, contacts);
-        for worlds in [1, 256] {
+    for Case { teams, scene, contacts } in cases() {
+        let (_, seen) = scene.play(&mut scene.world(), EPISODE);
+        assert!(contacts.contains(&seen), "{teams} {}: {seen} contacts", scene.name);
+        let mut group = criterion.benchmark_group(format!("{teams}_step"));
+        for (worlds, threads) in [(1, 1), (256, 1), (256, 2)] {
             group.throughput(Throughput::Elements(worlds as u64));
-            let mut player = Player::new(scene.clone(), worlds, 1);
-            group.bench_function(BenchmarkId::new(scene.name, worlds), |bencher| {
+            let mut player = Player::new(scene.clone(), worlds, threads);
+            let id = BenchmarkId::new(scene.name, format!("{worlds}x{threads}"));
+            group.bench_function(id, |bencher| {
                 bencher.iter_custom(|iterations| {
                     let mut spent = std::time::Duration::ZERO;
                     for _ in 0..iterations {
@@ -74,17 +122,25 @@ fn step(criterion: &mut Criterion) {
                 });
             });
         }
+        group.finish();
     }
-    group.finish();
 }
 
 fn place(criterion: &mut Criterion) {
-    let scene = scenes::chase();
-    let mut world = scene.world();
-    criterion.bench_function("vss_3v3_place", |bencher| {
-        bencher.iter(|| world.place(black_box(&scene.start), None).expect("valid"));
-    });
+    for scene in [scenes::chase(), scenes::ssl_random(SimConfig::ssl(11, 11))] {
+        let mut world = scene.world();
+        let robots = scene.config.n_robots();
+        criterion.bench_function(&format!("place_{robots}_robots"), |bencher| {
+            bencher.iter(|| world.place(black_box(&scene.start), None).expect("valid"));
+        });
+    }
 }
 
-criterion_group!(benches, step, place);
+fn settings() -> Criterion {
+    let (warm_up, measure) =
+        (std::time::Duration::from_millis(500), std::time::Duration::from_secs(2));
+    Criterion::default().warm_up_time(warm_up).measurement_time(measure).sample_size(20)
+}
+
+criterion_group! { name = benches; config = settings(); targets = step, place }
 criterion_main!(benches);

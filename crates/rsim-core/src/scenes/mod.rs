@@ -29,6 +29,13 @@ pub fn rolling_ball(speed: f32) -> Scene {
     scene
 }
 
+/// Nobody drives, and the ball rolls to and fro between nobody.
+pub fn vss_free() -> Scene {
+    let mut scene = rolling_ball(0.1);
+    scene.name = "free";
+    scene
+}
+
 /// Six robots spread over the field, driving at random.
 pub fn random_play() -> Scene {
     Scene::at("random", SimConfig::vss(3, 3), &SPREAD, Driver::Random)
