@@ -94,10 +94,11 @@ def physics_alone(folder: Path = CRITERION) -> Iterator[Figure]:
         median = json.loads((path.parent / "estimates.json").read_text())["median"]
         within = median["confidence_interval"]
         steps = 1e9 * case["throughput"]["Elements"]  # times are in nanoseconds
+        worlds, threads = case["value_str"].split("x")
         yield Figure(
-            name=f"core_{case['function_id']}",
-            worlds=int(case["value_str"]),
-            threads=1,
+            name=f"core_{case['group_id'].removesuffix('_step')}_{case['function_id']}",
+            worlds=int(worlds),
+            threads=int(threads),
             unit="world-steps/s",
             median=steps / median["point_estimate"],
             slowest=steps / within["upper_bound"],

@@ -24,8 +24,13 @@ PICTURES = {
     "docs/curve.png": "Goal score over training",
 }
 FIGURES = {
-    "core_random": "Rust core alone, random play",
-    "core_crowd": "Rust core alone, a crowd around the ball",
+    "core_vss_3v3_random": "Rust core alone, VSSS 3 v 3, random play",
+    "core_vss_3v3_crowd": "Rust core alone, VSSS 3 v 3, a crowd around the ball",
+    "core_vss_5v5_random": "Rust core alone, VSSS 5 v 5, random play",
+    "core_ssl_1v1_random": "Rust core alone, SSL 1 v 1, random play",
+    "core_ssl_6v6_random": "Rust core alone, SSL 6 v 6, random play",
+    "core_ssl_6v6_crowd": "Rust core alone, SSL 6 v 6, a crowd around the ball",
+    "core_ssl_11v11_random": "Rust core alone, SSL 11 v 11, random play",
     "physics": "`Simulator`, the core from Python",
     "matches": "`Matches`, with observations, rewards and restarts",
     "parallel_env": "PettingZoo env",

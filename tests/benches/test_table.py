@@ -42,11 +42,17 @@ def leave(folder: Path, case: Mapping[str, object], nanoseconds: float) -> None:
 
 
 def test_figures_of_the_core_are_read_from_criterion(tmp_path: Path) -> None:
-    case = {"function_id": "random_play", "value_str": "256", "throughput": {"Elements": 256}}
-    leave(tmp_path / "step" / "random_play" / "256" / "new", case, 1e7)
+    case = {
+        "group_id": "vss_3v3_step",
+        "function_id": "random",
+        "value_str": "256x2",
+        "throughput": {"Elements": 256},
+    }
+    leave(tmp_path / "vss_3v3_step" / "random" / "256x2" / "new", case, 1e7)
     leave(tmp_path / "place" / "new", {"function_id": None, "throughput": None}, 5e3)
     [figure] = physics_alone(tmp_path)
-    assert (figure.name, figure.worlds) == ("core_random_play", 256)
+    found = (figure.name, figure.worlds, figure.threads)
+    assert found == ("core_vss_3v3_random", 256, 2)
     assert figure.median == pytest.approx(25_600)
     assert (figure.slowest, figure.fastest) == pytest.approx((16_000, 32_000))
     assert list(physics_alone(tmp_path / "nothing")) == []
