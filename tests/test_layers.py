@@ -20,6 +20,7 @@ LAYERS = [
     {"spaces", "ids"},
     {"by_agent", "registry", "spawn", "rewards", "policies"},
     {"controllers"},
+    {"saved"},
     {"matches"},
     {"stage"},
     {"parallel", "single", "vector", "evaluate", "tasks"},

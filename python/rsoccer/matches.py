@@ -17,7 +17,8 @@ from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.outcome import Outcome
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
-from rsoccer.simulator import Worlds, snapshots
+from rsoccer.saved import Saved, arrays_of
+from rsoccer.simulator import Worlds
 from rsoccer.task import Play, Task
 
 __all__ = ["AUTORESETS", "Matches", "Outcome"]
@@ -120,23 +121,11 @@ class Matches:
 
     def state_dict(self) -> dict[str, Array]:
         """Everything that the future depends on; `load_state_dict` continues exactly from it."""
-        snapshot = np.frombuffer(snapshots(self._simulator).snapshot(), np.uint8)
-        arrays = {name: array.copy() for name, array in self._arrays().items()}
-        streams = {f"rng.{name}": rng.state for name, rng in self._streams().items()}
-        return {"simulator": snapshot.copy(), **arrays, **streams}
+        return self._saved().read()
 
     def load_state_dict(self, state: Mapping[str, Array]) -> None:
         """Continue as the matches did that `state` was read from; task and sizes must be equal."""
-        simulator, arrays = snapshots(self._simulator), self._arrays()
-        streams = self._streams()
-        expected = arrays | {f"rng.{name}": rng.state for name, rng in streams.items()}
-        checks.state(state, {"simulator": np.empty(0), **expected})
-        simulator.restore(state["simulator"].tobytes())
-        for name, array in arrays.items():
-            array[...] = state[name]
-        every = np.arange(self.worlds)
-        for name, rng in streams.items():
-            rng.put(every, WorldRng.from_state(state[f"rng.{name}"]))
+        self._saved().put(state)
         self._viewpoint.fill(self.play.frame, self.play.view)
         self._viewpoint.fill(self.play.last_frame, self.play.last_view)
 
@@ -254,23 +243,11 @@ class Matches:
         crews = {crew.name: crew.rng for crew in self.drivers.crews}
         return {"start": self._start, "task": self.play.rng, **crews}
 
-    def _arrays(self) -> dict[str, Array]:
-        """All arrays by name, but for the streams and what follows from the rest."""
-        play = self.play
-        arrays: dict[str, Array] = {
-            "frame": play.frame.rows,
-            "last_frame": play.last_frame.rows,
-            "commands": play.commands,
-            "actions": play.actions,
-            "steps": play.steps,
-            "observations": self._observations,
-            "done": self._done,
-            "begun": self._begun,
-        }
-        arrays |= {f"memory.{name}": array for name, array in play.memory.items()}
-        for crew in self.drivers.crews:
-            arrays |= {f"{crew.name}.{name}": array for name, array in crew.memory.items()}
-        return arrays
+    def _saved(self) -> Saved:
+        """Where all state is."""
+        own = {"observations": self._observations, "done": self._done, "begun": self._begun}
+        arrays = {**arrays_of(self.play, self.drivers.crews), **own}
+        return Saved(self._simulator, arrays, self._streams())
 
     def _of_learners(self, seen: Floats) -> Floats:
         """The learners' part of what there is for all seers (n, seers, ...); a copy."""
