@@ -1,0 +1,85 @@
+"""RLlib's wrapper of a whole match, and its runners, which play episodes for training.
+
+The runners are called here, without an algorithm: that would start a cluster on this machine.
+"""
+
+from typing import Any
+
+import gymnasium
+import pytest
+
+import rsoccer
+from rsoccer.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.vector import SoccerVectorEnv
+
+wrappers = pytest.importorskip("ray.rllib.env.wrappers.pettingzoo_env")
+ppo = pytest.importorskip("ray.rllib.algorithms.ppo")
+many = pytest.importorskip("ray.rllib.env.multi_agent_env_runner")
+single = pytest.importorskip("ray.rllib.env.single_agent_env_runner")
+
+gymnasium.register_envs(rsoccer)
+
+MAX_CYCLES = 5
+
+
+def short_match() -> SoccerParallelEnv:
+    """A match that the clock ends soon."""
+    return parallel_env("VSSSelfPlay-v0", max_cycles=MAX_CYCLES)
+
+
+def wrapped(_: object = None) -> Any:  # noqa: ANN401  (types only where it is installed)
+    """The same for RLlib."""
+    return wrappers.ParallelPettingZooEnv(short_match())
+
+
+def test_a_match_is_wrapped_and_ends_for_all_at_once() -> None:
+    env, match = wrapped(), short_match()
+    assert sorted(env.agents) == sorted(env.possible_agents) == sorted(match.possible_agents)
+    for _ in range(2):
+        observations, _ = env.reset(seed=0)
+        assert env.observation_space.contains(observations)
+        for step in range(1, MAX_CYCLES + 1):
+            _, rewards, terminated, truncated, _ = env.step(env.action_space.sample())
+            ended = step == MAX_CYCLES
+            everyone = [*match.possible_agents, "__all__"]
+            assert terminated == dict.fromkeys(everyone, False)
+            assert truncated == dict.fromkeys(everyone, ended)
+            assert sorted(rewards) == sorted(match.possible_agents)
+
+
+def test_its_runner_plays_a_match_with_one_policy_for_all() -> None:
+    config = (
+        ppo.PPOConfig()
+        .environment(wrapped)
+        .env_runners(num_env_runners=0)
+        .multi_agent(policies={"shared"}, policy_mapping_fn=lambda *_, **__: "shared")
+    )
+    runner = many.MultiAgentEnvRunner(config=config)
+    episodes = runner.sample(num_episodes=2)
+    runner.stop()
+    assert [len(episode) for episode in episodes] == [MAX_CYCLES] * 2
+    for episode in episodes:
+        # Ray 2.60 calls every common end `is_terminated` as well, so that says nothing.
+        assert episode.is_truncated
+        assert sorted(episode.agent_episodes) == sorted(short_match().possible_agents)
+        assert {len(robot) for robot in episode.agent_episodes.values()} == {MAX_CYCLES}
+
+
+def test_its_runner_plays_many_lone_matches_at_once() -> None:
+    config = (
+        ppo.PPOConfig()
+        .environment("rsoccer/VSS-v0", env_config={"max_steps": MAX_CYCLES})
+        .env_runners(
+            num_env_runners=0,
+            num_envs_per_env_runner=3,
+            gym_env_vectorize_mode="vector_entry_point",
+        )
+    )
+    runner = single.SingleAgentEnvRunner(config=config)
+    assert isinstance(runner.env.unwrapped, SoccerVectorEnv)
+    episodes = runner.sample(num_episodes=6)
+    runner.stop()
+    assert len(episodes) >= 6
+    for episode in episodes:
+        assert (len(episode), episode.is_terminated) == (MAX_CYCLES, False)
+        assert episode.is_truncated

@@ -1,0 +1,84 @@
+"""SuperSuit's vector environments: a robot of each match becomes one of their environments."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer.frame import Floats
+from rsoccer.parallel import parallel_env
+
+supersuit = pytest.importorskip("supersuit")
+
+MAX_CYCLES = 5
+ROBOTS = 6
+MATCHES = 3
+
+
+def robots() -> Any:  # noqa: ANN401  (SuperSuit has no types)
+    """The robots of one short match."""
+    match = parallel_env("VSSSelfPlay-v0", max_cycles=MAX_CYCLES)
+    return supersuit.pettingzoo_env_to_vec_env_v1(match)
+
+
+def test_the_robots_of_a_match_are_a_vector_and_begin_anew() -> None:
+    envs = robots()
+    assert envs.num_envs == ROBOTS
+    assert len(envs.reset(seed=0)[0]) == ROBOTS
+    actions = np.zeros((ROBOTS, 2), np.float32)
+    for step in range(1, 2 * MAX_CYCLES + 1):
+        observations, rewards, terminated, truncated, infos = envs.step(actions)
+        assert observations.shape == (ROBOTS, *envs.observation_space.shape)
+        assert rewards.shape == (ROBOTS,)
+        assert not terminated.any()
+        ended = step % MAX_CYCLES == 0
+        assert truncated.tolist() == [ended] * ROBOTS
+        assert all(("terminal_observation" in info) == ended for info in infos)
+
+
+def played(seed: int) -> tuple[Floats, Floats]:
+    """First and last observations of several matches over more than an episode."""
+    envs = supersuit.concat_vec_envs_v1(robots(), MATCHES)  # in this process
+    first, _ = envs.reset(seed=seed)
+    rng = np.random.default_rng(0)
+    for _ in range(MAX_CYCLES + 2):
+        actions = rng.uniform(-1.0, 1.0, (envs.num_envs, 2)).astype(np.float32)
+        last = envs.step(actions)[0]
+    return first, last
+
+
+def test_copies_of_a_match_follow_their_own_seeds() -> None:
+    first, last = played(seed=7)
+    again = played(seed=7)
+    np.testing.assert_array_equal(first, again[0])
+    np.testing.assert_array_equal(last, again[1])
+    assert len(np.unique(first, axis=0)) == MATCHES * ROBOTS
+    assert len(np.unique(last, axis=0)) == MATCHES * ROBOTS
+
+
+# From 3.12 on Python warns of forks in general; tests/test_fork.py shows ours to be safe.
+@pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
+def test_copies_in_other_processes_play_the_same() -> None:
+    envs = supersuit.concat_vec_envs_v1(robots(), 2, num_cpus=2)
+    here = supersuit.concat_vec_envs_v1(robots(), 2)
+    actions = np.full((2 * ROBOTS, 2), 0.5, np.float32)
+    try:
+        np.testing.assert_array_equal(envs.reset(seed=3)[0], here.reset(seed=3)[0])
+        for _ in range(3):
+            np.testing.assert_array_equal(envs.step(actions)[0], here.step(actions)[0])
+    finally:
+        envs.close()
+
+
+def test_its_stable_baselines3_form_trains() -> None:
+    """Its wrapper cannot seed, so copies play one and the same match until seeded below it.
+
+    That is also why PPO gets no seed.
+    """
+    ppo = pytest.importorskip("stable_baselines3").PPO
+    envs = supersuit.concat_vec_envs_v1(robots(), MATCHES, base_class="stable_baselines3")
+    envs.venv.reset(seed=0)
+    assert len(np.unique(envs.reset(), axis=0)) == MATCHES * ROBOTS
+    model = ppo("MlpPolicy", envs, n_steps=8, batch_size=48, n_epochs=1, device="cpu")
+    model.learn(8 * MATCHES * ROBOTS)
+    assert model.num_timesteps == 8 * MATCHES * ROBOTS
