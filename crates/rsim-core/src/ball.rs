@@ -44,7 +44,8 @@ impl Rolling {
         Vector::new(self.spin.y, -self.spin.x) * radius
     }
 
-    fn with_rim(self, rim: Vector, radius: f32) -> Self {
+    /// With another rim speed, m/s.
+    pub(crate) fn with_rim(self, rim: Vector, radius: f32) -> Self {
         Self { spin: Vec3::new(-rim.y / radius, rim.x / radius, self.spin.z), ..self }
     }
 

@@ -46,6 +46,9 @@ impl Pool {
 /// More than any machine has; asking for so many is a slip.
 const MAX_THREADS: usize = 1024;
 
+/// More than any memory holds.
+const MAX_WORLDS: usize = 10_000_000;
+
 impl Batch {
     /// `worlds` matches in their default line-up, to be stepped on `threads` threads.
     ///
@@ -56,6 +59,9 @@ impl Batch {
             if count == 0 {
                 return Err(ConfigError::Zero { name });
             }
+        }
+        if worlds > MAX_WORLDS {
+            return Err(ConfigError::TooManyWorlds { max: MAX_WORLDS, got: worlds });
         }
         let world = World::new(config)?;
         let pool = if threads > 1 { Some(Pool::new(threads)?) } else { None };

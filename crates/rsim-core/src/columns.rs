@@ -85,6 +85,9 @@ pub const BALL_PARAMETERS: [&str; 8] = [
 ];
 
 /// What a world of its own may change of each robot, as factors on its model's numbers.
+///
+/// `acceleration` is of all that it gains and loses speed with; `traction` is what its wheels transmit:
+/// in every direction (omnidirectional), or along the axle (differential).
 pub const ROBOT_PARAMETERS: [&str; 7] =
     ["mass", "height", "acceleration", "speed", "traction", "kick", "grip"];
 

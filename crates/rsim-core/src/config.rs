@@ -109,6 +109,10 @@ impl SimConfig {
         self.robots().try_for_each(RobotModel::validate)?;
         positive("time_step", self.time_step)?;
         positive("tick", self.tick)?;
+        if self.tick > LONGEST_TICK {
+            let expected = "at most 0.025 s: bodies must not pass each other within one";
+            return Err(refused("tick", expected, self.tick));
+        }
         let ratio = self.time_step / self.tick;
         if !(0.999..1000.0).contains(&ratio) || (ratio - ratio.round()).abs() > 1e-3 {
             return Err(ConfigError::Inconsistent(format!(
@@ -116,18 +120,24 @@ impl SimConfig {
                 self.time_step, self.tick
             )));
         }
-        for (name, got) in [("n_blue", self.blue.len()), ("n_yellow", self.yellow.len())] {
-            if got > self.field.max_robots {
-                return Err(ConfigError::TooManyRobots {
-                    name,
-                    max: self.field.max_robots,
-                    field: self.field.name.to_string(),
-                    got,
-                });
-            }
-        }
-        Ok(())
+        check_team("n_blue", &self.field, self.blue.len())?;
+        check_team("n_yellow", &self.field, self.yellow.len())
     }
+}
+
+/// s; a robot at full speed moves by its own radius.
+const LONGEST_TICK: f32 = 0.025;
+
+/// Checks that a side may have so many robots.
+///
+/// # Errors
+/// [`ConfigError::TooManyRobots`].
+pub fn check_team(name: &'static str, field: &Field, got: usize) -> Result<(), ConfigError> {
+    if got <= field.max_robots {
+        return Ok(());
+    }
+    let field_name = field.name.to_string();
+    Err(ConfigError::TooManyRobots { name, max: field.max_robots, field: field_name, got })
 }
 
 /// The entry of `presets` that is called `name`.

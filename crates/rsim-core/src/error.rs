@@ -46,6 +46,14 @@ pub enum ConfigError {
         /// Which number.
         name: &'static str,
     },
+    /// More worlds than any memory holds.
+    #[error("worlds must be at most {max}, got {got}")]
+    TooManyWorlds {
+        /// The limit.
+        max: usize,
+        /// What came.
+        got: usize,
+    },
     /// The operating system refused to start threads.
     #[error("could not start {threads} threads: {reason}")]
     Threads {

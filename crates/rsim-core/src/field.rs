@@ -60,7 +60,7 @@ pub struct Field {
     pub free_ball_y: f32,
     /// Width of the painted lines.
     pub line_width: f32,
-    /// Most robots that the league lets a side field.
+    /// Most robots that the league lets a side field on any of its fields.
     pub max_robots: usize,
 }
 
@@ -218,6 +218,17 @@ impl Field {
             ("field.goal_wall", self.goal_wall),
             ("field.corner", self.corner),
             ("field.wall_height", self.wall_height),
+            ("field.center_radius", self.center_radius),
+            ("field.goal_area_width", self.goal_area_width),
+            ("field.goal_area_depth", self.goal_area_depth),
+            ("field.inner_area_width", self.inner_area_width),
+            ("field.inner_area_depth", self.inner_area_depth),
+            ("field.area_arc_width", self.area_arc_width),
+            ("field.area_arc_depth", self.area_arc_depth),
+            ("field.penalty_mark", self.penalty_mark),
+            ("field.free_ball_x", self.free_ball_x),
+            ("field.free_ball_y", self.free_ball_y),
+            ("field.line_width", self.line_width),
         ] {
             not_negative(name, got)?;
         }

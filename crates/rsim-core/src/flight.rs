@@ -33,7 +33,7 @@ const CROWN: f32 = 0.5;
 const MOST_CONTACTS: usize = 16;
 
 /// Vertical speed that takes the ball up to [`LOWEST_HOP`], m/s.
-fn lowest_take_off() -> f32 {
+pub(crate) fn lowest_take_off() -> f32 {
     (2.0 * GRAVITY * LOWEST_HOP).sqrt()
 }
 
@@ -100,11 +100,26 @@ impl Flight<'_> {
         self.engine.set_ball(body.place.truncate(), body.sphere.velocity.truncate());
     }
 
-    /// Robots may have driven into the ball since it was moved last: it makes room.
-    fn step_aside(&self, body: &mut Body) {
+    /// Robots may have driven into the ball since it was moved last: they hit it, and it makes room.
+    /// Where a wall leaves none, the robot has to.
+    fn step_aside(&mut self, body: &mut Body) {
         for index in 0..self.physique.robots.len() {
             let near = self.near(Obstacle::Robot(index), body.place);
+            if near.distance < 0.0 {
+                self.hit(body, Obstacle::Robot(index), near.normal);
+                body.place -= near.normal * near.distance;
+            }
+        }
+        for index in 0..self.walls.len() {
+            let near = self.near(Obstacle::Wall(index), body.place);
             body.place -= near.normal * near.distance.min(0.0);
+        }
+        for index in 0..self.physique.robots.len() {
+            let near = self.near(Obstacle::Robot(index), body.place);
+            if near.distance < 0.0 {
+                let back = near.normal.truncate() * near.distance;
+                self.engine.shift(robot(index), back);
+            }
         }
     }
 
@@ -208,8 +223,15 @@ impl Flight<'_> {
 
 /// Touches the floor: hops again, or stays down.
 fn land(model: &BallModel, body: &mut Body) {
-    let keeps = if body.hops == 0 { model.hop.first } else { model.hop.later };
     let velocity = body.sphere.velocity;
+    if -velocity.z < lowest_take_off() {
+        // It was hardly off the floor: nothing is lost.
+        body.down = true;
+        body.sphere.velocity.z = 0.0;
+        body.place.z = model.radius;
+        return;
+    }
+    let keeps = if body.hops == 0 { model.hop.first } else { model.hop.later };
     let flat = velocity.truncate() * keeps;
     let up = -velocity.z * model.hop.up;
     // From the first touch-down on it turns as if it rolled (TIGERs).

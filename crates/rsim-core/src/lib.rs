@@ -41,7 +41,7 @@ mod world;
 
 pub use ball_model::{BallModel, Hop, Surface};
 pub use batch::Batch;
-pub use config::SimConfig;
+pub use config::{SimConfig, check_team};
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use field::Field;
 pub use mouth_model::Mouth;

@@ -13,6 +13,9 @@ use crate::{BallModel, RobotModel};
 /// Rate at which the dribbler draws the ball to the middle of the mouth, 1/s.
 const DRAW: f32 = 20.0;
 
+/// Faster than anything is ever told to be, m/s: its square is still finite.
+const ABSURD: f32 = 1e9;
+
 /// A ball in a robot's mouth.
 pub(crate) struct Held<'a> {
     mouth: &'a Mouth,
@@ -37,7 +40,8 @@ impl<'a> Held<'a> {
         let (front, radius) = (model.front(), ball_model.radius);
         let offset = position - robot.position;
         // Most balls are far away.
-        if offset.length_squared() > (front + 3.0 * radius).powi(2) + mouth.width.powi(2) {
+        let reach = front + mouth.beam_distance + radius + mouth.width;
+        if offset.length_squared() > reach * reach {
             return None;
         }
         let side = robot.heading.perp();
@@ -72,11 +76,15 @@ impl<'a> Held<'a> {
     /// stays.
     pub(crate) fn kicked(&self, velocity: Vector, forward: f32, upward: f32, gain: f32) -> Vec3 {
         let most = if upward > 0.0 { self.mouth.max_chip } else { self.mouth.max_kick };
-        let asked = Vector::new(forward.max(0.0), upward.max(0.0)).clamp_length_max(most) * gain;
+        let asked = Vector::new(forward, upward).clamp(Vector::ZERO, Vector::splat(ABSURD));
+        let asked = asked.clamp_length_max(most) * gain;
         let carrier = self.carrier();
         let side = self.robot.heading.perp();
-        let across = (velocity - carrier).dot(side) * self.mouth.kick_keeps;
-        (carrier + self.robot.heading * asked.x + side * across).extend(asked.y)
+        let relative = velocity - carrier;
+        let across = relative.dot(side) * self.mouth.kick_keeps;
+        // A plate that is slower than the ball does not catch up with it.
+        let along = asked.x.max(relative.dot(self.robot.heading));
+        (carrier + self.robot.heading * along + side * across).extend(asked.y)
     }
 
     /// Impulse of the dribbler on the ball in a tick, N s, at a share of its speed.
@@ -99,8 +107,7 @@ impl<'a> Held<'a> {
         let force = self.mouth.bar_friction * self.mouth.grip * share;
         let most = 2.5 * force / self.model.mass * tick;
         let rim = rolling.rim(radius);
-        let rim = rim + (wanted - rim).clamp_length_max(most);
-        Rolling { spin: Vec3::new(-rim.y / radius, rim.x / radius, rolling.spin.z), ..rolling }
+        rolling.with_rim(rim + (wanted - rim).clamp_length_max(most), radius)
     }
 }
 

@@ -137,9 +137,8 @@ fn varied_robot(model: &RobotModel, factors: &[f32], tick: f32) -> RobotBody {
     robot.height *= height;
     match &mut robot.drive {
         Drive::Differential(drive) => {
-            // Motors pull what they pull, whatever the mass.
             drive.motor_torque *= acceleration;
-            drive.forward_grip *= acceleration.min(traction);
+            drive.forward_grip *= acceleration;
             drive.side_grip *= traction;
             drive.max_wheel_speed *= speed;
         }

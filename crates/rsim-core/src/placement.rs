@@ -9,6 +9,7 @@ use crate::arena::{Wall, wall_reach};
 use crate::ball::Ball;
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::engine::{BALL, Motion, rotation};
+use crate::obstacle::Near;
 use crate::physique::Physique;
 use crate::robot_model::Body;
 use crate::{Field, PlaceError, SimConfig};
@@ -102,18 +103,20 @@ impl Placement {
         if (heading.length_squared() - 1.0).abs() > HEADING_ERROR {
             motion.heading = heading.normalize();
         }
-        let inside = position.abs().cmple(wall_reach(&self.field, z)).all();
-        let in_wall = |(wall, shape): &(Wall, Cuboid)| {
-            let level = z < wall.top && z + 2.0 * self.ball.radius > wall.bottom;
-            level && depth(&pose(motion), self.shape(who), &wall.pose, shape) > TOLERANCE
+        let in_wall = |(wall, shape): &(Wall, Cuboid)| match who {
+            BALL => self.gap_to_wall(wall, position, z) < -TOLERANCE,
+            _ if !wall.stands_on_floor() => false,
+            _ => depth(&pose(motion), self.shape(who), &wall.pose, shape) > TOLERANCE,
         };
+        let reach = wall_reach(&self.field, if who == BALL { z + self.ball.radius } else { 0.0 });
+        let inside = position.abs().cmple(reach).all();
         if !inside || self.walls.iter().any(in_wall) {
             return Err(PlaceError::Outside { who: name(), x: position.x, y: position.y });
         }
         Ok(())
     }
 
-    /// Checks the ball against the outline of a robot that it does not fly over.
+    /// Checks the ball against a robot, which it may fly over.
     fn check_ball(
         &self,
         who: usize,
@@ -122,13 +125,20 @@ impl Placement {
         physique: &Physique,
     ) -> Result<(), PlaceError> {
         let (robot, motion) = (&physique.robots[who - 1], &motions[who]);
-        if ball.z >= robot.model.height {
-            return Ok(());
-        }
         let center = motions[BALL].position;
         let heading = rotation(motion.heading);
         let nearest = robot.outline.nearest_at(motion.position, heading, center);
-        self.refuse_depth([BALL, who], self.ball.radius - nearest.distance)
+        let heights = [0.0, robot.model.height];
+        let radius = self.ball.radius;
+        let near = Near::of_upright(&nearest, heights, ball.z + radius, radius);
+        self.refuse_depth([BALL, who], -near.distance)
+    }
+
+    /// From a ball at height `z` to a wall, m; negative inside.
+    fn gap_to_wall(&self, wall: &Wall, center: Vector, z: f32) -> f32 {
+        let nearest = wall.outline().nearest_at(wall.pose.translation, wall.pose.rotation, center);
+        let radius = self.ball.radius;
+        Near::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius).distance
     }
 
     fn refuse_depth(&self, [first, second]: [usize; 2], depth: f32) -> Result<(), PlaceError> {

@@ -54,7 +54,7 @@ impl RobotModel {
     };
 
     /// An SSL robot to start from: body of the official virtual tournament's fallback, limits that
-    /// all its listed teams share, kicks of most of them.
+    /// all its listed teams share, kicks of three of its seven teams.
     pub const SSL_GENERIC: Self =
         ssl("ssl_generic", FALLBACK_BODY, [8.0, 8.0], FALLBACK_MOUTH, Drive::Omni(OMNI));
 

@@ -55,7 +55,7 @@ impl Tick<'_> {
         let (way, end) = start.after(ball, length);
         let mean = way / length;
         state.engine.set_velocity(BALL, mean);
-        let hooks = BallHooks { physique: self.physique, flies: false };
+        let hooks = self.hooks(false);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         let mut now = Rolling { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
         if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
@@ -75,7 +75,7 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
-        let hooks = BallHooks { physique: self.physique, flies: true };
+        let hooks = self.hooks(true);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         let flight = Flight {
             physique: self.physique,
@@ -86,6 +86,11 @@ impl Tick<'_> {
         let length = self.rules.config.tick;
         flight.fly(&mut state.ball, before.position, before.velocity, length);
         Ok(())
+    }
+
+    fn hooks(&self, flies: bool) -> BallHooks<'_> {
+        let (walls, tick) = (&*self.rules.walls, self.rules.config.tick);
+        BallHooks { physique: self.physique, walls, flies, tick }
     }
 
     fn drive_robots(&self, state: &mut State) {

@@ -15,7 +15,7 @@ use crate::physique::Physique;
 use crate::placement::{Placement, Start};
 use crate::tick::Tick;
 use crate::touch::Touched;
-use crate::{ConfigError, PlaceError, SimConfig, StepError, row};
+use crate::{ConfigError, PlaceError, RobotModel, SimConfig, StepError, row};
 
 thread_local! {
     /// One per thread and not per world: a world keeps only what a match is.
@@ -29,6 +29,7 @@ thread_local! {
 pub struct World {
     rules: Arc<Fixed>,
     pub(crate) state: State,
+    skips: bool,
 }
 
 /// What all worlds of one configuration share.
@@ -98,16 +99,22 @@ impl World {
         for (body, motion) in line_up(config).iter().enumerate() {
             pristine.engine.set_motion(body, motion);
         }
+        let placement = Placement::new(config, &walls);
+        let mut row = vec![0.0; config.row_size()];
+        row::write(&physique, &pristine, &mut row);
+        placement.read(&row, &physique).map_err(|error| {
+            ConfigError::Inconsistent(format!("the teams do not fit on the field: {error}"))
+        })?;
         let rules = Arc::new(Fixed {
             config: config.clone(),
-            placement: Placement::new(config, &walls),
+            placement,
             room: Room::of(&config.field, &walls),
             walls,
             physique,
             command_columns: config.command_columns(),
             pristine: pristine.clone(),
         });
-        Ok(Self { rules, state: pristine })
+        Ok(Self { rules, state: pristine, skips: true })
     }
 
     /// What this match is played with.
@@ -145,6 +152,7 @@ impl World {
     /// Starts a new match.
     pub(crate) fn start(&mut self, checked: &Checked) {
         self.state.clone_from(&self.rules.pristine);
+        self.state.engine.set_skips(self.skips);
         self.state.own.clone_from(&checked.own);
         if let Some(own) = &self.state.own {
             self.state.engine.set_masses(own);
@@ -185,7 +193,13 @@ impl World {
     /// Has every tick go through the contact solver, also those in which nothing can touch. Slower,
     /// and the same but for rounding: for tests and benchmarks that compare.
     pub fn never_skip(&mut self) {
-        self.state.engine.never_skip();
+        self.skips = false;
+        self.state.engine.set_skips(false);
+    }
+
+    /// Ticks of this match in which nothing could touch, so that they went without the solver.
+    pub fn skipped_ticks(&self) -> u32 {
+        self.state.engine.skipped()
     }
 
     /// Writes the state. Pure: writing twice writes the same.
@@ -193,7 +207,7 @@ impl World {
         row::write(self.physique(), &self.state, out);
     }
 
-    /// Pairs of bodies or walls that touch: what makes a scene a crowd.
+    /// Pairs of bodies or walls in contact, or about to be: what makes a scene a crowd.
     pub fn contacts(&self) -> usize {
         self.state.engine.contacts()
     }
@@ -212,7 +226,9 @@ pub(crate) struct Checked {
 /// Each team in a line across the middle of its half, facing the other's goal.
 fn line_up(config: &SimConfig) -> Vec<Motion> {
     let still = |position, heading| Motion { position, heading, velocity: Vector::ZERO, spin: 0.0 };
-    let spacing = config.field.width / (config.field.max_robots + 1) as f32;
+    let widest = config.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);
+    let even = config.field.width / (config.field.max_robots + 1) as f32;
+    let spacing = even.max(2.2 * widest);
     let mut motions = vec![still(Vector::ZERO, Vector::X)];
     for (team, side) in [(&config.blue, -1.0), (&config.yellow, 1.0)] {
         for index in 0..team.len() {

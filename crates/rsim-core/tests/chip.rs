@@ -171,3 +171,37 @@ fn a_chip_from_the_mouth_leaves_at_the_angle_that_it_was_told() {
     assert!((row[ball_column("v_x")] / 3.0 - 1.0).abs() < 0.02, "{row:?}");
     assert!((row[ball_column("v_z")] - (3.0 - 0.1 * G)).abs() < 0.06, "{row:?}");
 }
+
+#[test]
+fn a_robot_that_drives_into_a_hopping_ball_hits_it() {
+    let poses = [[0.0, 0.0, 0.0]];
+    let told = vec![vec![3.0, 0.0, 0.0]];
+    let mut scene = Scene::at("behind", SimConfig::ssl(1, 0), &poses, Driver::Constant(told));
+    scene.set_robot_column(0, "v_x", 3.0);
+    scene.set_ball([0.12, 0.0], [0.0, 0.0]);
+    scene.set_ball_column("v_z", 0.9);
+    let row = scene.after(4);
+    assert!(row[ball_column("v_x")] > 3.0, "it is pushed ahead: {row:?}");
+    assert_eq!(row[ball_column("last_touch")], 0.0);
+}
+
+#[test]
+fn a_hopping_ball_is_not_pushed_through_a_goals_side() {
+    let (mut beside, mut hops) = (0, 0);
+    for try_ in 0..60_u8 {
+        let y = 0.52 + 0.0215 + 0.09 + 0.04;
+        let poses = [[4.62, y, -90.0]];
+        let told = vec![vec![1.0, 0.0, 0.0]];
+        let mut scene = Scene::at("press", SimConfig::ssl(1, 0), &poses, Driver::Constant(told));
+        scene.set_ball([4.62, 0.545], [0.0, 0.0]);
+        scene.set_ball_column("v_z", 0.5 + f32::from(try_) * 0.01);
+        let (rows, _) = scene.play(&mut scene.world(), 30);
+        for row in rows.chunks_exact(scene.config.row_size()) {
+            hops += u32::from(row[ball_column("z")] > 0.0);
+            let inside = row[1] < 0.5 && row[0] > 4.5 && row[ball_column("z")] < 0.1;
+            assert!(!inside, "try {try_} is in the goal: {row:?}");
+        }
+        beside += 1;
+    }
+    assert!(beside == 60 && hops > 60, "{beside} {hops}");
+}

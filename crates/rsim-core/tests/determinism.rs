@@ -1,8 +1,8 @@
 //! Same start, same commands, same bytes: whatever the threads, the neighbours and the history.
 #![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
 
-use rsim_core::Batch;
 use rsim_core::scenes::{self, Scene};
+use rsim_core::{Batch, SimConfig};
 
 /// Goes on with a batch whose worlds are driven differently; returns all rows of all steps.
 fn go_on(scene: &Scene, batch: &mut Batch, steps: std::ops::Range<u64>) -> Vec<f32> {
@@ -26,7 +26,8 @@ fn run(scene: &Scene, worlds: usize, threads: usize, steps: u64) -> Vec<f32> {
 
 #[test]
 fn thread_count_does_not_change_results() {
-    for scene in [scenes::random_play(), scenes::crowded_kickoff()] {
+    let ssl = scenes::ssl_random(SimConfig::ssl(3, 2));
+    for scene in [scenes::random_play(), scenes::crowded_kickoff(), ssl] {
         let expected = run(&scene, 12, 1, 200);
         for threads in [2, 3, 8] {
             assert!(
@@ -57,28 +58,31 @@ fn a_world_in_a_batch_is_the_same_world_alone() {
 
 #[test]
 fn a_placed_world_keeps_nothing_of_its_past() {
-    let scene = scenes::crowded_kickoff();
-    let (fresh, contacts) = scene.play(&mut scene.world(), 100);
-    assert!(contacts > 500, "only {contacts} contacts: the comparison would prove little");
-    let mut used = scenes::chase().world();
-    scenes::chase().play(&mut used, 137);
-    used.place(&scene.start, None).expect("valid");
-    assert!(scene.play(&mut used, 100).0 == fresh);
+    let ssl = scenes::ssl_random(SimConfig::ssl(3, 2));
+    for (scene, past) in [(scenes::crowded_kickoff(), scenes::chase()), (ssl.clone(), ssl)] {
+        let (fresh, contacts) = scene.play(&mut scene.world(), 300);
+        assert!(contacts > 0, "only {contacts} contacts: the comparison would prove little");
+        let mut used = past.world();
+        past.play(&mut used, 137);
+        used.place(&scene.start, None).expect("valid");
+        assert!(scene.play(&mut used, 300).0 == fresh, "{}", scene.name);
+    }
 }
 
 #[test]
 fn a_restored_world_goes_on_as_if_never_stopped() {
-    let scene = scenes::crowded_kickoff();
-    // Right after placing, and at several moments within the crowd.
-    for before in [0, 1, 5, 40, 111] {
-        let (mut batch, _) = scene.batch(2, 1);
-        go_on(&scene, &mut batch, 0..before);
-        let bytes = batch.snapshot();
-        let expected = go_on(&scene, &mut batch, before..before + 120);
-        let mut other = Batch::new(&scene.config, 2, 1).expect("valid");
-        other.restore(&bytes).expect("its own snapshot");
-        let restored = go_on(&scene, &mut other, before..before + 120);
-        assert!(restored == expected, "snapshot after {before} steps");
+    for scene in [scenes::crowded_kickoff(), scenes::ssl_random(SimConfig::ssl(3, 2))] {
+        // Right after placing, and at several moments within the play.
+        for before in [0, 1, 5, 40, 111] {
+            let (mut batch, _) = scene.batch(2, 1);
+            go_on(&scene, &mut batch, 0..before);
+            let bytes = batch.snapshot();
+            let expected = go_on(&scene, &mut batch, before..before + 120);
+            let mut other = Batch::new(&scene.config, 2, 1).expect("valid");
+            other.restore(&bytes).expect("its own snapshot");
+            let restored = go_on(&scene, &mut other, before..before + 120);
+            assert!(restored == expected, "{}: snapshot after {before} steps", scene.name);
+        }
     }
 }
 

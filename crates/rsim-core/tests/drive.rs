@@ -140,7 +140,7 @@ fn a_robot_against_the_wall_stalls_and_stays_straight() {
 }
 
 #[test]
-fn a_heavier_robot_pushes_a_standing_one_away() {
+fn two_robots_head_on_stall() {
     // Two robots of one model are equally strong; the pusher's own brakes decide. At rest both
     // stay, so pushing needs a start: what counts is that nobody passes through anybody.
     let config = SimConfig::vss(1, 1);

@@ -1,7 +1,7 @@
 //! Beam, kicker and dribbler: what a robot does to a ball in its mouth.
 #![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
 
-use rsim_core::columns::{ball_column, robot_column};
+use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, robot_column};
 use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_omni, robots, steps};
 use rsim_core::{RobotModel, SimConfig};
 
@@ -188,20 +188,87 @@ fn holding_the_ball_does_not_slow_the_robot() {
 }
 
 #[test]
-fn another_robot_can_take_the_ball() {
-    // Nose to nose over the ball, both dribbling; yellow backs off with more grip behind it.
+fn a_ball_that_nobody_holds_is_pulled_away() {
     let front = RobotModel::SSL_GENERIC.front() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
-    let told = vec![vec![0.0, 0.0, 0.0, 0.0, 0.0, 0.0], dribbling([-0.3, 0.0, 0.0])];
-    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let told = vec![vec![0.0; 6], dribbling([-0.3, 0.0, 0.0])];
+    let mut scene = Scene::at("pull", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
     let row = scene.after(60);
     assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
-    // And from one that holds it, by pushing it out sideways.
-    let poses = [[0.0, 0.0, 0.0], [front, 0.16, -90.0]];
-    let told = vec![dribbling([0.0; 3]), dribbling([1.0, 0.0, 0.0])];
-    let mut scene = Scene::at("knock", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+}
+
+#[test]
+fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
+    // It comes from the side and drives through where the ball is.
+    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    for speed in [0.5, 1.0, 2.0] {
+        let poses = [[0.0, 0.0, 0.0], [front, 0.17, -90.0]];
+        let told = vec![dribbling([0.0; 3]), dribbling([speed, 0.0, 0.0])];
+        let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+        scene.set_ball([front, 0.0], [0.0, 0.0]);
+        let row = scene.after(60);
+        assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "{speed} m/s: {row:?}");
+    }
+}
+
+#[test]
+fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
+    // Nose to nose, both dribbling; the thief turns away with the ball between its bar and theirs.
+    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
+    let told = vec![dribbling([0.0; 3]), dribbling([-0.5, 0.0, 0.0])];
+    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
-    let row = scene.after(60);
-    assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "blue has lost it: {row:?}");
+    // Who holds it with half the grip loses it.
+    let mut factors = vec![1.0; scene.config.parameters_size()];
+    let grip = ROBOT_PARAMETERS.iter().position(|known| *known == "grip").expect("known");
+    factors[BALL_PARAMETERS.len() + grip] = 0.5;
+    scene.parameters = Some(factors);
+    let row = scene.after(40);
+    assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
+    assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0);
+}
+
+#[test]
+fn two_that_kick_one_ball_at_once_stop_each_other() {
+    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let poses = [[-front, 0.0, 0.0], [front, 0.0, 180.0]];
+    let told = vec![vec![0.0, 0.0, 0.0, 6.0, 0.0, 0.0]; 2];
+    let mut scene = Scene::at("both", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    scene.config.time_step = scene.config.tick;
+    let row = scene.after(1);
+    assert!(row[ball_column("v_x")].abs() < 1e-4, "{row:?}");
+}
+
+#[test]
+fn a_kick_that_is_slower_than_the_ball_leaves_it() {
+    let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    scene.config.time_step = scene.config.tick;
+    scene.set_ball_column("v_x", 3.0);
+    assert!(scene.after(1)[ball_column("v_x")] > 2.9);
+}
+
+#[test]
+fn a_chip_too_weak_to_fly_is_a_flat_kick() {
+    let [flat, weak] = [0.0, 1e-4]
+        .map(|up| ball_in_mouth(&[0.0, 0.0, 0.0, 4.0, up, 0.0]).after(4)[ball_column("v_x")]);
+    assert!((flat - weak).abs() < 1e-3, "{flat} {weak}");
+}
+
+#[test]
+fn a_kick_at_a_robot_right_before_it_does_not_get_into_it() {
+    for (speed, gap) in [(8.0, 0.021), (10.0, 0.024), (6.0, 0.01)] {
+        let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+        let poses = [[0.0, 0.0, 0.0], [front + 0.0215 + gap + 0.09, 0.0, 0.0]];
+        let told = vec![vec![0.0, 0.0, 0.0, speed, 0.0, 0.0], vec![0.0; 6]];
+        let mut scene = Scene::at("wall", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+        scene.config.time_step = scene.config.tick;
+        scene.set_ball([front, 0.0], [0.0, 0.0]);
+        let (rows, _) = scene.play(&mut scene.world(), 6);
+        for row in rows.chunks_exact(scene.config.row_size()) {
+            let into = 0.09 + 0.0215 - (robot(row, 1)[0] - row[0]);
+            assert!(into < 1e-3, "{speed} m/s: {into} m inside");
+        }
+    }
 }

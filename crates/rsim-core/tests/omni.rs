@@ -76,7 +76,7 @@ fn a_saturated_wheel_does_not_bend_the_path() {
 }
 
 /// Two generic robots nose to nose; blue pushes, the factors set them apart.
-fn pushing(push: f32, hold: f32, blue_mass: f32, blue_traction: f32) -> Scene {
+fn pushing(push: f32, hold: f32, blue_traction: f32) -> Scene {
     let config = SimConfig {
         field: Field::SSL_A,
         ..SimConfig::new(Field::SSL_A, BallModel::SSL_TIGERS, &RobotModel::SSL_GENERIC, 1, 1)
@@ -87,10 +87,8 @@ fn pushing(push: f32, hold: f32, blue_mass: f32, blue_traction: f32) -> Scene {
     scene.set_ball([0.0, 3.0], [0.0, 0.0]);
     let mut factors = vec![1.0; parameters_size(2)];
     let blue = factors.len() - 2 * ROBOT_PARAMETERS.len();
-    for (name, factor) in [("mass", blue_mass), ("traction", blue_traction)] {
-        let column = ROBOT_PARAMETERS.iter().position(|known| *known == name);
-        factors[blue + column.expect("known")] = factor;
-    }
+    let column = ROBOT_PARAMETERS.iter().position(|known| *known == "traction");
+    factors[blue + column.expect("known")] = blue_traction;
     scene.parameters = Some(factors);
     scene
 }
@@ -103,7 +101,7 @@ fn places(scene: &Scene, steps: u64) -> [f32; 2] {
 
 #[test]
 fn two_robots_head_on_stall() {
-    let [blue, yellow] = places(&pushing(2.0, 2.0, 1.0, 1.0), 200);
+    let [blue, yellow] = places(&pushing(2.0, 2.0, 1.0), 200);
     assert!((blue + yellow).abs() < 2e-3, "nobody wins: {blue}, {yellow}");
     assert!((yellow - blue - 0.18).abs() < 1e-3, "nobody sinks in: {blue}, {yellow}");
 }
@@ -112,9 +110,9 @@ fn two_robots_head_on_stall() {
 fn a_standing_robot_holds_below_its_traction_and_slides_above_it() {
     // The pusher transmits 8 N and 24 N, the one that stands 18.6 N.
     let start = 0.0901;
-    let [_, held] = places(&pushing(2.0, 0.0, 1.0, 8.0 / 18.63), 200);
+    let [_, held] = places(&pushing(2.0, 0.0, 8.0 / 18.63), 200);
     assert!((held - start).abs() < 2e-3, "pushed with 8 N for 5 s it moved to {held} m");
-    let [_, slid] = places(&pushing(2.0, 0.0, 1.0, 24.0 / 18.63), 200);
+    let [_, slid] = places(&pushing(2.0, 0.0, 24.0 / 18.63), 200);
     assert!(slid - start > 0.5, "pushed with 24 N it moved to {slid} m only");
 }
 
@@ -122,7 +120,7 @@ fn a_standing_robot_holds_below_its_traction_and_slides_above_it() {
 fn a_ball_squeezed_at_the_traction_limit_does_not_sink_in() {
     let poses = [[-0.1125, 0.0, 180.0], [0.1125, 0.0, 0.0]];
     let told = vec![vec![-2.0, 0.0, 0.0]; 2]; // backs to the ball: round against round
-    let mut scene = Scene::at("squeeze", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let scene = Scene::at("squeeze", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
     let (rows, contacts) = scene.play(&mut scene.world(), 40);
     assert!(contacts > 40);
     let mut deepest = 0.0_f32;
@@ -136,5 +134,4 @@ fn a_ball_squeezed_at_the_traction_limit_does_not_sink_in() {
     }
     assert!(squeezed > 10, "it was squeezed: {squeezed}");
     assert!(deepest < 1e-3, "{deepest} m deep");
-    scene.driver = Driver::STILL;
 }

@@ -2,10 +2,11 @@
 #![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
 
 use rsim_core::columns::{
-    BALL_COLUMNS, BALL_PARAMETERS, ROBOT_COLUMNS, ROBOT_PARAMETERS, ball_column, parameters_size,
-    robot_column,
+    BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
 };
-use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_ball, lone_omni, robots, uniform};
+use rsim_core::scenes::{
+    Driver, Scene, ball_in_mouth, lone_ball, lone_omni, lone_robot, robots, uniform,
+};
 use rsim_core::{Batch, SimConfig};
 
 /// A start in which everything moves.
@@ -39,7 +40,7 @@ fn what_is_placed_is_what_is_read_and_reading_changes_nothing() {
 }
 
 #[test]
-fn a_state_that_was_read_can_be_placed_and_plays_on_alike() {
+fn the_motion_of_a_state_that_was_read_can_be_placed() {
     let scene = moving(SimConfig::ssl(2, 2));
     let row = scene.after(3);
     let mut world = scene.world();
@@ -50,6 +51,36 @@ fn a_state_that_was_read_can_be_placed_and_plays_on_alike() {
     assert_eq!(read[..motion], row[..motion]);
     for (read, row) in robots(&read).zip(robots(&row)) {
         assert_eq!(read[..happened], row[..happened]);
+    }
+}
+
+#[test]
+fn states_of_random_play_can_be_placed_again() {
+    let mut flown = 0;
+    for config in [SimConfig::ssl(4, 4), SimConfig::vss(3, 3)] {
+        let mut scene = Scene::lined_up("play", config, Driver::Random);
+        scene.set_ball([0.0, 0.0], [0.5, 0.3]);
+        scene.set_ball_column("v_z", 3.0);
+        let (rows, _) = scene.play(&mut scene.world(), 2000);
+        let mut world = scene.world();
+        for row in rows.chunks_exact(scene.config.row_size()) {
+            world.place(row, None).expect("a state of a running match");
+            flown += u32::from(row[ball_column("z")] > 0.0);
+        }
+    }
+    assert!(flown > 40, "only {flown} states with the ball in the air");
+}
+
+#[test]
+fn a_ball_on_an_edge_can_be_placed() {
+    for (config, place, z) in [
+        (SimConfig::vss(0, 0), [0.5, 0.647], 0.049_99),
+        (SimConfig::ssl(0, 0), [4.5, 0.2], 0.179_9),
+    ] {
+        let mut scene = lone_ball(config, place, [0.0, 0.0]);
+        scene.set_ball_column("z", z);
+        let mut world = lone_ball(scene.config.clone(), [0.0, 0.0], [0.0, 0.0]).world();
+        world.place(&scene.start, None).expect("it is above the edge");
     }
 }
 
@@ -137,6 +168,14 @@ fn every_parameter_does_what_it_says() {
     assert!((driven("acceleration", 0.5, 8) / driven("acceleration", 1.0, 8) - 0.5).abs() < 0.01);
     assert!((driven("traction", 0.34, 8) / driven("traction", 1.0, 8) - 0.5).abs() < 0.01);
 
+    let vss = |name: &str, factor: f32| {
+        let scene = lone_robot([46.0, 46.0]);
+        robot_at(&with(scene, one_changed(false, name, factor)).after(4))[robot_column("v_x")]
+    };
+    for factor in [0.5, 1.5] {
+        assert!((vss("acceleration", factor) / vss("acceleration", 1.0) - factor).abs() < 0.01);
+    }
+
     let kick = |name: &str, factor: f32| {
         let scene = ball_in_mouth(&[0.0, 0.0, 0.0, 4.0, 0.0, 0.0]);
         with(scene, one_changed(false, name, factor)).after(1)
@@ -194,7 +233,6 @@ fn parameters_are_one_worlds_own_and_end_with_the_match() {
     assert_eq!(step(&mut other, &mut other_rows), step(&mut batch, &mut rows));
     batch.place(&[false, true], &scene.start, None, &mut rows).expect("valid");
     assert_eq!(step(&mut batch, &mut rows)[1], fast);
-    assert_eq!(ROBOT_COLUMNS.len(), 11);
 }
 
 #[test]

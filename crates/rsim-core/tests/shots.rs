@@ -96,27 +96,80 @@ fn none_passes_a_robot() {
 
 #[test]
 fn none_comes_off_what_it_only_passes_near() {
-    let gap = 0.002;
-    for (config, clear) in [(SimConfig::vss(1, 0), 0.0375), (SimConfig::ssl(1, 0), 0.09)] {
+    // Past a robot in every direction, and past the front of a goal's side, by 2 to 10 mm.
+    for (config, clear) in [(SimConfig::vss(1, 0), 0.0375 * 1.4143), (SimConfig::ssl(1, 0), 0.09)] {
         for shot in 0..SHOTS {
-            let mut scene = Scene::at("near", config.clone(), &[[0.0, 0.0, 0.0]], Driver::STILL);
-            let side = if shot % 2 == 0 { 1.0 } else { -1.0 };
-            let y = side * (clear + config.ball.radius + gap);
-            shoot(&mut scene, [-0.3 + 0.025 * uniform(shot), y], [1.0, y]);
+            let draw = |nth: u64| uniform(shot + nth * 5000);
+            let poses = [[0.0, 0.0, 180.0 * draw(0)]];
+            let mut scene = Scene::at("near", config.clone(), &poses, Driver::STILL);
+            let (sin, cos) = (3.1 * draw(1)).sin_cos();
+            let gap = 0.006 + 0.004 * draw(2);
+            let side = (clear + config.ball.radius + gap) * if shot % 2 == 0 { 1.0 } else { -1.0 };
+            let before = 0.35 + 0.05 * draw(3);
+            let from = [-cos * before - sin * side, -sin * before + cos * side];
+            scene.set_ball(from, [cos * SPEED, sin * SPEED]);
             for row in rows(&scene, 2) {
-                assert!((row[1] - y).abs() < 1e-6, "shot {shot} was bent: {row:?}");
+                let aside = row[1] * cos - row[0] * sin;
+                assert!((aside - side).abs() < 1e-5, "shot {shot} was bent: {row:?}");
                 assert_eq!(row[ball_column("last_touch")], -1.0, "shot {shot} touched");
             }
         }
     }
     for shot in 0..SHOTS {
         let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
-        // Past the front edge of a goal's side, and along a wall.
-        let y = if shot % 2 == 0 { 0.52 + 0.0215 + gap } else { 3.3 - 0.0215 - gap };
-        shoot(&mut scene, [3.9 + 0.025 * uniform(shot), y], [9.0, y]);
-        for row in rows(&scene, 3).iter().filter(|row| row[0] < 4.7) {
-            assert!((row[1] - y).abs() < 1e-6, "shot {shot} was bent: {row:?}");
+        let draw = |nth: u64| uniform(shot + nth * 5000);
+        // Out of a goal, past the front of its side.
+        let angle = 1.9 + 0.3 * draw(0);
+        let (sin, cos) = (angle.sin(), angle.cos());
+        let gap = config_radius() + 0.006 + 0.004 * draw(1);
+        let post = [4.5 - gap * sin, 0.5 + gap * cos];
+        let before = 0.25 + 0.025 * draw(2);
+        scene
+            .set_ball([post[0] - cos * before, post[1] - sin * before], [cos * SPEED, sin * SPEED]);
+        for row in rows(&scene, 2) {
+            let aside = (row[1] - post[1]) * cos - (row[0] - post[0]) * sin;
+            assert!(aside.abs() < 1e-5, "shot {shot} was bent by the post: {row:?}");
         }
+    }
+}
+
+fn config_radius() -> f32 {
+    SimConfig::ssl(0, 0).ball.radius
+}
+
+#[test]
+fn an_oblique_shot_comes_off_a_round_robot_as_coulomb_says() {
+    let mut config = SimConfig::ssl(1, 0);
+    (config.ball.sliding_deceleration, config.ball.rolling_deceleration) = (0.0, 0.0);
+    for shot in 0..200 {
+        let draw = |nth: u64| uniform(shot + nth * 5000);
+        let speed = 6.0 + 4.0 * draw(0);
+        // At the back of a robot, off its middle by up to 80% of where it would pass.
+        let reach = 0.09 + config.ball.radius;
+        let aside = 0.8 * reach * draw(1);
+        let mut scene = Scene::at("oblique", config.clone(), &[[0.0, 0.0, 0.0]], Driver::STILL);
+        scene.config.time_step = scene.config.tick;
+        let before = (reach * reach - aside * aside).sqrt() + 0.03 + 0.025 * (1.0 + draw(2));
+        scene.set_ball([-before, aside], [speed, 0.0]);
+        let rows = rows(&scene, 8);
+        let after = rows.iter().find(|row| row[ball_column("last_touch")] == 0.0);
+        let row = after.expect("it hit the robot");
+        let along_x = -(reach * reach - aside * aside).sqrt();
+        let normal = [along_x / reach, aside / reach];
+        let tangent = [-normal[1], normal[0]];
+        let (closing, along) = (-speed * normal[0], speed * tangent[0]);
+        let (ball, robot) = (&config.ball, &config.blue[0]);
+        let yields = 1.0 / (1.0 / ball.mass + 1.0 / robot.mass);
+        let pressing = (1.0 + ball.robot.restitution) * closing * yields;
+        let inertia = robot.mass * 0.09 * 0.09 / 2.0;
+        let slip = 3.5 / ball.mass + 1.0 / robot.mass + 0.09 * 0.09 / inertia;
+        let friction = (along.abs() / slip).min(ball.robot.friction * pressing);
+        let back = -closing + pressing / ball.mass;
+        let left = along - friction.copysign(along) / ball.mass;
+        let expected = [0, 1].map(|axis| normal[axis] * back + tangent[axis] * left);
+        let v_x = ball_column("v_x");
+        let error = (row[v_x] - expected[0]).hypot(row[v_x + 1] - expected[1]);
+        assert!(error < 0.05 * speed, "shot {shot}: {:?}, not {expected:?}", &row[v_x..v_x + 2]);
     }
 }
 

@@ -33,6 +33,9 @@ impl SimConfig {
     ) -> PyResult<Self> {
         let field = field.found()?.0;
         let (n_blue, n_yellow) = (count("n_blue", n_blue)?, count("n_yellow", n_yellow)?);
+        // Before so many models are made.
+        rsim_core::check_team("n_blue", &field, n_blue).map_err(invalid)?;
+        rsim_core::check_team("n_yellow", &field, n_yellow).map_err(invalid)?;
         let ball = match ball {
             Some(ball) => ball.found()?.0,
             None if is_ssl(&field) => rsim_core::BallModel::SSL_TIGERS,

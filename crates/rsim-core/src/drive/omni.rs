@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{Demand, Limits, Pull};
 use crate::robot_model::OmniDrive;
 
+/// Faster than anything is ever told to be, m/s: its square is still finite.
+const ABSURD: f32 = 1e9;
+
 /// What a body is to do, in its own frame: velocity (m/s) and turn rate (rad/s).
 pub(super) struct Wanted {
     velocity: Vector,
@@ -58,7 +61,8 @@ impl Wheels {
 
     /// What `[forward, left, turn, ..]` asks for.
     pub(super) fn wanted(&self, command: &[f32]) -> Wanted {
-        self.within_reach(Vector::new(command[0], command[1]), command[2])
+        let far = Vector::splat(ABSURD);
+        self.within_reach(Vector::new(command[0], command[1]).clamp(-far, far), command[2])
     }
 
     /// What four wheel speeds ask for, rad/s.

@@ -1,19 +1,47 @@
-//! What the contact engine must know of the ball beyond a disc: it may fly, and robots have a flat
-//! front.
+//! What the contact engine must know of the ball beyond a disc: it may fly, it is fast for its size,
+//! and robots have a flat front.
 
 use rapier2d::math::{Rotation, Vector};
 use rapier2d::pipeline::ModifiableContacts;
 use rapier2d::prelude::*;
 
 use super::{Partner, partner};
+use crate::arena::Wall;
 use crate::outline::{Nearest, Outline};
 use crate::physique::Physique;
+
+/// Surfaces nearer than this touch, m: then the contact is where it is. Farther ones are looked for
+/// along the ball's way.
+const TOUCHING: f32 = 1e-4;
+
+/// How near the search along the way comes to the contact, m.
+const FOUND: f32 = 1e-5;
 
 /// The rules of one tick.
 pub(crate) struct BallHooks<'a> {
     pub(crate) physique: &'a Physique,
+    pub(crate) walls: &'a [Wall],
     /// In the air the ball meets others elsewhere: [`crate::flight`].
     pub(crate) flies: bool,
+    /// s.
+    pub(crate) tick: f32,
+}
+
+/// What the ball is about to meet: its outline where it is, and how it moves against the ball.
+struct Obstacle<'a> {
+    outline: &'a Outline,
+    position: Vector,
+    heading: Rotation,
+    /// Velocity of the ball against it, m/s.
+    velocity: Vector,
+}
+
+/// Where the ball will touch: nearest point at that instant, and the centre of the ball then.
+struct Touch {
+    normal: Vector,
+    /// From here to there along the normal, m.
+    distance: f32,
+    center: Vector,
 }
 
 impl PhysicsHooks for BallHooks<'_> {
@@ -22,40 +50,91 @@ impl PhysicsHooks for BallHooks<'_> {
         (!self.flies).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
     }
 
-    /// Puts the contact of the ball with a robot, a disc for the engine, where its outline is.
+    /// Puts the contact of the ball where it will be: the engine has the nearest points of now, and
+    /// of a robot only the disc. A fast ball comes to another point, or to none.
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
         let labels = colliders.map(|collider| partner(collider.user_data));
-        let (index, robot, ball, sign) = match labels {
-            [Some(Partner::Robot(index)), _] => (index, colliders[0], colliders[1], 1.0),
-            [_, Some(Partner::Robot(index))] => (index, colliders[1], colliders[0], -1.0),
+        let (with, other, ball, sign) = match labels {
+            [Some(with), None] => (with, colliders[0], colliders[1], 1.0),
+            [None, Some(with)] => (with, colliders[1], colliders[0], -1.0),
             _ => return,
         };
-        let outline = &self.physique.robots[index].outline;
-        if matches!(outline, Outline::Box { .. }) {
-            return; // the engine's shape is the outline
-        }
-        let pose = robot.position();
         let center = ball.translation();
-        let nearest = outline.nearest_at(pose.translation, pose.rotation, center);
+        let wall;
+        let outline = match with {
+            Partner::Robot(index) => &self.physique.robots[index].outline,
+            Partner::Wall(index) => {
+                wall = self.walls[index].outline();
+                &wall
+            }
+        };
+        let velocity = |collider: &Collider| {
+            let body = collider.parent().map(|handle| &context.bodies[handle]);
+            body.map_or(Vector::ZERO, |body| body.velocity_at_point(center))
+        };
+        let pose = other.position();
+        let obstacle = Obstacle {
+            outline,
+            position: pose.translation,
+            heading: pose.rotation,
+            velocity: velocity(ball) - velocity(other),
+        };
         let radius = self.physique.ball.radius;
+        let touch = obstacle.touch(center, radius, self.tick);
         if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
-            *manifold.normal = nearest.normal * sign;
+            let Some(touch) = touch else {
+                manifold.solver_contacts.clear();
+                return;
+            };
+            *manifold.normal = touch.normal * sign;
             for contact in manifold.solver_contacts.iter_mut() {
-                place(contact, &nearest, center, radius, sign);
+                let on_ball = center - touch.normal * radius;
+                let on_other = touch.center - touch.normal * radius;
+                contact.dist = touch.distance;
+                (contact.anchor1, contact.anchor2) =
+                    if sign > 0.0 { (on_other, on_ball) } else { (on_ball, on_other) };
             }
         }
     }
 }
 
-/// Moves a contact between the ball, whose centre is `center`, and the nearest point of an outline.
-/// `sign` is 1 when the robot is the first of the two.
-fn place(contact: &mut SolverContact, nearest: &Nearest, center: Vector, radius: f32, sign: f32) {
-    let on_robot = center - nearest.normal * nearest.distance;
-    let on_ball = center - nearest.normal * radius;
-    contact.dist = nearest.distance - radius;
-    (contact.anchor1, contact.anchor2) =
-        if sign > 0.0 { (on_robot, on_ball) } else { (on_ball, on_robot) };
+impl Obstacle<'_> {
+    fn nearest(&self, center: Vector) -> Nearest {
+        self.outline.nearest_at(self.position, self.heading, center)
+    }
+
+    /// Where a ball at `center` touches within `time`, going straight. The distance to a convex
+    /// outline is a convex function of time, so Newton's method comes up to the contact and never
+    /// passes it.
+    fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
+        let now = self.nearest(center);
+        if now.distance - radius <= TOUCHING {
+            // The point of the outline, seen as touched by a ball that is just there.
+            let distance = now.distance - radius;
+            let touching = center - now.normal * distance;
+            return Some(Touch { normal: now.normal, distance, center: touching });
+        }
+        let (mut nearest, mut after) = (now, 0.0);
+        for _ in 0..32 {
+            let closing = -self.velocity.dot(nearest.normal);
+            let gap = nearest.distance - radius;
+            if closing <= 0.0 {
+                return None;
+            }
+            if gap <= FOUND {
+                break;
+            }
+            after += gap / closing;
+            if after > time {
+                return None;
+            }
+            nearest = self.nearest(center + self.velocity * after);
+        }
+        let way = self.velocity * after;
+        let distance = -way.dot(nearest.normal);
+        Some(Touch { normal: nearest.normal, distance, center: center + way })
+    }
 }
 
 /// The rotation of a heading.

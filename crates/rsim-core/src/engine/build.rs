@@ -3,6 +3,7 @@
 use rapier2d::math::Vector;
 use rapier2d::prelude::*;
 
+use super::quiet::SUB_STEPS;
 use super::{BALL_LABEL, Engine, Inverse, Motion, Partner, Push, label};
 use crate::SimConfig;
 use crate::arena::Wall;
@@ -26,10 +27,11 @@ impl Engine {
             moved: Vec::new(),
             clear: false,
             skips: true,
+            skipped: 0,
         };
         engine.insert_ball(physique, config.tick);
         for index in 0..physique.robots.len() {
-            engine.insert_robot(physique, index);
+            engine.insert_robot(physique, index, config.tick);
         }
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
             let collider = ColliderBuilder::new(SharedShape::new(wall.shape()))
@@ -58,7 +60,7 @@ impl Engine {
         self.insert(body, collider);
     }
 
-    fn insert_robot(&mut self, physique: &Physique, index: usize) {
+    fn insert_robot(&mut self, physique: &Physique, index: usize, tick: f32) {
         let model = &physique.robots[index].model;
         let shape = match model.body {
             Body::Square { side } => SharedShape::cuboid(side / 2.0, side / 2.0),
@@ -69,7 +71,9 @@ impl Engine {
             .restitution(model.restitution)
             .friction(model.friction)
             .user_data(label(Partner::Robot(index)));
-        self.insert(awake(), collider);
+        // Seen ahead too, so that a robot does not drive into a ball that lies before it.
+        let body = awake().soft_ccd_prediction(1.2 * model.top_speed() * tick);
+        self.insert(body, collider);
     }
 
     fn insert(&mut self, body: RigidBodyBuilder, collider: ColliderBuilder) {
@@ -102,6 +106,7 @@ fn awake() -> RigidBodyBuilder {
 fn parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
+        num_solver_iterations: usize::from(SUB_STEPS),
         // Scales the engine's tolerances: contacts are predicted 2 mm ahead instead of 20 mm.
         length_unit: 0.1,
         // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).

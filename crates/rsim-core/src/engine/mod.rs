@@ -81,6 +81,8 @@ pub(crate) struct Engine {
     clear: bool,
     /// Whether ticks in which nothing can touch go without the solver.
     skips: bool,
+    /// Ticks that went without it.
+    skipped: u32,
 }
 
 /// Force (N) and torque (N m) on a body during the next tick.
@@ -176,9 +178,20 @@ impl Engine {
         self.pushes[body] = Push { force, torque };
     }
 
-    /// Has every tick solved, also those in which nothing can touch: for comparison.
-    pub(crate) fn never_skip(&mut self) {
-        self.skips = false;
+    /// Whether ticks in which nothing can touch go without the solver.
+    pub(crate) fn set_skips(&mut self, skips: bool) {
+        self.skips = skips;
+    }
+
+    /// Ticks that went without the solver since the match began.
+    pub(crate) fn skipped(&self) -> u32 {
+        self.skipped
+    }
+
+    /// Moves a body aside.
+    pub(crate) fn shift(&mut self, body: usize, by: Vector) {
+        self.motions[body].position += by;
+        self.moved[body] = true;
     }
 
     /// One tick.
@@ -190,6 +203,7 @@ impl Engine {
     ) -> Result<(), NonFinite> {
         if self.skips && self.clear && self.is_quiet(ball, room) {
             self.coast();
+            self.skipped = self.skipped.wrapping_add(1);
             return Ok(());
         }
         self.tell_solver();
@@ -220,7 +234,8 @@ impl Engine {
     fn tell_solver(&mut self) {
         for (index, handle) in self.handles.iter().enumerate() {
             let (body, motion) = (&mut self.bodies[*handle], &self.motions[index]);
-            if std::mem::take(&mut self.moved[index]) {
+            // The ball always: only then does the solver look ahead along its new velocity.
+            if std::mem::take(&mut self.moved[index]) || index == BALL {
                 let heading = rotation(motion.heading);
                 body.set_position(Pose::from_parts(motion.position, heading), true);
             }
@@ -273,7 +288,7 @@ impl Engine {
         })
     }
 
-    /// Pairs of bodies or walls that touch.
+    /// Pairs of bodies or walls that the solver has in contact, or about to be.
     pub(crate) fn contacts(&self) -> usize {
         self.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()).count()
     }

@@ -15,7 +15,7 @@ use crate::physique::Physique;
 const MARGIN: f32 = 0.004;
 
 /// Sub-steps of the solver in a tick.
-const SUB_STEPS: u8 = 4;
+pub(super) const SUB_STEPS: u8 = 4;
 
 /// The part of a field that is free of walls, and the walls around it.
 #[derive(Debug, Clone)]
