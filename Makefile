@@ -39,7 +39,7 @@ check-rust: $(VENV)/tools ## tests of the physics
 	$(CARGO) test --locked
 
 check-python: $(VENV)/built ## tests of the package, the README and the examples
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto
 
 format: $(VENV)/tools ## format everything
 	$(CARGO) fmt --all

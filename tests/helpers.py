@@ -32,11 +32,26 @@ class Crowd(VssSelfPlay):
         return frame
 
 
+def ssl_crowd(task: Task, rng: WorldRng) -> Frame:
+    """As `Crowd`, for a task of SSL robots, whatever it starts with otherwise."""
+    frame = Frame.empty(len(rng), task.n_blue, task.n_yellow)
+    robots = task.n_blue + task.n_yellow
+    angle = rng.uniform(0.0, 1.0)[:, None] + np.linspace(0.0, 2.0 * np.pi, robots, endpoint=False)
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=-1).astype(np.float32)
+    centre = np.array([0.4, 0.05], np.float32)  # where no task ends at once
+    frame.ball.position[:] = centre
+    frame.robots.position[:] = centre + ring * np.float32(max(0.13, 0.032 * robots))
+    frame.robots.heading[:] = -ring
+    return frame
+
+
 def touches(frame: Frame, config: SimConfig) -> int:
     """Pairs that certainly touch: their inscribed circles are within a millimetre."""
-    half = config.robot.side / 2
+    robot = config.robot
+    # Round ones meet the ball with a flat front, but each other as discs.
+    half, front = (robot.radius, robot.front) if robot.has_mouth else (robot.side / 2,) * 2
     robots, ball = frame.robots.position, frame.ball.position[:, None]
-    to_ball = _distances(robots, ball) < half + config.ball.radius + 1e-3
+    to_ball = _distances(robots, ball) < front + config.ball.radius + 1e-3
     to_robots = _distances(robots[:, :, None], robots[:, None]) < 2 * half + 1e-3
     return int(to_ball.sum()) + int(np.triu(to_robots, 1).sum())
 
@@ -44,7 +59,11 @@ def touches(frame: Frame, config: SimConfig) -> int:
 def pushing(rng: np.random.Generator, matches: Matches) -> Floats:
     """Random actions (n, agents, action), mostly forward, so that robots meet."""
     shape = (matches.worlds, len(matches.agents), matches.action_size)
-    return rng.uniform(-0.3, 1.0, shape).astype(np.float32)
+    actions = rng.uniform(-0.3, 1.0, shape).astype(np.float32)
+    if matches.action_size == 5:  # SSL: turn little, kick rarely, or the ball is gone
+        actions[..., 2] *= 0.2
+        actions[..., 3] -= 0.95
+    return actions
 
 
 def zeros(matches: Matches) -> Floats:

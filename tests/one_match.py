@@ -9,6 +9,7 @@ from rsoccer.frame import Floats, Frame
 from rsoccer.parallel import SoccerParallelEnv
 
 TASKS = rsoccer.list_tasks()
+VSS_TASKS = [name for name in TASKS if name.startswith("VSS")]
 SELF_PLAY = "VSSSelfPlay-v0"
 
 

@@ -2,6 +2,7 @@
 after other matches, and from a saved state. All of it while robots push each other."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,21 +10,44 @@ import pytest
 import rsoccer
 from rsoccer import Matches
 from rsoccer.controllers import Controllers
+from rsoccer.frame import Floats, Mask
 from rsoccer.outcome import Outcome
-from tests.helpers import Crowd, pushing, same, touches
+from rsoccer.task import Play, Task
+from tests.helpers import Crowd, pushing, same, ssl_crowd, touches
+from tests.one_match import TASKS, VSS_TASKS
 
 WORLDS = 5
 STEPS = 130
 
 CASES: list[tuple[str, Controllers | None]] = [
     (name, controllers)
-    for name in rsoccer.list_tasks()
+    for name in VSS_TASKS
     for controllers in (
         None,
         {"yellow": "ou", "blue_1": "uniform"},
         {"yellow": "chase", "blue_2": "zero"},
     )
 ]
+SCRIPTS = {
+    "SSLContestedPossession-v0": "strike",
+    "SSLDribbling-v0": "weave",
+    "SSLGoToBall-v0": "fetch",
+    "SSLPassEndurance-v0": "passer",
+    "SSLPassEnduranceMulti-v0": "passer",
+    "SSLSelfPlay-v0": "strike",
+    "SSLStaticDefenders-v0": "strike",
+}
+CASES += [
+    (name, controllers)
+    for name, script in SCRIPTS.items()
+    for controllers in (None, {"all": "ou", "blue_0": script})
+]
+
+
+def test_every_task_is_among_the_cases() -> None:
+    assert {name for name, _ in CASES} == set(TASKS)
+
+
 everywhere = pytest.mark.parametrize(("name", "controllers"), CASES)
 
 
@@ -37,8 +61,19 @@ def crowded(
 ) -> Matches:
     """Matches of a task of which every episode begins in a crowd round the ball."""
     task_class = type(rsoccer.make_task(name))
-    start = {"get_initial_positions_frame": Crowd.get_initial_positions_frame}
-    task = type("Crowded", (task_class,), start)(max_steps=40)
+    options: dict[str, Any] = {"max_steps": 40}
+    if name in SCRIPTS:
+        options["axes"] = "robot"  # so that pushing forward is pushing towards the ball
+
+        def late(task: Task, play: Play) -> tuple[dict[str, Floats], Mask]:
+            """Nothing ends it as early as contact would."""
+            terms, done = task_class.calculate_reward_and_done(task, play)
+            return terms, done & (play.steps > 20)
+
+        changed = {"get_initial_positions_frame": ssl_crowd, "calculate_reward_and_done": late}
+    else:
+        changed = {"get_initial_positions_frame": Crowd.get_initial_positions_frame}
+    task = type("Crowded", (task_class,), changed)(**options)
     return Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
 
 
@@ -76,7 +111,8 @@ def expect_equal(ours: Matches, theirs: list[Matches], steps: int = STEPS) -> No
         assert same(ours.frame.rows, rows), step
 
     touched, ended = play_both(ours, steps, compare)
-    assert touched > ours.worlds * 10, "without contacts the comparison would prove little"
+    fewest = 2 if ours.task.name in SCRIPTS else 10  # of SSL tasks some have but one robot
+    assert touched > ours.worlds * fewest, "without contacts the comparison would prove little"
     assert ended >= ours.worlds, "without an end no restart was compared"
 
 
@@ -104,7 +140,7 @@ def test_after_other_matches_a_match_is_as_a_fresh_one(
     used = crowded(name, controllers, WORLDS, seed=100)
     used.reset()
     touched, _ = play_both(used, 40, lambda actions, outcome, step: None)
-    assert touched > WORLDS
+    assert touched > 0
     fresh = crowded(name, controllers, WORLDS, seed=7)
     assert same(used.reset(7), fresh.reset())
     expect_equal(used, [fresh])
@@ -119,10 +155,10 @@ def test_restored_is_as_never_stopped(
     ours.reset()
     for _ in range(60):
         play_both(ours, 1, lambda actions, outcome, step: None)
-        if (in_touch := touches(ours.frame, ours.task.config)) > 1:
+        if (in_touch := touches(ours.frame, ours.task.config)) > 0:
             break
         ours.reset(mask=ours.done)
-    assert in_touch > 1, "saved while in contact"
+    assert in_touch > 0, "saved while in contact"
     theirs = crowded(name, controllers, WORLDS, seed=55, autoreset=autoreset)
     theirs.load_state_dict(ours.state_dict())
     if autoreset == "same_step":

@@ -12,7 +12,17 @@ import pytest
 
 import rsoccer
 from rsoccer.parallel import SoccerParallelEnv, parallel_env
-from tests.one_match import SELF_PLAY, TASKS, as_bytes, play_episode, random_actions, shot_at
+from tests.one_match import (
+    SELF_PLAY,
+    TASKS,
+    VSS_TASKS,
+    as_bytes,
+    play_episode,
+    random_actions,
+    shot_at,
+)
+
+FIXED_STARTS = {"SSLDribbling-v0"}
 
 
 class Forgetful(SoccerParallelEnv):
@@ -40,6 +50,19 @@ def seeded_transcripts(make: Callable[[], SoccerParallelEnv]) -> tuple[list[Any]
 
 
 @pytest.mark.parametrize("name", TASKS)
+def test_a_seed_fixes_the_episodes_of_every_task(name: str) -> None:
+    fresh, used = (parallel_env(name, max_cycles=150) for _ in range(2))
+    play_episode(used, 77)
+    used.reset(seed=78)
+    used.step(random_actions(used, np.random.default_rng(5)))
+    episodes = [[play_episode(match, seed) for seed in (3, None)] for match in (fresh, used)]
+    assert episodes[0] == episodes[1]
+    assert episodes[0][0] != episodes[0][1], "the streams did not go on: both are the same"
+    other = play_episode(parallel_env(name), 5)[0]
+    assert (other == episodes[0][0][0]) == (name in FIXED_STARTS)
+
+
+@pytest.mark.parametrize("name", VSS_TASKS)
 def test_a_seed_fixes_whole_episodes(name: str) -> None:
     fresh, used = seeded_transcripts(lambda: parallel_env(name))
     assert fresh == used
@@ -48,8 +71,6 @@ def test_a_seed_fixes_whole_episodes(name: str) -> None:
     scores = [episode[-1]["goal_score"] for episode in fresh]
     assert max(steps) > 200, "no long episode was compared"
     assert scores[2] == 1.0, "no episode with a goal was compared"
-    other = play_episode(parallel_env(name), 5)
-    assert other[0] != fresh[0][0], "another seed starts the same"
 
 
 def test_the_seed_test_finds_a_planted_fault() -> None:
@@ -81,6 +102,8 @@ def test_it_plays_what_matches_play(name: str) -> None:
     rng = np.random.default_rng(0)
     expected = matches.reset()
     for _ in range(100):
+        if not match.agents:
+            break  # random actions end some tasks early
         assert list(observations) == list(matches.agents)
         assert np.array_equal(np.stack(list(observations.values())), expected[0])
         actions = random_actions(match, rng)
@@ -88,6 +111,7 @@ def test_it_plays_what_matches_play(name: str) -> None:
         observations, rewards, *_ = match.step(actions)
         expected = outcome.final_observations
         assert list(rewards.values()) == outcome.rewards[0].tolist()
+    assert matches.play.steps[0] > 10 or outcome.ended[0]
 
 
 # -- Copies -----------------------------------------------------------------------------------
@@ -110,8 +134,11 @@ def test_a_copy_goes_on_with_the_same_match(
     match.reset(seed=5)
     match.action_space("blue_0").seed(5)
     rng = np.random.default_rng(0)
-    for _ in range(25):
-        match.step(random_actions(match, rng))
+    for _ in range(8):
+        actions = random_actions(match, rng)
+        # Without kicks: a random one would end the passing tasks at once.
+        match.step({agent: -np.abs(action) for agent, action in actions.items()})
+    assert match.agents, "it ended too early to compare what follows"
     twin = copied(match)
     assert twin is not match
     rng, twin_rng = np.random.default_rng(1), np.random.default_rng(1)

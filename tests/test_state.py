@@ -19,7 +19,7 @@ def test_the_state_is_the_scaled_frame() -> None:
     )
     assert state[4:11] == pytest.approx([-0.5 / 0.75, 0.45 / 0.75, 1.0, 0.0, 0.0, 0.0, 0.0])
     row = shot_at(-1)
-    Frame(row[None], 3, 3).ball.velocity[0] = [0.0, 100.0]
+    Frame(row[None], 3, 3).ball.velocity[0] = [0.0, 19.0]
     match.reset(seed=0, options={"frame": row})
     assert match.state()[3] == LIMIT
 

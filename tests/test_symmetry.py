@@ -5,13 +5,20 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Frame, Matches
+from rsoccer._core import CROSSINGS
 from rsoccer.frame import Floats
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, touches
+from tests.one_match import VSS_TASKS
 from tests.test_view import turned
 
 TEAMS = np.array([3, 4, 5, 0, 1, 2])
+
+
+SSL = "SSLSelfPlay-v0"
+# Tasks of three against three that can start anywhere.
+SYMMETRIC = [*VSS_TASKS, SSL]
 
 
 def both(rows: Floats, worlds: int, name: str = "VSSSelfPlay-v0") -> tuple[Matches, Matches]:
@@ -25,7 +32,7 @@ def both(rows: Floats, worlds: int, name: str = "VSSSelfPlay-v0") -> tuple[Match
     return ours, theirs
 
 
-def lonely(worlds: int) -> Floats:
+def lonely(worlds: int, name: str = "VSSSelfPlay-v0") -> Floats:
     """Starts with room to move: robots in two rows, the ball rolling along the middle."""
     frame = Frame.empty(worlds, 3, 3)
     rng = np.random.default_rng(0)
@@ -36,17 +43,20 @@ def lonely(worlds: int) -> Floats:
         team.heading[:] = np.stack([np.cos(angle), np.sin(angle)], -1)
     frame.ball.velocity[:] = rng.uniform(-0.2, 0.2, (worlds, 2))
     frame.ball.velocity[:, 1] *= 0.2
+    if name == SSL:  # larger robots that are faster, on a larger field
+        frame.robots.position[:] *= 2.5
     return frame.rows
 
 
-@pytest.mark.parametrize("name", rsoccer.list_tasks())
+@pytest.mark.parametrize("name", SYMMETRIC)
 def test_without_contact_the_turned_game_is_exactly_the_same(name: str) -> None:
     worlds = 6
-    ours, theirs = both(lonely(worlds), worlds, name)
+    ours, theirs = both(lonely(worlds, name), worlds, name)
+    size = ours.action_size
     rng = np.random.default_rng(1)
     moved = ours.frame.rows.copy()
     for _ in range(12):
-        actions = rng.uniform(-1.0, 1.0, (worlds, 6, 2)).astype(np.float32)
+        actions = rng.uniform(-1.0, 1.0, (worlds, 6, size)).astype(np.float32)
         a, b = ours.step(actions), theirs.step(actions[:, TEAMS])
         assert touches(ours.frame, ours.task.config) == 0
         assert np.array_equal(turned(ours.frame).rows, theirs.frame.rows)
@@ -54,6 +64,28 @@ def test_without_contact_the_turned_game_is_exactly_the_same(name: str) -> None:
         assert np.array_equal(a.rewards[:, TEAMS], b.rewards)
         assert np.array_equal(a.ended, b.ended)
     assert np.abs(ours.frame.robots.position - Frame(moved, 3, 3).robots.position).max() > 0.05
+
+
+def test_a_ball_that_left_comes_back_alike_on_both_sides() -> None:
+    """With robots where it left, so that the nearest places are taken and sides are chosen."""
+    worlds = 40
+    task = rsoccer.make_task(SSL)
+    rng = np.random.default_rng(0)
+    frame = Frame(lonely(worlds, SSL), 3, 3)
+    frame.ball.crossed[:] = [
+        CROSSINGS.index("touch_line_left"),
+        CROSSINGS.index("goal_line_left"),
+    ] * 20
+    frame.ball.crossed_at[::2] = np.stack([rng.uniform(-3, 3, 20), np.full(20, 2.0)], axis=-1)
+    frame.ball.crossed_at[1::2] = np.stack([np.full(20, -3.0), rng.uniform(0.5, 2, 20)], axis=-1)
+    near = frame.ball.crossed_at + rng.uniform(-0.2, 0.2, (worlds, 2))
+    frame.blue.position[:, 0] = np.clip(near, [-2.8, -1.8], [2.8, 1.8])
+    ours, theirs = task.put_back(frame), task.put_back(turned(frame))
+    assert ours is not None
+    assert theirs is not None
+    assert np.array_equal(turned(Frame(ours[1], 3, 3)).rows[:, :2], theirs[1][:, :2])
+    aside = np.abs(ours[1][:, :2] - np.clip(frame.ball.crossed_at, [-2.8, -1.8], [2.8, 1.8]))
+    assert (aside.max(axis=1) > 0.01).sum() > 10, "no place was taken"
 
 
 def test_through_one_contact_the_turned_game_stays_the_same() -> None:

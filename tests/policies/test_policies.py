@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import rsoccer
 from rsoccer import policies
 from rsoccer.policies.base import Policy, Seen
 from rsoccer.policies.ou import OrnsteinUhlenbeck
@@ -22,10 +23,30 @@ def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> n
     return np.array([policy.act(seen, rng, memory) for _ in range(steps)])
 
 
+# Tasks for policies that do not drive two wheels.
+TASKS = {
+    "fetch": "SSLGoToBall-v0",
+    "hold": "SSLSelfPlay-v0",
+    "passer": "SSLPassEndurance-v0",
+    "receive": "SSLPassEndurance-v0",
+    "strike": "SSLStaticDefenders-v0",
+    "weave": "SSLDribbling-v0",
+}
+
+
 def test_names() -> None:
-    assert policies.names() == ["chase", "ou", "uniform", "zero"]
-    for name in policies.names():
-        assert isinstance(policies.make(name, TASK), Policy)
+    names = policies.names()
+    assert names == sorted(names)
+    assert {"chase", "ou", "uniform", "zero", *TASKS} <= set(names)
+    for name in names:
+        task = rsoccer.make_task(TASKS[name]) if name in TASKS else TASK
+        assert isinstance(policies.make(name, task), Policy)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_scripts_for_ssl_refuse_other_robots(name: str) -> None:
+    with pytest.raises(ValueError, match="robots with a dribbler"):
+        policies.make(name, TASK)
 
 
 def test_a_policy_is_itself() -> None:
@@ -35,7 +56,7 @@ def test_a_policy_is_itself() -> None:
 
 @pytest.mark.parametrize("name", ["chess", "", "out/no_such_file"])
 def test_an_unknown_name_is_told_with_the_valid_ones(name: str) -> None:
-    with pytest.raises(ValueError, match=r"unknown policy.*'chase', 'ou', 'uniform', 'zero'"):
+    with pytest.raises(ValueError, match=r"unknown policy.*'chase', .*'ou', .*'uniform', .*'zero'"):
         policies.make(name, TASK)
 
 

@@ -6,9 +6,13 @@ from typing import Final
 
 from rsoccer.policies.base import Policy, Seen
 from rsoccer.policies.chase import Chase
+from rsoccer.policies.fetch import Fetch
 from rsoccer.policies.hold import Hold, Receive
 from rsoccer.policies.ou import OrnsteinUhlenbeck
+from rsoccer.policies.passer import Passer
+from rsoccer.policies.strike import Strike
 from rsoccer.policies.uniform import Uniform
+from rsoccer.policies.weave import Weave
 from rsoccer.policies.zero import Zero
 from rsoccer.task import Task
 
@@ -16,10 +20,14 @@ __all__ = ["Policy", "Seen", "make", "names"]
 
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "chase": Chase,
+    "fetch": Fetch,
     "hold": Hold,
     "ou": lambda task: OrnsteinUhlenbeck(),
+    "passer": Passer,
     "receive": Receive,
+    "strike": Strike,
     "uniform": lambda task: Uniform(),
+    "weave": Weave,
     "zero": lambda task: Zero(),
 }
 

@@ -51,6 +51,7 @@ class Ssl(Task):
     discrete: bool = False  # whether agents choose one of CHOICES instead of five numbers
 
     action_size = 5
+    half_only: ClassVar[bool] = False  # whether play keeps to the foes' half, out of their area
     WEIGHTS: ClassVar[Mapping[str, float]] = {}
     PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {}
 
@@ -82,14 +83,15 @@ class Ssl(Task):
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
         commands = np.zeros((*actions.shape[:2], len(_BODY)), np.float32)
-        x, y = actions[..., 0] * self._top_speed, actions[..., 1] * self._top_speed
+        speed, _, turn, kick, _ = self.action_scales
+        x, y = actions[..., 0] * speed, actions[..., 1] * speed
         if self.axes == "field":
             heading = play.frame.robots.heading * self._side_signs[:, None]
             cos, sin = heading[..., 0], heading[..., 1]
             x, y = x * cos + y * sin, y * cos - x * sin
         commands[..., 0], commands[..., 1] = x, y
-        commands[..., 2] = actions[..., 2] * np.float32(TURN)
-        commands[..., _KICK] = np.maximum(actions[..., 3], 0.0) * self._kick
+        commands[..., 2] = actions[..., 2] * turn
+        commands[..., _KICK] = np.maximum(actions[..., 3], 0.0) * kick
         commands[..., _DRIBBLER] = actions[..., 4] > 0.0
         return commands
 
@@ -134,12 +136,11 @@ class Ssl(Task):
         return np.float32(self.config.robot.front + self.config.ball.radius)
 
     @cached_property
-    def _top_speed(self) -> np.float32:
-        return np.float32(self.config.robot.top_speed)
-
-    @cached_property
-    def _kick(self) -> np.float32:
-        return np.float32(min(self.config.robot.max_kick, LEGAL_KICK))
+    def action_scales(self) -> Floats:
+        """(5,) what a 1 in an action asks for: m/s, m/s, rad/s, m/s of a kick, dribbler on."""
+        robot = self.config.robot
+        kick = min(robot.max_kick, LEGAL_KICK)
+        return np.array([robot.top_speed, robot.top_speed, TURN, kick, 1.0], np.float32)
 
     @cached_property
     def _side_signs(self) -> Floats:

@@ -24,6 +24,7 @@ class SslAttack(Ssl):
     or in contact with a foe.
     """
 
+    half_only = True
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 1.0,

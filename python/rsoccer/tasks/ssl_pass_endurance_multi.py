@@ -47,6 +47,8 @@ class SslPassEnduranceMulti(SslPass):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Passes count most; a ball that nears the mate and a mate that nears it are paid."""
         worlds, memory = np.arange(len(play.frame)), play.memory
+        begun = play.steps == 1  # where it may have been kicked at once
+        memory["left_at"][begun] = play.last_frame.ball.position[begun]
         mate = 1 - memory["holder"]
         distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
         nearer = (last - distance)[worlds, mate]

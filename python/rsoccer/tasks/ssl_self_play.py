@@ -91,13 +91,14 @@ class SslSelfPlay(Ssl):
         """Nearest places (k, 2) to where balls left (k, 2), clear of robots (k, robots, 2)."""
         field, config = self.config.field, self.config
         most = np.array([field.half_length - INSIDE, field.half_width - INSIDE], np.float32)
-        # Tried from the nearest on, to both sides along the line that was crossed.
+        # Tried from the nearest on, to both sides along the line that was crossed: of two as near
+        # first towards the middle, which is the same for both teams.
         steps = np.arange(TRIES) // 2 + np.arange(TRIES) % 2
-        shifts = (np.where(np.arange(TRIES) % 2, 1, -1) * steps).astype(np.float32)
+        shifts = (np.where(np.arange(TRIES) % 2, -1, 1) * steps).astype(np.float32)
         along_x = np.abs(left_at[:, 1]) > np.float32(field.half_width - 1e-3)
-        tried = np.repeat(left_at[:, None], TRIES, axis=1)
-        tried[:, :, 0] += np.where(along_x[:, None], shifts * np.float32(SHIFT), np.float32(0.0))
-        tried[:, :, 1] += np.where(along_x[:, None], np.float32(0.0), shifts * np.float32(SHIFT))
+        outward = np.copysign(np.float32(SHIFT), left_at)[:, None] * shifts[None, :, None]
+        axis = np.stack([along_x, ~along_x], axis=-1)[:, None]
+        tried = left_at[:, None] + np.where(axis, outward, np.float32(0.0))
         tried = np.minimum(np.maximum(tried, -most), most)  # (k, tries, 2)
         clear = np.float32(config.robot.bounding_radius + 2.0 * config.ball.radius)
         way = tried[:, :, None] - robots[:, None]

@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from rsoccer import Matches
+from rsoccer.tasks import SslContestedPossession, SslSelfPlay, SslStaticDefenders
+from tests.policies.ssl_policies import expect_rows_alone, expect_view_needed, score
+
+
+@pytest.mark.parametrize("axes", ["field", "robot"])
+def test_it_scores_past_robots_that_stand(axes: str) -> None:
+    assert score(SslStaticDefenders(axes=axes), "goal_score", blue_0="strike") >= 0.9
+
+
+def test_it_wins_the_ball_off_a_foe_and_scores() -> None:
+    assert score(SslContestedPossession(), "goal_score", blue_0="strike") >= 0.75
+
+
+@pytest.mark.parametrize(("blue", "yellow"), [("strike", "hold"), ("hold", "strike")])
+def test_it_plays_for_either_side(blue: str, yellow: str) -> None:
+    task = SslSelfPlay(blue=1, yellow=2) if yellow == "hold" else SslSelfPlay(blue=2, yellow=1)
+    got = score(task, "goal_score", blue=blue, yellow=yellow)
+    assert got * (1.0 if blue == "strike" else -1.0) >= 0.8
+
+
+def test_of_a_team_only_the_nearest_goes() -> None:
+    matches = Matches(SslSelfPlay(), 6, 3, controllers={"blue": "strike", "yellow": "zero"})
+    matches.reset()
+    for _ in range(60):
+        matches.step(np.zeros((6, 0, 5), np.float32))
+    to_ball = matches.frame.blue.position - matches.frame.ball.position[:, None]
+    far = np.sort(np.linalg.norm(to_ball, axis=-1), axis=1)
+    assert (far[:, 0] < 0.5).mean() > 0.6
+    assert (far[:, 1] > 0.4).all()
+
+
+@pytest.mark.parametrize("task", [SslStaticDefenders(), SslContestedPossession(), SslSelfPlay()])
+def test_rows_do_not_depend_on_their_neighbours(
+    task: SslStaticDefenders | SslContestedPossession | SslSelfPlay,
+) -> None:
+    expect_rows_alone("strike", task, 120)
+
+
+def test_it_needs_a_view() -> None:
+    expect_view_needed("strike", SslStaticDefenders())

@@ -1,0 +1,144 @@
+"""What all SSL tasks share: options, actions, observations."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import LEARN, Matches
+from rsoccer.frame import Floats
+from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
+from rsoccer.tasks.ssl import CHOICES, Ssl
+from tests.helpers import pushing
+from tests.tasks.ssl_scenes import make, scene
+
+NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "message"),
+    [
+        ({"axes": "ball"}, ValueError, r"axes: expected one of \('field', 'robot'\), got 'ball'"),
+        ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid are"),
+        ({"weights": "old"}, ValueError, "weights: expected a mapping or 'paper', got 'old'"),
+        ({"weights": {"energy": float("nan")}}, ValueError, "weights: expected a finite number"),
+        ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
+        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one told its body's velocity"),
+        ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
+        ({"field": "ssl_z"}, ValueError, "ssl_z"),
+        ({"colour": 1}, ValueError, "unknown option colour"),
+    ],
+)
+@pytest.mark.parametrize("name", NAMES)
+def test_options_that_make_no_task_are_refused(
+    name: str, options: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        make(name, **options)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_weights_are_data_and_paper_is_a_set_of_them(name: str) -> None:
+    task, old = make(name), make(name, weights="paper")
+    assert isinstance(task, Ssl)
+    assert isinstance(old, Ssl)
+    assert task.weights == task.WEIGHTS
+    assert old.weights == old.PAPER_WEIGHTS
+    assert set(task.WEIGHTS) == set(task.PAPER_WEIGHTS)
+    for each in (task, old):
+        matches = Matches(each, 3)
+        matches.reset()
+        outcome = matches.step(pushing(np.random.default_rng(0), matches))
+        assert set(outcome.terms) == set(task.WEIGHTS)
+
+
+def moved(task: Ssl, action: list[float]) -> tuple[Floats, float]:
+    """Where a robot at the centre facing +y gets within half a second, and how it turned."""
+    matches = Matches(task, 1, autoreset="disabled")
+    matches.reset(rows=scene(task, ball=(2.0, -1.5), blue_0=(0.0, 0.0, np.pi / 2)).rows)
+    for _ in range(20):
+        matches.step(np.array([[action]], np.float32))
+    heading = matches.frame.blue.heading[0, 0]
+    return matches.frame.blue.position[0, 0].copy(), float(np.arctan2(heading[1], heading[0]))
+
+
+def test_velocities_are_along_the_fields_axes() -> None:
+    task = SslGoToBall()
+    (x, y), angle = moved(task, [0.2, 0.0, 0.0, -1.0, -1.0])
+    assert x > 0.2
+    assert abs(y) < 0.01
+    assert angle == pytest.approx(np.pi / 2, abs=0.01)
+
+
+def test_by_option_they_are_along_the_robots() -> None:
+    by_field = moved(SslGoToBall(), [-0.1, 0.2, 0.0, -1.0, -1.0])
+    by_robot = moved(SslGoToBall(axes="robot"), [0.2, 0.1, 0.0, -1.0, -1.0])
+    assert by_robot[0] == pytest.approx(by_field[0], abs=1e-4)
+    # While it turns the two part: one keeps its course over the field.
+    assert moved(SslGoToBall(), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] == pytest.approx(0.0, abs=0.05)
+    assert moved(SslGoToBall(axes="robot"), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] > 0.1
+
+
+def test_commands_are_shares_of_what_the_robot_can() -> None:
+    task = SslGoToBall(axes="robot")
+    play = Matches(task, 1).play
+    commands = task.get_commands(play, np.array([[[0.5, -1.0, 0.1, 0.5, 1.0]]], np.float32))
+    assert commands[0, 0] == pytest.approx([1.85, -3.7, 1.0, 3.25, 0.0, 1.0])
+    commands = task.get_commands(play, np.array([[[0.0, 0.0, 0.0, -0.5, -1.0]]], np.float32))
+    assert not commands.any()
+
+
+def test_for_yellow_the_game_is_turned_half_round() -> None:
+    task = SslSelfPlay(blue=1, yellow=1)
+    start = scene(task, ball=(0.0, 1.5), blue_0=(1.0, 0.0), yellow_0=(-1.0, 0.0, np.pi))
+    matches = Matches(task, 1)
+    matches.reset(rows=start.rows)
+    action = [0.2, 0.1, 0.0, -1.0, -1.0]
+    for _ in range(20):
+        matches.step(np.array([[action, action]], np.float32))
+    blue, yellow = matches.frame.robots.position[0]
+    assert blue == pytest.approx(-yellow, abs=1e-5)
+    assert blue[0] > 1.1
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_agents_may_choose_from_a_table(name: str) -> None:
+    match = rsoccer.parallel_env(name, discrete=True)
+    match.reset(seed=0)
+    for agent in match.agents:
+        assert match.action_space(agent).n == len(CHOICES)  # type: ignore[union-attr]
+    match.step({agent: np.array(len(CHOICES) - 1) for agent in match.agents})
+    last = match._matches.play.actions[0, 0]
+    assert last.tolist() == CHOICES[-1].tolist()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_observations_are_rarely_clipped(name: str) -> None:
+    matches = Matches(name, 32, controllers={"blue_0": LEARN})
+    matches.reset()
+    rng = np.random.default_rng(0)
+    shown = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(80)])
+    high = matches.observation_high
+    states = slice(0, matches.task.blocks["action"].columns.start)
+    assert (np.abs(shown) >= high - 1e-6)[..., states].mean() < 1e-3
+    assert 0.1 < shown.std() < 1.5
+    assert np.isfinite(shown).all()
+
+
+def test_the_mouth_is_shown_where_the_ball_is_seen() -> None:
+    task = SslContestedPossession()
+    start = scene(task, ball=(0.593, 0.0), blue_0=(0.5, 0.0), yellow_0=(2.0, 0.0))
+    matches = Matches(task, 1)
+    shown = matches.reset(rows=start.rows)[0, 0]
+    me, foes = (shown[task.blocks[name].columns] for name in ("me", "foes"))
+    assert me[-1] == 1.0
+    assert foes[-1] == 0.0
+    assert me[:4] == pytest.approx([0.5 / 3.0, 0.0, 1.0, 0.0], abs=1e-6)
+
+
+def test_tasks_are_data() -> None:
+    assert SslStaticDefenders(scenario=3) == SslStaticDefenders(scenario=3)
+    assert SslStaticDefenders(scenario=3) != SslStaticDefenders()
+    with pytest.raises(AttributeError):
+        SslStaticDefenders().scenario = 3  # type: ignore[misc]

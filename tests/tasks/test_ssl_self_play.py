@@ -1,0 +1,122 @@
+import numpy as np
+import pytest
+
+from rsoccer import Matches
+from rsoccer.frame import Frame
+from rsoccer.tasks import SslSelfPlay
+from tests.tasks.ssl_scenes import STAND, play, run, scene
+
+TASK = SslSelfPlay()
+SOLO = SslSelfPlay(blue=1, yellow=1)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_goal_of_either_side_ends_it(way: float) -> None:
+    outcome, _ = run(TASK, scene(TASK, ball=(2.8 * way, 0.1, 2.0 * way, 0.0)))
+    assert outcome.terminated[0]
+    assert outcome.metrics["goal_score"][0] == way
+    assert outcome.terms["goal"][0].tolist() == [10.0 * way] * 3 + [-10.0 * way] * 3
+
+
+def gone(ball: tuple[float, ...], **robots: tuple[float, ...]) -> tuple[Matches, np.ndarray]:
+    """The ball rolls off the field and comes back; the matches then, and the rewards since."""
+    matches = Matches(SOLO, 1, autoreset="disabled")
+    start = scene(SOLO, ball=ball, **{"blue_0": (0.0, 0.0), "yellow_0": (0.5, 0.0)} | robots)
+    matches.reset(rows=start.rows)
+    rewards = []
+    for _ in range(20):
+        outcome = matches.step(np.array([[STAND, STAND]], np.float32))
+        assert not outcome.ended[0], "leaving the field ends nothing"
+        rewards.append(outcome.rewards[0])
+        if not matches.frame.ball.velocity.any():
+            return matches, np.array(rewards)
+    raise AssertionError("it was not put back")
+
+
+@pytest.mark.parametrize(
+    ("ball", "back"),
+    [
+        ((1.0, 1.95, 0.0, 2.0), (1.0, 1.8)),
+        ((-1.0, -1.95, 0.0, -2.0), (-1.0, -1.8)),
+        ((2.95, 1.0, 2.0, 0.0), (2.8, 1.0)),
+        ((-2.95, -1.0, -2.0, 0.0), (-2.8, -1.0)),
+        ((2.9, 1.95, 2.0, 2.0), (2.8, 1.8)),  # by the corner
+    ],
+)
+def test_a_ball_that_leaves_is_put_back_inside_the_line(
+    ball: tuple[float, ...], back: tuple[float, float]
+) -> None:
+    matches, rewards = gone(ball)
+    assert matches.frame.ball.position[0] == pytest.approx(back, abs=0.02)
+    assert matches.frame.ball.height[0] == 0.0
+    assert matches.frame.ball.last_touch[0] == -1.0
+    # What was between is not rewarded: only what the ball did before it crossed the line.
+    assert np.abs(rewards[-1]).max() < 1e-3
+    assert np.abs(rewards).max() < 0.2
+
+
+def test_where_a_robot_stands_the_next_free_place_is_taken() -> None:
+    for blocker, x in (((1.0, 1.8), 0.86), ((1.05, 1.8), 0.9), ((0.95, 1.8), 1.1)):
+        matches, _ = gone((1.0, 1.95, 0.0, 2.0), yellow_0=blocker)
+        found = matches.frame.ball.position[0]
+        assert found[1] == pytest.approx(1.8)
+        assert found[0] == pytest.approx(x, abs=0.03)
+        gap = np.linalg.norm(found - matches.frame.yellow.position[0, 0])
+        assert 0.09 + 0.0215 < gap < 0.2
+
+
+def test_other_worlds_go_on_while_a_ball_is_put_back() -> None:
+    matches = Matches(SOLO, 2, autoreset="disabled")
+    robots = {"blue_0": (0.0, 0.0), "yellow_0": (0.5, 0.0)}
+    frames = [
+        scene(SOLO, ball=ball, **robots) for ball in ((1.0, 1.99, 0.0, 2.0), (1.0, 1.0, 0.0, 1.0))
+    ]
+    matches.reset(rows=np.concatenate([frame.rows for frame in frames]))
+    matches.step(np.tile(np.array(STAND, np.float32), (2, 2, 1)))
+    ball = matches.frame.ball
+    assert ball.position[0] == pytest.approx([1.0, 1.8], abs=0.01)
+    assert not ball.velocity[0].any()
+    assert ball.velocity[1, 1] > 0.8
+
+
+@pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (2, 3), (3, 0)])
+def test_sizes_are_options(blue: int, yellow: int) -> None:
+    task = SslSelfPlay(blue=blue, yellow=yellow)
+    matches = Matches(task, 2)
+    matches.reset()
+    assert len(matches.agents) == blue + yellow
+    actions = np.zeros((2, blue + yellow, 5), np.float32)
+    assert np.isfinite(matches.step(actions).observations).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"blue": 0}, "blue: expected at least 1"),
+        ({"yellow": -1}, "yellow: expected at least 0"),
+        ({"blue": 99}, "99|robots"),
+        ({"field": "ssl_z"}, "ssl_z"),
+    ],
+)
+def test_sizes_and_fields_that_make_no_task_are_refused(
+    options: dict[str, int | str], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        SslSelfPlay(**options).config  # type: ignore[arg-type]  # noqa: B018
+
+
+def test_it_can_be_played_on_any_ssl_field() -> None:
+    for field in ("ssl_a", "ssl_b"):
+        matches = Matches(SslSelfPlay(field=field, blue=6, yellow=6), 1)
+        matches.reset()
+        assert matches.frame.robots.position.shape == (1, 12, 2)
+
+
+def test_a_goal_is_the_largest_part_of_what_a_match_pays() -> None:
+    got = play(SslSelfPlay(blue=1, yellow=1), "strike", worlds=10)
+    assert np.abs(got.metrics["goal_score"]).mean() > 0.6
+    assert got.largest() == "goal"
+
+
+def test_a_frame_is_put_back_only_where_a_ball_has_left() -> None:
+    assert TASK.put_back(Frame.empty(3, 3, 3)) is None

@@ -1,0 +1,106 @@
+import numpy as np
+import pytest
+
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import SslStaticDefenders
+from tests.tasks.ssl_scenes import STAND, expect_solved, play, run, scene
+
+TASK = SslStaticDefenders()
+
+
+def drive(x: float, y: float) -> tuple[float, ...]:
+    return (x, y, 0.0, -1.0, -1.0)
+
+
+def test_a_goal_ends_it() -> None:
+    outcome, _ = run(TASK, scene(TASK, ball=(2.8, 0.1, 2.0, 0.0), blue_0=(1.0, 0.0)))
+    assert outcome.terminated[0]
+    assert outcome.metrics["goal_score"][0] == 1.0
+    assert outcome.terms["goal"][0, 0] == 10.0
+    assert outcome.terms["failed"][0, 0] == 0.0
+
+
+@pytest.mark.parametrize(
+    "ball",
+    [
+        (0.05, 1.0, -1.0, 0.0),  # over the middle line
+        (1.0, 1.9, 0.0, 1.5),
+        (1.0, -1.9, 0.0, -1.5),
+        (2.9, 1.5, 1.5, 0.0),  # over the goal line
+    ],
+)
+def test_the_ball_out_of_the_half_ends_it(ball: tuple[float, ...]) -> None:
+    outcome, _ = run(TASK, scene(TASK, ball=ball, blue_0=(1.0, 0.0)))
+    assert outcome.terminated[0]
+    assert outcome.metrics["goal_score"][0] == 0.0
+    assert outcome.terms["failed"][0, 0] == -1.0
+
+
+@pytest.mark.parametrize(
+    ("place", "way"),
+    [
+        ((-0.1, 0.0), (-1.0, 0.0)),  # back over the middle line by more than 0.2 m
+        ((1.0, 1.9), (0.0, 1.0)),
+        ((1.0, -1.9), (0.0, -1.0)),
+        ((2.9, 1.5), (1.0, 0.0)),
+        ((2.1, 0.0), (1.0, 0.0)),  # into the area from before
+        ((2.5, -1.1), (0.0, 1.0)),  # and from beside
+    ],
+)
+def test_the_robot_where_it_must_not_be_ends_it(
+    place: tuple[float, float], way: tuple[float, float]
+) -> None:
+    start = scene(TASK, ball=(1.0, 0.5), blue_0=place)
+    assert not run(TASK, start, STAND, 1)[0].ended[0]
+    outcome, _ = run(TASK, start, drive(*way), 20)
+    assert outcome.terminated[0]
+    assert outcome.terms["failed"][0, 0] == -1.0
+
+
+def test_touching_a_foe_ends_it_however_softly() -> None:
+    start = scene(TASK, ball=(1.5, 1.0), blue_0=(1.0, 0.0), yellow_0=(1.25, 0.0))
+    outcome, matches = run(TASK, start, drive(0.05, 0.0))
+    assert outcome.terminated[0]
+    assert matches.frame.blue.crash_speed[0, 0] < 0.3
+
+
+def test_starts_keep_to_the_half_and_off_the_area() -> None:
+    frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 500))
+    places = np.concatenate([frame.ball.position[:, None], frame.yellow.position], axis=1)
+    x, y = places[..., 0], np.abs(places[..., 1])
+    assert x.min() > 0.1
+    assert not ((x > 2.2) & (y < 1.0)).any()
+    gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(7)
+    assert gaps.min() >= 0.25 - 1e-6
+    assert not frame.blue.position.any()
+
+
+def test_official_scenarios_are_the_published_ones_turned_half_round() -> None:
+    """Spot checks against the rules, which attack -x (millimetres there)."""
+    frame = SslStaticDefenders(scenario=1).get_initial_positions_frame(WorldRng.seeded(0, 1))
+    assert frame.ball.position[0] == pytest.approx([0.2, 1.8])
+    assert frame.yellow.position[0] == pytest.approx(np.array([[2.9, 0], [2, 0.75], [2, 0.55]]))
+    angle = np.arctan2(*frame.yellow.heading[0, 0][::-1])
+    assert angle == pytest.approx(np.pi - 0.785)
+    frame = SslStaticDefenders(scenario=9).get_initial_positions_frame(WorldRng.seeded(0, 1))
+    assert frame.ball.position[0] == pytest.approx([2.8, 1.75])
+    assert frame.yellow.position[0, 2] == pytest.approx([0.8, -1.0])
+    counts = [SslStaticDefenders(scenario=i).n_yellow for i in range(1, 11)]
+    assert counts == [3, 3, 4, 4, 5, 5, 5, 6, 6, 6]
+
+
+def test_strike_solves_it() -> None:
+    expect_solved(TASK, "strike", "goal_score", 0.9)
+    assert play(TASK, "strike").largest() == "goal"
+
+
+@pytest.mark.parametrize("scenario", range(1, 11))
+def test_strike_solves_every_official_scenario(scenario: int) -> None:
+    task = SslStaticDefenders(scenario=scenario)
+    assert play(task, "strike", worlds=1).metrics["goal_score"][0] == 1.0
+
+
+@pytest.mark.parametrize("scenario", [0, 11])
+def test_other_scenarios_are_refused(scenario: int) -> None:
+    with pytest.raises(ValueError, match="scenario: expected"):
+        SslStaticDefenders(scenario=scenario)
