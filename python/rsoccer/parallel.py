@@ -21,7 +21,7 @@ from pettingzoo.utils.conversions import parallel_to_aec
 
 from rsoccer import by_agent, spaces
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Array, Floats
+from rsoccer.frame import Floats
 from rsoccer.registry import make_task
 from rsoccer.spaces import ActionSpace
 from rsoccer.stage import (
@@ -167,7 +167,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         return by_agent.split(self.possible_agents, observations), self._no_infos()
 
     def step(
-        self, actions: Mapping[str, Array]
+        self, actions: Mapping[str, Any]
     ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
         """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
         self._matches.check_turn()
