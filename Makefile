@@ -46,7 +46,8 @@ format: $(VENV)/tools ## format everything
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
-docs: $(VENV)/built ## write the README's tables and picture again from code and results
+docs: $(VENV)/built ## write the README's tables and pictures again from code and results
+	$(BIN)/python -m tools.task_pictures
 	$(BIN)/python -m tools.write_readme
 
 physics: $(VENV)/built ## measure the physics again; write its page and draw its pictures

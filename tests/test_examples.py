@@ -9,6 +9,11 @@ QUICK = {
     "01_hello.py": [],
     "02_new_task.py": ["2000"],
     "03_many_worlds.py": ["32", "200"],
+    "05_gymnasium.py": [],
+    "06_gymnasium_vector.py": [],
+    "07_mixed_side.py": [],
+    "08_arrays.py": [],
+    "09_old_simulator.py": [],
 }
 
 

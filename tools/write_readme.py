@@ -15,6 +15,7 @@ from benches.table import ROOT, Figure, Machine, load
 from rsoccer import policies
 from rsoccer.registry import list_options
 from tools.parts import filled, table
+from tools.task_pictures import path_of
 
 README = ROOT / "README.md"
 RESULTS = ROOT / "benches" / "results"
@@ -23,6 +24,8 @@ PICTURES = {
     "docs/match.gif": "A match after a few minutes of training",
     "docs/curve.png": "Goal score over training",
 }
+ABREAST = 3
+"""Pictures of tasks in a row."""
 FIGURES = {
     "core_vss_3v3_random": "Rust core alone, VSSS 3 v 3, random play",
     "core_vss_3v3_crowd": "Rust core alone, VSSS 3 v 3, a crowd around the ball",
@@ -55,10 +58,19 @@ def written(readme: str) -> str:
 
 
 def tasks() -> str:
-    """Every registered task with its sizes."""
-    rows = [_task_row(name) for name in rsoccer.list_tasks()]
+    """Every registered task with its sizes, and a picture of each."""
+    names = rsoccer.list_tasks()
+    rows = [_task_row(name) for name in names]
     header = ("task", "what it is", "robots", "learners", "observation", "action", "time limit")
-    return table(header, rows)
+    return f"{table(header, rows)}\n\n{_gallery(names)}"
+
+
+def _gallery(names: list[str]) -> str:
+    """Pictures side by side, as many as a page is wide, each under its name."""
+    cells = [f"`{name}`<br>![]({path_of(name).relative_to(ROOT)})" for name in names]
+    rows = [tuple(cells[i : i + ABREAST]) for i in range(0, len(cells), ABREAST)]
+    last = (*rows[-1], *("",) * (ABREAST - len(rows[-1])))
+    return table(("",) * ABREAST, [*rows[:-1], last])
 
 
 def _task_row(name: str) -> tuple[str, ...]:
