@@ -12,6 +12,9 @@ use rsim_core::{Batch, Field, SimConfig};
 /// Steps between two starts of a scene.
 const EPISODE: u64 = 400;
 
+/// Steps in which a scene has to show its contacts.
+const WATCHED: u64 = 2 * EPISODE;
+
 /// A scene that is played over and over, and what it has seen so far.
 struct Player {
     scene: Scene,
@@ -53,7 +56,7 @@ struct Case {
     /// League and team sizes.
     teams: &'static str,
     scene: Scene,
-    /// Contacts in an episode, at least and at most.
+    /// Contacts in the first steps, at least and at most.
     contacts: std::ops::RangeInclusive<usize>,
 }
 
@@ -101,7 +104,7 @@ fn named(driver: &Driver, random: usize, crowd: usize) -> (&'static str, usize) 
 
 fn step(criterion: &mut Criterion) {
     for Case { teams, scene, contacts } in cases() {
-        let (_, seen) = scene.play(&mut scene.world(), EPISODE);
+        let (_, seen) = scene.play(&mut scene.world(), WATCHED);
         assert!(contacts.contains(&seen), "{teams} {}: {seen} contacts", scene.name);
         let mut group = criterion.benchmark_group(format!("{teams}_step"));
         for (worlds, threads) in [(1, 1), (256, 1), (256, 2)] {

@@ -16,7 +16,7 @@ impl Engine {
         let mut engine = Self {
             parameters: parameters(config.tick),
             islands: IslandManager::new(),
-            broad_phase: BroadPhaseBvh::new(),
+            broad_phase: BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None),
             narrow_phase: NarrowPhase::new(),
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),

@@ -77,7 +77,7 @@ pub(crate) struct Engine {
     inverses: Vec<Inverse>,
     /// Which bodies are elsewhere than the solver has them.
     moved: Vec<bool>,
-    /// Whether the solver's last tick left nothing in contact.
+    /// Whether nothing pressed on anything in the solver's last tick.
     clear: bool,
     /// Whether ticks in which nothing can touch go without the solver.
     skips: bool,
@@ -260,7 +260,7 @@ impl Engine {
                 spin: body.angvel(),
             };
         }
-        self.clear = self.contacts() == 0;
+        self.clear = self.narrow_phase.contact_pairs().all(|pair| pressed(pair).is_none());
     }
 
     /// What pressed on the ball in the last tick.

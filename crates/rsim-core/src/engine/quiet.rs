@@ -1,7 +1,8 @@
 //! Ticks in which nothing can touch: bodies coast, and the solver rests.
 //!
 //! Coasting computes what the solver would, in its own sub-steps. Whether it is allowed is decided on
-//! the safe side: bodies count as the circles around them, grown by all that they may move.
+//! the safe side, first by circles grown by all that they may move, then, where those meet, by a line
+//! that keeps the two bodies apart for the whole tick.
 
 use rapier2d::math::Vector;
 
@@ -10,12 +11,17 @@ use crate::Field;
 use crate::arena::Wall;
 use crate::outline::Outline;
 use crate::physique::Physique;
+use crate::robot_model::Body;
 
-/// Farther apart than this nothing is looked at by the solver, m: twice its own prediction.
-const MARGIN: f32 = 0.004;
+/// Bodies that stay farther apart than this do not touch, m: the solver's own prediction, and a tenth.
+/// Nearer ones do to the solver: it has them bounce in the tick before they meet.
+const MARGIN: f32 = 0.002_2;
 
 /// Sub-steps of the solver in a tick.
 pub(super) const SUB_STEPS: u8 = 4;
+
+/// More bodies than the leagues allow: then every tick is solved.
+const MOST: usize = 32;
 
 /// The part of a field that is free of walls, and the walls around it.
 #[derive(Debug, Clone)]
@@ -36,61 +42,119 @@ impl Room {
         }
     }
 
-    /// Whether a circle may touch a wall.
-    fn is_near(&self, center: Vector, reach: f32) -> bool {
-        let beyond = center.abs() + Vector::splat(reach);
+    /// Whether a body may touch a wall.
+    fn may_touch(&self, body: &Moving) -> bool {
+        let beyond = body.center.abs() + Vector::splat(body.reach);
         if beyond.x < self.free.x && beyond.y < self.free.y {
             return false;
         }
         self.walls.iter().any(|(outline, wall)| {
             let (at, facing) = (wall.pose.translation, wall.pose.rotation);
-            outline.nearest_at(at, facing, center).distance < reach
+            let nearest = outline.nearest_at(at, facing, body.center);
+            // A wall is convex: all of it lies behind the line through its nearest point.
+            nearest.distance < body.reach
+                && nearest.distance + body.way.dot(nearest.normal).min(0.0)
+                    < body.extent(nearest.normal) + body.slack
         })
     }
 }
 
-/// A body as the circle that it can be in during a tick.
+/// A body during a tick, on the safe side.
 #[derive(Clone, Copy)]
-struct Circle {
+struct Moving {
     center: Vector,
+    /// Where its centre goes, m.
+    way: Vector,
+    /// Half the side of a square along its heading and across; none of a disc.
+    side: Option<Vector>,
+    /// Of the circle around it, m.
     radius: f32,
+    /// How far any point of it strays from that way, m, and half the margin.
+    slack: f32,
+    /// Of the circle that it stays in.
+    reach: f32,
+}
+
+impl Moving {
+    const NOTHING: Self = Self {
+        center: Vector::ZERO,
+        way: Vector::ZERO,
+        side: None,
+        radius: 0.0,
+        slack: 0.0,
+        reach: 0.0,
+    };
+
+    /// From the centre to the farthest point in a direction, at the start of the tick.
+    fn extent(&self, direction: Vector) -> f32 {
+        self.side.map_or(self.radius, |side| {
+            side.dot(direction).abs() + side.perp_dot(direction).abs()
+        })
+    }
+
+    /// Whether the two may touch.
+    fn may_touch(&self, other: &Self) -> bool {
+        let apart = other.center - self.center;
+        let reach = self.reach + other.reach;
+        if apart.length_squared() >= reach * reach {
+            return false;
+        }
+        let way = other.way - self.way;
+        let slack = self.slack + other.slack;
+        let is_between = |direction: Vector| {
+            let gap = apart.dot(direction);
+            let least = gap.abs() + (way.dot(direction) * 1.0_f32.copysign(gap)).min(0.0);
+            least > self.extent(direction) + other.extent(direction) + slack
+        };
+        let lines = [Some(apart), self.side, other.side];
+        !lines.into_iter().flatten().any(|line| {
+            let direction = line.normalize_or_zero();
+            is_between(direction) || is_between(direction.perp())
+        })
+    }
 }
 
 impl Engine {
     /// Whether nothing can touch anything in the coming tick.
     pub(super) fn is_quiet(&self, ball: &BallHooks, room: &Room) -> bool {
-        // More robots than the leagues allow: then every tick is solved.
-        let mut circles = [Circle { center: Vector::ZERO, radius: 0.0 }; 32];
+        let mut bodies = [Moving::NOTHING; MOST];
         let robots = ball.physique.robots.len();
-        if robots >= circles.len() {
+        if robots >= MOST {
             return false;
         }
         // A ball in the air touches others elsewhere.
         let first = if ball.flies { robot(0) } else { BALL };
-        for (count, body) in (first..=robots).enumerate() {
-            let circle = self.circle(body, ball.physique);
-            let meets = |other: &Circle| {
-                let apart = circle.radius + other.radius;
-                (circle.center - other.center).length_squared() < apart * apart
-            };
-            if circles[..count].iter().any(meets) || room.is_near(circle.center, circle.radius) {
+        for (count, index) in (first..=robots).enumerate() {
+            let body = self.moving(index, ball.physique);
+            if bodies[..count].iter().any(|other| body.may_touch(other)) || room.may_touch(&body) {
                 return false;
             }
-            circles[count] = circle;
+            bodies[count] = body;
         }
         true
     }
 
-    fn circle(&self, body: usize, physique: &Physique) -> Circle {
-        let (motion, push) = (&self.motions[body], &self.pushes[body]);
-        let radius = match body {
-            BALL => physique.ball.radius,
-            _ => physique.robots[body - 1].model.bounding_radius(),
+    fn moving(&self, body: usize, physique: &Physique) -> Moving {
+        let (motion, push, inverse) =
+            (&self.motions[body], &self.pushes[body], &self.inverses[body]);
+        let (radius, side) = match body {
+            BALL => (physique.ball.radius, None),
+            _ => {
+                let model = &physique.robots[body - 1].model;
+                let side = match model.body {
+                    Body::Square { side } => Some(motion.heading * (side / 2.0)),
+                    Body::Round { .. } => None,
+                };
+                (model.bounding_radius(), side)
+            }
         };
         let tick = self.parameters.dt;
-        let faster = push.force.length() * self.inverses[body].mass * tick;
-        let moves = (motion.velocity.length() + faster) * tick;
-        Circle { center: motion.position, radius: radius + moves + MARGIN / 2.0 }
+        let way = motion.velocity * tick;
+        let pushed = push.force.length() * inverse.mass * tick * tick;
+        let turned = (motion.spin.abs() + push.torque.abs() * inverse.inertia * tick) * tick;
+        let swings = if side.is_some() { turned * radius } else { 0.0 };
+        let slack = pushed + swings + MARGIN / 2.0;
+        Moving { center: motion.position, way, side, radius, slack, reach: radius + way.length() + slack }
     }
 
     /// A tick without contacts.
