@@ -113,21 +113,22 @@ def test_the_clock_goes_by_gymnasiums_word_too() -> None:
         assert ends == [False, True]
 
 
+@pytest.mark.parametrize("name", LONE)
 @pytest.mark.parametrize("context", ["fork", "spawn"])
-def test_workers_play_what_one_process_does(context: str) -> None:
+def test_workers_play_what_one_process_does(name: str, context: str) -> None:
     """Like any program that spawns, a script needs `if __name__ == "__main__":` around this."""
     with warnings.catch_warnings():
         # From 3.12 on Python warns of forks in general; tests/test_fork.py shows ours to be safe.
         warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
         workers = gymnasium.make_vec(
-            "rsoccer/VSS-v0", N, "async", vector_kwargs={"context": context}, max_steps=9
+            f"rsoccer/{name}", N, "async", vector_kwargs={"context": context}, max_steps=9
         )
-    envs = gymnasium.make_vec("rsoccer/VSS-v0", N, max_steps=9, threads=2)
+    envs = gymnasium.make_vec(f"rsoccer/{name}", N, max_steps=9, threads=2)
     try:
         assert plain(workers.reset(seed=3)) == plain(envs.reset(seed=3))
         rng = np.random.default_rng(0)
         for _ in range(12):
-            actions = rng.uniform(-1.0, 1.0, (N, 2)).astype(np.float32)
+            actions = rng.uniform(-1.0, 1.0, envs.action_space.shape or ()).astype(np.float32)
             assert plain(workers.step(actions)) == plain(envs.step(actions))
     finally:
         workers.close()

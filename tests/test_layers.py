@@ -15,7 +15,7 @@ LAYERS = [
     {"_core"},
     {"files", "frame", "markers"},
     {"rng", "state", "view", "entities"},
-    {"checks"},
+    {"checks", "play"},
     {"task", "outcome", "simulator", "compat"},
     {"spaces", "ids"},
     {"by_agent", "registry", "spawn", "rewards", "policies"},

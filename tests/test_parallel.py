@@ -1,6 +1,5 @@
 import importlib
 import warnings
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -33,15 +32,6 @@ def test_pettingzoo_accepts_the_turn_by_turn_env(name: str) -> None:
     official.api_test(env(name, max_cycles=30), num_cycles=100)
     official.seed_test(lambda: env(name), num_cycles=100)
     official.state_test(env(name), parallel_env(name))
-
-
-def test_episodes_last_exactly_max_cycles() -> None:
-    official.max_cycles_test(
-        SimpleNamespace(
-            parallel_env=lambda max_cycles: parallel_env(SELF_PLAY, max_cycles=max_cycles),
-            env=lambda max_cycles: env(SELF_PLAY, max_cycles=max_cycles),
-        )
-    )
 
 
 # -- What is returned -------------------------------------------------------------------------
@@ -180,9 +170,3 @@ def test_without_a_mode_nothing_is_drawn() -> None:
     match.reset()
     with pytest.warns(UserWarning, match="rgb_array"):
         assert match.render() is None
-
-
-def test_pettingzoo_accepts_what_is_rendered(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("pygame")
-    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
-    official.render_test(lambda render_mode: env(SELF_PLAY, render_mode=render_mode))

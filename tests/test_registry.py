@@ -12,7 +12,8 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 @pytest.fixture(autouse=True)
 def as_before(monkeypatch: pytest.MonkeyPatch) -> None:
     """Names that a test registers are gone after it."""
-    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    for names in ("_TASKS", "_ALIASES", "_GONE"):
+        monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
 
 
 def test_every_task_of_the_package_is_registered() -> None:
@@ -72,6 +73,45 @@ def test_a_task_need_not_be_a_dataclass() -> None:
 def test_a_name_belongs_to_one_task() -> None:
     with pytest.raises(ValueError, match="already taken by VssMulti"):
         rsoccer.register("VSSMulti-v0", VssSelfPlay)
+
+
+def test_a_task_may_have_other_names_with_options_of_their_own() -> None:
+    registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)
+    registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)  # as a module loaded twice
+    assert rsoccer.make_task("Duel-v0") == VssSelfPlay(n_blue=1, n_yellow=1)
+    assert registry.list_aliases()["Duel-v0"] == ("VSSSelfPlay-v0", {"n_blue": 1, "n_yellow": 1})
+    assert "Duel-v0" not in rsoccer.list_tasks()
+
+
+@pytest.mark.parametrize(
+    ("name", "task", "options", "message"),
+    [
+        ("VSS-v0", "VSSMulti-v0", {}, "'VSS-v0' is already taken"),
+        ("VSSMA-v0", "VSSSelfPlay-v0", {}, "'VSSMA-v0' is already taken"),
+        ("Duel", "VSSSelfPlay-v0", {}, "expected letters and a version"),
+        ("Duel-v0", "Chess-v0", {}, "unknown task 'Chess-v0'"),
+        ("Duel-v0", "VSSSelfPlay-v0", {"robots": 1}, "unknown option robots"),
+        ("Duel-v0", "VSSSelfPlay-v0", {"n_blue": 0}, "n_blue: expected at least 1"),
+    ],
+)
+def test_a_name_that_can_mean_nothing_is_refused(
+    name: str, task: str, options: dict[str, int], message: str
+) -> None:
+    before = registry.list_aliases()
+    with pytest.raises(ValueError, match=message):
+        registry.alias(name, task, **options)
+    assert registry.list_aliases() == before
+
+
+def test_a_task_cannot_take_a_name_that_stands_for_another() -> None:
+    with pytest.raises(ValueError, match="'VSSMA-v0' is already taken, for VSSMulti-v0"):
+        rsoccer.register("VSSMA-v0", VssSelfPlay)
+
+
+def test_who_asks_for_a_task_that_is_gone_is_told_what_to_do() -> None:
+    registry.retire("Chess-v0", "take VSS-v0")
+    with pytest.raises(ValueError, match="unknown task 'Chess-v0': take VSS-v0"):
+        rsoccer.make_task("Chess-v0")
 
 
 @pytest.mark.parametrize("name", ["", "Mine", "Mine-v", "-v0", "My Task-v0", "9-v0"])

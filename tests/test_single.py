@@ -1,8 +1,6 @@
 """Gymnasium's Env: what it returns, who learns, and what is shown."""
 
-import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import gymnasium
@@ -16,6 +14,7 @@ from rsoccer.single import SoccerEnv, single_env
 from rsoccer.task import LEARN
 from tests.lone_learner import DISCRETE, LONE, TASKS, draw, hurried, lone, plain
 from tests.one_match import SELF_PLAY, shot_at
+from tests.stand_ins import assert_filmed, moviepy
 
 # -- Gymnasium's own checks -------------------------------------------------------------------
 
@@ -152,30 +151,20 @@ def test_without_a_mode_nothing_is_drawn() -> None:
     assert warned[0].filename == __file__, "the warning does not point at who called"
 
 
-def test_gymnasium_records_videos(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its RecordVideo hands frames to MoviePy; here a stand-in takes them."""
+@pytest.mark.parametrize("name", LONE)
+def test_gymnasium_records_videos(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pytest.importorskip("pygame")
-    clips: list[tuple[list[Any], int, str]] = []
-
-    class ImageSequenceClip:
-        def __init__(self, frames: list[Any], fps: int) -> None:
-            self.frames, self.fps = frames, fps
-
-        def write_videofile(self, path: str, logger: None) -> None:
-            clips.append((list(self.frames), self.fps, Path(path).name))
-
-    module = ModuleType("moviepy.video.io.ImageSequenceClip")
-    vars(module)["ImageSequenceClip"] = ImageSequenceClip
-    for package in ("moviepy", "moviepy.video", "moviepy.video.io"):
-        monkeypatch.setitem(sys.modules, package, ModuleType(package))
-    monkeypatch.setitem(sys.modules, module.__name__, module)
-    env = gymnasium.make("rsoccer/VSS-v0", render_mode="rgb_array", max_steps=5)
+    clips = moviepy(monkeypatch)
+    env = gymnasium.make(f"rsoccer/{name}", render_mode="rgb_array", max_steps=3)
     film = gymnasium.wrappers.RecordVideo(env, str(tmp_path / "films"), episode_trigger=bool)
     for seed in range(2):
         film.reset(seed=seed)
-        for _ in range(5):
-            film.step(film.action_space.sample())
+        film.action_space.seed(seed)
+        steps, ended = 0, False
+        while not ended:
+            _, _, terminated, truncated, _ = film.step(film.action_space.sample())
+            steps, ended = steps + 1, bool(terminated or truncated)
     film.close()  # type: ignore[no-untyped-call]
-    [(frames, fps, name)] = clips
-    assert (len(frames), fps, name) == (6, 40, "rl-video-episode-1.mp4")
-    assert len({frame.tobytes() for frame in frames}) == 6
+    assert_filmed(clips, 1 + steps)

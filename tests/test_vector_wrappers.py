@@ -10,51 +10,62 @@ from gymnasium.wrappers import vector as wrappers
 
 from rsoccer.single import single_env
 from rsoccer.vector import vector_env
-from tests.lone_learner import plain
+from tests.lone_learner import TASKS, lone, plain
 
 N = 3
 MODES = list(AutoresetMode)
-FOUR = np.full(2, 4.0, np.float32)
 
-Wrap = Callable[[VectorEnv[Any, Any, Any]], VectorEnv[Any, Any, Any]]
-
-
-def both(mode: AutoresetMode, wrap: Wrap) -> list[VectorEnv[Any, Any, Any]]:
-    theirs = SyncVectorEnv([lambda: single_env("VSS-v0", max_steps=7)] * N, autoreset_mode=mode)
-    return [wrap(vector_env("VSS-v0", N, max_steps=7, autoreset_mode=mode)), wrap(theirs)]
+Envs = VectorEnv[Any, Any, Any]
+Wrap = Callable[[Envs], Envs]
 
 
-def played(envs: VectorEnv[Any, Any, Any], mode: AutoresetMode, high: float = 1.0) -> list[Any]:
-    """All that some episodes return but for the time they took; asks for all ends at once."""
+def both(name: str, mode: AutoresetMode, wrap: Wrap) -> list[Envs]:
+    settings: dict[str, Any] = {"max_steps": 7, **lone(name)}
+    theirs = SyncVectorEnv([lambda: single_env(name, **settings)] * N, autoreset_mode=mode)
+    return [wrap(vector_env(name, N, autoreset_mode=mode, **settings)), wrap(theirs)]
+
+
+def rescaled(envs: Envs) -> Envs:
+    four = np.full(envs.single_action_space.shape or (), 4.0, np.float32)
+    return wrappers.RescaleAction(envs, -four, four)
+
+
+def played(envs: Envs, mode: AutoresetMode, high: float = 1.0) -> list[Any]:
+    """All that some episodes return but for the time they took; begins all anew at once."""
     rng = np.random.default_rng(0)
     transcript = [plain(envs.reset(seed=3))]
     for _ in range(24):
-        *arrays, infos = envs.step(rng.uniform(-high, high, (N, 2)).astype(np.float32))
+        actions = rng.uniform(-high, high, envs.action_space.shape or ())
+        *arrays, infos = envs.step(actions.astype(np.float32))
         infos.get("episode", {}).pop("t", None)
         transcript.append(plain([*arrays, infos]))
-        if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).all():
+        if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).any():
             transcript.append(plain(envs.reset()))
     return transcript
 
 
+@pytest.mark.parametrize("name", TASKS)
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
 @pytest.mark.parametrize(
     ("wrap", "high"),
     [
         (wrappers.RecordEpisodeStatistics, 1.0),
         (wrappers.NormalizeReward, 1.0),
-        (lambda envs: wrappers.RescaleAction(envs, -FOUR, FOUR), 4.0),
+        (rescaled, 4.0),
     ],
     ids=["RecordEpisodeStatistics", "NormalizeReward", "RescaleAction"],
 )
-def test_wrappers_work_in_every_mode(mode: AutoresetMode, wrap: Wrap, high: float) -> None:
-    ours, theirs = both(mode, wrap)
+def test_wrappers_work_in_every_mode(
+    name: str, mode: AutoresetMode, wrap: Wrap, high: float
+) -> None:
+    ours, theirs = both(name, mode, wrap)
     assert played(ours, mode, high) == played(theirs, mode, high)
 
 
-def test_observations_can_be_normalized() -> None:
-    ours, theirs = both(AutoresetMode.NEXT_STEP, wrappers.NormalizeObservation)
-    mode = AutoresetMode.NEXT_STEP
+@pytest.mark.parametrize("name", TASKS)
+def test_observations_can_be_normalized(name: str) -> None:
+    mode = AutoresetMode.NEXT_STEP  # the wrapper refuses the others
+    ours, theirs = both(name, mode, wrappers.NormalizeObservation)
     assert played(ours, mode) == played(theirs, mode)
 
 

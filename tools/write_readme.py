@@ -1,6 +1,6 @@
-"""Writes the parts of README.md that code or measurements know better: `make docs`.
+"""Writes the parts of the pages that code or measurements know better: `make docs`.
 
-A test compares the README with what this would write, so a table cannot drift from the code.
+A test compares the pages with what this would write, so a table cannot drift from the code.
 """
 
 import argparse
@@ -10,14 +10,19 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import gymnasium
+import pettingzoo
+
 import rsoccer
 from benches.table import ROOT, Figure, Machine, load
 from rsoccer import policies
 from rsoccer.registry import list_options
+from rsoccer.tasks import old_names as old
 from tools.parts import filled, table
 from tools.task_pictures import path_of
 
 README = ROOT / "README.md"
+PAGES = (README, ROOT / "docs" / "robosim.md")
 RESULTS = ROOT / "benches" / "results"
 DEMO = RESULTS / "demo.json"
 PICTURES = {
@@ -42,19 +47,21 @@ FIGURES = {
 
 
 def main() -> None:
-    """Write README.md again; with `--check`, only say whether that would change it."""
+    """Write the pages again; with `--check`, only say whether that would change any."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--check", action="store_true", help="change nothing; 1 if it is stale")
-    text = README.read_text()
-    if not parser.parse_args().check:
-        README.write_text(written(text))
-    elif written(text) != text:
-        sys.exit("README.md is stale: run `make docs`")
+    parser.add_argument("--check", action="store_true", help="change nothing; 1 if one is stale")
+    check = parser.parse_args().check
+    for page in PAGES:
+        text = page.read_text()
+        if not check:
+            page.write_text(written(text, page.name))
+        elif written(text, page.name) != text:
+            sys.exit(f"{page.name} is stale: run `make docs`")
 
 
-def written(readme: str) -> str:
-    """The README with every part as it should be now; ValueError for a part nobody writes."""
-    return filled(readme, PARTS, README.name)
+def written(text: str, name: str = README.name) -> str:
+    """A page with every part as it should be now; ValueError for a part nobody writes."""
+    return filled(text, PARTS, name)
 
 
 def tasks() -> str:
@@ -89,7 +96,9 @@ def _task_row(name: str) -> tuple[str, ...]:
 
 def policy_names() -> str:
     """The policies that come with the package, as a sentence."""
-    return ", ".join(f"`{name}`" for name in policies.names()) + ", or the path of a policy file."
+    names = ", ".join(f"`{name}`" for name in policies.names())
+    skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
+    return f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}."
 
 
 def speed() -> str:
@@ -161,6 +170,22 @@ def options() -> str:
     return table(("task", "options"), rows)
 
 
+def old_names() -> str:
+    """rsoccer-gym's names of environments, and what they are here."""
+    rows = [(f"`{name}`", f"`{name}`", _doors(name)) for name in old.KEPT]
+    for name, (task, given) in old.ALIASES.items():
+        told = [f"`{option}={value!r}`" for option, value in given.items()]
+        rows.append((f"`{name}`", ", ".join([f"`{task}`", *told]), _doors(name)))
+    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in old.GONE.items()]
+    return table(("rsoccer-gym 1.4", "here", "through"), rows)
+
+
+def _doors(name: str) -> str:
+    """The libraries that know a name."""
+    known = {"Gymnasium": [*gymnasium.registry], "PettingZoo": [*pettingzoo.parallel_registry]}
+    return ", ".join(library for library in known if f"rsoccer/{name}" in known[library])
+
+
 def hello() -> str:
     """The first example."""
     return python_block((ROOT / "examples" / "01_hello.py").read_text())
@@ -186,6 +211,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "demo": demo,
     "hello": hello,
     "new_task": new_task,
+    "old_names": old_names,
     "options": options,
     "pictures": pictures,
     "policies": policy_names,

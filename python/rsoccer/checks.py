@@ -17,6 +17,13 @@ def whole(name: str, value: object, least: int) -> int:
     return int(value)
 
 
+def within(name: str, value: object, least: int, most: int) -> int:
+    """An integer from `least` to `most`."""
+    if (number := whole(name, value, least)) > most:
+        raise ValueError(f"{name}: expected at most {most}, got {number}")
+    return number
+
+
 def seeds(value: object, n: int) -> list[int | None] | None:
     """A seed for each of n worlds, None where its streams shall go on; None if all shall.
 

@@ -31,7 +31,12 @@ class List:
             task = registry.make_task(name)
             _write(f"{name}: {_summary(task)}")
             _write("\n".join(f"    {option}" for option in _options(task)) + "\n")
+        for name, (task_name, options) in registry.list_aliases().items():
+            told = [f"{option}={value!r}" for option, value in options.items()]
+            _write(f"{name}: {', '.join([task_name, *told])}")
         _write(f"policies: {', '.join(policies.names())}, or the path of a policy file")
+        skilled = (f"{name}:0.5" for name in policies.names_with_skill())
+        _write(f"a skill from 0 to 1 may follow, as in {', '.join(skilled)}")
 
 
 @dataclass(frozen=True)
@@ -153,6 +158,8 @@ def _options(task: Task) -> list[str]:
 
 def _team_name(player: str) -> str:
     """What stands on the score board."""
+    if player.partition(":")[0] in policies.names():
+        return player.upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()
 

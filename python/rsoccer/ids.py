@@ -1,19 +1,21 @@
 """The tasks' ids in Gymnasium's and PettingZoo's registries: `rsoccer/VSS-v0`."""
 
+from collections.abc import Callable
+
 import gymnasium
 import pettingzoo
 
 from rsoccer.task import Task
 
 
-def announce(name: str, task_class: type[Task]) -> None:
+def announce(name: str, make: Callable[[], Task]) -> None:
     """Let Gymnasium make a task with one learner, and PettingZoo one with any, by its id.
 
     Entry points are names, so that nothing is imported before somebody asks.
     """
     ident = f"rsoccer/{name}"
     try:
-        learners = len(task_class().agents)
+        learners = len(make().agents)
     except (TypeError, ValueError):
         return  # there is no such task unless options say which
     if learners == 1:

@@ -25,12 +25,11 @@ from rsoccer.frame import Floats
 from rsoccer.registry import make_task
 from rsoccer.spaces import ActionSpace
 from rsoccer.stage import (
-    RENDER_MODES,
     Image,
     Screen,
     StageMatches,
     facts,
-    frames_per_second,
+    metadata,
     reset_options,
     starts,
     timed,
@@ -100,12 +99,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         self.possible_agents = list(self._matches.agents)
         if not self.possible_agents:
             raise ValueError("controllers: at least one robot must learn; Matches does without")
-        self.metadata = {
-            "name": task.name,
-            "render_modes": list(RENDER_MODES),
-            "render_fps": frames_per_second(task),
-            "is_parallelizable": True,
-        }
+        self.metadata = metadata(task) | {"is_parallelizable": True}
         # A space for each agent: seeding one agent's samples must not seed another's.
         agents = self.possible_agents
         self._observation_spaces = {agent: spaces.observation_space(task) for agent in agents}

@@ -2,12 +2,24 @@
 
 import inspect
 import re
-from typing import Any, Final
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, Final, NamedTuple
 
 from rsoccer import ids
 from rsoccer.task import Task
 
+
+class Alias(NamedTuple):
+    """Another name's meaning: a registered task, with options."""
+
+    task: str
+    options: Mapping[str, Any]
+
+
 _TASKS: Final[dict[str, type[Task]]] = {}
+_ALIASES: Final[dict[str, Alias]] = {}
+_GONE: Final[dict[str, str]] = {}
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 
 
@@ -16,26 +28,54 @@ def register(name: str, task_class: type[Task]) -> None:
 
     Gymnasium and PettingZoo know it as "rsoccer/MyTask-v0", the former where one robot learns.
     """
-    if not _NAME.fullmatch(name):
-        raise ValueError(f"name: expected letters and a version, like 'MyTask-v0', got {name!r}")
+    _check_name(name)
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
         raise TypeError(f"task_class: expected a subclass of Task, got {task_class!r}")
     if _TASKS.get(name, task_class) is not task_class:
         raise ValueError(f"name: {name!r} is already taken by {_TASKS[name].__qualname__}")
+    if name in _ALIASES:
+        raise ValueError(f"name: {name!r} is already taken, for {_ALIASES[name].task}")
     task_class.name = name
     _TASKS[name] = task_class
     ids.announce(name, task_class)
 
 
+def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the task's own)
+    """Make a registered task with these options known by another name as well.
+
+    It has ids too, and takes the task's options; what it makes carries the task's own name.
+    """
+    _check_name(name)
+    if name in _TASKS or _ALIASES.get(name, (task, options)) != (task, options):
+        raise ValueError(f"name: {name!r} is already taken")
+    make_task(task, **options)  # refuses what cannot be made
+    _ALIASES[name] = Alias(task, options)
+    ids.announce(name, partial(make_task, name))
+
+
+def retire(name: str, hint: str) -> None:
+    """Tell those who ask for `name`, which no task has any more, what to do instead."""
+    _GONE[name] = hint
+
+
 def list_tasks() -> list[str]:
-    """Names of all tasks."""
+    """Names of all tasks, each once: without aliases."""
     return sorted(_TASKS)
+
+
+def list_aliases() -> dict[str, Alias]:
+    """Other names, and the tasks and options that they stand for."""
+    return dict(sorted(_ALIASES.items()))
 
 
 def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task has its own options)
     """A task by its name; options are the fields of its class, or what it is made with."""
+    if name in _ALIASES:
+        name, preset = _ALIASES[name]
+        options = {**preset, **options}
     if name not in _TASKS:
-        raise ValueError(f"unknown task {name!r}: expected one of {list_tasks()}")
+        hint = _GONE.get(name, f"expected one of {list_tasks()}")
+        raise ValueError(f"unknown task {name!r}: {hint}")
     task_class = _TASKS[name]
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
@@ -47,3 +87,8 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
 def list_options(task_class: type[Task]) -> list[str]:
     """Names of the options that a task's class takes."""
     return list(inspect.signature(task_class).parameters)
+
+
+def _check_name(name: str) -> None:
+    if not _NAME.fullmatch(name):
+        raise ValueError(f"name: expected letters and a version, like 'MyTask-v0', got {name!r}")

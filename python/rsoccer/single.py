@@ -26,12 +26,13 @@ from rsoccer.frame import Array, Floats
 from rsoccer.stage import (
     RENDER_MODES,
     Image,
+    OneSeat,
     Screen,
     StageMatches,
     actions_of,
     chosen_task,
     facts,
-    frames_per_second,
+    metadata,
     one_learner,
     reset_options,
     starts,
@@ -64,7 +65,7 @@ def single_env(
 single_env.metadata = {"render_modes": list(RENDER_MODES)}  # type: ignore[attr-defined]
 
 
-class SoccerEnv(gymnasium.Env[Floats, Any]):
+class SoccerEnv(OneSeat, gymnasium.Env[Floats, Any]):
     """One match of a task, seen and played by one robot.
 
     Infos are empty but for that of the last step of an episode, which holds the task's metrics
@@ -83,11 +84,7 @@ class SoccerEnv(gymnasium.Env[Floats, Any]):
         """A match that `reset` will begin; `render_mode` is "human", "rgb_array" or None."""
         self._screen = Screen(render_mode, task)
         self.render_mode = render_mode
-        self.metadata = {
-            "name": task.name,
-            "render_modes": list(RENDER_MODES),
-            "render_fps": frames_per_second(task),
-        }
+        self.metadata = metadata(task)
         self._matches = StageMatches(
             task,
             1,
@@ -97,16 +94,6 @@ class SoccerEnv(gymnasium.Env[Floats, Any]):
         )
         self.observation_space = spaces.observation_space(task)
         self.action_space = spaces.action_space(task)
-
-    @property
-    def task(self) -> Task:
-        """The task that is played."""
-        return self._matches.task
-
-    @property
-    def learner(self) -> str:
-        """The robot that learns."""
-        return str(self._matches.agents[0])
 
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None

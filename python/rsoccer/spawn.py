@@ -5,14 +5,25 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer._core import BallModel, Field
-from rsoccer.frame import BallColumns, Floats, Mask
+from rsoccer._core import BallModel, Field, SimConfig
+from rsoccer.frame import BallColumns, Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 
 TRIES: Final = 1000
 Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]
 
 MARGIN: Final = 1e-3  # metres; what float32 and the simulator may see differently
+
+
+def anywhere(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame:
+    """Ball and robots at rest anywhere in the field, apart; robots face anywhere."""
+    frame = Frame.empty(len(rng), config.n_blue, config.n_yellow)
+    radii = [config.ball.radius] + [config.robot.bounding_radius] * config.n_robots
+    places = apart(rng, config.field, radii, min_distance)
+    frame.ball.position[:] = places[:, 0]
+    frame.robots.position[:] = places[:, 1:]
+    frame.robots.heading[:] = headings(rng, config.n_robots)
+    return frame
 
 
 def apart(rng: WorldRng, field: Field, radii: Sequence[float], min_distance: float = 0.0) -> Floats:

@@ -115,6 +115,31 @@ class Screen:
         return {**self.__dict__, "_window": None}
 
 
+class OneSeat:
+    """What both of Gymnasium's environments tell of who plays what."""
+
+    _matches: StageMatches
+
+    @property
+    def task(self) -> Task:
+        """The task that is played."""
+        return self._matches.task
+
+    @property
+    def learner(self) -> str:
+        """The robot that learns."""
+        return str(self._matches.agents[0])
+
+
+def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:
+    """What environments of all libraries tell of themselves."""
+    return {
+        "name": task.name,
+        "render_modes": list(modes),
+        "render_fps": frames_per_second(task),
+    }
+
+
 def frames_per_second(task: Task) -> int:
     """Steps in a second of the match."""
     return round(1.0 / task.config.time_step)

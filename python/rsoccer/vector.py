@@ -26,11 +26,12 @@ from rsoccer.frame import Array, Floats, Mask
 from rsoccer.outcome import Outcome
 from rsoccer.stage import (
     Image,
+    OneSeat,
     Screen,
     StageMatches,
     actions_of,
     chosen_task,
-    frames_per_second,
+    metadata,
     one_learner,
     reset_options,
     starts,
@@ -73,7 +74,7 @@ def vector_env(
     )
 
 
-class SoccerVectorEnv(VectorEnv[Floats, Array, Array]):
+class SoccerVectorEnv(OneSeat, VectorEnv[Floats, Array, Array]):
     """n matches of a task, each seen and played by one robot.
 
     Match i seeded `seed + i` equals a `SoccerEnv` with that seed, bit for bit. Rewards are float64
@@ -96,12 +97,7 @@ class SoccerVectorEnv(VectorEnv[Floats, Array, Array]):
         self._screen = Screen(render_mode, task, RENDER_MODES)
         self.render_mode = render_mode
         self.autoreset_mode = _mode(autoreset_mode)
-        self.metadata = {
-            "name": task.name,
-            "render_modes": list(RENDER_MODES),
-            "render_fps": frames_per_second(task),
-            "autoreset_mode": self.autoreset_mode,
-        }
+        self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
         self._matches = StageMatches(
             task,
             num_envs,
@@ -115,16 +111,6 @@ class SoccerVectorEnv(VectorEnv[Floats, Array, Array]):
         self.single_action_space = spaces.action_space(task)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-
-    @property
-    def task(self) -> Task:
-        """The task that is played."""
-        return self._matches.task
-
-    @property
-    def learner(self) -> str:
-        """The robot that learns."""
-        return str(self._matches.agents[0])
 
     def reset(
         self,

@@ -35,6 +35,20 @@ def test_the_ball_through_the_first_gate_counts() -> None:
     assert matches.frame.ball.position[0, 1] < 0.0
 
 
+def test_the_last_gate_ends_it() -> None:
+    first, last, way = TASK.course.gates[-1]
+    matches = Matches(TASK, 1, autoreset="disabled")
+    matches.reset(rows=rolling((first + last) / 2, way).rows)
+    matches.play.memory["passed"][:] = len(TASK.course.gates) - 1
+    for _ in range(12):
+        outcome = matches.step(np.array([[STAND]], np.float32))
+        if outcome.ended[0]:
+            break
+    assert outcome.terminated[0]
+    assert outcome.metrics["gates"][0] == 7.0
+    assert outcome.terms["failed"][0, 0] == 0.0
+
+
 def test_the_first_gate_the_wrong_way_ends_it() -> None:
     outcome, _ = run(TASK, rolling(-0.75, 1.0))
     assert outcome.terminated[0]

@@ -2,18 +2,23 @@ import numpy as np
 import pytest
 
 from rsoccer.rng import WorldRng
-from rsoccer.tasks import SslStaticDefenders
+from rsoccer.tasks import SslContestedPossession, SslStaticDefenders
+from rsoccer.tasks.ssl_attack import SslAttack
 from tests.tasks.ssl_scenes import STAND, expect_solved, play, run, scene
 
 TASK = SslStaticDefenders()
+
+# Both challenges end so.
+attacks = pytest.mark.parametrize("task", [TASK, SslContestedPossession()])
 
 
 def drive(x: float, y: float) -> tuple[float, ...]:
     return (x, y, 0.0, -1.0, -1.0)
 
 
-def test_a_goal_ends_it() -> None:
-    outcome, _ = run(TASK, scene(TASK, ball=(2.8, 0.1, 2.0, 0.0), blue_0=(1.0, 0.0)))
+@attacks
+def test_a_goal_ends_it(task: SslAttack) -> None:
+    outcome, _ = run(task, scene(task, ball=(2.8, 0.1, 2.0, 0.0), blue_0=(1.0, 0.0)))
     assert outcome.terminated[0]
     assert outcome.metrics["goal_score"][0] == 1.0
     assert outcome.terms["goal"][0, 0] == 10.0
@@ -29,8 +34,9 @@ def test_a_goal_ends_it() -> None:
         (2.9, 1.5, 1.5, 0.0),  # over the goal line
     ],
 )
-def test_the_ball_out_of_the_half_ends_it(ball: tuple[float, ...]) -> None:
-    outcome, _ = run(TASK, scene(TASK, ball=ball, blue_0=(1.0, 0.0)))
+@attacks
+def test_the_ball_out_of_the_half_ends_it(task: SslAttack, ball: tuple[float, ...]) -> None:
+    outcome, _ = run(task, scene(task, ball=ball, blue_0=(1.0, 0.0)))
     assert outcome.terminated[0]
     assert outcome.metrics["goal_score"][0] == 0.0
     assert outcome.terms["failed"][0, 0] == -1.0
@@ -47,12 +53,13 @@ def test_the_ball_out_of_the_half_ends_it(ball: tuple[float, ...]) -> None:
         ((2.5, -1.1), (0.0, 1.0)),  # and from beside
     ],
 )
+@attacks
 def test_the_robot_where_it_must_not_be_ends_it(
-    place: tuple[float, float], way: tuple[float, float]
+    task: SslAttack, place: tuple[float, float], way: tuple[float, float]
 ) -> None:
-    start = scene(TASK, ball=(1.0, 0.5), blue_0=place)
-    assert not run(TASK, start, STAND, 1)[0].ended[0]
-    outcome, _ = run(TASK, start, drive(*way), 20)
+    start = scene(task, ball=(1.0, 0.5), blue_0=place)
+    assert not run(task, start, STAND, 1)[0].ended[0]
+    outcome, _ = run(task, start, drive(*way), 20)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0, 0] == -1.0
 
@@ -98,6 +105,20 @@ def test_strike_solves_it() -> None:
 def test_strike_solves_every_official_scenario(scenario: int) -> None:
     task = SslStaticDefenders(scenario=scenario)
     assert play(task, "strike", worlds=1).metrics["goal_score"][0] == 1.0
+
+
+@pytest.mark.parametrize("foes", [0, 2, 6])
+def test_foes_are_as_many_as_asked(foes: int) -> None:
+    task = SslStaticDefenders(foes=foes)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 20))
+    assert frame.yellow.position.shape == (20, foes, 2)
+    assert SslStaticDefenders(foes=foes, scenario=1).n_yellow == 3
+
+
+@pytest.mark.parametrize("foes", [-1, 7])
+def test_too_many_foes_are_refused(foes: int) -> None:
+    with pytest.raises(ValueError, match="foes: expected at"):
+        SslStaticDefenders(foes=foes)
 
 
 @pytest.mark.parametrize("scenario", [0, 11])

@@ -6,7 +6,7 @@ import pytest
 import rsoccer
 from rsoccer import Matches
 from rsoccer.controllers import Controllers
-from rsoccer.frame import GOAL_RIGHT, Frame
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
 from rsoccer.tasks.vss import WEIGHTS, Vss
@@ -140,13 +140,16 @@ def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
     assert min(share.values()) > 0.0, share
 
 
-def test_a_goal_ends_the_match_and_tells_the_score() -> None:
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_a_goal_of_either_side_ends_the_match_and_tells_the_score(name: str, way: float) -> None:
     frame = Frame.empty(1, 3, 3)
-    frame.blue.position[:] = [[-0.5, 0.3], [-0.5, 0.0], [-0.5, -0.3]]
-    frame.yellow.position[:] = [[-0.2, 0.3], [-0.2, 0.0], [-0.2, -0.3]]
-    frame.ball.position[:] = [[0.6, 0.1]]
-    frame.ball.velocity[:] = [[1.2, 0.0]]
-    matches = Matches(VssSelfPlay(), 1, autoreset="disabled")
+    frame.blue.position[:] = [[-0.5, 0.45], [-0.4, 0.45], [-0.3, 0.45]]
+    frame.yellow.position[:] = [[0.3, 0.45], [0.4, 0.45], [0.5, 0.45]]
+    frame.ball.position[:] = [[0.6 * way, 0.1]]
+    frame.ball.velocity[:] = [[1.2 * way, 0.0]]
+    controllers: Controllers = {"all": rsoccer.LEARN}
+    matches = Matches(name, 1, controllers=controllers, autoreset="disabled")
     matches.reset(rows=frame.rows)
     for _ in range(30):
         outcome = matches.step(np.zeros((1, 6, 2), np.float32))
@@ -155,9 +158,9 @@ def test_a_goal_ends_the_match_and_tells_the_score() -> None:
         assert outcome.metrics["goal_score"][0] == 0.0
     assert outcome.terminated[0]
     assert not outcome.truncated[0]
-    assert outcome.metrics["goal_score"][0] == 1.0
-    assert matches.frame.ball.crossed[0] == GOAL_RIGHT
-    assert outcome.terms["goal"][0].tolist() == [10.0] * 3 + [-10.0] * 3
+    assert outcome.metrics["goal_score"][0] == way
+    assert matches.frame.ball.crossed[0] == (GOAL_RIGHT if way > 0 else GOAL_LEFT)
+    assert outcome.terms["goal"][0].tolist() == [10.0 * way] * 3 + [-10.0 * way] * 3
 
 
 def test_weights_are_data() -> None:

@@ -11,6 +11,7 @@ import pytest
 import rsoccer
 from rsoccer.parallel import SoccerParallelEnv, parallel_env
 from rsoccer.vector import SoccerVectorEnv
+from tests.one_match import TASKS
 
 wrappers = pytest.importorskip("ray.rllib.env.wrappers.pettingzoo_env")
 ppo = pytest.importorskip("ray.rllib.algorithms.ppo")
@@ -45,6 +46,18 @@ def test_a_match_is_wrapped_and_ends_for_all_at_once() -> None:
             assert terminated == dict.fromkeys(everyone, False)
             assert truncated == dict.fromkeys(everyone, ended)
             assert sorted(rewards) == sorted(match.possible_agents)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_task_is_wrapped(name: str) -> None:
+    env = wrappers.ParallelPettingZooEnv(parallel_env(name, max_cycles=MAX_CYCLES))
+    observations, _ = env.reset(seed=0)
+    ended = False
+    while not ended:
+        assert env.observation_space.contains(observations)
+        observations, _, terminated, truncated, _ = env.step(env.action_space.sample())
+        ended = terminated["__all__"] or truncated["__all__"]
+    assert set(observations) == set(env.possible_agents)
 
 
 def test_its_runner_plays_a_match_with_one_policy_for_all() -> None:

@@ -1,5 +1,7 @@
-"""Stable-Baselines3 checks one robot's match, and trains on it."""
+"""Stable-Baselines3 checks one robot's match, and trains on it and, by an example, on many."""
 
+import runpy
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -7,6 +9,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from tests.lone_learner import LONE
 
 stable_baselines3 = pytest.importorskip("stable_baselines3")
 env_checker = pytest.importorskip("stable_baselines3.common.env_checker")
@@ -14,6 +17,7 @@ env_checker = pytest.importorskip("stable_baselines3.common.env_checker")
 gymnasium.register_envs(rsoccer)
 
 MAX_STEPS = 20
+EXAMPLE = Path(__file__).parents[2] / "examples" / "10_stable_baselines3.py"
 
 
 def lone_match(**options: Any) -> gymnasium.Env[Any, Any]:  # noqa: ANN401
@@ -56,3 +60,58 @@ def test_the_clock_truncates_so_that_values_are_carried_over_the_end() -> None:
     assert ended[1][0]["TimeLimit.truncated"]
     assert ended[1][0]["steps"] == MAX_STEPS
     assert ended[1][0]["terminal_observation"].shape == envs.observation_space.shape
+
+
+# -- Many matches, by the example -------------------------------------------------------------
+
+
+def many(name: str = "VSS-v0", matches: int = 3, **options: Any) -> Any:  # noqa: ANN401
+    """Short matches as the example has them."""
+    return runpy.run_path(str(EXAMPLE))["StableMatches"](
+        f"rsoccer/{name}", matches, **{"max_steps": MAX_STEPS, **options}
+    )
+
+
+@pytest.mark.parametrize("discrete", [False, True])
+@pytest.mark.parametrize("name", LONE)
+def test_ppo_makes_a_first_update_on_every_task(name: str, discrete: bool) -> None:
+    envs = many(name, discrete=discrete)
+    model = stable_baselines3.PPO(
+        "MlpPolicy", envs, n_steps=24, batch_size=36, n_epochs=1, seed=0, device="cpu"
+    )
+    before = [weight.detach().clone() for weight in model.policy.parameters()]
+    model.learn(72)
+    after = list(model.policy.parameters())
+    assert model.num_timesteps == 72
+    assert all(bool(weight.isfinite().all()) for weight in after)
+    assert any(bool((a != b).any()) for a, b in zip(before, after, strict=True))
+    envs.close()
+
+
+def test_matches_of_the_example_are_those_of_single_environments() -> None:
+    """Which Stable-Baselines3 can make by itself, if slowly."""
+    make_vec_env = pytest.importorskip("stable_baselines3.common.env_util").make_vec_env
+    theirs = make_vec_env("rsoccer/VSS-v0", 3, seed=5, env_kwargs={"max_steps": MAX_STEPS})
+    ours = many()
+    ours.seed(5)
+    np.testing.assert_array_equal(ours.reset(), theirs.reset())
+    rng = np.random.default_rng(0)
+    for _ in range(MAX_STEPS - 1):
+        actions = rng.uniform(-1.0, 1.0, (3, 2)).astype(np.float32)
+        given, expected = ours.step(actions), theirs.step(actions)
+        for mine, other in zip(given[:3], expected[:3], strict=True):
+            np.testing.assert_array_equal(mine, other)
+        assert given[3] == [{}] * 3
+    given, expected = ours.step(actions), theirs.step(actions)
+    np.testing.assert_array_equal(given[1], expected[1])
+    assert given[2].tolist() == expected[2].tolist() == [True] * 3
+    for mine, other in zip(given[3], expected[3], strict=True):
+        np.testing.assert_array_equal(mine["terminal_observation"], other["terminal_observation"])
+        for fact in ("TimeLimit.truncated", "goal_score", "steps"):
+            assert mine[fact] == other[fact]
+        assert mine["TimeLimit.truncated"] is True
+
+
+def test_the_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    runpy.run_path(str(EXAMPLE))["main"](2, 256)
+    assert "256 steps; goal score" in capsys.readouterr().out

@@ -7,6 +7,7 @@ import pytest
 
 from rsoccer.frame import Floats
 from rsoccer.parallel import parallel_env
+from tests.one_match import TASKS
 
 supersuit = pytest.importorskip("supersuit")
 
@@ -34,6 +35,19 @@ def test_the_robots_of_a_match_are_a_vector_and_begin_anew() -> None:
         ended = step % MAX_CYCLES == 0
         assert truncated.tolist() == [ended] * ROBOTS
         assert all(("terminal_observation" in info) == ended for info in infos)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_robots_of_every_task_are_a_vector(name: str) -> None:
+    match = parallel_env(name, max_cycles=MAX_CYCLES)
+    envs = supersuit.pettingzoo_env_to_vec_env_v1(match)
+    envs.reset(seed=0)
+    ends, actions = 0, np.zeros((envs.num_envs, match.task.action_size), np.float32)
+    for _ in range(2 * MAX_CYCLES):
+        observations, _, terminated, truncated, _ = envs.step(actions)
+        assert observations.shape == (len(match.possible_agents), *envs.observation_space.shape)
+        ends += bool((terminated | truncated).all())
+    assert ends >= 2
 
 
 def played(seed: int) -> tuple[Floats, Floats]:

@@ -8,6 +8,7 @@ import pytest
 import rsoccer
 from rsoccer.parallel import parallel_env
 from rsoccer.vector import SoccerVectorEnv
+from tests.one_match import TASKS
 
 pettingzoo_lib = pytest.importorskip("torchrl.envs.libs.pettingzoo")
 gym_lib = pytest.importorskip("torchrl.envs.libs.gym")
@@ -44,6 +45,14 @@ def test_a_match_has_its_teams_as_groups() -> None:
         assert rollout[team, "observation"].shape == (STEPS, 3, *size)
         assert rollout["next", team, "reward"].shape == (STEPS, 3, 1)
         assert (rollout[team, "truncated"] == rollout["truncated"].unsqueeze(1)).all()
+
+
+@untried
+@pytest.mark.parametrize("name", TASKS)
+def test_every_task_is_wrapped(name: str) -> None:
+    env = pettingzoo_lib.PettingZooWrapper(parallel_env(name), return_state=True, seed=0)
+    utils.check_env_specs(env)
+    assert sum(map(len, env.group_map.values())) == len(rsoccer.make_task(name).agents)
 
 
 @pytest.mark.parametrize("discrete", [False, True])

@@ -1,4 +1,4 @@
-"""What all SSL tasks share: the field of the hardware challenges, actions, observations.
+"""What all SSL tasks share: the field of the hardware challenges, actions, distances.
 
 An action is five numbers in [-1, 1]: velocity along the axes of the field as the robot's side sees
 it (or of the robot, by option), turn rate, kick (none below 0, up to the legal limit) and dribbler
@@ -16,9 +16,8 @@ import numpy as np
 from rsoccer import checks
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
 from rsoccer.frame import Array, Floats, Frame, length
-from rsoccer.task import Play, Task
-from rsoccer.tasks import sight
-from rsoccer.tasks.scales import Scales
+from rsoccer.task import Play
+from rsoccer.tasks.soccer import Soccer
 from rsoccer.view import View
 
 TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
@@ -39,7 +38,7 @@ CHOICES: Final = np.array(
 
 
 @dataclass(frozen=True)
-class Ssl(Task):
+class Ssl(Soccer):
     """A task on an SSL field; subclasses say what is to be done."""
 
     field: str = "ssl_challenge"  # a field of the simulator
@@ -51,6 +50,7 @@ class Ssl(Task):
     discrete: bool = False  # whether agents choose one of CHOICES instead of five numbers
 
     action_size = 5
+    CHOICES: ClassVar[Floats] = CHOICES
     half_only: ClassVar[bool] = False  # whether play keeps to the foes' half, out of their area
     WEIGHTS: ClassVar[Mapping[str, float]] = {}
     PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {}
@@ -75,11 +75,6 @@ class Ssl(Task):
         n_blue, n_yellow = self.team_sizes()
         return SimConfig(self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball)
 
-    @property
-    def action_table(self) -> Floats | None:
-        """CHOICES, if agents choose."""
-        return CHOICES if self.discrete else None
-
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
         commands = np.zeros((*actions.shape[:2], len(_BODY)), np.float32)
@@ -94,41 +89,6 @@ class Ssl(Task):
         commands[..., _KICK] = np.maximum(actions[..., 3], 0.0) * kick
         commands[..., _DRIBBLER] = actions[..., 4] > 0.0
         return commands
-
-    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """The whole game in the robot's view, and where ball and goal are from it."""
-        view, scales = play.view, self.scales
-        robots = scales.robots(view, beam=True)
-        return {
-            "ball": scales.ball_in_space(view),  # (n, seers, 6)
-            "me": robots[:, :, 0],  # (n, seers, 8)
-            "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 8)
-            "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 8)
-            "action": play.actions[:, play.seers],  # (n, seers, 5)
-            **sight.from_me(view, self.goal, scales.per_metre, scales.per_speed),
-        }
-
-    def observation_limits(self) -> dict[str, float]:
-        """In half lengths of the field and top speeds of a robot."""
-        return {
-            "ball": 4.0,
-            "action": 1.0,
-            "ball_from_me": 3.0,
-            "goal_from_me": 3.0,
-            "shot": 1.0,
-            "motion_from_me": 4.0,
-            "places_from_me": 3.0,
-        } | dict.fromkeys(("me", "mates", "foes"), 2.0)
-
-    @cached_property
-    def scales(self) -> Scales:
-        """Scales of the observations."""
-        return Scales(self.config)
-
-    @cached_property
-    def goal(self) -> Floats:
-        """(2,) metres, the middle of the goal attacked."""
-        return np.array([self.config.field.half_length, 0.0], np.float32)
 
     @cached_property
     def reach(self) -> np.float32:

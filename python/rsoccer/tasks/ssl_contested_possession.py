@@ -31,10 +31,7 @@ class SslContestedPossession(SslAttack):
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
         if self.scenario is not None:
-            checks.whole("scenario", self.scenario, 1)
-            if self.scenario > scenarios.CONTESTED_SCENARIOS:
-                most = scenarios.CONTESTED_SCENARIOS
-                raise ValueError(f"scenario: expected 1 to {most}, got {self.scenario}")
+            checks.within("scenario", self.scenario, 1, scenarios.CONTESTED_SCENARIOS)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:

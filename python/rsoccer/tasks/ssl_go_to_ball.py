@@ -41,9 +41,7 @@ class SslGoToBall(Ssl):
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
-        checks.whole("foes", self.foes, 0)
-        if self.foes > MOST_FOES:
-            raise ValueError(f"foes: expected at most {MOST_FOES}, got {self.foes}")
+        checks.within("foes", self.foes, 0, MOST_FOES)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
@@ -56,14 +54,7 @@ class SslGoToBall(Ssl):
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robots anywhere, apart, facing anywhere."""
-        robots = 1 + self.foes
-        frame = Frame.empty(len(rng), 1, self.foes)
-        radii = [self.config.ball.radius] + [self.config.robot.bounding_radius] * robots
-        places = spawn.apart(rng, self.config.field, radii, APART)
-        frame.ball.position[:] = places[:, 0]
-        frame.robots.position[:] = places[:, 1:]
-        frame.robots.heading[:] = spawn.headings(rng, robots)
-        return frame
+        return spawn.anywhere(rng, self.config, APART)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """The ball in the mouth counts most; coming nearer to that is paid, leaving costs."""

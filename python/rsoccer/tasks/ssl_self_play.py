@@ -49,14 +49,7 @@ class SslSelfPlay(Ssl):
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robots anywhere, apart; robots face anywhere."""
-        robots = self.blue + self.yellow
-        frame = Frame.empty(len(rng), self.blue, self.yellow)
-        radii = [self.config.ball.radius] + [self.config.robot.bounding_radius] * robots
-        places = spawn.apart(rng, self.config.field, radii, APART)
-        frame.ball.position[:] = places[:, 0]
-        frame.robots.position[:] = places[:, 1:]
-        frame.robots.heading[:] = spawn.headings(rng, robots)
-        return frame
+        return spawn.anywhere(rng, self.config, APART)
 
     def put_back(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
         """The ball at rest inside the line that it crossed, where no robot is."""

@@ -12,31 +12,31 @@ from rsoccer.tasks.ssl_attack import SslAttack
 
 APART = 0.25  # metres between centres at the start
 CLEAR = 0.3  # metres that the foes keep from the attacker's start
-FOES = 6
+MOST_FOES = 6
 
 
 @dataclass(frozen=True)
 class SslStaticDefenders(SslAttack):
     """Six foes and the ball lie anywhere in the foes' half, outside the area.
 
-    `scenario` is one of the ten official ones instead; then a foe may be in the goal.
+    `scenario` is one of the ten official ones instead, with foes of its own, one perhaps in the
+    goal.
     """
 
     scenario: int | None = None
+    foes: int = MOST_FOES
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
+        checks.within("foes", self.foes, 0, MOST_FOES)
         if self.scenario is not None:
-            checks.whole("scenario", self.scenario, 1)
-            if self.scenario > scenarios.STATIC_SCENARIOS:
-                most = scenarios.STATIC_SCENARIOS
-                raise ValueError(f"scenario: expected 1 to {most}, got {self.scenario}")
+            checks.within("scenario", self.scenario, 1, scenarios.STATIC_SCENARIOS)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
         """One against six, or against those of the scenario."""
         if self.scenario is None:
-            return 1, FOES
+            return 1, self.foes
         return 1, len(scenarios.static_defenders(self.scenario)[1])
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
@@ -51,11 +51,11 @@ class SslStaticDefenders(SslAttack):
             return frame
         field, radius = self.config.field, self.config.robot.bounding_radius
         box = ((0.15, -field.half_width + radius), (field.half_length, field.half_width - radius))
-        radii = [self.config.ball.radius] + [radius] * FOES
+        radii = [self.config.ball.radius] + [radius] * self.foes
         places = spawn.inside(rng, box, radii, APART, self._forbidden)
         frame.ball.position[:] = places[:, 0]
         frame.yellow.position[:] = places[:, 1:]
-        frame.yellow.heading[:] = spawn.headings(rng, FOES)
+        frame.yellow.heading[:] = spawn.headings(rng, self.foes)
         return frame
 
     def _forbidden(self, places: Floats) -> Mask:

@@ -1,10 +1,10 @@
-"""What all VSSS tasks share: starts, wheels, observations, rewards and the score."""
+"""What all VSSS tasks share: starts, wheels, rewards and the score."""
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -12,9 +12,8 @@ from rsoccer import checks, rewards, spawn
 from rsoccer._core import SimConfig
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
-from rsoccer.task import Play, Task
-from rsoccer.tasks import sight
-from rsoccer.tasks.scales import Scales
+from rsoccer.task import Play
+from rsoccer.tasks.soccer import Soccer
 
 # Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
 # robots that stand still, goals are the largest part of what an episode pays.
@@ -33,7 +32,7 @@ APART: Final = 0.1  # metres between centres at the start
 
 
 @dataclass(frozen=True)
-class Vss(Task):
+class Vss(Soccer):
     """VSSS on the field for three a side; subclasses say who plays.
 
     A match starts with everything at random places and ends with a goal of either side.
@@ -48,6 +47,7 @@ class Vss(Task):
     discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
 
     action_size = 2  # left and right wheel, of their top speed
+    CHOICES: ClassVar[Floats] = CHOICES
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
@@ -66,13 +66,7 @@ class Vss(Task):
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robots anywhere, apart; robots face anywhere."""
-        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
-        robots = self.n_blue + self.n_yellow
-        radii = [self.config.ball.radius] + [self.config.robot.bounding_radius] * robots
-        places = spawn.apart(rng, self.config.field, radii, APART)
-        frame.ball.position[:] = places[:, 0]
-        frame.robots.position[:] = places[:, 1:]
-        frame.robots.heading[:] = spawn.headings(rng, robots)
+        frame = spawn.anywhere(rng, self.config, APART)
         frame.ball.velocity[:] = spawn.velocities(rng, self.ball_speed)
         spawn.roll(frame.ball, self.config.ball)
         return frame
@@ -80,31 +74,6 @@ class Vss(Task):
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Wheel speeds, rad/s."""
         return actions * np.float32(self.config.robot.max_wheel_speed)
-
-    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """The whole game in the robot's view, and ball and goal from where it stands and faces."""
-        view, scales = play.view, self._scales
-        robots = scales.robots(view)
-        return {
-            "ball": scales.ball(view),  # (n, seers, 4)
-            "me": robots[:, :, 0],  # (n, seers, 7)
-            "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 7)
-            "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 7)
-            "action": play.actions[:, play.seers],  # (n, seers, 2)
-            **sight.from_me(view, self._goal, scales.per_metre, scales.per_speed),
-        }
-
-    def observation_limits(self) -> dict[str, float]:
-        """In half lengths of the field and top speeds of a robot; a ball that is hit has more."""
-        return {
-            "ball": 4.0,
-            "action": 1.0,
-            "ball_from_me": 3.0,
-            "goal_from_me": 3.0,
-            "shot": 1.0,
-            "motion_from_me": 4.0,
-            "places_from_me": 3.0,
-        } | dict.fromkeys(("me", "mates", "foes"), 2.0)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """A goal counts most. All are drawn behind the ball; who is at it is paid for moving it."""
@@ -116,20 +85,6 @@ class Vss(Task):
         }
         return rewards.weighted(terms, self.weights), rewards.scored(play)
 
-    @property
-    def action_table(self) -> Floats | None:
-        """CHOICES, if agents choose."""
-        return CHOICES if self.discrete else None
-
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""
         return {"goal_score": rewards.goals_at(play.frame.ball)}
-
-    @cached_property
-    def _scales(self) -> Scales:
-        return Scales(self.config)
-
-    @cached_property
-    def _goal(self) -> Floats:
-        """(2,) metres, the middle of the goal attacked."""
-        return np.array([self.config.field.half_length, 0.0], np.float32)

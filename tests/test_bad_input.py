@@ -1,0 +1,210 @@
+"""Every task refuses what no task can take, by name, and nothing has changed then.
+
+What exactly is said, and odder input, is in the tests of each door.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches
+from rsoccer.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.policies.network import Network
+from rsoccer.registry import list_options
+from rsoccer.single import single_env
+from rsoccer.vector import vector_env
+from tests.lone_learner import lone, plain
+from tests.one_match import TASKS, random_actions
+
+every_task = pytest.mark.parametrize("name", TASKS)
+
+
+def with_option(*options: str) -> list[tuple[str, str]]:
+    """Tasks that have one of these options, and which."""
+    known = {name: list_options(type(rsoccer.make_task(name))) for name in TASKS}
+    return [(name, option) for name in TASKS for option in options if option in known[name]]
+
+
+def doors(name: str) -> list[Callable[..., object]]:
+    """What makes a task by its name, one a door; all take its options."""
+    return [
+        lambda **options: rsoccer.make_task(name, **options),
+        lambda **options: parallel_env(name, **options),
+        lambda **options: rsoccer.env(name, **options),
+        lambda **options: single_env(name, **lone(name), **options),
+        lambda **options: vector_env(name, 2, **lone(name), **options),
+    ]
+
+
+# -- Options ----------------------------------------------------------------------------------
+
+
+@every_task
+def test_an_unknown_option_is_named_with_the_valid_ones(name: str) -> None:
+    for make in doors(name):
+        with pytest.raises(ValueError, match=rf"{name}: unknown option referee; .*'max_steps'"):
+            make(referee=True)
+
+
+@pytest.mark.parametrize(("name", "option"), with_option("scenario"))
+def test_an_unknown_scenario_is_named(name: str, option: str) -> None:
+    for make in doors(name):
+        for wrong in (0, 99, "hard"):
+            with pytest.raises((TypeError, ValueError), match="scenario: expected"):
+                make(**{option: wrong})
+
+
+@pytest.mark.parametrize(
+    ("name", "option"), with_option("n_blue", "n_yellow", "blue", "yellow", "foes")
+)
+def test_more_robots_than_there_may_be_are_refused(name: str, option: str) -> None:
+    team = "yellow" if option == "foes" else option.removeprefix("n_")
+    for make in doors(name):
+        with pytest.raises(ValueError, match=rf"({option}|n_{team})\D+at most \d+"):
+            make(**{option: 99})
+
+
+@every_task
+def test_a_policy_of_the_wrong_task_is_refused(name: str) -> None:
+    wrong = "chase" if name.startswith("SSL") else "strike"
+    for make in (parallel_env, Matches):
+        with pytest.raises(ValueError, match=f"{wrong}.*{name}|{name}.*{wrong}"):
+            make(name, controllers={"blue_0": wrong})
+
+
+def network_of(name: str) -> Network:
+    """A network with the sizes of a task, as if it had been trained on it."""
+    task = rsoccer.make_task(name)
+    sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
+    arrays = {
+        "layers.0.weight": np.zeros((task.action_size, task.observation_size), np.float32),
+        "layers.0.bias": np.zeros(task.action_size, np.float32),
+        "mean": np.zeros(task.observation_size, np.float32),
+        "std": np.ones(task.observation_size, np.float32),
+    }
+    facts = {"format": "rsoccer-policy-1", "task": name, "activation": "tanh", "clip": "10"}
+    return Network(arrays, facts | {size: str(number) for size, number in sizes.items()})
+
+
+@every_task
+def test_a_network_of_a_task_of_other_sizes_is_refused(name: str) -> None:
+    assert Matches(name, controllers={"blue_0": network_of(name)}).drivers.crews
+    other = "VSS-v0" if name.startswith("SSL") else "SSLGoToBall-v0"
+    for make in (parallel_env, Matches):
+        with pytest.raises(ValueError, match=rf"trained on '{other}' has .* but task '{name}'"):
+            make(name, controllers={"blue_0": network_of(other)})
+
+
+# -- Actions ----------------------------------------------------------------------------------
+
+
+def wrong_actions(match: SoccerParallelEnv) -> dict[str, Any]:
+    """What is no action of this match, by what is wrong with it."""
+    size = match.task.action_size
+    fine: dict[str, Any] = {agent: np.zeros(size, np.float32) for agent in match.agents}
+    last = match.agents[-1]
+    others = {agent: action for agent, action in fine.items() if agent != last}
+    return {
+        "missing": others,
+        "unknown": {**fine, "red_0": fine[last]},
+        "too long": {**fine, last: np.zeros(size + 1, np.float32)},
+        "an axis more": {**fine, last: np.zeros((1, size), np.float32)},
+        "integers": {**fine, last: np.zeros(size, int)},
+        "NaN": {**fine, last: np.full(size, np.nan, np.float32)},
+        "infinite": {**fine, last: np.full(size, np.inf, np.float32)},
+        "nothing": None,
+    }
+
+
+@every_task
+def test_wrong_actions_move_nothing(name: str) -> None:
+    match, twin = parallel_env(name), parallel_env(name)
+    match.reset(seed=0)
+    twin.reset(seed=0)
+    for actions in wrong_actions(match).values():
+        with pytest.raises((TypeError, ValueError), match="actions"):
+            match.step(actions)
+    given, expected = (
+        each.step(random_actions(each, np.random.default_rng(0))) for each in (match, twin)
+    )
+    assert plain(given) == plain(expected)
+
+
+@every_task
+@pytest.mark.parametrize("discrete", [False, True])
+def test_wrong_actions_of_one_learner_move_nothing(name: str, discrete: bool) -> None:
+    task = rsoccer.make_task(name, discrete=discrete)
+    wrong: list[Any] = [np.full(task.action_size, np.nan), np.zeros(task.action_size + 1), None]
+    if task.action_table is not None:
+        wrong += [len(task.action_table), -1, 0.5]
+    made: list[list[Any]] = [
+        [single_env(task, **lone(name)) for _ in range(2)],
+        [vector_env(task, 2, **lone(name)) for _ in range(2)],
+    ]
+    for envs, twin in made:
+        envs.reset(seed=0)
+        twin.reset(seed=0)
+        for action in wrong:
+            given = action if not hasattr(envs, "num_envs") else np.array([action] * 2)
+            with pytest.raises((TypeError, ValueError), match="actions"):
+                envs.step(given)
+        fine = envs.action_space.sample()
+        assert plain(envs.step(fine)) == plain(twin.step(fine))
+
+
+@every_task
+def test_nobody_steps_a_match_that_has_not_begun_or_has_ended(name: str) -> None:
+    match, env = parallel_env(name, max_cycles=1), single_env(name, max_steps=1, **lone(name))
+    envs = vector_env(name, 2, max_steps=1, autoreset_mode="disabled", **lone(name))
+    still = np.zeros(match.task.action_size, np.float32)
+    steps: list[tuple[Any, Callable[[], object]]] = [
+        (match, lambda: match.step(dict.fromkeys(match.possible_agents, still))),
+        (env, lambda: env.step(still)),
+        (envs, lambda: envs.step(np.stack([still] * 2))),
+    ]
+    for made, step in steps:
+        with pytest.raises(RuntimeError, match="step before reset"):
+            step()
+        made.reset(seed=0)
+        step()
+        rows = made._matches.frame.rows.copy()
+        with pytest.raises(RuntimeError, match="step after the end of the episode"):
+            step()
+        assert np.array_equal(made._matches.frame.rows, rows)
+        made.reset()
+        step()
+
+
+# -- Resets -----------------------------------------------------------------------------------
+
+
+@every_task
+def test_a_reset_with_a_bad_value_changes_nothing_and_unknown_keys_are_ignored(name: str) -> None:
+    size = rsoccer.make_task(name).config.row_size
+    wrong: list[dict[str, Any]] = [
+        {"options": {"frame": np.zeros(size - 1, np.float32)}},
+        {"options": {"frame": np.full(size, np.nan, np.float32)}},
+        {"options": {"frame": np.zeros(size, np.float32)}},  # headings that are no unit vectors
+        {"options": {"frame": "centre"}},
+        {"options": [1]},
+        {"seed": -1},
+        {"seed": "one"},
+    ]
+    wrong_masks: list[Any] = [[True, False], np.ones(3, np.bool_), np.zeros(2, np.bool_)]
+    pairs: list[list[Any]] = [
+        [parallel_env(name) for _ in range(2)],
+        [single_env(name, **lone(name)) for _ in range(2)],
+        [vector_env(name, 2, **lone(name)) for _ in range(2)],
+    ]
+    for made, twin in pairs:
+        for each in (made, twin):
+            each.reset(seed=3, options={"colour": "red", 7: object()})
+        masks = wrong_masks if hasattr(made, "num_envs") else []
+        for arguments in [*wrong, *({"options": {"reset_mask": mask}} for mask in masks)]:
+            with pytest.raises((TypeError, ValueError), match=r"options|seed|unit vector"):
+                made.reset(**{"seed": 4, **arguments})
+        assert np.array_equal(made._matches.frame.rows, twin._matches.frame.rows)
+        assert plain(made.reset()) == plain(twin.reset()), "its random streams have gone on"

@@ -1,0 +1,173 @@
+"""The README's part on speed, from the tables that `make bench` left."""
+
+from collections.abc import Callable, Sequence
+from itertools import groupby
+
+from benches.table import RESULTS, ROOT, Figure, Machine, digits, load
+from tools.parts import table
+
+SPEED = "speed"
+DOORS = {
+    "Matches": "`Matches`",
+    "ParallelEnv": "PettingZoo, `parallel_env`",
+    "AECEnv": "PettingZoo, `env`",
+    "empty ParallelEnv": "an empty ParallelEnv of that shape",
+    "Env": "Gymnasium, `single_env`",
+    "empty Env": "an empty Env of that shape",
+    "VectorEnv": "Gymnasium, `vector_env`",
+    "trainer": "the trainer, in decisions",
+}
+
+
+def speed() -> str:
+    """What each measured machine does."""
+    return "\n\n".join(
+        machine_speed(path.stem, *load(path)) for path in sorted(RESULTS.glob("*.csv"))
+    )
+
+
+def machine_speed(name: str, machine: Machine, figures: Sequence[Figure]) -> str:
+    """Tables and facts of one machine; what was not measured is left out."""
+    place = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
+    rounds = max(figure.rounds for figure in figures)
+    picture = RESULTS / f"{name}.png"
+    shown = f"![Speed on this machine]({picture.relative_to(ROOT)})" if picture.exists() else ""
+    intro = f"{place} of commit {machine.commit}; medians of {rounds} rounds."
+    parts = (intro, shown, physics(figures), doors(figures), facts(figures))
+    return "\n\n".join(part for part in parts if part)
+
+
+def physics(figures: Sequence[Figure]) -> str:
+    """The simulator alone, by game, beside the old one where that was measured."""
+    core = [figure for figure in figures if figure.group == "core"]
+    if not core:
+        return ""
+    old = next((f.who.split(" / ")[1] for f in core if f.quantity == "ratio"), None)
+    sizes = sorted({figure.worlds for figure in core})
+    header = ["steps a second on one thread"]
+    if old:
+        header.append(old)
+    for worlds in sizes:
+        header.append(f"{worlds} at once" if worlds > 1 else "one match")
+        header += ["times as fast"] if old else []
+    rows = []
+    for game, group in groupby(core, key=lambda figure: figure.game):
+        mine = list(group)
+        cells = [game, *([_cell(mine, old, 1)] if old else [])]
+        for worlds in sizes:
+            cells.append(_cell(mine, "Simulator", worlds))
+            cells += [_cell(mine, f"Simulator / {old}", worlds)] if old else []
+        rows.append(tuple(cells))
+    return table(tuple(header), rows) + (f"\n\n{beside(old, core)}" if old else "")
+
+
+def beside(old: str, core: Sequence[Figure]) -> str:
+    """How the comparison was made."""
+    interface = [f for f in core if f.who == f"compat.robosim / {old}"]
+    slowest = min((figure.median for figure in interface), default=0.0)
+    text = (
+        f"{old} is the simulator of robocin's rSoccer (package rc-robosim), built here in its own "
+        "release mode and stepped in the same process, round about with ours: the same teams and "
+        "fields, starts and kinds of command, 25 ms a step in five ticks. Ratios are medians over "
+        "rounds (slowest and fastest round in brackets), because this machine is small and does "
+        "other things besides."
+    )
+    if not interface:
+        return text
+    return f"{text} Code that only changes its import to `compat.robosim` gains {slowest:.0f}x or more."
+
+
+def doors(figures: Sequence[Figure]) -> str:
+    """Whole environments."""
+    rates = [f for f in figures if f.group in ("many", "one", "training") and f.quantity == SPEED]
+    if not rates:
+        return ""
+    rows = [_door(figure, figures) for figure in rates]
+    header = ("whole environments", "task", "at once", "threads", "steps a second", "not physics")
+    football = [f for f in figures if f.who.startswith("Matches / vmas")]
+    notes = [f"{ratio(f)} at {f.worlds:,}" for f in football]
+    told = ""
+    if notes:
+        peer = football[0].who.split(" / ")[1]
+        told = (
+            f"\n\n`Matches` does {' and '.join(notes)} the steps of {peer}'s football, three a side, "
+            "all six robots controlled, on as many threads; a step of that is 0.1 s in two ticks."
+        )
+    return table(header, rows) + told
+
+
+def _door(figure: Figure, figures: Sequence[Figure]) -> tuple[str, ...]:
+    task = "football" if figure.who.startswith("vmas") else f"`{figure.game}`"
+    key = (figure.group, figure.game, figure.who, figure.worlds, figure.threads)
+    outside = [
+        f"{digits(f.median, 2)} us a world-step"
+        for f in figures
+        if (f.group, f.game, f.who, f.worlds, f.threads) == key and f.quantity == "outside physics"
+    ]
+    return (
+        DOORS.get(figure.who, figure.who),
+        task,
+        f"{figure.worlds:,}",
+        str(figure.threads),
+        digits(figure.median),
+        *(outside or [""]),
+    )
+
+
+def facts(figures: Sequence[Figure]) -> str:
+    """What needs no table, as a list."""
+    groups: dict[str, Callable[[list[Figure]], str]] = {
+        "threads": _threads,
+        "growth": _growth,
+        "memory": _memory,
+        "start": _start,
+    }
+    found = []
+    for group, told in groups.items():
+        if mine := [figure for figure in figures if figure.group == group]:
+            found.append(f"- {told(mine)}")
+    return "\n".join(found)
+
+
+def _threads(figures: list[Figure]) -> str:
+    ratios = {f.who.split(" / ")[0]: f for f in figures if f.quantity == "ratio"}
+    ours, beside, hashing = (
+        ratio(ratios[who]) for who in ("Simulator", "Simulators, one a thread", "hashing")
+    )
+    worlds = ratios["Simulator"].worlds
+    return (
+        f"Two threads step {worlds:,} worlds ({figures[0].game}) {ours} as fast as one. This "
+        f"machine's own ceiling: {beside} for two simulators that share nothing, {hashing} for "
+        "hashing."
+    )
+
+
+def _growth(figures: list[Figure]) -> str:
+    ratios = [f for f in figures if f.quantity == "ratio"]
+    base = min(figure.worlds for figure in figures)
+    told = ", ".join(f"{f.median:.2f} at {f.worlds:,}" for f in ratios)
+    return f"Steps a second of a batch, by those at {base} worlds ({figures[0].game}): {told}."
+
+
+def _memory(figures: list[Figure]) -> str:
+    told = " and ".join(f"{digits(f.median, 2)} KiB for {f.game}" for f in figures)
+    return f"Memory of a world that has seen contacts: {told}."
+
+
+def _start(figures: list[Figure]) -> str:
+    told = ", ".join(f"{f.quantity} {digits(f.median, 2)} s" for f in figures)
+    return f"Start, in a fresh process: {told}."
+
+
+def ratio(figure: Figure) -> str:
+    """A ratio with its extremes."""
+    spread = f"{digits(figure.least)} to {digits(figure.most)}"
+    return f"{digits(figure.median)}x ({spread})"
+
+
+def _cell(figures: Sequence[Figure], who: str | None, worlds: int) -> str:
+    """Speed or ratio in a table; empty where not measured."""
+    for figure in figures:
+        if (figure.who, figure.worlds) == (who, worlds) and figure.quantity in (SPEED, "ratio"):
+            return ratio(figure) if figure.quantity == "ratio" else digits(figure.median)
+    return ""
