@@ -29,7 +29,7 @@ def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]
 def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["list"]) == 0
     printed = capsys.readouterr().out
-    for name in [*rsoccer.list_tasks(), "max_steps=1200", "opponent='ou'", "chase", "uniform"]:
+    for name in [*rsoccer.list_tasks(), "max_steps=1200", "opponent='ou'", "chase", "scripted:0.5"]:
         assert name in printed
 
 
@@ -151,6 +151,14 @@ def test_watch_plays_in_a_window() -> None:
     given = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
     done = run(*given, "--width", "128", SDL_VIDEODRIVER="dummy")
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("player", "shown"),
+    [("scripted:0.5", "SCRIPTED:0.5"), ("ou", "OU"), ("out/mine/policy.safetensors", "MINE")],
+)
+def test_the_score_board_names_who_plays(player: str, shown: str) -> None:
+    assert vars(commands)["_team_name"](player) == shown
 
 
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])

@@ -21,6 +21,7 @@ __all__ = [
     "BallModel",
     "Field",
     "RobotModel",
+    "Sight",
     "SimConfig",
     "Simulator",
     "build_info",
@@ -411,6 +412,40 @@ class SimConfig:
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
+
+@final
+class Sight:
+    """What robots like `robot` see on `field`, of a side with room for so many mates and foes.
+
+    In half lengths of the field and top speeds of a robot. `ball`: place and velocity, in the plane
+    or, for robots with a break beam, in space. `me`, `mates`, `foes`: x, y, cos, sin, velocity, turn
+    rate, and the beam where there is one. `ball_from_me`, `goal_from_me`: distance, cosine and sine
+    of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling to 0;
+    the latter times 1 where ball and goal lie in one direction, -1 where in opposite ones.
+    `motion_from_me`: own velocity and the ball's, ahead and left. `places_from_me`: ball, mates,
+    foes, likewise.
+
+    Raises:
+        ValueError: a number of mates or foes below 0.
+    """
+
+    def __new__(cls, field: Field, robot: RobotModel, n_mates: int, n_foes: int) -> Sight: ...
+    @property
+    def blocks(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
+        """Name and shape of each block, in order."""
+
+    def look(self, ball: NDArray[np.float32], robots: NDArray[np.float32]) -> NDArray[np.float32]:
+        """All blocks side by side, a new array (n, seers, numbers).
+
+        Of views: `ball` (n, seers, ball column) and `robots` (n, seers, me and mates and foes, robot
+        column), attacking +x; zeros where nobody is.
+
+        Raises:
+            TypeError: an array that is not float32.
+            ValueError: an array of another shape.
+        """
+
+    def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int]]: ...
 
 @final
 class Simulator:

@@ -112,7 +112,8 @@ def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
             f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "
             f"got {value.shape}"
         )
-    return np.broadcast_to(np.asarray(value, np.float32), shape)
+    term = np.asarray(value, np.float32)
+    return term if term.shape == shape else np.broadcast_to(term, shape)
 
 
 def done(value: Mask, n: int) -> Mask:

@@ -200,11 +200,12 @@ class Matches:
         ended = outcome.ended
         if self.autoreset == "next_step" and len(still):
             self._begin(still)
-        outcome.final_observations = self._of_learners(self._observations)
+        shown = self._of_learners(self._observations)
+        outcome.observations = outcome.final_observations = shown
         self._done |= ended
         if self.autoreset == "same_step" and ended.any():
             self._begin(np.flatnonzero(ended))
-        outcome.observations = self._of_learners(self._observations)
+            outcome.observations = self._of_learners(self._observations)
 
     def _begin(
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None

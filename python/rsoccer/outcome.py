@@ -10,7 +10,8 @@ class Outcome:
     """What a step led to, for the robots that learn. Every array is the receiver's own."""
 
     observations: Floats  # (n, agents, o) to act upon next; of the new episode where one began
-    final_observations: Floats  # (n, agents, o) of the old episode there; equal elsewhere
+    # (n, agents, o) of the old episode there, equal elsewhere; where none began, the same array.
+    final_observations: Floats
     rewards: Floats  # (n, agents) sum of the terms
     terms: dict[str, Floats]  # (n, agents) weighted parts of the reward
     terminated: Mask  # (n,) the task ended the episode: nothing comes after

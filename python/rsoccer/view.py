@@ -52,6 +52,12 @@ class View:
         return View, (self.ball.data, self.robots.data, self.n_mates, self.present)
 
 
+def slots(n_blue: int, n_yellow: int, sides: Sequence[str] = SIDES) -> tuple[int, int]:
+    """Mates and foes that a view has room for: those of the largest team among `sides`."""
+    sizes = {"blue": (n_blue, n_yellow), "yellow": (n_yellow, n_blue)}
+    return max(sizes[side][0] for side in sides) - 1, max(sizes[side][1] for side in sides)
+
+
 class Viewpoint:
     """Who looks, and from where: turns frames into views, in place."""
 
@@ -59,13 +65,11 @@ class Viewpoint:
         self, n_blue: int, n_yellow: int, seers: Sequence[int], sides: Sequence[str] = SIDES
     ) -> None:
         """Look through robots `seers`; slots fit the largest team among `sides`."""
-        sizes = {"blue": (n_blue, n_yellow), "yellow": (n_yellow, n_blue)}
-        self._n_mates = max(sizes[side][0] for side in sides) - 1
-        self._n_foes = max(sizes[side][1] for side in sides)
+        self._n_mates, self._n_foes = slots(n_blue, n_yellow, sides)
         self.seers = np.asarray(seers, np.intp)  # (seers,)
-        slots = 1 + self._n_mates + self._n_foes
-        order = np.zeros((len(seers), slots), np.intp)
-        self._present = np.zeros((len(seers), slots), np.bool_)
+        shape = (len(seers), 1 + self._n_mates + self._n_foes)
+        order = np.zeros(shape, np.intp)
+        self._present = np.zeros(shape, np.bool_)
         for seat, seer in enumerate(seers):
             self._seat(order[seat], self._present[seat], seer, n_blue, n_yellow)
         self._order = order.ravel()
@@ -79,8 +83,7 @@ class Viewpoint:
     def new_view(self, n: int) -> View:
         """Buffers for n worlds."""
         ball = np.zeros((n, len(self.seers), len(BALL_COLUMNS)), np.float32)
-        slots = self._present.shape[1]
-        robots = np.zeros((n, len(self.seers), slots, len(ROBOT_COLUMNS)), np.float32)
+        robots = np.zeros((n, *self._present.shape, len(ROBOT_COLUMNS)), np.float32)
         return View(ball, robots, self._n_mates, self._present)
 
     def fill(self, frame: Frame, view: View) -> None:
@@ -88,10 +91,10 @@ class Viewpoint:
         if not len(self.seers):
             return
         n = len(frame)
-        slots = view.robots.data.reshape(n, len(self._order), len(ROBOT_COLUMNS))
+        robots = view.robots.data.reshape(n, len(self._order), len(ROBOT_COLUMNS))
         # mode="clip" because the default mode buffers `out`.
-        np.take(frame.robots.data, self._order, axis=1, out=slots, mode="clip")
-        flat = slots.reshape(n, -1)  # one long axis: short inner loops cost more than the work
+        np.take(frame.robots.data, self._order, axis=1, out=robots, mode="clip")
+        flat = robots.reshape(n, -1)  # one long axis: short inner loops cost more than the work
         np.multiply(flat, self._robot_signs, out=flat)
         np.multiply(frame.ball.data[:, None], self._ball_signs, out=view.ball.data)
         if len(self._yellow):

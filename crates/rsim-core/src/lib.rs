@@ -6,7 +6,8 @@
 //!
 //! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
 //! that the first team attacks, y to the left. The crate knows nothing of rewards, episodes or
-//! rules of play, and knows the two teams only as an order of robots.
+//! rules of play, and knows the two teams only as an order of robots. [`Sight`] is what a robot sees
+//! of all this.
 #![forbid(unsafe_code)]
 
 mod arena;
@@ -34,6 +35,7 @@ mod robot_model;
 mod robot_presets;
 mod row;
 pub mod scenes;
+mod sight;
 mod snapshot;
 mod tick;
 mod touch;
@@ -46,7 +48,8 @@ pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use field::Field;
 pub use mouth_model::Mouth;
 pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
+pub use sight::{Block, Sight};
 pub use world::World;
 
 /// Number of the physics: raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 2;
+pub const PHYSICS_VERSION: u32 = 3;

@@ -6,6 +6,7 @@
 mod arrays;
 mod config;
 mod models;
+mod sight;
 mod simulator;
 
 use pyo3::prelude::*;
@@ -17,6 +18,8 @@ mod _core {
     use crate::config::SimConfig;
     #[pymodule_export]
     use crate::models::{BallModel, Field, RobotModel};
+    #[pymodule_export]
+    use crate::sight::Sight;
     #[pymodule_export]
     use crate::simulator::Simulator;
 

@@ -1,14 +1,15 @@
 """What the tasks of both leagues share: what a robot sees, and the table of those that choose."""
 
+import math
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
+from rsoccer._core import Sight
 from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
-from rsoccer.tasks import sight
-from rsoccer.tasks.scales import Scales
+from rsoccer.view import slots
 
 LIMITS: Final = {
     "ball": 4.0,
@@ -35,18 +36,18 @@ class Soccer(Task):
         """The whole game in the robot's view, and ball and goal from where it stands and faces.
 
         A robot has 7 numbers, and 8 where it has a break beam; there the ball has heights too.
+        What each block holds is said by the core's `Sight`.
         """
-        view, scales = play.view, self.scales
-        has_mouth = self.config.robot.has_mouth
-        robots = scales.robots(view, beam=has_mouth)
-        return {
-            "ball": scales.ball_in_space(view) if has_mouth else scales.ball(view),  # 6 or 4
-            "me": robots[:, :, 0],  # (n, seers, 7 or 8)
-            "mates": robots[:, :, 1 : 1 + view.n_mates],  # (n, seers, mates, 7 or 8)
-            "foes": robots[:, :, 1 + view.n_mates :],  # (n, seers, foes, 7 or 8)
-            "action": play.actions[:, play.seers],  # (n, seers, action)
-            **sight.from_me(view, self.goal, scales.per_metre, scales.per_speed),
-        }
+        seen = self.sight.look(play.view.ball.data, play.view.robots.data)  # (n, seers, numbers)
+        blocks: dict[str, Floats] = {}
+        first = 0
+        for name, shape in self.sight.blocks:
+            if name == "ball_from_me":
+                blocks["action"] = play.actions[:, play.seers]  # (n, seers, action)
+            last = first + math.prod(shape)
+            blocks[name] = seen[:, :, first:last].reshape(*seen.shape[:2], *shape)
+            first = last
+        return blocks
 
     def observation_limits(self) -> dict[str, float]:
         """LIMITS."""
@@ -58,9 +59,15 @@ class Soccer(Task):
         return self.CHOICES if self.discrete else None
 
     @cached_property
-    def scales(self) -> Scales:
-        """Scales of the observations."""
-        return Scales(self.config)
+    def sight(self) -> Sight:
+        """What robots see, in half lengths of the field and a robot's top speeds."""
+        config = self.config
+        return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
+
+    @cached_property
+    def per_metre(self) -> np.float32:
+        """Scale of places in observations."""
+        return np.float32(1.0 / self.config.field.half_length)
 
     @cached_property
     def goal(self) -> Floats:

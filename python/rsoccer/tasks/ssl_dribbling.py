@@ -81,7 +81,7 @@ class SslDribbling(Ssl):
         to_gate = middle[:, None] - play.view.me.position  # (n, seers, 2)
         cos, sin = play.view.me.heading[..., 0], play.view.me.heading[..., 1]
         x, y = to_gate[..., 0], to_gate[..., 1]
-        per_metre = self.scales.per_metre
+        per_metre = self.per_metre
         done = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
         seers = np.ones_like(x)
         parts = [(x * cos + y * sin) * per_metre, (y * cos - x * sin) * per_metre]

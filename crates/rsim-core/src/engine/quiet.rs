@@ -87,9 +87,8 @@ impl Moving {
 
     /// From the centre to the farthest point in a direction, at the start of the tick.
     fn extent(&self, direction: Vector) -> f32 {
-        self.side.map_or(self.radius, |side| {
-            side.dot(direction).abs() + side.perp_dot(direction).abs()
-        })
+        self.side
+            .map_or(self.radius, |side| side.dot(direction).abs() + side.perp_dot(direction).abs())
     }
 
     /// Whether the two may touch.
@@ -137,16 +136,15 @@ impl Engine {
     fn moving(&self, body: usize, physique: &Physique) -> Moving {
         let (motion, push, inverse) =
             (&self.motions[body], &self.pushes[body], &self.inverses[body]);
-        let (radius, side) = match body {
-            BALL => (physique.ball.radius, None),
-            _ => {
-                let model = &physique.robots[body - 1].model;
-                let side = match model.body {
-                    Body::Square { side } => Some(motion.heading * (side / 2.0)),
-                    Body::Round { .. } => None,
-                };
-                (model.bounding_radius(), side)
-            }
+        let (radius, side) = if body == BALL {
+            (physique.ball.radius, None)
+        } else {
+            let model = &physique.robots[body - 1].model;
+            let side = match model.body {
+                Body::Square { side } => Some(motion.heading * (side / 2.0)),
+                Body::Round { .. } => None,
+            };
+            (model.bounding_radius(), side)
         };
         let tick = self.parameters.dt;
         let way = motion.velocity * tick;
@@ -154,7 +152,14 @@ impl Engine {
         let turned = (motion.spin.abs() + push.torque.abs() * inverse.inertia * tick) * tick;
         let swings = if side.is_some() { turned * radius } else { 0.0 };
         let slack = pushed + swings + MARGIN / 2.0;
-        Moving { center: motion.position, way, side, radius, slack, reach: radius + way.length() + slack }
+        Moving {
+            center: motion.position,
+            way,
+            side,
+            radius,
+            slack,
+            reach: radius + way.length() + slack,
+        }
     }
 
     /// A tick without contacts.

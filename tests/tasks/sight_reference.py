@@ -1,18 +1,32 @@
-"""The game from where a robot stands and faces: what a small network would have to work out.
-
-Ahead and left in place of x and y. It says nothing that the absolute state does not, but turning
-vectors takes products, which networks learn slowly.
-"""
+"""What a robot sees, in NumPy: what the core works out is checked against it."""
 
 from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats, RobotColumns, length
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
+from rsoccer.frame import Array, Floats, RobotColumns, length, span
 from rsoccer.view import View
 
 NEAR: Final = np.float32(8.0)  # per metre: at 12 cm the ball is a third as near as at none
 TINY: Final = np.float32(1e-6)  # metres; keeps directions finite
+PLANE = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
+WITH_BEAM = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta", "infrared")
+BALL = span(BALL_COLUMNS, "x", "y", "z", "v_x", "v_y", "v_z")
+
+
+def blocks(view: View, config: SimConfig) -> dict[str, Array]:
+    """All blocks of a view, by name; each (n, seers, ...)."""
+    scales, has_mouth = Scales(config), config.robot.has_mouth
+    robots = scales.robots(view, beam=has_mouth)
+    goal = np.array([config.field.half_length, 0.0], np.float32)
+    return {
+        "ball": scales.ball_in_space(view) if has_mouth else scales.ball(view),
+        "me": robots[:, :, 0],
+        "mates": robots[:, :, 1 : 1 + view.n_mates],
+        "foes": robots[:, :, 1 + view.n_mates :],
+        **from_me(view, goal, scales.per_metre, scales.per_speed),
+    }
 
 
 def from_me(
@@ -66,3 +80,37 @@ def _shot(me: RobotColumns, to_ball: Floats, to_goal: Floats) -> Floats:
     along = to_ball[..., 0] * to_goal[..., 0] + to_ball[..., 1] * to_goal[..., 1]
     np.multiply(shot[..., 2], along / (way * distance), out=shot[..., 3])
     return shot
+
+
+class Scales:
+    """Scales of one field and one robot model."""
+
+    def __init__(self, config: SimConfig) -> None:
+        """Half the field's length is 1, and so is a robot's top speed."""
+        robot = config.robot
+        self.per_metre = np.float32(1.0 / config.field.half_length)
+        self.per_speed = np.float32(1.0 / robot.top_speed)
+        self.per_turn = np.float32(1.0 / robot.top_turn_rate)
+        place, speed = [self.per_metre] * 2, [self.per_speed] * 2
+        plane = [*place, 1.0, 1.0, *speed, self.per_turn]
+        slots = config.n_robots + max(config.n_blue, config.n_yellow)
+        # All slots' side by side, so that one long product does them all.
+        self._plane = np.tile(np.array(plane, np.float32), slots)
+        self._with_beam = np.tile(np.array([*plane, 1.0], np.float32), slots)
+        self._ball = np.array([self.per_metre] * 3 + [self.per_speed] * 3, np.float32)
+
+    def robots(self, view: View, *, beam: bool = False) -> Floats:
+        """Poses and motion of all slots, (n, seers, slots, 7); with the break beam, 8."""
+        columns, scale = (WITH_BEAM, self._with_beam) if beam else (PLANE, self._plane)
+        n, seers, slots = view.robots.data.shape[:3]
+        motion = view.robots.data[..., columns].reshape(n, seers, -1)
+        return (motion * scale[: motion.shape[2]]).reshape(n, seers, slots, -1)
+
+    def ball(self, view: View) -> Floats:
+        """Where the ball is and goes in the plane, (n, seers, 4)."""
+        position, velocity = view.ball.position, view.ball.velocity
+        return np.concatenate([position * self.per_metre, velocity * self.per_speed], axis=-1)
+
+    def ball_in_space(self, view: View) -> Floats:
+        """Place x, y, z and velocity, (n, seers, 6)."""
+        return view.ball.data[..., BALL] * self._ball
