@@ -2,12 +2,11 @@
 
 import csv
 import datetime
-import json
 import os
 import platform
 import re
 import subprocess
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -15,20 +14,25 @@ from rsoccer._core import build_info
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benches" / "results"
-CRITERION = ROOT / "target" / "criterion"  # where `cargo bench` leaves what it measured
 
 
 @dataclass(frozen=True)
 class Figure:
-    """What was measured of one case."""
+    """What was measured of one thing."""
 
-    name: str
+    group: str
+    """What it belongs to: core, threads, growth, many, one, training, memory, start, rust."""
+    game: str
+    """What was played: a scene, or a task."""
+    who: str
+    """By whom; a ratio is of the first by the second."""
     worlds: int
     threads: int
+    quantity: str
     unit: str
     median: float
-    slowest: float
-    fastest: float
+    least: float
+    most: float
     rounds: int
 
 
@@ -61,14 +65,19 @@ def this_machine() -> Machine:
 def store(figures: Iterable[Figure], machine: Machine, folder: Path) -> Path:
     """Write the table of this machine, in place of an older one; its path."""
     folder.mkdir(parents=True, exist_ok=True)
-    name = re.sub(r"[^a-z0-9]+", "-", f"{machine.machine} {machine.cores} cores".lower())
-    path = folder / f"{name.strip('-')}.csv"
+    path = folder / f"{file_name(machine)}.csv"
     rows = [{**_rounded(figure), **asdict(machine)} for figure in figures]
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     return path
+
+
+def file_name(machine: Machine) -> str:
+    """The machine as part of a path."""
+    name = re.sub(r"[^a-z0-9]+", "-", f"{machine.machine} {machine.cores} cores".lower())
+    return name.strip("-")
 
 
 def load(path: Path) -> tuple[Machine, list[Figure]]:
@@ -85,26 +94,16 @@ def load(path: Path) -> tuple[Machine, list[Figure]]:
     return machine, [_parsed(row) for row in rows]
 
 
-def physics_alone(folder: Path = CRITERION) -> Iterator[Figure]:
-    """Figures that the last `cargo bench` left; none if it has not run."""
-    for path in sorted(folder.glob("**/new/benchmark.json")):
-        case = json.loads(path.read_text())
-        if case["throughput"] is None:
-            continue  # not of steps
-        median = json.loads((path.parent / "estimates.json").read_text())["median"]
-        within = median["confidence_interval"]
-        steps = 1e9 * case["throughput"]["Elements"]  # times are in nanoseconds
-        worlds, threads = case["value_str"].split("x")
-        yield Figure(
-            name=f"core_{case['group_id'].removesuffix('_step')}_{case['function_id']}",
-            worlds=int(worlds),
-            threads=int(threads),
-            unit="world-steps/s",
-            median=steps / median["point_estimate"],
-            slowest=steps / within["upper_bound"],
-            fastest=steps / within["lower_bound"],
-            rounds=1,
-        )
+def digits(value: float, most: int = 3) -> str:
+    """A number with no more digits than repeat."""
+    if value >= 10**most:
+        return f"{float(f'{value:.{most}g}'):,.0f}"
+    return f"{value:.{most}g}"
+
+
+def times(ratio: float) -> str:
+    """A ratio for people."""
+    return f"{digits(ratio, 2 if 10 <= ratio < 100 else 3)}x"
 
 
 def _rounded(figure: Figure) -> dict[str, object]:

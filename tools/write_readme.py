@@ -14,16 +14,16 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches.table import ROOT, Figure, Machine, load
+from benches.table import RESULTS, ROOT
 from rsoccer import policies
 from rsoccer.registry import list_options
 from rsoccer.tasks import old_names as old
 from tools.parts import filled, table
+from tools.speed import speed
 from tools.task_pictures import path_of
 
 README = ROOT / "README.md"
 PAGES = (README, ROOT / "docs" / "robosim.md")
-RESULTS = ROOT / "benches" / "results"
 DEMO = RESULTS / "demo.json"
 PICTURES = {
     "docs/match.gif": "A match after a few minutes of training",
@@ -31,19 +31,6 @@ PICTURES = {
 }
 ABREAST = 3
 """Pictures of tasks in a row."""
-FIGURES = {
-    "core_vss_3v3_random": "Rust core alone, VSSS 3 v 3, random play",
-    "core_vss_3v3_crowd": "Rust core alone, VSSS 3 v 3, a crowd around the ball",
-    "core_vss_5v5_random": "Rust core alone, VSSS 5 v 5, random play",
-    "core_ssl_1v1_random": "Rust core alone, SSL 1 v 1, random play",
-    "core_ssl_6v6_random": "Rust core alone, SSL 6 v 6, random play",
-    "core_ssl_6v6_crowd": "Rust core alone, SSL 6 v 6, a crowd around the ball",
-    "core_ssl_11v11_random": "Rust core alone, SSL 11 v 11, random play",
-    "physics": "`Simulator`, the core from Python",
-    "matches": "`Matches`, with observations, rewards and restarts",
-    "parallel_env": "PettingZoo env",
-    "empty_parallel_env": "empty PettingZoo env of this shape",
-}
 
 
 def main() -> None:
@@ -98,35 +85,9 @@ def policy_names() -> str:
     """The policies that come with the package, as a sentence."""
     names = ", ".join(f"`{name}`" for name in policies.names())
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
-    return f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}."
-
-
-def speed() -> str:
-    """Figures of each measured machine."""
-    return "\n\n".join(_speed_of(*load(path)) for path in sorted(RESULTS.glob("*.csv")))
-
-
-def _speed_of(machine: Machine, figures: list[Figure]) -> str:
-    place = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
-    rates = [figure for figure in figures if figure.name in FIGURES]
-    worlds = sorted({figure.worlds for figure in rates})
-    rows = []
-    for name, threads in sorted({(f.name, f.threads) for f in rates}, key=_reading_order):
-        cells = {
-            f.worlds: _thousands(f.median) for f in rates if (f.name, f.threads) == (name, threads)
-        }
-        rows.append((FIGURES[name], str(threads), *(cells.get(n, "") for n in worlds)))
-    header = ("world-steps a second", "threads", *(f"{n:,} at once" for n in worlds))
-    shares = [f"{f.median:.0%} at {f.worlds:,}" for f in figures if f.name == "physics_share"]
     return (
-        f"{place}:\n\n{table(header, rows)}\n\n"
-        f"Share of physics in `Matches` on one thread: {', '.join(shares)} at once."
+        f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}."
     )
-
-
-def _reading_order(case: tuple[str, int]) -> tuple[int, int]:
-    """As listed, then by threads."""
-    return list(FIGURES).index(case[0]), case[1]
 
 
 def demo() -> str:

@@ -418,9 +418,9 @@ class Sight:
     """What robots like `robot` see on `field`, of a side with room for so many mates and foes.
 
     In half lengths of the field and top speeds of a robot. `ball`: place and velocity, in the plane
-    or, for robots with a break beam, in space. `me`, `mates`, `foes`: x, y, cos, sin, velocity, turn
-    rate, and the beam where there is one. `ball_from_me`, `goal_from_me`: distance, cosine and sine
-    of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling to 0;
+    or, for robots with a break beam, in space. `me`, `mates`, `foes`: x, y, cos, sin, velocity,
+    turn rate, and the beam where there is one. `ball_from_me`, `goal_from_me`: distance, cosine and
+    sine of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling to 0;
     the latter times 1 where ball and goal lie in one direction, -1 where in opposite ones.
     `motion_from_me`: own velocity and the ball's, ahead and left. `places_from_me`: ball, mates,
     foes, likewise.
@@ -437,8 +437,8 @@ class Sight:
     def look(self, ball: NDArray[np.float32], robots: NDArray[np.float32]) -> NDArray[np.float32]:
         """All blocks side by side, a new array (n, seers, numbers).
 
-        Of views: `ball` (n, seers, ball column) and `robots` (n, seers, me and mates and foes, robot
-        column), attacking +x; zeros where nobody is.
+        Of views: `ball` (n, seers, ball column) and `robots` (n, seers, slots, robot column) of me,
+        mates and foes, attacking +x; zeros where nobody is.
 
         Raises:
             TypeError: an array that is not float32.

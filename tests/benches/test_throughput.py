@@ -5,41 +5,65 @@ from pathlib import Path
 
 import pytest
 
-from benches import throughput
+from benches import contests, throughput
+from benches.contests import Sizes
+from benches.games import CROWD, RANDOM
 from benches.table import ROOT, load, this_machine
 
-QUICK = ["--rounds", "2", "--seconds", "0.01"]
+QUICK = ["--rounds", "2", "--seconds", "0.001"]
+SMALL = Sizes(batch=2, many=(3, 4), shared=4, growing=(1, 3), football=(3,), trained=4, weighed=64)
 
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(throughput, "WORLDS", (1, 3))
+    """Without peers, and with few games."""
+    short = dataclasses.replace(CROWD[0], episode=60)
+    monkeypatch.setattr(contests, "GAMES", (RANDOM[0], RANDOM[2], short, RANDOM[3], RANDOM[4]))
+    monkeypatch.setattr(contests, "peer", lambda name: None)
+    monkeypatch.setattr(throughput, "peer", lambda name: None)
     monkeypatch.setattr(throughput, "physics_alone", list)
 
 
-def test_every_case_is_measured_and_stored(tmp_path: Path) -> None:
-    machine, figures = load(throughput.main([*QUICK, "--out", str(tmp_path)]))
+def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
+    machine, figures = load(throughput.main([*QUICK, "--out", str(tmp_path)], SMALL))
     assert machine.profile == "release"
-    assert {figure.name for figure in figures} == {
-        *("physics", "matches", "physics_share"),
-        *("parallel_env", "empty_parallel_env"),
+    assert len(list(tmp_path.glob("*.png"))) == 1
+    assert {figure.group for figure in figures} == {
+        *("core", "threads", "growth", "many", "one", "training", "memory", "start"),
     }
-    assert {(f.worlds, f.threads) for f in figures if f.name == "matches"} == {
-        *((1, 1), (3, 1), (3, 2)),
+    assert {(f.who, f.worlds, f.threads) for f in figures if f.group == "many"} == {
+        *(("Matches", 3, 1), ("Matches", 3, 2), ("Matches", 4, 1), ("Matches", 4, 2)),
+    }
+    assert {f.who for f in figures if f.group == "one" and f.quantity == "speed"} == {
+        *("ParallelEnv", "AECEnv", "empty ParallelEnv", "Env", "empty Env", "VectorEnv"),
     }
     for figure in figures:
-        assert 0 < figure.slowest <= figure.median <= figure.fastest
         assert figure.rounds == 2
-    shares = [figure.median for figure in figures if figure.unit == "share"]
-    assert len(shares) == 2
-    assert all(0 < share < 1 for share in shares)
+        assert figure.least <= figure.median <= figure.most
+        # A few looks at random play may see nobody touch; little memory may have been there.
+        assert figure.median > 0 or figure.quantity in ("robots touching", "memory")
+
+
+def test_some_can_be_picked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(throughput, "PART", tmp_path)
+    path = throughput.main([*QUICK, "--only", "gotoball"], SMALL)
+    assert path.parent == tmp_path, "a part does not replace the whole table"
+    assert {figure.game for figure in load(path)[1]} == {"SSLGoToBall-v0"}
+
+
+def test_nothing_to_measure_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SystemExit, match=r"(?s)nothing to measure.*core: VSSS 3 v 3 random"):
+        throughput.main([*QUICK, "--only", "chess", "--out", str(tmp_path)], SMALL)
+    with pytest.raises(SystemExit):
+        throughput.main(["--rounds", "0"], SMALL)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_debug_build_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     debug = dataclasses.replace(this_machine(), profile="debug")
     monkeypatch.setattr(throughput, "this_machine", lambda: debug)
     with pytest.raises(SystemExit, match="debug build"):
-        throughput.main([*QUICK, "--out", str(tmp_path)])
+        throughput.main([*QUICK, "--out", str(tmp_path)], SMALL)
     assert not list(tmp_path.iterdir())
 
 

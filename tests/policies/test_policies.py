@@ -37,7 +37,7 @@ TASKS = {
 def test_names() -> None:
     names = policies.names()
     assert names == sorted(names)
-    assert {"chase", "ou", "uniform", "zero", *TASKS} <= set(names)
+    assert {"chase", "ou", "scripted", "uniform", "zero", *TASKS} <= set(names)
     for name in names:
         task = rsoccer.make_task(TASKS[name]) if name in TASKS else TASK
         assert isinstance(policies.make(name, task), Policy)

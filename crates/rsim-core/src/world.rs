@@ -1,6 +1,7 @@
 //! One match.
 
 use std::cell::RefCell;
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use rapier2d::math::Vector;
@@ -195,6 +196,12 @@ impl World {
     pub fn never_skip(&mut self) {
         self.skips = false;
         self.state.engine.set_skips(false);
+    }
+
+    /// Has the solver take each tick in so many sub-steps, until the next [`World::place`]: for the
+    /// benchmark that shows what fewer and more would give.
+    pub fn set_sub_steps(&mut self, sub_steps: NonZeroUsize) {
+        self.state.engine.set_sub_steps(sub_steps.get());
     }
 
     /// Ticks of this match in which nothing could touch, so that they went without the solver.

@@ -10,13 +10,14 @@ from rsoccer.policies.fetch import Fetch
 from rsoccer.policies.hold import Hold, Receive
 from rsoccer.policies.ou import OrnsteinUhlenbeck
 from rsoccer.policies.passer import Passer
+from rsoccer.policies.scripted import Scripted
 from rsoccer.policies.strike import Strike
 from rsoccer.policies.uniform import Uniform
 from rsoccer.policies.weave import Weave
 from rsoccer.policies.zero import Zero
 from rsoccer.task import Task
 
-__all__ = ["Policy", "Seen", "make", "names"]
+__all__ = ["Policy", "Seen", "make", "names", "names_with_skill"]
 
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "chase": Chase,
@@ -25,11 +26,14 @@ _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "ou": lambda task: OrnsteinUhlenbeck(),
     "passer": Passer,
     "receive": Receive,
+    "scripted": Scripted,
     "strike": Strike,
     "uniform": lambda task: Uniform(),
     "weave": Weave,
     "zero": lambda task: Zero(),
 }
+
+_WITH_SKILL: Final[dict[str, Callable[[Task, float], Policy]]] = {"scripted": Scripted}
 
 
 def names() -> list[str]:
@@ -37,16 +41,38 @@ def names() -> list[str]:
     return sorted(_MAKERS)
 
 
+def names_with_skill() -> list[str]:
+    """Names that a skill from 0 to 1 may follow, as in "scripted:0.5"; without one it is 1."""
+    return sorted(_WITH_SKILL)
+
+
 def make(policy: str | os.PathLike[str] | Policy, task: Task) -> Policy:
     """A policy fit for the robots of `task`, from its name, its file, or itself."""
     if not isinstance(policy, Policy):
-        name = os.fspath(policy)
-        maker = _MAKERS.get(name)
-        policy = maker(task) if maker else _load(name)
+        given = os.fspath(policy)
+        name, colon, skill = given.partition(":")
+        if name not in _MAKERS:
+            policy = _load(given)
+        else:
+            policy = _with_skill(name, skill, task) if colon else _MAKERS[name](task)
     check_fits = getattr(policy, "check_fits", None)
     if check_fits is not None:
         check_fits(task, task.observation_size)
     return policy
+
+
+def _with_skill(name: str, skill: str, task: Task) -> Policy:
+    """A policy by its name and the text of its skill."""
+    if name not in _WITH_SKILL:
+        raise ValueError(
+            f"policy {name!r} has no skill: expected {name!r}, got {f'{name}:{skill}'!r}; "
+            f"those with a skill are {names_with_skill()}"
+        )
+    try:
+        number = float(skill)
+    except ValueError:
+        raise ValueError(f"{name}: expected a skill from 0 to 1, got {skill!r}") from None
+    return _WITH_SKILL[name](task, number)
 
 
 def _load(path: str) -> Policy:

@@ -4,8 +4,10 @@ from typing import Final, Literal
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats, Mask, length
+from rsoccer.frame import Floats, Mask, length
+from rsoccer.policies import driving
 from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.policies.vss_pitch import Pitch, unit
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
@@ -15,15 +17,8 @@ ASIDE: Final = np.float32(0.13)  # metres by which it passes the ball on the way
 AHEAD: Final = np.float32(0.15)  # metres ahead on the line to the ball that a run aims at
 ALIGNED: Final = np.float32(0.45)  # metres off the line, per metre from the ball, that still do
 TURN: Final = np.float32(0.8)  # how hard it turns, per sine of the angle it is off
-DAMPING: Final = np.float32(0.3)  # less of that, per share of the fastest turn, not to overshoot
-WALL: Final = np.float32(0.03)  # metres between ball and wall in which no robot fits
-CLEAR: Final = 0.005  # metres to a wall, beyond what it needs to turn on the spot
 ROOM: Final = np.float32(0.4)  # metres that mates leave round the ball
 NEAR: Final = np.float32(0.02)  # metres from its target at which it slows down
-TINY: Final = np.float32(1e-6)  # metres; not to divide by zero
-SLOW: Final = np.float32(0.1)  # share of top speed below which it may be stuck
-PATIENCE: Final = 16  # slow steps before it backs off
-BACKING: Final = 12  # steps that it backs off for
 
 
 class Chase(Policy):
@@ -37,18 +32,14 @@ class Chase(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the field and the robot of `task`."""
-        config = task.config
-        if tuple(config.command_columns) != ("left", "right") or task.action_size != 2:
-            raise ValueError(f"chase drives two wheels, which the robots of {task.name} have not")
-        clear = config.robot.bounding_radius + CLEAR
-        self._goal_x = np.float32(config.field.half_length)
-        self._wall = np.float32(config.ball.radius + WALL)
-        self._half_mouth = np.float32(config.field.goal_width / 2)
-        self._half_width = np.float32(config.field.half_width)
-        self._most_x = np.float32(config.field.half_length - clear)
-        self._most_y = np.float32(config.field.half_width - clear)
-        self._damping = DAMPING * np.float32(0.5 * config.robot.track / config.robot.top_speed)
-        self._slow = SLOW * np.float32(config.robot.top_speed)
+        driving.expect_two_wheels(task, "chase")
+        field, robot = task.config.field, task.config.robot
+        self._pitch = Pitch(task.config)
+        clear = driving.room_to_turn(robot)
+        self._most_x = np.float32(field.half_length - clear)
+        self._most_y = np.float32(field.half_width - clear)
+        self._damping = driving.damping(robot)
+        self._slow = driving.SLOW * np.float32(robot.top_speed)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Steps (n, robots) that it has been slow for; below 0 while it backs off."""
@@ -65,13 +56,14 @@ class Chase(Policy):
         x, y = np.where(chases, x, away_x), np.where(chases, y, away_y)
         cos, sin = me.heading[..., 0], me.heading[..., 1]
         ahead, left = x * cos + y * sin, y * cos - x * sin
-        per = _inverse(length(x, y), NEAR)
+        per = driving.inverse(length(x, y), NEAR)
         forward, turn = ahead * per, left * per * np.sign(ahead) * TURN
         turn = turn - me.spin * self._damping
-        backing = self._backing(me.velocity, memory["slow"]) & chases
+        always = np.ones_like(chases)  # who makes room may be stuck too, but then need not push
+        backing = driving.backing(me.velocity, self._slow, always, memory["slow"]) & chases
         forward = np.where(backing, -forward, forward)
         turn = np.where(backing, rng.uniform(-1.0, 1.0, seen.shape[1:2]), turn)
-        return _wheels(forward, turn)
+        return driving.wheels(forward, turn)
 
     def _target(self, ball: Floats, me: Floats) -> tuple[Floats, Floats]:
         """Where to drive at, (n, robots) metres along x and along y."""
@@ -91,22 +83,12 @@ class Chase(Policy):
 
     def _course(self, ball_x: Floats, ball_y: Floats) -> tuple[Floats, Floats]:
         """Where to push the ball, a direction: at the goal, or along a wall that it lies at."""
-        x, y = self._goal_x - ball_x, -ball_y
-        beside = self._half_width - np.abs(ball_y) < self._wall
+        x, y = self._pitch.half_length - ball_x, -ball_y
+        beside, before = self._pitch.walls(ball_x, ball_y)
         y = np.where(beside, np.float32(0.0), y)
-        before = self._goal_x - np.abs(ball_x) < self._wall
-        before &= np.abs(ball_y) > self._half_mouth
         y = np.where(before, np.copysign(y, -ball_y * ball_x), y)
         x = np.where(before & ~beside, np.float32(0.0), x)
-        per = _inverse(length(x, y), TINY)
-        return x * per, y * per
-
-    def _backing(self, velocity: Floats, slow: Array) -> Mask:
-        """Which robots back off, (n, robots)."""
-        speed = np.abs(velocity[..., 0]) + np.abs(velocity[..., 1])
-        slow[:] = np.where(slow < 0, slow + 1, np.where(speed < self._slow, slow + 1, 0))
-        slow[slow > PATIENCE] = -BACKING
-        return np.less(slow, 0)
+        return unit(x, y)
 
 
 def _roles(view: View) -> tuple[Mask, Floats, Floats]:
@@ -120,17 +102,5 @@ def _roles(view: View) -> tuple[Mask, Floats, Floats]:
     y = view.robots.position[:, :, team, 1] - view.ball.position[..., None, 1]
     distance = np.where(view.present[:, team], length(x, y), np.float32(np.inf))
     mine = distance[:, :, 0]
-    off = np.maximum(ROOM - mine, np.float32(0.0)) * _inverse(mine, NEAR)
+    off = np.maximum(ROOM - mine, np.float32(0.0)) * driving.inverse(mine, NEAR)
     return mine == distance.min(axis=2), x[:, :, 0] * off, y[:, :, 0] * off
-
-
-def _inverse(lengths: Floats, least: np.float32) -> Floats:
-    """Per metre, of lengths that count as `least` where they are less."""
-    inverse: Floats = np.divide(np.float32(1.0), np.maximum(lengths, least))
-    return inverse
-
-
-def _wheels(forward: Floats, turn: Floats) -> Floats:
-    """Left and right power; both are scaled alike where one is too much, to keep the curve."""
-    most = np.maximum(np.abs(forward) + np.abs(turn), np.float32(1.0))
-    return np.stack([(forward - turn) / most, (forward + turn) / most], axis=-1)

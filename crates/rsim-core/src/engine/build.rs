@@ -3,7 +3,6 @@
 use rapier2d::math::Vector;
 use rapier2d::prelude::*;
 
-use super::quiet::SUB_STEPS;
 use super::{BALL_LABEL, Engine, Inverse, Motion, Partner, Push, label};
 use crate::SimConfig;
 use crate::arena::Wall;
@@ -102,11 +101,14 @@ fn awake() -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic().can_sleep(false)
 }
 
+/// Sub-steps of the solver in a tick. `cargo bench --bench solver` shows what fewer and more give.
+const SUB_STEPS: usize = 4;
+
 /// Settings for bodies of a few centimetres. The engine's defaults suit bodies of a metre.
 fn parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
-        num_solver_iterations: usize::from(SUB_STEPS),
+        num_solver_iterations: SUB_STEPS,
         // Scales the engine's tolerances: contacts are predicted 2 mm ahead instead of 20 mm.
         length_unit: 0.1,
         // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).

@@ -183,6 +183,11 @@ impl Engine {
         self.skips = skips;
     }
 
+    /// Solves each tick in so many sub-steps.
+    pub(crate) fn set_sub_steps(&mut self, sub_steps: usize) {
+        self.parameters.num_solver_iterations = sub_steps;
+    }
+
     /// Ticks that went without the solver since the match began.
     pub(crate) fn skipped(&self) -> u32 {
         self.skipped

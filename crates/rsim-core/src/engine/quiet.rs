@@ -17,9 +17,6 @@ use crate::robot_model::Body;
 /// Nearer ones do to the solver: it has them bounce in the tick before they meet.
 const MARGIN: f32 = 0.002_2;
 
-/// Sub-steps of the solver in a tick.
-pub(super) const SUB_STEPS: u8 = 4;
-
 /// More bodies than the leagues allow: then every tick is solved.
 const MOST: usize = 32;
 
@@ -164,18 +161,19 @@ impl Engine {
 
     /// A tick without contacts.
     pub(super) fn coast(&mut self) {
-        let length = self.parameters.dt / f32::from(SUB_STEPS);
+        let sub_steps = self.parameters.num_solver_iterations;
+        let length = self.parameters.dt / sub_steps as f32;
         for (index, motion) in self.motions.iter_mut().enumerate() {
-            coast(motion, &self.pushes[index], self.inverses[index], length);
+            coast(motion, &self.pushes[index], self.inverses[index], length, sub_steps);
         }
         self.moved.fill(true);
     }
 }
 
-fn coast(motion: &mut Motion, push: &Push, inverse: Inverse, length: f32) {
+fn coast(motion: &mut Motion, push: &Push, inverse: Inverse, length: f32, sub_steps: usize) {
     let faster = push.force * inverse.mass * length;
     let turns = push.torque * inverse.inertia * length;
-    for _ in 0..SUB_STEPS {
+    for _ in 0..sub_steps {
         motion.velocity += faster;
         motion.spin += turns;
         motion.position += motion.velocity * length;

@@ -1,0 +1,60 @@
+"""What a second thread brings, and what this machine lets it bring at most."""
+
+import hashlib
+import threading
+import time
+from collections.abc import Callable
+from typing import Final
+
+from benches.games import Game
+from benches.measuring import SPEED, Measure, Quantity, Values
+from benches.simulators import Ours, bout
+
+HASHING: Final = Quantity("speed", "blocks/s")
+BLOCK: Final = bytes(1 << 16)  # 64 KiB, at home in the innermost caches; hashing lets go of the GIL
+BURST: Final = 6  # steps of an episode: many worlds, so few of them make a measurement
+
+
+def stepping(game: Game, worlds: int, threads: int) -> Measure:
+    """One simulator that shares its worlds out itself."""
+    return bout(game, lambda: Ours(game, worlds, threads), worlds, BURST)
+
+
+def side_by_side(game: Game, worlds: int, threads: int) -> Measure:
+    """As many simulators as threads, each with its share of the worlds and nobody to wait for."""
+    share = worlds // threads
+    bouts = [bout(game, lambda: Ours(game, share), share, BURST) for _ in range(threads)]
+
+    def measure(seconds: float) -> Values:
+        values: list[Values] = []
+        together([lambda one=one: values.append(one(seconds)) for one in bouts])  # type: ignore[misc]
+        return {SPEED: sum(value[SPEED] for value in values)} if seconds else {}
+
+    return measure
+
+
+def hashing(threads: int) -> Measure:
+    """Pure computing that shares nothing."""
+
+    def measure(seconds: float) -> Values:
+        made = [0] * threads
+        end = time.perf_counter() + seconds
+
+        def hash_on(thread: int) -> None:
+            while time.perf_counter() < end:
+                hashlib.sha256(BLOCK).digest()
+                made[thread] += 1
+
+        together([lambda thread=n: hash_on(thread) for n in range(threads)])  # type: ignore[misc]
+        return {HASHING: sum(made) / seconds} if seconds else {}
+
+    return measure
+
+
+def together(works: list[Callable[[], object]]) -> None:
+    """Do all at once, a thread each."""
+    threads = [threading.Thread(target=work) for work in works]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
