@@ -420,8 +420,8 @@ class Sight:
     In half lengths of the field and top speeds of a robot. `ball`: place and velocity, in the plane
     or, for robots with a break beam, in space. `me`, `mates`, `foes`: x, y, cos, sin, velocity,
     turn rate, and the beam where there is one. `ball_from_me`, `goal_from_me`: distance, cosine and
-    sine of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling to 0;
-    the latter times 1 where ball and goal lie in one direction, -1 where in opposite ones.
+    sine of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling
+    to 0; the latter times 1 where ball and goal lie in one direction, -1 where in opposite ones.
     `motion_from_me`: own velocity and the ball's, ahead and left. `places_from_me`: ball, mates,
     foes, likewise.
 

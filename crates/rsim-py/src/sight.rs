@@ -14,7 +14,7 @@ use crate::models::{Field, RobotModel};
 /// What robots see, in half lengths of the field and top speeds of a robot.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Sight {
-    sight: rsim_core::Sight,
+    seen: rsim_core::Sight,
     field: Field,
     robot: RobotModel,
     others: (usize, usize),
@@ -25,13 +25,13 @@ impl Sight {
     #[new]
     fn new(field: Field, robot: RobotModel, n_mates: i64, n_foes: i64) -> PyResult<Self> {
         let (mates, foes) = (count("n_mates", n_mates)?, count("n_foes", n_foes)?);
-        let sight = rsim_core::Sight::new(&field.0, &robot.0, mates, foes);
-        Ok(Self { sight, field, robot, others: (mates, foes) })
+        let seen = rsim_core::Sight::new(&field.0, &robot.0, mates, foes);
+        Ok(Self { seen, field, robot, others: (mates, foes) })
     }
 
     #[getter]
     fn blocks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let blocks = self.sight.blocks().into_iter();
+        let blocks = self.seen.blocks().into_iter();
         let named = blocks.map(|(name, shape)| Ok((name, PyTuple::new(py, shape)?)));
         PyTuple::new(py, named.collect::<PyResult<Vec<_>>>()?)
     }
@@ -47,23 +47,23 @@ impl Sight {
             _ => (0, 0), // refused just below
         };
         let (ball_size, robots_size) =
-            (BALL_COLUMNS.len(), self.sight.slots() * ROBOT_COLUMNS.len());
+            (BALL_COLUMNS.len(), self.seen.slots() * ROBOT_COLUMNS.len());
         let ball: PyReadonlyArray<'_, f32, Ix3> = readable("ball", ball, &[n, seers, ball_size])?;
-        let shape = [n, seers, self.sight.slots(), ROBOT_COLUMNS.len()];
+        let shape = [n, seers, self.seen.slots(), ROBOT_COLUMNS.len()];
         let robots: PyReadonlyArray<'_, f32, Ix4> = readable("robots", robots, &shape)?;
         let (ball, robots) = (values(&ball), values(&robots));
-        let seen = PyArray3::zeros(py, [n, seers, self.sight.size()], false);
+        let numbers = PyArray3::zeros(py, [n, seers, self.seen.size()], false);
         {
-            let mut out = seen.readwrite();
+            let mut out = numbers.readwrite();
             let out = out.as_slice_mut()?;
             py.detach(|| {
-                let each = out.chunks_exact_mut(self.sight.size());
+                let each = out.chunks_exact_mut(self.seen.size());
                 let views = ball.chunks_exact(ball_size).zip(robots.chunks_exact(robots_size));
                 each.zip(views)
-                    .for_each(|(out, (ball, robots))| self.sight.write(ball, robots, out));
+                    .for_each(|(out, (ball, robots))| self.seen.write(ball, robots, out));
             });
         }
-        Ok(seen)
+        Ok(numbers)
     }
 
     fn __reduce__<'py>(
