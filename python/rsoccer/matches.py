@@ -28,6 +28,7 @@ AUTORESETS: Final = ("same_step", "next_step", "disabled")
 Indices = NDArray[np.intp]
 Seed = int | Sequence[int | None] | None  # of the first world, or one for each
 Seeds = list[int | None]
+NOBODY: Final[Indices] = np.empty(0, np.intp)
 Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
 
@@ -110,7 +111,7 @@ class Matches:
         actions = checks.actions(actions, shape)
         if not self._begun.all():
             raise RuntimeError("step before reset: some worlds have begun no episode")
-        still = np.flatnonzero(self._done)
+        still = np.flatnonzero(self._done) if self._done.any() else NOBODY
         held = self._hold(still) if len(still) else None
         self._move(actions)
         outcome = self._judge()

@@ -166,7 +166,7 @@ class Task(ABC):
         flat = np.empty((n, seers, len(self.observation_high)), np.float32)
         if seers:
             blocks = self.frame_to_observations(play).values()
-            sized = [block.reshape(n, seers, -1) for block in blocks]
+            sized = [b if b.ndim == 3 else b.reshape(n, seers, -1) for b in blocks]
             np.concatenate(sized, axis=-1, out=flat, casting="same_kind")
             np.minimum(flat, self.observation_high, out=flat)
             np.maximum(flat, self.observation_low, out=flat)

@@ -40,13 +40,11 @@ class Soccer(Task):
         """
         seen = self.sight.look(play.view.ball.data, play.view.robots.data)  # (n, seers, numbers)
         blocks: dict[str, Floats] = {}
-        first = 0
-        for name, shape in self.sight.blocks:
+        for name, columns, shape in self._seen_blocks:
             if name == "ball_from_me":
                 blocks["action"] = play.actions[:, play.seers]  # (n, seers, action)
-            last = first + math.prod(shape)
-            blocks[name] = seen[:, :, first:last].reshape(*seen.shape[:2], *shape)
-            first = last
+            block = seen[:, :, columns]
+            blocks[name] = block if len(shape) == 1 else block.reshape(*seen.shape[:2], *shape)
         return blocks
 
     def observation_limits(self) -> dict[str, float]:
@@ -63,6 +61,15 @@ class Soccer(Task):
         """What robots see, in half lengths of the field and a robot's top speeds."""
         config = self.config
         return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
+
+    @cached_property
+    def _seen_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
+        """Name, place and shape of what `sight` sees."""
+        blocks, first = [], 0
+        for name, shape in self.sight.blocks:
+            blocks.append((name, slice(first, first + math.prod(shape)), shape))
+            first += math.prod(shape)
+        return tuple(blocks)
 
     @cached_property
     def per_metre(self) -> np.float32:
