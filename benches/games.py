@@ -68,13 +68,7 @@ class Game:
 
     def start(self, rng: WorldRng) -> Frame:
         """Everything somewhere, at rest, nothing touching; (n)."""
-        config, robots = self.config, self.config.n_robots
-        frame = Frame.empty(len(rng), config.n_blue, config.n_yellow)
-        radii = [config.ball.radius, *(robot.bounding_radius for robot in config.robots)]
-        places = spawn.apart(rng, config.field, radii)
-        frame.ball.position[:], frame.robots.position[:] = places[:, 0], places[:, 1:]
-        frame.robots.heading[:] = spawn.headings(rng, robots)
-        return frame
+        return spawn.anywhere(rng, self.config, 0.0)
 
     def touching(self, seen: Seen) -> float:
         """Share of the robots that are at another one or at the ball."""

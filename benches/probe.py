@@ -42,13 +42,11 @@ def memory(field: str, robots: int, worlds: int) -> dict[str, float]:
 
 def resident() -> int:
     """Bytes of memory that this process holds; where the system does not say, its peak."""
-    held = Path("/proc/self/statm")
-    if held.exists():
-        import resource
-
-        return int(held.read_text().split()[1]) * resource.getpagesize()
     import resource
 
+    held = Path("/proc/self/statm")
+    if held.exists():
+        return int(held.read_text().split()[1]) * resource.getpagesize()
     unit = 1 if sys.platform == "darwin" else 1024
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 

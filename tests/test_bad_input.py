@@ -3,6 +3,7 @@
 What exactly is said, and odder input, is in the tests of each door.
 """
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Matches
+from rsoccer import Matches, policies
 from rsoccer.parallel import SoccerParallelEnv, parallel_env
 from rsoccer.policies.network import Network
 from rsoccer.registry import list_options
@@ -18,6 +19,8 @@ from rsoccer.single import single_env
 from rsoccer.vector import vector_env
 from tests.lone_learner import lone, plain
 from tests.one_match import TASKS, random_actions
+
+CONFIGS = {name: rsoccer.make_task(name).config for name in TASKS}
 
 every_task = pytest.mark.parametrize("name", TASKS)
 
@@ -208,3 +211,29 @@ def test_a_reset_with_a_bad_value_changes_nothing_and_unknown_keys_are_ignored(n
                 made.reset(**{"seed": 4, **arguments})
         assert np.array_equal(made._matches.frame.rows, twin._matches.frame.rows)
         assert plain(made.reset()) == plain(twin.reset()), "its random streams have gone on"
+
+
+def makers() -> list[tuple[str, str]]:
+    """Policies that know a field and teams, each with a task that it can play."""
+    found: dict[str, str] = {}
+    for name in TASKS:
+        task = rsoccer.make_task(name)
+        for policy in policies.names():
+            with contextlib.suppress(ValueError):
+                if policies.make(policy, task).knows_task:
+                    found.setdefault(policy, name)
+    return sorted(found.items())
+
+
+def test_some_policies_know_their_task() -> None:
+    assert {"chase", "scripted", "fetch"} <= dict(makers()).keys()
+
+
+@pytest.mark.parametrize(("policy", "name"), makers())
+def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> None:
+    made = policies.make(policy, rsoccer.make_task(name))
+    others = [other for other in TASKS if rsoccer.make_task(other).config != CONFIGS[name]]
+    assert others
+    for other in others:
+        with pytest.raises(ValueError, match=f"for the field, robots and teams of {other}"):
+            Matches(other, controllers={"all": made})

@@ -12,6 +12,7 @@ PAGES = (
     "CHANGELOG.md",
     "docs/physics.md",
     "docs/robosim.md",
+    "docs/speed.md",
 )
 MADE = ("out/", "target/", ".venv/")  # what only building or running leaves
 

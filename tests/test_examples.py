@@ -14,6 +14,8 @@ QUICK = {
     "07_mixed_side.py": [],
     "08_arrays.py": [],
     "09_old_simulator.py": [],
+    "11_turns.py": [],
+    "12_entities.py": [],
 }
 
 

@@ -83,6 +83,13 @@ def test_a_task_may_have_other_names_with_options_of_their_own() -> None:
     assert "Duel-v0" not in rsoccer.list_tasks()
 
 
+def test_another_name_may_have_further_names() -> None:
+    registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)
+    registry.alias("ShortDuel-v0", "Duel-v0", max_steps=40)
+    assert rsoccer.make_task("ShortDuel-v0") == VssSelfPlay(n_blue=1, n_yellow=1, max_steps=40)
+    assert rsoccer.make_task("ShortDuel-v0", n_yellow=2).n_yellow == 2
+
+
 @pytest.mark.parametrize(
     ("name", "task", "options", "message"),
     [
@@ -112,6 +119,12 @@ def test_who_asks_for_a_task_that_is_gone_is_told_what_to_do() -> None:
     registry.retire("Chess-v0", "take VSS-v0")
     with pytest.raises(ValueError, match="unknown task 'Chess-v0': take VSS-v0"):
         rsoccer.make_task("Chess-v0")
+
+
+@pytest.mark.parametrize("name", ["VSS-v0", "VSSMA-v0", "Chess"])
+def test_a_name_in_use_is_not_gone(name: str) -> None:
+    with pytest.raises(ValueError, match="name: "):
+        registry.retire(name, "take another")
 
 
 @pytest.mark.parametrize("name", ["", "Mine", "Mine-v", "-v0", "My Task-v0", "9-v0"])

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig, Simulator, spawn
+from rsoccer._core import RobotModel
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from tests.helpers import same
@@ -88,3 +89,14 @@ def test_velocities_are_at_most_so_fast() -> None:
     assert 0.49 < speeds.max() <= 0.5 + 1e-6
     assert np.abs(velocities.mean(axis=0)).max() < 0.02
     assert not spawn.velocities(WorldRng.seeded(0, 9), 0.0).any()
+
+
+def test_robots_of_different_sizes_start_apart() -> None:
+    big = RobotModel("ssl_generic", radius=0.2)
+    config = SimConfig("ssl_challenge", 2, 1, robot=[big, "ssl_generic", big])
+    n = 300
+    frame = spawn.anywhere(WorldRng.seeded(1, n), config, 0.0)
+    rows = np.zeros((n, config.row_size), np.float32)
+    Simulator(config, n).place(np.ones(n, np.bool_), frame.rows, rows)
+    gaps = np.linalg.norm(frame.robots.position[:, 0] - frame.robots.position[:, 2], axis=-1)
+    assert 0.4 <= gaps.min() < 0.5

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
+from benches.sharing import BURST
 from benches.table import RESULTS, ROOT, Figure, Machine, digits, load, times
 from tools.parts import table
 
@@ -68,9 +69,9 @@ def beside(old: str, core: Sequence[Figure]) -> str:
     text = (
         f"{old} is the simulator of robocin's rSoccer (package rc-robosim), built here in its own "
         "release mode and stepped in the same process, round about with ours: the same teams and "
-        "fields, starts and kinds of command, 25 ms a step in five ticks. Ratios are medians over "
-        "rounds (slowest and fastest round in brackets), because this machine is small and does "
-        "other things besides."
+        "fields, starts (of many at once, the first's) and kinds of command, 25 ms a step in five "
+        "ticks. Ratios are medians over rounds (slowest and fastest round in brackets): every "
+        "round has another start, and this machine is small and does other things besides."
     )
     if not interface:
         return text
@@ -144,7 +145,7 @@ def _threads(figures: list[Figure]) -> str:
     )
     worlds = ratios["Simulator"].worlds
     return (
-        f"Two threads step {worlds:,} worlds ({figures[0].game}) {ours} as fast as one. This "
+        f"Two threads step {worlds:,} worlds ({_opening(figures)}) {ours} as fast as one. This "
         f"machine's own ceiling: {beside} for two simulators that share nothing, {hashing} for "
         "hashing."
     )
@@ -154,7 +155,12 @@ def _growth(figures: list[Figure]) -> str:
     ratios = [f for f in figures if f.quantity == "ratio"]
     base = min(figure.worlds for figure in figures)
     told = ", ".join(f"{f.median:.2f}x at {f.worlds:,}" for f in ratios)
-    return f"Steps a second of a batch, by those at {base} worlds ({figures[0].game}): {told}."
+    return f"Steps a second of a batch, by those at {base} worlds ({_opening(figures)}): {told}."
+
+
+def _opening(figures: Sequence[Figure]) -> str:
+    """What is played where many worlds are: too many for whole episodes."""
+    return f"{figures[0].game}, the first {BURST} steps of it"
 
 
 def _memory(figures: list[Figure]) -> str:

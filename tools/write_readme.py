@@ -112,7 +112,7 @@ def demo() -> str:
 def _evaluation_row(evaluation: dict[str, Any]) -> tuple[str, ...]:
     counts = [str(evaluation[key]) for key in ("matches", "wins", "draws", "losses")]
     interval = f"{evaluation['low']:+.2f} to {evaluation['high']:+.2f}"
-    opponent = Path(evaluation["opponent"]).stem
+    opponent = Path(evaluation["opponent"]).name.removesuffix(".safetensors")
     return (opponent, *counts, f"{evaluation['goal_score']:+.2f}", interval)
 
 

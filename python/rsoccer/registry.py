@@ -55,6 +55,9 @@ def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the t
 
 def retire(name: str, hint: str) -> None:
     """Tell those who ask for `name`, which no task has any more, what to do instead."""
+    _check_name(name)
+    if name in _TASKS or name in _ALIASES:
+        raise ValueError(f"name: {name!r} is still in use")
     _GONE[name] = hint
 
 
@@ -71,8 +74,8 @@ def list_aliases() -> dict[str, Alias]:
 def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task has its own options)
     """A task by its name; options are the fields of its class, or what it is made with."""
     if name in _ALIASES:
-        name, preset = _ALIASES[name]
-        options = {**preset, **options}
+        meant, preset = _ALIASES[name]
+        return make_task(meant, **{**preset, **options})
     if name not in _TASKS:
         hint = _GONE.get(name, f"expected one of {list_tasks()}")
         raise ValueError(f"unknown task {name!r}: {hint}")

@@ -18,7 +18,7 @@ MARGIN: Final = 1e-3  # metres; what float32 and the simulator may see different
 def anywhere(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame:
     """Ball and robots at rest anywhere in the field, apart; robots face anywhere."""
     frame = Frame.empty(len(rng), config.n_blue, config.n_yellow)
-    radii = [config.ball.radius] + [config.robot.bounding_radius] * config.n_robots
+    radii = [config.ball.radius, *(robot.bounding_radius for robot in config.robots)]
     places = apart(rng, config.field, radii, min_distance)
     frame.ball.position[:] = places[:, 0]
     frame.robots.position[:] = places[:, 1:]

@@ -90,12 +90,14 @@ def test_over_a_match_each_side_keeps_one_keeper() -> None:
     assert 10 < changes < 0.1 * 200 * 16, "roles follow the game, but not at every step"
 
 
-def test_support_waits_at_places_apart_and_inside() -> None:
+def test_support_waits_inside_and_at_places_apart_unless_the_ball_is_deep() -> None:
     rng = np.random.default_rng(0)
     ball: Place = (
         rng.uniform(-0.7, 0.7, (50, 1)).astype(np.float32),
         rng.uniform(-0.6, 0.6, (50, 1)).astype(np.float32),
     )
-    for which in range(4):
-        x, y = roles.spot(which, ball)
-        assert max(np.abs(x).max(), np.abs(y).max()) <= roles.SPREAD
+    spots = np.array([roles.spot(which, ball) for which in range(3)])
+    assert np.abs(spots).max() == roles.SPREAD
+    upfield = spots[:, :, ball[0] > 0.1]
+    for one, other in ((0, 1), (0, 2), (1, 2)):
+        assert np.hypot(*(upfield[one] - upfield[other])).min() > 0.14

@@ -225,6 +225,14 @@ def test_it_drives_two_wheels_only() -> None:
         rsoccer.Matches("SSLSelfPlay-v0", controllers={"blue": "scripted"})
 
 
+@pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0"])
+def test_a_side_made_for_other_teams_is_refused(name: str) -> None:
+    other = Scripted(VssSelfPlay(n_blue=2))
+    with pytest.raises(ValueError, match=f"made for another field .* than those of {name}"):
+        Matches(name, controllers={"blue": other})
+    assert policies.make(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
+
+
 def test_it_needs_a_view() -> None:
     scripted, rng = cast(Scripted, policies.make("scripted", TASK)), WorldRng.seeded(0, 1)
     shape = (1, 1, 2)

@@ -87,7 +87,7 @@ def play(task: Task, policy: str, worlds: int = 24, seed: int = 5) -> Episodes:
 
 
 def expect_solved(task: Task, solver: str, metric: str, least: float, worlds: int = 24) -> None:
-    """The solver solves it, that pays best, and the objective (by its term) pays most of it."""
+    """The solver solves it, others do not and are paid less, and effort hardly counts."""
     solved, idle, wild = (play(task, name, worlds) for name in (solver, "zero", "uniform"))
     assert solved.metrics[metric].mean() >= least
     for other in (idle, wild):

@@ -55,9 +55,7 @@ def make(policy: str | os.PathLike[str] | Policy, task: Task) -> Policy:
             policy = _load(given)
         else:
             policy = _with_skill(name, skill, task) if colon else _MAKERS[name](task)
-    check_fits = getattr(policy, "check_fits", None)
-    if check_fits is not None:
-        check_fits(task, task.observation_size)
+    policy.check_fits(task, task.observation_size)
     return policy
 
 

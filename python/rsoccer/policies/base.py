@@ -4,8 +4,10 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Literal
 
+from rsoccer._core import SimConfig
 from rsoccer.frame import Array, Floats
 from rsoccer.rng import WorldRng
+from rsoccer.task import Task
 from rsoccer.view import View
 
 Memory = dict[str, Array]
@@ -24,6 +26,27 @@ class Policy(ABC):
     """Drives some robots of each world. Holds no state of a match: that lives in `memory`."""
 
     observes: Literal["nothing", "view", "observation"]
+
+    _made_for: tuple[SimConfig, tuple[str, ...]] | None = None  # what it knows; None: nothing
+
+    def __init__(self, task: Task | None = None) -> None:
+        """Know the field and the teams of `task`, or need to know none."""
+        if task is not None:
+            self._made_for = task.config, tuple(task.sides)
+
+    @property
+    def knows_task(self) -> bool:
+        """Whether it was made for one field and its teams."""
+        return self._made_for is not None
+
+    def check_fits(self, task: Task, observation_size: int) -> None:
+        """ValueError for a task of other robots, teams or another field than it was made for."""
+        if self._made_for not in (None, (task.config, tuple(task.sides))):
+            raise ValueError(
+                f"policy: expected one for the field, robots and teams of {task.name}, got a "
+                f"{type(self).__name__} that was made for others; make it for this task, "
+                "or give its name"
+            )
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """What it remembers when episodes start; arrays (n, ...), for shape (n, robots, action)."""

@@ -32,6 +32,7 @@ class Chase(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the field and the robot of `task`."""
+        super().__init__(task)
         driving.expect_two_wheels(task, "chase")
         field, robot = task.config.field, task.config.robot
         self._pitch = Pitch(task.config)

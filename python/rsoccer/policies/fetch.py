@@ -20,6 +20,7 @@ class Fetch(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the field and the robot of `task`."""
+        super().__init__(task)
         self._mover = ssl_moves.Mover("fetch", task)
         self._ground = Ground.field(task.config.field, ROOM)
 

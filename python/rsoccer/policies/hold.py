@@ -27,6 +27,7 @@ class Hold(Policy):
 
     def __init__(self, task: Task) -> None:
         """Refuse a task of other robots."""
+        super().__init__(task)
         check_ssl("hold", task)
 
     def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:

@@ -32,6 +32,7 @@ class Passer(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the field, the robot and the ball of `task`."""
+        super().__init__(task)
         self._mover = ssl_moves.Mover("passer", task)
         if task.n_blue < 2:
             raise ValueError(f"passer needs a mate, and in {task.name} it has none")

@@ -30,6 +30,7 @@ class Scripted(Policy):
         driving.expect_two_wheels(task, "scripted")
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
+        super().__init__(task)
         self._pitch = Pitch(task.config)
         self._driver = Driver(task.config.robot)
         self._side = max({"blue": task.n_blue, "yellow": task.n_yellow}[s] for s in task.sides)

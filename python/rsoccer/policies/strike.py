@@ -44,6 +44,7 @@ class Strike(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the field and the robot of `task`."""
+        super().__init__(task)
         self._mover = ssl_moves.Mover("strike", task)
         field = task.config.field
         self._goal_x = np.float32(field.half_length)

@@ -32,6 +32,7 @@ class Weave(Policy):
 
     def __init__(self, task: Task) -> None:
         """Learn the course of `task`."""
+        super().__init__(task)
         self._mover = ssl_moves.Mover("weave", task)
         course: Any = getattr(task, "course", None)
         if course is None:

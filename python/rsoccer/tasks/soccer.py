@@ -41,10 +41,9 @@ class Soccer(Task):
         seen = self.sight.look(play.view.ball.data, play.view.robots.data)  # (n, seers, numbers)
         blocks: dict[str, Floats] = {}
         for name, columns, shape in self._seen_blocks:
-            if name == "ball_from_me":
-                blocks["action"] = play.actions[:, play.seers]  # (n, seers, action)
             block = seen[:, :, columns]
             blocks[name] = block if len(shape) == 1 else block.reshape(*seen.shape[:2], *shape)
+        blocks["action"] = play.actions[:, play.seers]  # (n, seers, action)
         return blocks
 
     def observation_limits(self) -> dict[str, float]:
