@@ -41,7 +41,7 @@ def hashing(threads: int) -> Measure:
         end = time.perf_counter() + seconds
 
         def hash_on(thread: int) -> None:
-            while time.perf_counter() < end:
+            while not made[thread] or time.perf_counter() < end:
                 hashlib.sha256(BLOCK).digest()
                 made[thread] += 1
 

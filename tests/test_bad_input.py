@@ -237,3 +237,32 @@ def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> N
     for other in others:
         with pytest.raises(ValueError, match=f"for the field, robots and teams of {other}"):
             Matches(other, controllers={"all": made})
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_network_of_a_task_that_shows_something_else_is_refused(name: str) -> None:
+    task = rsoccer.make_task(name)
+    zeros = np.zeros(task.observation_size, np.float32)
+    arrays = {
+        "layers.0.weight": np.zeros((task.action_size, task.observation_size), np.float32),
+        "layers.0.bias": np.zeros(task.action_size, np.float32),
+        **{"mean": zeros, "std": zeros + 1},
+    }
+    metadata = {
+        **{"format": "rsoccer-policy-1", "task": name, "activation": "tanh"},
+        **{"observation_size": str(task.observation_size), "action_size": str(task.action_size)},
+        "layout": task.layout,
+    }
+    network = Network(arrays, metadata)
+    assert policies.make(network, task) is network
+    others = [make for make in map(rsoccer.make_task, TASKS) if make.layout != task.layout]
+    assert others
+    for other in others:
+        with pytest.raises(ValueError, match=f"a network trained on '{name}'"):
+            policies.make(network, other)
+
+
+def test_equal_sizes_do_not_make_equal_layouts() -> None:
+    sizes = {make.observation_size: make.layout for make in map(rsoccer.make_task, TASKS)}
+    layouts = {make.layout for make in map(rsoccer.make_task, TASKS)}
+    assert len(sizes) < len(layouts), "some tasks would be taken for each other by size"

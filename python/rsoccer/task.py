@@ -146,6 +146,12 @@ class Task(ABC):
         """Numbers in the flat observation."""
         return sum(block.size for block in self.blocks.values())
 
+    @property
+    def layout(self) -> str:
+        """The blocks and their shapes as text: what a network was made for."""
+        sizes = {name: "x".join(map(str, block.shape)) for name, block in self.blocks.items()}
+        return ", ".join(f"{name} {size}" for name, size in sizes.items())
+
     @cached_property
     def observation_high(self) -> Floats:
         """(o,) largest value of each number; the least is its negative."""

@@ -43,8 +43,8 @@ class Network(Policy):
 
         `arrays` holds `layers.<i>.weight` (out, in), `layers.<i>.bias` (out,), and `mean`, `std`
         (observation,), all float32. `metadata` is text: format, task, observation_size,
-        action_size, activation, clip (bound of a normalised observation) and, if it is not 1,
-        action_repeat (control steps).
+        action_size, activation, clip (bound of a normalised observation), where it is known
+        layout (`Task.layout`) and, if it is not 1, action_repeat (control steps).
         """
         self.metadata = dict(metadata)
         self.clip, self.action_repeat = _read_metadata(self.metadata)
@@ -118,7 +118,7 @@ class Network(Policy):
         return max(16, ONE_THREAD // max(weight.size for weight, _ in self.layers))
 
     def check_fits(self, task: Task, observation_size: int) -> None:
-        """Raise ValueError where the task shows or takes other sizes than the network."""
+        """Raise ValueError where the task shows or takes something else than the network."""
         wanted = {"observation_size": observation_size, "action_size": task.action_size}
         for name, size in self._sizes().items():
             if size != wanted[name]:
@@ -126,6 +126,12 @@ class Network(Policy):
                     f"a network trained on {self.task_name!r} has {name} {size}, "
                     f"but task {task.name!r} has {wanted[name]}"
                 )
+        layout = self.metadata.get("layout", task.layout)
+        if layout != task.layout:
+            raise ValueError(
+                f"a network trained on {self.task_name!r} looks at {layout}, "
+                f"but task {task.name!r} shows {task.layout}"
+            )
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:
         """Copies of all arrays by the names that the file uses."""

@@ -10,6 +10,7 @@ from torch import Tensor, nn
 
 from rsoccer.frame import Array, Floats
 from rsoccer.policies.network import FORMAT, Network
+from rsoccer.task import Task
 
 OBSERVATION_CLIP = 10.0  # standard deviations; rarer values are bounded
 
@@ -46,7 +47,7 @@ class ActorCritic(nn.Module):
         """Entropy of the Gaussian, the same for every observation."""
         return (self.log_std + 0.5 * math.log(2 * math.pi * math.e)).sum()
 
-    def export(self, task: str, mean: Floats, std: Floats) -> Network:
+    def export(self, task: Task, mean: Floats, std: Floats) -> Network:
         """The policy as everyone else plays it: its mean action, in NumPy."""
         arrays: dict[str, Array] = {"mean": mean, "std": std}
         linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
@@ -55,7 +56,8 @@ class ActorCritic(nn.Module):
             arrays[f"layers.{index}.bias"] = layer.bias.detach().numpy().copy()
         metadata = {
             "format": FORMAT,
-            "task": task,
+            "task": task.name,
+            "layout": task.layout,
             "observation_size": str(linear[0].in_features),
             "action_size": str(linear[-1].out_features),
             "activation": "tanh",

@@ -309,7 +309,7 @@ class Trainer:
 
     def network(self) -> Network:
         """The present policy as everyone else plays it: the mean action, in NumPy."""
-        return self.model.export(self.task.name, *self.seen.as_floats())
+        return self.model.export(self.task, *self.seen.as_floats())
 
     def save(self, saved: Checkpoint) -> None:
         """Put a checkpoint, and the policy of the same moment, on disk."""
