@@ -38,7 +38,7 @@ def test_every_old_name_is_known() -> None:
     assert sorted(told) == sorted(RSOCCER_GYM)
     assert set(old_names.KEPT) <= set(rsoccer.list_tasks())
     assert set(old_names.ALIASES) == set(ALIASES)
-    assert len(ALIASES) == 4
+    assert len(ALIASES) == 6
 
 
 @pytest.mark.parametrize("name", ALIASES)

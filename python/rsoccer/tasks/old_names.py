@@ -18,17 +18,18 @@ KEPT: Final = (
 """Names that the tasks here have too."""
 ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "VSSMA-v0": ("VSSMulti-v0", {}),
+    # Its opponent was a network that the package did not come with; here, a script.
+    "VSSMAOpp-v0": ("VSSMulti-v0", {"opponent": "scripted:0.5"}),
+    # The same task on FIRASim, another simulator.
+    "VSSFIRA-v0": ("VSS-v0", {}),
     "SSLGoToBallIR-v0": ("SSLGoToBall-v0", {"foes": 6}),
     "SSLGoToBallShoot-v0": ("SSLStaticDefenders-v0", {"foes": 0, "max_steps": 2400}),
     "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v0", {}),
 }
 """Tasks and options for the other names."""
 GONE: Final = {
-    "VSSMAOpp-v0": "its opponent was a network that rsoccer-gym did not come with; "
-    "VSSMulti-v0 plays against any policy, opponent='path of its file'",
     "VSSGk-v0": "its attacker was a network that rsoccer-gym did not come with; a task of your own "
     "can pay a robot for keeping the goal against any policy",
-    "VSSFIRA-v0": "it ran on another simulator, FIRASim; VSS-v0 is the same task on this one",
 }
 """Why there is none of this name, and what to take instead."""
 
