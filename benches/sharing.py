@@ -4,6 +4,7 @@ import hashlib
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Final
 
 from benches.games import Game
@@ -12,22 +13,26 @@ from benches.simulators import Ours, bout
 
 HASHING: Final = Quantity("speed", "blocks/s")
 BLOCK: Final = bytes(1 << 16)  # 64 KiB, at home in the innermost caches; hashing lets go of the GIL
-BURST: Final = 6  # steps of an episode: many worlds, so few of them make a measurement
+TIMED: Final = range(30, 40)  # steps of an episode: few, of many worlds; by then things touch
 
 
 def stepping(game: Game, worlds: int, threads: int) -> Measure:
     """One simulator that shares its worlds out itself."""
-    return bout(game, lambda: Ours(game, worlds, threads), worlds, BURST)
+    return bout(game, lambda: Ours(game, worlds, threads), worlds, TIMED)
 
 
 def side_by_side(game: Game, worlds: int, threads: int) -> Measure:
     """As many simulators as threads, each with its share of the worlds and nobody to wait for."""
     share = worlds // threads
-    bouts = [bout(game, lambda: Ours(game, share), share, BURST) for _ in range(threads)]
+    bouts = [bout(game, lambda: Ours(game, share), share, TIMED) for _ in range(threads)]
 
     def measure(seconds: float) -> Values:
         values: list[Values] = []
-        together([lambda one=one: values.append(one(seconds)) for one in bouts])  # type: ignore[misc]
+
+        def add(one: Measure) -> None:
+            values.append(one(seconds))
+
+        together([partial(add, one) for one in bouts])
         return {SPEED: sum(value[SPEED] for value in values)} if seconds else {}
 
     return measure
@@ -45,7 +50,7 @@ def hashing(threads: int) -> Measure:
                 hashlib.sha256(BLOCK).digest()
                 made[thread] += 1
 
-        together([lambda thread=n: hash_on(thread) for n in range(threads)])  # type: ignore[misc]
+        together([partial(hash_on, n) for n in range(threads)])
         return {HASHING: sum(made) / seconds} if seconds else {}
 
     return measure

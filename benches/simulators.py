@@ -115,14 +115,14 @@ class Old:
 
 
 def bout(
-    game: Game, player: Callable[[], Player], worlds: int = 1, steps: int | None = None
+    game: Game, player: Callable[[], Player], worlds: int = 1, timed: range | None = None
 ) -> Measure:
-    """Whole episodes of a game, or its first `steps`, which are no scene to judge by.
+    """Whole episodes of a game, or these steps of it.
 
     A round has one start, the same for all who play it; who has time left plays it again. Steps
     alone are timed, neither placing nor deciding.
     """
-    episode, rounds = steps or game.episode, count()
+    timed, rounds = timed or range(game.episode), count()
     playing, driver = player(), Driver(game, worlds)
     touching: list[float] = []  # in all rounds
 
@@ -133,28 +133,33 @@ def bout(
         took: list[float] = []
         while sum(took) < seconds:
             playing.place(start)
-            spent, shares = play(game, playing, driver, episode)
+            spent, shares = play(game, playing, driver, timed)
             touching.extend(() if took else shares)
             took.append(spent)
-        speed, share = {SPEED: worlds * episode * len(took) / sum(took)}, float(np.mean(touching))
-        if steps:
-            return speed
+        speed = {SPEED: worlds * len(timed) * len(took) / sum(took)}
+        share = float(np.mean(touching))
         expect_contacts(game, share, len(touching) * worlds * game.config.n_robots)
         return {**speed, TOUCHING: share}
 
     return measure
 
 
-def play(game: Game, player: Player, driver: Driver, steps: int) -> tuple[float, list[float]]:
-    """Seconds that the steps took, and shares of robots that touched, at a few moments."""
-    spent, touching, looks = 0.0, [], max(steps // SAMPLES, 1)
-    for first in range(0, steps, driver.held):
+def play(game: Game, player: Player, driver: Driver, timed: range) -> tuple[float, list[float]]:
+    """Seconds that these steps took, and shares of robots that touched, at a few moments of them.
+
+    The steps before are played and not timed.
+    """
+    spent, touching, looks = 0.0, [], max(len(timed) // SAMPLES, 1)
+    for first in range(0, timed.stop, driver.held):
         commands = player.prepared(driver.commands(first, player.seen()))
-        held = min(driver.held, steps - first)
+        held = min(driver.held, timed.stop - first)
         start = time.perf_counter()
         for _ in range(held):
             player.step(commands)
-        spent += time.perf_counter() - start
+        took = time.perf_counter() - start
+        if first < timed.start:
+            continue
+        spent += took
         if (first + held) % looks == 0:
             touching.append(game.touching(player.seen()))
     return spent, touching

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
-from benches.sharing import BURST
+from benches.sharing import TIMED
 from benches.table import RESULTS, ROOT, Figure, Machine, digits, load, times
 from tools.parts import table
 
@@ -160,7 +160,7 @@ def _growth(figures: list[Figure]) -> str:
 
 def _opening(figures: Sequence[Figure]) -> str:
     """What is played where many worlds are: too many for whole episodes."""
-    return f"{figures[0].game}, the first {BURST} steps of it"
+    return f"{figures[0].game}, steps {TIMED.start} to {TIMED.stop} of it"
 
 
 def _memory(figures: list[Figure]) -> str:
