@@ -96,7 +96,7 @@ def load(path: Path) -> tuple[Machine, list[Figure]]:
 
 def digits(value: float, most: int = 3) -> str:
     """A number with no more digits than repeat."""
-    if value >= 10**most:
+    if float(f"{value:.{most}g}") >= 10**most:
         return f"{float(f'{value:.{most}g}'):,.0f}"
     return f"{value:.{most}g}"
 

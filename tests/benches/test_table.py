@@ -30,4 +30,5 @@ def test_numbers_have_the_digits_that_repeat() -> None:
         *("48,500", "1,230", "312", "1.88", "0.00123"),
     ]
     assert [digits(x, 2) for x in (258.8, 3.96, 0.131)] == ["260", "4", "0.13"]
-    assert [times(x) for x in (0.607, 1.987, 30.24, 102.3)] == ["0.607x", "1.99x", "30x", "102x"]
+    ratios = (0.607, 1.987, 30.24, 99.6, 102.3)
+    assert [times(x) for x in ratios] == ["0.607x", "1.99x", "30x", "100x", "102x"]
