@@ -97,7 +97,7 @@ class SoccerVectorEnv(OneSeat, VectorEnv[Floats, Array, Array]):
         self._screen = Screen(render_mode, task, RENDER_MODES)
         self.render_mode = render_mode
         self.autoreset_mode = _mode(autoreset_mode)
-        self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
+        self.metadata = metadata(task) | {"autoreset_mode": self.autoreset_mode}
         self._matches = StageMatches(
             task,
             num_envs,

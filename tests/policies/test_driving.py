@@ -7,6 +7,7 @@ from rsoccer.frame import Floats, Frame, length
 from rsoccer.policies import driving
 from rsoccer.policies.base import Memory, Policy, Seen
 from rsoccer.policies.driving import Driver, Orders
+from rsoccer.policies.vectors import inverse
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 
@@ -111,7 +112,7 @@ def test_a_way_past_keeps_off() -> None:
         x, y = driving.past(me, (to[..., 0], to[..., 1]), (zero, zero), radius, zero == 0.0)
         bent |= x != to[..., 0]
         way = np.stack([x, y], axis=-1) - me
-        per = driving.inverse(length(way[..., 0], way[..., 1]), np.float32(0.01))
+        per = inverse(length(way[..., 0], way[..., 1]), np.float32(0.01))
         me = me + way * per[..., None] * np.float32(0.01)
         nearest = min(nearest, float(length(me[..., 0], me[..., 1]).min()))
     assert bent.all(), "the thing is in the way of all"

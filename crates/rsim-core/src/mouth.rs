@@ -6,15 +6,13 @@ use rapier2d::parry::query::PointQuery;
 use rapier2d::parry::shape::Segment;
 
 use crate::ball::{Ball, Rolling};
+use crate::drive::ABSURD;
 use crate::engine::Motion;
 use crate::mouth_model::Mouth;
 use crate::{BallModel, RobotModel};
 
 /// Rate at which the dribbler draws the ball to the middle of the mouth, 1/s.
 const DRAW: f32 = 20.0;
-
-/// Faster than anything is ever told to be, m/s: its square is still finite.
-const ABSURD: f32 = 1e9;
 
 /// A ball in a robot's mouth.
 pub(crate) struct Held<'a> {

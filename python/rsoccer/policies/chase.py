@@ -7,6 +7,7 @@ import numpy as np
 from rsoccer.frame import Floats, Mask, length
 from rsoccer.policies import driving
 from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.policies.vectors import inverse
 from rsoccer.policies.vss_pitch import Pitch, unit
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
@@ -57,7 +58,7 @@ class Chase(Policy):
         x, y = np.where(chases, x, away_x), np.where(chases, y, away_y)
         cos, sin = me.heading[..., 0], me.heading[..., 1]
         ahead, left = x * cos + y * sin, y * cos - x * sin
-        per = driving.inverse(length(x, y), NEAR)
+        per = inverse(length(x, y), NEAR)
         forward, turn = ahead * per, left * per * np.sign(ahead) * TURN
         turn = turn - me.spin * self._damping
         always = np.ones_like(chases)  # who makes room may be stuck too, but then need not push
@@ -103,5 +104,5 @@ def _roles(view: View) -> tuple[Mask, Floats, Floats]:
     y = view.robots.position[:, :, team, 1] - view.ball.position[..., None, 1]
     distance = np.where(view.present[:, team], length(x, y), np.float32(np.inf))
     mine = distance[:, :, 0]
-    off = np.maximum(ROOM - mine, np.float32(0.0)) * driving.inverse(mine, NEAR)
+    off = np.maximum(ROOM - mine, np.float32(0.0)) * inverse(mine, NEAR)
     return mine == distance.min(axis=2), x[:, :, 0] * off, y[:, :, 0] * off

@@ -6,12 +6,12 @@ import numpy as np
 
 from rsoccer._core import RobotModel
 from rsoccer.frame import Array, Floats, Mask, RobotColumns, length
+from rsoccer.policies.vectors import TINY, inverse
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
 Place = tuple[Floats, Floats]  # x and y, (n, robots) each; metres, or a direction
 
-TINY: Final = np.float32(1e-6)  # metres; not to divide by zero
 DAMPING: Final = np.float32(0.3)  # less turning, per share of the fastest turn, not to overshoot
 CLEAR: Final = 0.005  # metres to a wall, beyond what it needs to turn on the spot
 TURN: Final = np.float32(1.1)  # turning power, per sine of the angle that it is off
@@ -115,12 +115,6 @@ def past(me: Floats, target: Place, thing: Place, radius: np.float32, when: Mask
     x = me[..., 0] + DETOUR * (u_x * ahead + u_y * right)
     y = me[..., 1] + DETOUR * (u_y * ahead - u_x * right)
     return np.where(blocked, x, target[0]), np.where(blocked, y, target[1])
-
-
-def inverse(lengths: Floats, least: np.float32) -> Floats:
-    """Per metre, of lengths that count as `least` where they are less."""
-    per: Floats = np.divide(np.float32(1.0), np.maximum(lengths, least))
-    return per
 
 
 def wheels(forward: Floats, turn: Floats) -> Floats:

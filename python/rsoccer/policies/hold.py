@@ -6,11 +6,11 @@ import numpy as np
 
 from rsoccer.frame import Floats, length
 from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.policies.vectors import TINY
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
 TURN: Final = np.float32(1.5)  # share of the fastest turn, per sine of the angle it is off
-TINY: Final = np.float32(1e-6)  # metres; not to divide by zero
 TURN_COLUMN, KICK, DRIBBLER = 2, 3, 4  # of an SSL robot's action
 
 

@@ -7,7 +7,8 @@ import numpy as np
 from rsoccer.frame import Floats, length
 from rsoccer.policies import ssl_moves
 from rsoccer.policies.base import Memory, Policy, Seen
-from rsoccer.policies.ssl_ways import Ground, inverse
+from rsoccer.policies.ssl_ways import Ground
+from rsoccer.policies.vectors import inverse
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View

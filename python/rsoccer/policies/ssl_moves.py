@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer.frame import Floats, Mask, RobotColumns, length
 from rsoccer.policies.hold import DRIBBLER, KICK, TURN_COLUMN, check_ssl
-from rsoccer.policies.ssl_ways import TINY, Ground, around, inverse
+from rsoccer.policies.ssl_ways import Ground, around
+from rsoccer.policies.vectors import TINY, inverse
 from rsoccer.task import Task
 from rsoccer.view import View
 

@@ -6,22 +6,16 @@ import numpy as np
 
 from rsoccer._core import Field
 from rsoccer.frame import Floats, length
+from rsoccer.policies.vectors import inverse
 from rsoccer.view import View
 
 FAR: Final = np.float32(100.0)  # metres; where robots are that are not there
-TINY: Final = np.float32(1e-6)  # metres; not to divide by zero
 DEAR: Final = np.float32(20.0)  # metres of detour that a metre too near to something is worth
 WIDER: Final = np.float32(1.15)  # of the distance to keep: where corners of ways are
 CORNERS: Final = 8  # places round each robot that a way may turn at
 
 _ANGLES = np.arange(CORNERS) * (2.0 * np.pi / CORNERS)
 _CIRCLE: Final = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1).astype(np.float32)
-
-
-def inverse(lengths: Floats, least: np.float32 = TINY) -> Floats:
-    """Per metre, of lengths that count as `least` where they are less."""
-    per: Floats = np.divide(np.float32(1.0), np.maximum(lengths, least))
-    return per
 
 
 class Ground:

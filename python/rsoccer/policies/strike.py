@@ -8,7 +8,8 @@ from rsoccer._core import Field
 from rsoccer.frame import Floats, Mask, length
 from rsoccer.policies import ssl_moves, ssl_steal
 from rsoccer.policies.base import Memory, Policy, Seen
-from rsoccer.policies.ssl_ways import Ground, around, clearance, inverse, others
+from rsoccer.policies.ssl_ways import Ground, around, clearance, others
+from rsoccer.policies.vectors import inverse
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View

@@ -5,8 +5,9 @@ from typing import Final
 import numpy as np
 
 from rsoccer.frame import Array, Floats, Mask, length
-from rsoccer.policies.driving import TINY, Orders, Place, inverse, past
+from rsoccer.policies.driving import Orders, Place, past
 from rsoccer.policies.roles import ATTACKER, KEEP_X, KEEPER, RUN_UP, SUPPORT, spot
+from rsoccer.policies.vectors import TINY, inverse
 from rsoccer.policies.vss_pitch import Pitch, unit
 from rsoccer.view import View
 

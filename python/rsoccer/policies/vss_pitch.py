@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer._core import SimConfig
 from rsoccer.frame import BallColumns, Floats, Mask, length
-from rsoccer.policies.driving import TINY, Place, inverse, room_to_turn
+from rsoccer.policies.driving import Place, room_to_turn
+from rsoccer.policies.vectors import TINY, inverse
 
 WALL: Final = np.float32(0.03)  # metres between ball and wall in which no robot fits
 REBOUND: Final = np.float32(0.5)  # share of its way into a wall by which the ball comes back

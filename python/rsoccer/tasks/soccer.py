@@ -74,8 +74,3 @@ class Soccer(Task):
     def per_metre(self) -> np.float32:
         """Scale of places in observations."""
         return np.float32(1.0 / self.config.field.half_length)
-
-    @cached_property
-    def goal(self) -> Floats:
-        """(2,) metres, the middle of the goal attacked."""
-        return np.array([self.config.field.half_length, 0.0], np.float32)

@@ -10,6 +10,9 @@ use crate::RobotModel;
 use crate::engine::Motion;
 use crate::robot_model;
 
+/// Faster than anything is ever told to be, m/s: its square is still finite.
+pub(crate) const ABSURD: f32 = 1e9;
+
 /// What a robot's wheels can do in one tick: bounds on impulses, and the inertia they act on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct Limits {

@@ -3,11 +3,8 @@
 use rapier2d::math::{Rotation, Vector};
 use serde::{Deserialize, Serialize};
 
-use super::{Demand, Limits, Pull};
+use super::{ABSURD, Demand, Limits, Pull};
 use crate::robot_model::OmniDrive;
-
-/// Faster than anything is ever told to be, m/s: its square is still finite.
-const ABSURD: f32 = 1e9;
 
 /// What a body is to do, in its own frame: velocity (m/s) and turn rate (rad/s).
 pub(super) struct Wanted {
