@@ -20,6 +20,8 @@ from rsoccer._core import (
     SimConfig,
     Simulator,
     build_info,
+    clipped,
+    limit,
 )
 from rsoccer.frame import Array, Floats
 
@@ -232,3 +234,27 @@ def test_the_step_leaves_other_threads_running() -> None:
     counter.join()
     # With the GIL held the counter could run only around the call.
     assert during > 1000
+
+
+def test_limits_hold_from_both_sides_and_leave_what_is_no_number() -> None:
+    numbers = np.array([[[-9.0, 0.5, 9.0], [np.nan, -np.inf, -0.0]]], np.float32)
+    limit(numbers, np.array([2.0, 1.0, 4.0], np.float32))
+    expected = np.array([[[-2.0, 0.5, 4.0], [np.nan, -1.0, -0.0]]], np.float32)
+    assert numbers.tobytes() == expected.tobytes()
+    with pytest.raises(ValueError, match=r"most must have shape \(3,\), got \(2,\)"):
+        limit(numbers, np.ones(2, np.float32))
+    with pytest.raises(ValueError, match="most must be 0 or above"):
+        limit(numbers, np.array([1.0, -1.0, np.nan], np.float32))
+    with pytest.raises(ValueError, match="numbers must be writeable"):
+        frozen = numbers.copy()
+        frozen.flags.writeable = False
+        limit(frozen, np.ones(3, np.float32))
+
+
+def test_what_can_be_clipped_is_a_copy_and_all_else_is_left_to_the_caller() -> None:
+    numbers = np.array([[-9.0, 0.5], [1.0, 9.0]], np.float32)
+    assert np.array_equal(clipped(numbers, (2, 2)), [[-1.0, 0.5], [1.0, 1.0]])
+    assert np.array_equal(clipped(numbers.T, (2, 2)), [[-1.0, 1.0], [0.5, 1.0]])
+    assert numbers[0, 0] == -9.0
+    for other in (numbers.astype(np.float64), numbers[0], [[0.0] * 2] * 2, numbers * np.inf, None):
+        assert clipped(other, (2, 2)) is None

@@ -1,11 +1,13 @@
 import numpy as np
 import pytest
 
-from rsoccer import rewards
+from rsoccer import list_tasks, make_task, rewards
+from rsoccer._core import Potential, efforts, nearest
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Floats
 from rsoccer.matches import Matches
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
+from tests import rewards_reference
 from tests.helpers import pushing
 
 TASK = VssSelfPlay()
@@ -132,3 +134,54 @@ def test_energy_is_the_mean_effort() -> None:
     play.actions[0, 5] = [-1.0, 0.0]
     assert rewards.energy(play)[0] == pytest.approx([-1, -0.25, 0, 0, 0, -0.5])
     assert rewards.energy(play).dtype == np.float32
+
+
+@pytest.mark.parametrize("name", list_tasks())
+def test_terms_are_what_the_reference_says(name: str) -> None:
+    task = make_task(name)
+    matches = Matches(task, 8, seed=5)
+    matches.reset()
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        matches.step(pushing(rng, matches))
+    play, config = matches.play, task.config
+    # In some tasks the ball lies still: then that it moved is told to the views alone.
+    play.view.ball.position[:] += rng.uniform(-0.1, 0.1, play.view.ball.position.shape)
+    gains = {
+        "ball_to_goal": rewards.ball_to_goal(play, config.field),
+        "approach": rewards.approach(play, config.field),
+    }
+    if config.robot.has_mouth:
+        gains["to_mouth"] = rewards.to_mouth(play, config)
+    for term, gained in gains.items():
+        expected = getattr(rewards_reference, term)(play, config)
+        np.testing.assert_allclose(gained, expected, atol=1e-6, err_msg=term)
+        assert expected.all(), f"{term}: where nothing happened, nothing was compared"
+    assert np.array_equal(rewards.nearest(play), rewards_reference.nearest(play))
+    np.testing.assert_allclose(rewards.energy(play), rewards_reference.energy(play), rtol=1e-6)
+
+
+def test_wrong_arrays_are_refused_by_name() -> None:
+    play = still(2)
+    last, view = play.last_view, play.view
+    potential = Potential.ball_to_goal(FIELD)
+    with pytest.raises(ValueError, match=r"last_ball must have shape \(2, 6, 14\)"):
+        potential.gained(last.ball.data[:1], last.robots.data, view.ball.data, view.robots.data)
+    with pytest.raises(ValueError, match="robots must have 4 axes"):
+        potential.gained(last.ball.data, last.robots.data, view.ball.data, view.ball.data)
+    with pytest.raises(TypeError, match="ball must be an array of float32, got float64"):
+        balls = view.ball.data.astype(np.float64)
+        views = last.ball.data, last.robots.data, balls, view.robots.data
+        potential.gained(*views)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="robot must be one with a mouth, got vss_440rpm"):
+        rewards.to_mouth(play, TASK.config)
+    for behind in (0.0, -1.0, np.nan, np.inf):
+        with pytest.raises(ValueError, match="behind must be metres above 0"):
+            Potential.behind_ball(FIELD, behind)
+    for seer in (-1, 6):
+        with pytest.raises(ValueError, match=f"seers must be robots below 6, got {seer}"):
+            nearest(play.frame.rows, 3, np.array([0, seer]))
+        with pytest.raises(ValueError, match=f"seers must be robots below 6, got {seer}"):
+            efforts(play.actions, np.array([0, seer]))
+    with pytest.raises(TypeError, match="seers must be an array of int64"):
+        nearest(play.frame.rows, 3, np.array([0.0]))

@@ -1,8 +1,11 @@
 import numpy as np
 import pytest
 
+from rsoccer import _core
+from rsoccer._core import CROSSINGS
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NOTHING, Frame
 from rsoccer.view import View, Viewpoint
+from tests import view_reference
 
 
 def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
@@ -100,3 +103,41 @@ def test_take_and_put_are_inverse() -> None:
 
 def test_nobody_looking_is_fine() -> None:
     assert seen(random_frame(3, 2, 2), []).robots.data.shape[:2] == (3, 0)
+
+
+@pytest.mark.parametrize(("n_blue", "n_yellow"), [(3, 3), (1, 3), (4, 2), (2, 0), (11, 11)])
+def test_all_see_what_the_reference_says_bit_for_bit(n_blue: int, n_yellow: int) -> None:
+    frame = random_frame(3 * len(CROSSINGS), n_blue, n_yellow)
+    frame.ball.crossed[:] = np.tile(np.arange(len(CROSSINGS)), 3)
+    view = seen(frame, list(range(n_blue + n_yellow)))
+    for seat in range(n_blue + n_yellow):
+        ball, robots = view_reference.seen(frame, seat)
+        assert view.ball.data[:, seat].tobytes() == ball.tobytes()
+        assert np.array_equal(view.robots.data[:, seat], robots)
+
+
+def test_what_was_there_before_does_not_matter() -> None:
+    frame = random_frame(4, 1, 3)
+    viewpoint = Viewpoint(1, 3, [0, 2])
+    view, fresh = viewpoint.new_view(4), viewpoint.new_view(4)
+    view.ball.data[:], view.robots.data[:] = np.nan, np.nan
+    viewpoint.fill(frame, view)
+    viewpoint.fill(frame, fresh)
+    assert np.array_equal(view.robots.data, fresh.robots.data)
+    assert np.array_equal(view.ball.data, fresh.ball.data)
+
+
+def test_wrong_arrays_and_seats_are_refused_by_name() -> None:
+    frame, viewpoint = random_frame(4, 2, 2), _core.Viewpoint(4, [[0, 1, 2, None]], [False])
+    ball, robots = np.zeros((4, 1, 14), np.float32), np.zeros((4, 1, 4, 11), np.float32)
+    viewpoint.fill(frame.rows, ball, robots)
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(58,\)"):
+        viewpoint.fill(frame.rows[0], ball, robots)
+    with pytest.raises(ValueError, match=r"ball must have shape \(4, 1, 14\), got \(3, 1, 14\)"):
+        viewpoint.fill(frame.rows, ball[:3], robots)
+    with pytest.raises(TypeError, match="robots must be an array of float32, got float64"):
+        viewpoint.fill(frame.rows, ball, robots.astype(np.float64))
+    with pytest.raises(ValueError, match="slots must hold robots below 4, got 4"):
+        _core.Viewpoint(4, [[0, 4]], [False])
+    with pytest.raises(ValueError, match="slots must have a row for each of turned"):
+        _core.Viewpoint(4, [[0, 1], [1]], [False, False])

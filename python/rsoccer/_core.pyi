@@ -20,11 +20,17 @@ __all__ = [
     "ROBOT_PARAMETERS",
     "BallModel",
     "Field",
+    "Potential",
     "RobotModel",
     "Sight",
     "SimConfig",
     "Simulator",
+    "Viewpoint",
     "build_info",
+    "clipped",
+    "efforts",
+    "limit",
+    "nearest",
 ]
 
 BALL_COLUMNS: tuple[str, ...]
@@ -414,6 +420,105 @@ class SimConfig:
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
+class Viewpoint:
+    """Who looks, and what each has where: turns rows of `robots` robots into views.
+
+    Each of `slots` has the robots that one seer sees, by their place in a row: itself, mates, foes;
+    None where a slot is empty. Who is `turned` sees the field turned half round.
+
+    Raises:
+        ValueError: rows of different length, or a robot that there is not.
+        OverflowError: a robot below 0.
+    """
+
+    def __new__(
+        cls, robots: int, slots: Sequence[Sequence[int | None]], turned: Sequence[bool]
+    ) -> Viewpoint: ...
+    def fill(
+        self, rows: NDArray[np.float32], ball: NDArray[np.float32], robots: NDArray[np.float32]
+    ) -> None:
+        """Write what all see of `rows` (n, row), attacking +x.
+
+        Into `ball` (n, seers, ball column) and `robots` (n, seers, slots, robot column); zeros
+        where nobody is.
+
+        Raises:
+            TypeError: an array that is not float32.
+            ValueError: an array of another shape, or one that cannot be written into.
+        """
+
+@final
+class Potential:
+    """What a robot is to raise, in metres: paid by differences, a way there and back pays nothing."""
+
+    @staticmethod
+    def ball_to_goal(field: Field) -> Potential:
+        """How much nearer the ball is to the goal attacked than to the own one, halved."""
+
+    @staticmethod
+    def behind_ball(field: Field, behind: float) -> Potential:
+        """How near the robot is to the point so far behind the ball, seen from the goal attacked.
+
+        That point is kept as far from the walls: a ball at the wall has no room behind it.
+
+        Raises:
+            ValueError: a distance that is not above 0.
+        """
+
+    @staticmethod
+    def at_mouth(robot: RobotModel, ball: BallModel) -> Potential:
+        """How near the ball is to where it would be in the robot's mouth.
+
+        Raises:
+            ValueError: a robot that has none.
+        """
+
+    def gained(
+        self,
+        last_ball: NDArray[np.float32],
+        last_robots: NDArray[np.float32],
+        ball: NDArray[np.float32],
+        robots: NDArray[np.float32],
+    ) -> NDArray[np.float32]:
+        """What each seer gained from one view to the next, (n, seers) metres.
+
+        Views as `Viewpoint.fill` writes them.
+
+        Raises:
+            TypeError: an array that is not float32.
+            ValueError: an array of another shape.
+        """
+
+def nearest(rows: NDArray[np.float32], n_blue: int, seers: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether each seer is its team's nearest to the ball, (n, seers).
+
+    Of `rows` (n, row), whose first `n_blue` robots are a team; `seers` are robots by their place.
+
+    Raises:
+        TypeError: rows that are not float32, or seers that are no places.
+        ValueError: arrays of other shapes, or a seer that there is not.
+    """
+
+def efforts(actions: NDArray[np.float32], seers: NDArray[np.intp]) -> NDArray[np.float32]:
+    """Mean magnitude of the action of each seer, (n, seers); of `actions` (n, robots, action).
+
+    Raises:
+        TypeError: actions that are not float32, or seers that are no places.
+        ValueError: arrays of other shapes, or a seer that there is not.
+    """
+
+def limit(numbers: NDArray[np.float32], most: NDArray[np.float32]) -> None:
+    """Clip `numbers` (n, seers, o) to [-most, most] in place; `most` (o,).
+
+    Raises:
+        TypeError: an array that is not float32.
+        ValueError: arrays of other shapes, one that cannot be written into, or a bound below 0.
+    """
+
+def clipped(value: object, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
+    """A copy clipped to [-1, 1], if `value` is a finite float32 array of that shape; else None."""
+
+@final
 class Sight:
     """What robots like `robot` see on `field`, of a side with room for so many mates and foes.
 
@@ -434,15 +539,18 @@ class Sight:
     def blocks(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
         """Name and shape of each block, in order."""
 
-    def look(self, ball: NDArray[np.float32], robots: NDArray[np.float32]) -> NDArray[np.float32]:
-        """All blocks side by side, a new array (n, seers, numbers).
+    def look(
+        self, ball: NDArray[np.float32], robots: NDArray[np.float32], room: int = 0
+    ) -> NDArray[np.float32]:
+        """All blocks side by side, a new array (n, seers, numbers + room).
 
         Of views: `ball` (n, seers, ball column) and `robots` (n, seers, slots, robot column) of me,
-        mates and foes, attacking +x; zeros where nobody is.
+        mates and foes, attacking +x; zeros where nobody is. The last `room` numbers are zero, for
+        the caller to write.
 
         Raises:
             TypeError: an array that is not float32.
-            ValueError: an array of another shape.
+            ValueError: an array of another shape, or a room below 0.
         """
 
     def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int]]: ...

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from rsoccer import _core
 from rsoccer.frame import Array, Floats, Mask
 
 
@@ -54,6 +55,8 @@ def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
 
 def actions(value: object, shape: tuple[int, ...]) -> Floats:
     """Actions (n, agents, action), clipped to [-1, 1]."""
+    if (clipped := _core.clipped(value, shape)) is not None:
+        return clipped
     array = np.asarray(value)
     if array.dtype == np.float64:  # before the cast, which would turn the largest to infinity
         array = np.where(np.isfinite(array), np.clip(array, -1.0, 1.0), array)

@@ -28,7 +28,6 @@ AUTORESETS: Final = ("same_step", "next_step", "disabled")
 Indices = NDArray[np.intp]
 Seed = int | Sequence[int | None] | None  # of the first world, or one for each
 Seeds = list[int | None]
-NOBODY: Final[Indices] = np.empty(0, np.intp)
 Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
 
@@ -109,9 +108,9 @@ class Matches:
         """One control step: `actions` (n, agents, action), clipped to [-1, 1]."""
         shape = (self.worlds, len(self.agents), self.action_size)
         actions = checks.actions(actions, shape)
-        if not self._begun.all():
+        if np.count_nonzero(self._begun) < self.worlds:
             raise RuntimeError("step before reset: some worlds have begun no episode")
-        still = np.flatnonzero(self._done) if self._done.any() else NOBODY
+        still = np.flatnonzero(self._done)
         held = self._hold(still) if len(still) else None
         self._move(actions)
         outcome = self._judge()
@@ -140,7 +139,7 @@ class Matches:
         commands = self.task.get_commands(play, driven)
         play.commands = checks.commands(commands, play.commands.shape)
         play.actions = driven
-        active = ~self._done if self._done.any() else None
+        active = ~self._done if np.count_nonzero(self._done) else None
         # The older buffer takes the new rows, so that nothing has changed if the step fails.
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
@@ -204,7 +203,7 @@ class Matches:
         shown = self._of_learners(self._observations)
         outcome.observations = outcome.final_observations = shown
         self._done |= ended
-        if self.autoreset == "same_step" and ended.any():
+        if self.autoreset == "same_step" and np.count_nonzero(ended):
             self._begin(np.flatnonzero(ended))
             outcome.observations = self._of_learners(self._observations)
 

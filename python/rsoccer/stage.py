@@ -38,14 +38,14 @@ class StageMatches(Matches):
     @property
     def begun(self) -> bool:
         """Whether every match has begun an episode."""
-        return bool(self._begun.all())
+        return bool(np.count_nonzero(self._begun) == self.worlds)
 
     def check_turn(self) -> None:
         """RuntimeError unless every match has begun and none has ended."""
         hint = "call reset() to begin an episode"
         if not self.begun:
             raise RuntimeError(f"step before reset: {hint}")
-        if self._done.any():
+        if np.count_nonzero(self._done):
             where = "" if self.worlds == 1 else f" in worlds {np.flatnonzero(self._done).tolist()}"
             raise RuntimeError(f"step after the end of the episode{where}: {hint}")
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import SimConfig
+from rsoccer._core import SimConfig, limit
 from rsoccer.frame import Array, Floats, Frame, Mask, robot_names
 from rsoccer.markers import Marker
 from rsoccer.play import Play
@@ -174,8 +174,7 @@ class Task(ABC):
             blocks = self.frame_to_observations(play).values()
             sized = [b if b.ndim == 3 else b.reshape(n, seers, -1) for b in blocks]
             np.concatenate(sized, axis=-1, out=flat, casting="same_kind")
-            np.minimum(flat, self.observation_high, out=flat)
-            np.maximum(flat, self.observation_low, out=flat)
+            limit(flat, self.observation_high)
         return flat
 
     def new_viewpoint(self, seers: Sequence[int]) -> Viewpoint:

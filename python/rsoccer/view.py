@@ -1,7 +1,7 @@
 """State as each robot that looks sees it: me, mates, foes and ball, always attacking +x.
 
-For yellow the game is turned half round, so no task and no policy asks "am I yellow?". A view
-is filled by one gather and one multiplication for all seers of all worlds.
+For yellow the game is turned half round, so no task and no policy asks "am I yellow?". The core
+fills a view, for all seers of all worlds in one call.
 """
 
 from collections.abc import Sequence
@@ -9,7 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
+from rsoccer import _core
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
 from rsoccer.frame import BallColumns, Floats, Frame, Mask, RobotColumns
 
 SIDES = ("blue", "yellow")
@@ -65,20 +66,15 @@ class Viewpoint:
         self, n_blue: int, n_yellow: int, seers: Sequence[int], sides: Sequence[str] = SIDES
     ) -> None:
         """Look through robots `seers`; slots fit the largest team among `sides`."""
+        self._made_of = n_blue, n_yellow, tuple(seers), tuple(sides)
         self._n_mates, self._n_foes = slots(n_blue, n_yellow, sides)
         self.seers = np.asarray(seers, np.intp)  # (seers,)
+        seats = [self._slots(seer, n_blue, n_yellow) for seer in seers]
+        turned = [bool(seer >= n_blue) for seer in seers]
+        self._viewpoint = _core.Viewpoint(n_blue + n_yellow, seats, turned)
         shape = (len(seers), 1 + self._n_mates + self._n_foes)
-        order = np.zeros(shape, np.intp)
-        self._present = np.zeros(shape, np.bool_)
-        for seat, seer in enumerate(seers):
-            self._seat(order[seat], self._present[seat], seer, n_blue, n_yellow)
-        self._order = order.ravel()
-        yellow = self.seers >= n_blue
-        self._yellow = np.flatnonzero(yellow)
-        ball_signs = np.where(yellow[:, None], _turned(BALL_COLUMNS), np.float32(1.0))
-        robot_signs = np.where(yellow[:, None], _turned(ROBOT_COLUMNS), np.float32(1.0))
-        self._ball_signs = ball_signs  # (seers, ball column)
-        self._robot_signs = (robot_signs[:, None] * self._present[:, :, None]).ravel()
+        present = [robot is not None for seat in seats for robot in seat]
+        self._present = np.array(present, np.bool_).reshape(shape)
 
     def new_view(self, n: int) -> View:
         """Buffers for n worlds."""
@@ -88,44 +84,19 @@ class Viewpoint:
 
     def fill(self, frame: Frame, view: View) -> None:
         """Show each seer itself, its mates, then its foes, attacking +x."""
-        if not len(self.seers):
-            return
-        n = len(frame)
-        robots = view.robots.data.reshape(n, len(self._order), len(ROBOT_COLUMNS))
-        # mode="clip" because the default mode buffers `out`.
-        np.take(frame.robots.data, self._order, axis=1, out=robots, mode="clip")
-        flat = robots.reshape(n, -1)  # one long axis: short inner loops cost more than the work
-        np.multiply(flat, self._robot_signs, out=flat)
-        np.multiply(frame.ball.data[:, None], self._ball_signs, out=view.ball.data)
-        if len(self._yellow):
-            crossed = _OTHER_SIDE[frame.ball.crossed.astype(np.intp)]
-            view.ball.crossed[:, self._yellow] = crossed[:, None]
+        if len(self.seers):
+            self._viewpoint.fill(frame.rows, view.ball.data, view.robots.data)
 
-    def _seat(
-        self, order: NDArray[np.intp], present: Mask, seer: int, n_blue: int, n_yellow: int
-    ) -> None:
-        """Write which robots one seer has in its slots: itself, mates in ring order, foes."""
-        blue = seer < n_blue
-        first, size = (0, n_blue) if blue else (n_blue, n_yellow)
-        first_foe, n_foes = (n_blue, n_yellow) if blue else (0, n_blue)
-        if size - 1 > self._n_mates or n_foes > self._n_foes:
+    def __reduce__(self) -> tuple[type["Viewpoint"], tuple[object, ...]]:
+        return Viewpoint, self._made_of
+
+    def _slots(self, seer: int, n_blue: int, n_yellow: int) -> list[int | None]:
+        """Which robots one seer has in its slots: itself, mates in ring order, foes."""
+        blue, yellow = range(n_blue), range(n_blue, n_blue + n_yellow)
+        mates, foes = (blue, yellow) if seer in blue else (yellow, blue)
+        if len(mates) - 1 > self._n_mates or len(foes) > self._n_foes:
             raise ValueError(f"robot {seer} cannot look: its side is not among the task's sides")
-        order[:size] = first + (seer - first + np.arange(size)) % size
-        order[1 + self._n_mates : 1 + self._n_mates + n_foes] = first_foe + np.arange(n_foes)
-        present[:size] = True
-        present[1 + self._n_mates : 1 + self._n_mates + n_foes] = True
-
-
-def _turned(columns: tuple[str, ...]) -> Floats:
-    """-1 where a half turn flips the sign: components along the field's x and y axes."""
-    flips = [name in ("x", "y", "cos", "sin") or name.endswith(("_x", "_y")) for name in columns]
-    return np.where(flips, np.float32(-1.0), np.float32(1.0))
-
-
-def _other_side(crossing: str) -> str:
-    swap = {"right": "left", "left": "right"}
-    return "_".join(swap.get(word, word) for word in crossing.split("_"))
-
-
-# (crossings,) the code that yellow reads for each code of the frame
-_OTHER_SIDE = np.array([CROSSINGS.index(_other_side(name)) for name in CROSSINGS], np.float32)
+        nobody: list[int | None] = [None]
+        mates_too = [*range(seer, mates.stop), *range(mates.start, seer)]
+        no_mates = nobody * (1 + self._n_mates - len(mates))
+        return [*mates_too, *no_mates, *foes, *nobody * (self._n_foes - len(foes))]

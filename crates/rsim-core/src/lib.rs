@@ -5,9 +5,10 @@
 //! come out as plain rows, whose columns are named once in [`columns`].
 //!
 //! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
-//! that the first team attacks, y to the left. The crate knows nothing of rewards, episodes or
-//! rules of play, and knows the two teams only as an order of robots. [`Sight`] is what a robot sees
-//! of all this.
+//! that the first team attacks, y to the left. The crate knows nothing of episodes or
+//! rules of play, and knows the two teams only as an order of robots. What tasks work out for every
+//! robot in every step is here besides: a [`Viewpoint`] turns rows into what robots see, [`Sight`]
+//! scales that for a network, a [`Potential`] is what a robot is to raise.
 #![forbid(unsafe_code)]
 
 mod arena;
@@ -35,10 +36,12 @@ mod robot_model;
 mod robot_presets;
 mod row;
 pub mod scenes;
+pub mod shaping;
 mod sight;
 mod snapshot;
 mod tick;
 mod touch;
+mod viewpoint;
 mod world;
 
 pub use ball_model::{BallModel, Hop, Surface};
@@ -48,7 +51,9 @@ pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use field::Field;
 pub use mouth_model::Mouth;
 pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
+pub use shaping::Potential;
 pub use sight::{Block, Sight};
+pub use viewpoint::{Seat, Viewpoint};
 pub use world::World;
 
 /// Number of the physics: raised whenever the same start and commands would give other states.

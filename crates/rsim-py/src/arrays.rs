@@ -56,6 +56,18 @@ fn checked<'py, T: Element, D: ndarray::Dimension>(
     Ok(value.cast::<PyArray<T, D>>()?.clone())
 }
 
+/// The shape of an array that must have so many axes.
+pub(crate) fn sizes<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
+    let Ok(array) = value.cast::<PyUntypedArray>() else {
+        let got = value.get_type().name()?;
+        return Err(PyTypeError::new_err(format!("{name} must be an array, got {got}")));
+    };
+    array.shape().try_into().map_err(|_| {
+        let got = tuple(array.shape());
+        PyValueError::new_err(format!("{name} must have {N} axes, got shape {got}"))
+    })
+}
+
 /// The values of an array, in order, which must all be finite.
 pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
     match values.iter().find(|value| !value.is_finite()) {

@@ -4,10 +4,13 @@
 #![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
 
 mod arrays;
+mod bounds;
 mod config;
 mod models;
+mod shaping;
 mod sight;
 mod simulator;
+mod viewpoint;
 
 use pyo3::prelude::*;
 
@@ -15,13 +18,19 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use crate::bounds::{clipped, limit};
+    #[pymodule_export]
     use crate::config::SimConfig;
     #[pymodule_export]
     use crate::models::{BallModel, Field, RobotModel};
     #[pymodule_export]
+    use crate::shaping::{Potential, efforts, nearest};
+    #[pymodule_export]
     use crate::sight::Sight;
     #[pymodule_export]
     use crate::simulator::Simulator;
+    #[pymodule_export]
+    use crate::viewpoint::Viewpoint;
 
     use pyo3::prelude::*;
     use pyo3::types::{PyDict, PyTuple};

@@ -1,13 +1,11 @@
 //! What robots see, for arrays of views.
 
-use numpy::{
-    Ix3, Ix4, PyArray3, PyArrayMethods, PyReadonlyArray, PyUntypedArray, PyUntypedArrayMethods,
-};
+use numpy::{Ix3, Ix4, PyArray3, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 
-use crate::arrays::{readable, values};
+use crate::arrays::{readable, sizes, values};
 use crate::config::count;
 use crate::models::{Field, RobotModel};
 
@@ -36,31 +34,33 @@ impl Sight {
         PyTuple::new(py, named.collect::<PyResult<Vec<_>>>()?)
     }
 
+    #[pyo3(signature = (ball, robots, room = 0))]
     fn look<'py>(
         &self,
         py: Python<'py>,
         ball: &Bound<'py, PyAny>,
         robots: &Bound<'py, PyAny>,
+        room: i64,
     ) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let (n, seers) = match ball.cast::<PyUntypedArray>().map(PyUntypedArrayMethods::shape) {
-            Ok(&[n, seers, _]) => (n, seers),
-            _ => (0, 0), // refused just below
-        };
+        let [n, seers, _] = sizes("ball", ball)?;
+        let room = count("room", room)?;
         let (ball_size, robots_size) =
             (BALL_COLUMNS.len(), self.seen.slots() * ROBOT_COLUMNS.len());
         let ball: PyReadonlyArray<'_, f32, Ix3> = readable("ball", ball, &[n, seers, ball_size])?;
         let shape = [n, seers, self.seen.slots(), ROBOT_COLUMNS.len()];
         let robots: PyReadonlyArray<'_, f32, Ix4> = readable("robots", robots, &shape)?;
         let (ball, robots) = (values(&ball), values(&robots));
-        let numbers = PyArray3::zeros(py, [n, seers, self.seen.size()], false);
+        let size = self.seen.size();
+        let numbers = PyArray3::zeros(py, [n, seers, size + room], false);
         {
             let mut out = numbers.readwrite();
             let out = out.as_slice_mut()?;
             py.detach(|| {
-                let each = out.chunks_exact_mut(self.seen.size());
+                let each = out.chunks_exact_mut(size + room);
                 let views = ball.chunks_exact(ball_size).zip(robots.chunks_exact(robots_size));
-                each.zip(views)
-                    .for_each(|(out, (ball, robots))| self.seen.write(ball, robots, out));
+                each.zip(views).for_each(|(out, (ball, robots))| {
+                    self.seen.write(ball, robots, &mut out[..size]);
+                });
             });
         }
         Ok(numbers)

@@ -6,7 +6,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer._core import Sight
+from rsoccer._core import Sight, limit
 from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
 from rsoccer.view import slots
@@ -38,13 +38,20 @@ class Soccer(Task):
         A robot has 7 numbers, and 8 where it has a break beam; there the ball has heights too.
         What each block holds is said by the core's `Sight`.
         """
-        seen = self.sight.look(play.view.ball.data, play.view.robots.data)  # (n, seers, numbers)
+        flat = self._seen(play)
         blocks: dict[str, Floats] = {}
         for name, columns, shape in self._seen_blocks:
-            block = seen[:, :, columns]
-            blocks[name] = block if len(shape) == 1 else block.reshape(*seen.shape[:2], *shape)
-        blocks["action"] = play.actions[:, play.seers]  # (n, seers, action)
+            block = flat[:, :, columns]
+            blocks[name] = block if len(shape) == 1 else block.reshape(*flat.shape[:2], *shape)
         return blocks
+
+    def observe(self, play: Play) -> Floats:
+        """The blocks side by side within their limits, a new array (n, seers, o)."""
+        if type(self).frame_to_observations is not Soccer.frame_to_observations:
+            return super().observe(play)
+        flat = self._seen(play)  # nobody adds to them: they lie side by side already
+        limit(flat, self.observation_high)
+        return flat
 
     def observation_limits(self) -> dict[str, float]:
         """LIMITS."""
@@ -63,12 +70,19 @@ class Soccer(Task):
 
     @cached_property
     def _seen_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
-        """Name, place and shape of what `sight` sees."""
+        """Name, place and shape of each part of what `_seen` shows."""
         blocks, first = [], 0
-        for name, shape in self.sight.blocks:
+        for name, shape in (*self.sight.blocks, ("action", (self.action_size,))):
             blocks.append((name, slice(first, first + math.prod(shape)), shape))
             first += math.prod(shape)
         return tuple(blocks)
+
+    def _seen(self, play: Play) -> Floats:
+        """What each robot that looks sees, and what it did: (n, seers, numbers), a new array."""
+        size = self.action_size
+        flat = self.sight.look(play.view.ball.data, play.view.robots.data, size)
+        flat[:, :, -size:] = play.actions[:, play.seers]
+        return flat
 
     @cached_property
     def per_metre(self) -> np.float32:

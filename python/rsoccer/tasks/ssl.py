@@ -1,4 +1,4 @@
-"""What all SSL tasks share: the field of the hardware challenges, actions, distances.
+"""What all SSL tasks share: the field of the hardware challenges, and actions.
 
 An action is five numbers in [-1, 1]: velocity along the axes of the field as the robot's side sees
 it (or of the robot, by option), turn rate, kick (none below 0, up to the legal limit) and dribbler
@@ -15,10 +15,9 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, Frame, length
+from rsoccer.frame import Array, Floats, Frame
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
-from rsoccer.view import View
 
 TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
 LEGAL_KICK: Final = 6.5  # m/s, SSL rules
@@ -77,17 +76,16 @@ class Ssl(Soccer):
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
+        asked = actions * self.action_scales
         commands = np.zeros((*actions.shape[:2], len(_BODY)), np.float32)
-        speed, _, turn, kick, _ = self.action_scales
-        x, y = actions[..., 0] * speed, actions[..., 1] * speed
+        commands[..., :3] = asked[..., :3]
         if self.axes == "field":
             heading = play.frame.robots.heading * self._side_signs[:, None]
             cos, sin = heading[..., 0], heading[..., 1]
-            x, y = x * cos + y * sin, y * cos - x * sin
-        commands[..., 0], commands[..., 1] = x, y
-        commands[..., 2] = actions[..., 2] * turn
-        commands[..., _KICK] = np.maximum(actions[..., 3], 0.0) * kick
-        commands[..., _DRIBBLER] = actions[..., 4] > 0.0
+            x, y = asked[..., 0], asked[..., 1]
+            commands[..., 0], commands[..., 1] = x * cos + y * sin, y * cos - x * sin
+        np.maximum(asked[..., 3], 0.0, out=commands[..., _KICK])
+        np.greater(actions[..., 4], 0.0, out=commands[..., _DRIBBLER], casting="unsafe")
         return commands
 
     @cached_property
@@ -106,21 +104,6 @@ class Ssl(Soccer):
     def _side_signs(self) -> Floats:
         """(robots,) -1 for yellow, whose game is turned half round."""
         return np.repeat(np.array([1.0, -1.0], np.float32), self.team_sizes())
-
-
-def before_mouth(view: View, reach: np.float32) -> Floats:
-    """Metres from where a ball in each seer's mouth would be to the ball, (n, seers).
-
-    Nothing only for who faces the ball, so it draws a robot near and round to it.
-    """
-    me, ball = view.me, view.ball.position
-    at = me.position + me.heading * reach
-    return length(ball[..., 0] - at[..., 0], ball[..., 1] - at[..., 1])
-
-
-def approach(play: Play, reach: np.float32) -> Floats:
-    """Metres that the ball came closer to each seer's mouth, (n, seers)."""
-    return before_mouth(play.last_view, reach) - before_mouth(play.view, reach)
 
 
 def ball_at_mouth(frame: Frame, robot: int, reach: np.float32) -> Floats:

@@ -10,7 +10,7 @@ from rsoccer import rewards
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.markers import Area, Marker
 from rsoccer.task import LEARN, Learn, Play
-from rsoccer.tasks.ssl import Ssl, approach
+from rsoccer.tasks.ssl import Ssl
 
 BACK: np.float32 = np.float32(0.2)
 """Metres behind the middle line that the attacker may go."""
@@ -51,7 +51,7 @@ class SslAttack(Ssl):
         terms = {
             "goal": goal,
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field),
-            "approach": approach(play, self.reach),
+            "approach": rewards.to_mouth(play, self.config),
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }

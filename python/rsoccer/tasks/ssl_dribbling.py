@@ -12,7 +12,7 @@ from rsoccer.markers import Gate, Marker
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.courses import COURSES, Course
-from rsoccer.tasks.ssl import Ssl, approach, ball_at_mouth
+from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class SslDribbling(Ssl):
         terms = {
             "gate": (right & ~failed)[:, None].astype(np.float32),
             "progress": progress[:, None],
-            "approach": approach(play, self.reach),
+            "approach": rewards.to_mouth(play, self.config),
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }

@@ -11,7 +11,7 @@ from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.markers import Marker, Target
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
-from rsoccer.tasks.ssl import Ssl, approach
+from rsoccer.tasks.ssl import Ssl
 
 APART = 0.2  # metres between centres at the start
 MOST_FOES = 6
@@ -61,7 +61,7 @@ class SslGoToBall(Ssl):
         reached, left = self._reached(play.frame), self._left(play.frame)
         terms = {
             "reached": reached[:, None].astype(np.float32),
-            "approach": approach(play, self.reach),
+            "approach": rewards.to_mouth(play, self.config),
             "left_field": left[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }

@@ -9,7 +9,6 @@ import numpy as np
 from rsoccer import rewards
 from rsoccer.frame import Array, Floats, Frame, Mask, length
 from rsoccer.task import Play
-from rsoccer.tasks.ssl import approach
 from rsoccer.tasks.ssl_pass import FREE, SslPass
 
 LONG: Final = np.float32(1.5)
@@ -62,7 +61,7 @@ class SslPassEnduranceMulti(SslPass):
         terms = {
             "passes": passed[:, None].astype(np.float32),
             "ball_to_mate": nearer[:, None],
-            "approach": approach(play, self.reach) * waits,
+            "approach": rewards.to_mouth(play, self.config) * waits,
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }

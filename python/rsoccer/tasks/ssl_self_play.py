@@ -11,7 +11,7 @@ from rsoccer import checks, rewards, spawn
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
-from rsoccer.tasks.ssl import Ssl, approach
+from rsoccer.tasks.ssl import Ssl
 
 APART: Final = 0.3  # metres between centres at the start
 INSIDE: Final = 0.2  # metres inside the line at which a ball that left is put back: SSL rules
@@ -71,7 +71,7 @@ class SslSelfPlay(Ssl):
         terms = {
             "goal": rewards.goal(play),
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * rewards.nearest(play),
-            "approach": approach(play, self.reach) * rewards.nearest(play),
+            "approach": rewards.to_mouth(play, self.config) * rewards.nearest(play),
             "energy": rewards.energy(play),
         }
         return rewards.weighted(terms, self.weights), rewards.scored(play)
