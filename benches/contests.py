@@ -33,6 +33,8 @@ class Sizes:
     football: tuple[int, ...] = (32, 1024, 8192)
     trained: int = 256
     weighed: int = 2048
+    hosted: int = 100_000
+    """On one machine at once."""
 
 
 def contests(sizes: Sizes) -> Iterator[Contest]:
@@ -49,20 +51,25 @@ def contests(sizes: Sizes) -> Iterator[Contest]:
     for game, worlds in ((GAMES[0], sizes.weighed), (GAMES[4], sizes.weighed // 4)):
         weigh = partial(fresh.memory, game, worlds)
         yield Contest("memory", game.teams, (Entrant("Simulator", worlds, 1, weigh),))
+    yield hosting(GAMES[0], sizes.hosted, 2)
     yield Contest("start", TEAMS_TASK, (Entrant("fresh process", 1, 1, lambda: fresh.start),))
 
 
 def core(game: Game, batch: int) -> Contest:
-    """The physics alone, beside the old simulator where that is installed."""
+    """The physics alone, beside the old simulator where that is installed.
+
+    Who plays one match at a time plays those of the batch, one after the other.
+    """
+    one = partial(bout, game, starts=batch)
     entrants = [
-        Entrant("Simulator", 1, 1, partial(bout, game, partial(Ours, game, 1))),
+        Entrant("Simulator", 1, 1, partial(one, partial(Ours, game, 1))),
         Entrant("Simulator", batch, 1, partial(bout, game, partial(Ours, game, batch), batch)),
-        Entrant("compat.robosim", 1, 1, partial(bout, game, partial(Old, game, compat))),
+        Entrant("compat.robosim", 1, 1, partial(one, partial(Old, game, compat))),
     ]
     if (old := peer("robosim")) is None:
         return Contest("core", game.name, tuple(entrants))
     ours, theirs = range(len(entrants)), len(entrants)
-    start = partial(quiet, partial(bout, game, partial(Old, game, old)))
+    start = partial(quiet, partial(one, partial(Old, game, old)))
     entrants.append(Entrant(named("robosim"), 1, 1, start))
     return Contest("core", game.name, tuple(entrants), tuple((i, theirs) for i in ours))
 
@@ -93,6 +100,12 @@ def growth(game: Game, worlds: tuple[int, ...]) -> Contest:
     return Contest(
         "growth", game.name, tuple(entrants), tuple((i, 0) for i in range(1, len(worlds)))
     )
+
+
+def hosting(game: Game, worlds: int, threads: int) -> Contest:
+    """Very many worlds on one machine, in a process of their own."""
+    host = partial(fresh.hosting, game, worlds, threads)
+    return Contest("hosting", game.name, (Entrant("Simulator", worlds, threads, host),))
 
 
 def many(sizes: Sizes) -> Contest:

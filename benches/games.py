@@ -15,7 +15,6 @@ from rsoccer.frame import Floats
 
 EPISODE: Final = 400  # steps of random play between two placements
 HELD: Final = 10  # steps that a random command is kept
-DRAWN: Final = 40  # random commands of a robot, drawn ahead
 
 # What the environments of the rSoccer paper ask of SSL robots at most.
 SPEED: Final = np.float32(2.5)  # m/s
@@ -84,26 +83,26 @@ class Driver:
     """Decides what the robots of n worlds are told."""
 
     def __init__(self, game: Game, worlds: int) -> None:
-        """Draw what is drawn ahead."""
-        self._game = game
+        """Nothing is drawn yet: of many worlds, all that is to come takes much memory."""
+        self._game, self._worlds = game, worlds
         self.held = HELD if game.scene == "random" else 1
-        chance = np.random.default_rng(0)
-        shape = (DRAWN if game.scene == "random" else 0, worlds, game.config.n_robots)
-        if game.on_wheels:
-            self._drawn = _random_wheels(chance, shape, game.config.robot.max_wheel_speed)
-        else:
-            self._drawn = _random_bodies(chance, shape)
 
     def commands(self, step: int, seen: Seen) -> Floats:
         """(n, robots, command) at some step of an episode."""
-        if len(self._drawn):
-            drawn: Floats = self._drawn[step // HELD % DRAWN]
-            return drawn
+        if self._game.scene == "random":
+            return self._drawn(np.random.default_rng(step // HELD))
         offset = seen.ball[:, None] - seen.robots
         cos, sin = seen.headings[..., 0], seen.headings[..., 1]
         ahead = offset[..., 0] * cos + offset[..., 1] * sin
         left = offset[..., 1] * cos - offset[..., 0] * sin
         return self._towards(ahead, left)
+
+    def _drawn(self, chance: np.random.Generator) -> Floats:
+        config = self._game.config
+        shape = (self._worlds, config.n_robots)
+        if self._game.on_wheels:
+            return _random_wheels(chance, shape, config.robot.max_wheel_speed)
+        return _random_bodies(chance, shape)
 
     def _towards(self, ahead: Floats, left: Floats) -> Floats:
         """Commands that drive at what lies so many metres ahead and to the left, facing it."""

@@ -53,6 +53,10 @@ class Contest:
         return f"{self.group}: {self.game}"
 
 
+class LeftOut(Exception):
+    """Why this machine cannot measure something."""
+
+
 Rounds = list[list[Values]]  # (rounds, entrants)
 
 
@@ -60,20 +64,30 @@ def measure(
     contests: Sequence[Contest], rounds: int, seconds: float, tell: Callable[[str], None]
 ) -> list[Figure]:
     """Figures of all contests. `tell` hears what is going on."""
-    fields = []
-    for contest in contests:
-        tell(f"getting ready, {contest.title}")
-        measures = [entrant.start() for entrant in contest.entrants]
-        for warm_up in measures:
-            warm_up(0.0)
-        fields.append(measures)
-    played: list[Rounds] = [[] for _ in contests]
+    fields = list(ready(contests, tell))
+    played: list[Rounds] = [[] for _ in fields]
     for n in range(rounds):
-        for contest, measures, seen in zip(contests, fields, played, strict=True):
+        for (contest, measures), seen in zip(fields, played, strict=True):
             tell(f"round {n + 1} of {rounds}, {contest.title}")
             seen.append(play_round(measures, seconds, backward=n % 2 == 1))
-    pairs = zip(contests, played, strict=True)
-    return [figure for contest, seen in pairs for figure in summary(contest, seen)]
+    pairs = zip(fields, played, strict=True)
+    return [figure for (contest, _), seen in pairs for figure in summary(contest, seen)]
+
+
+def ready(
+    contests: Sequence[Contest], tell: Callable[[str], None]
+) -> Iterator[tuple[Contest, list[Measure]]]:
+    """Contests that this machine can hold, their entrants warmed up."""
+    for contest in contests:
+        tell(f"getting ready, {contest.title}")
+        try:
+            measures = [entrant.start() for entrant in contest.entrants]
+        except LeftOut as reason:
+            tell(f"left out, {contest.title}: {reason}")
+            continue
+        for warm_up in measures:
+            warm_up(0.0)
+        yield contest, measures
 
 
 def play_round(measures: Sequence[Measure], seconds: float, *, backward: bool) -> list[Values]:

@@ -1,7 +1,8 @@
 """What only a fresh process can tell, printed as JSON: `python -m benches.probe start`.
 
-    memory FIELD ROBOTS WORLDS   bytes that a world takes, after play in a crowd
-    start                        seconds until the package is there and its first worlds are
+    memory FIELD ROBOTS WORLDS            bytes that a world takes, after play in a crowd
+    hosting FIELD ROBOTS WORLDS THREADS   speed, bytes and seconds to build, in random play
+    start                                 seconds until the package and its first worlds are there
 
 Nothing is imported before it is measured.
 """
@@ -14,13 +15,21 @@ from pathlib import Path
 TASK = "VSSSelfPlay-v0"
 WORLDS = 4096
 PLAYED = 40  # steps: what contacts need is then there too
+HOSTED = range(10, 12)  # steps that are timed, few, of very many worlds; by then some touch
 
 
 def main() -> None:
     """Measure what the command line says."""
-    kind, *rest = sys.argv[1:]
-    found = memory(rest[0], int(rest[1]), int(rest[2])) if kind == "memory" else start()
-    sys.stdout.write(json.dumps(found))
+    sys.stdout.write(json.dumps(measured(*sys.argv[1:])))
+
+
+def measured(kind: str, field: str = "", *numbers: str) -> dict[str, float]:
+    """What is asked for, by name."""
+    if kind == "memory":
+        return memory(field, *map(int, numbers))
+    if kind == "hosting":
+        return hosting(field, *map(int, numbers))
+    return start()
 
 
 def memory(field: str, robots: int, worlds: int) -> dict[str, float]:
@@ -38,6 +47,22 @@ def memory(field: str, robots: int, worlds: int) -> dict[str, float]:
     player.place(start)
     play(game, player, driver, range(PLAYED))
     return {"bytes": (resident() - before) / worlds}
+
+
+def hosting(field: str, robots: int, worlds: int, threads: int) -> dict[str, float]:
+    """World-steps per second, bytes of the whole process and seconds to build its worlds."""
+    from benches.games import Driver, Game
+    from benches.simulators import Ours, expect_contacts, play
+    from rsoccer import WorldRng
+
+    game = Game("", field, robots, "random")
+    begun = time.perf_counter()
+    player = Ours(game, worlds, threads)
+    build = time.perf_counter() - begun
+    player.place(game.start(WorldRng.seeded(0, worlds)))
+    spent, touching = play(game, player, Driver(game, worlds), HOSTED)
+    expect_contacts(game, touching[-1], worlds * game.config.n_robots)
+    return {"speed": worlds * len(HOSTED) / spent, "bytes": resident(), "build": build}
 
 
 def resident() -> int:

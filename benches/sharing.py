@@ -18,13 +18,13 @@ TIMED: Final = range(30, 40)  # steps of an episode: few, of many worlds; by the
 
 def stepping(game: Game, worlds: int, threads: int) -> Measure:
     """One simulator that shares its worlds out itself."""
-    return bout(game, lambda: Ours(game, worlds, threads), worlds, TIMED)
+    return bout(game, lambda: Ours(game, worlds, threads), worlds, timed=TIMED)
 
 
 def side_by_side(game: Game, worlds: int, threads: int) -> Measure:
     """As many simulators as threads, each with its share of the worlds and nobody to wait for."""
     share = worlds // threads
-    bouts = [bout(game, lambda: Ours(game, share), share, TIMED) for _ in range(threads)]
+    bouts = [bout(game, lambda: Ours(game, share), share, timed=TIMED) for _ in range(threads)]
 
     def measure(seconds: float) -> Values:
         values: list[Values] = []

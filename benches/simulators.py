@@ -115,26 +115,33 @@ class Old:
 
 
 def bout(
-    game: Game, player: Callable[[], Player], worlds: int = 1, timed: range | None = None
+    game: Game,
+    player: Callable[[], Player],
+    worlds: int = 1,
+    starts: int | None = None,
+    timed: range | None = None,
 ) -> Measure:
     """Whole episodes of a game, or these steps of it.
 
-    A round has one start, the same for all who play it; who has time left plays it again. Steps
+    A round has so many starts (one a world, if not told), the same for all who play it. Who plays
+    fewer matches at once plays them one after the other, and who has time left begins again. Steps
     alone are timed, neither placing nor deciding.
     """
     timed, rounds = timed or range(game.episode), count()
     playing, driver = player(), Driver(game, worlds)
+    turns = range(0, starts or worlds, worlds)
     touching: list[float] = []  # in all rounds
 
     def measure(seconds: float) -> Values:
         if not seconds:
             return {}
-        start = game.start(WorldRng.seeded(1000 * next(rounds), worlds))
+        seed = 1000 * next(rounds)
         took: list[float] = []
         while sum(took) < seconds:
-            playing.place(start)
+            first = turns[len(took) % len(turns)]
+            playing.place(game.start(WorldRng.seeded(seed + first, worlds)))
             spent, shares = play(game, playing, driver, timed)
-            touching.extend(() if took else shares)
+            touching.extend(shares if len(took) < len(turns) else ())
             took.append(spent)
         speed = {SPEED: worlds * len(timed) * len(took) / sum(took)}
         share = float(np.mean(touching))

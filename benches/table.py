@@ -21,7 +21,8 @@ class Figure:
     """What was measured of one thing."""
 
     group: str
-    """What it belongs to: core, threads, growth, many, one, training, memory, start, rust."""
+    """What it belongs to: core, threads, growth, many, one, training, memory, hosting, start or
+    rust."""
     game: str
     """What was played: a scene, or a task."""
     who: str

@@ -1,7 +1,7 @@
 """How fast this machine plays: `make bench`, or `python -m benches.throughput`.
 
-Physics, every front door, training, memory and start, beside whatever peers are installed. Leaves
-a table and a picture. A debug build is refused.
+Physics, every front door, training, memory, very many worlds and start, beside whatever peers are
+installed. Leaves a table and a picture. A debug build is refused.
 """
 
 import argparse
@@ -33,6 +33,8 @@ def main(arguments: list[str] | None = None, sizes: Sizes | None = None) -> Path
     figures = measure(picked, options.rounds, options.seconds, tell)
     if not options.only:
         figures += physics_alone()
+    if not figures:
+        sys.exit("nothing was measured")
     folder = options.out or (PART if options.only else RESULTS)
     path = store(figures, machine, folder)
     draw(figures, machine, folder / f"{file_name(machine)}.png")

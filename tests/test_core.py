@@ -258,3 +258,11 @@ def test_what_can_be_clipped_is_a_copy_and_all_else_is_left_to_the_caller() -> N
     assert numbers[0, 0] == -9.0
     for other in (numbers.astype(np.float64), numbers[0], [[0.0] * 2] * 2, numbers * np.inf, None):
         assert clipped(other, (2, 2)) is None
+
+
+def test_commands_count_in_whatever_order_they_lie_in_memory() -> None:
+    commands = np.random.default_rng(0).uniform(-9, 9, no_commands().shape).astype(np.float32)
+    ours, theirs = Simulator(CONFIG, worlds=WORLDS), Simulator(CONFIG, worlds=WORLDS)
+    ours.step(commands, rows_of(ours))
+    theirs.step(np.asfortranarray(commands), rows_of(theirs))
+    assert np.array_equal(rows_of(ours), rows_of(theirs))

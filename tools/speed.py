@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
+from benches.fresh import BUILT, HOSTED
 from benches.sharing import TIMED
 from benches.table import RESULTS, ROOT, Figure, Machine, digits, load, times
 from tools.parts import table
@@ -69,9 +70,10 @@ def beside(old: str, core: Sequence[Figure]) -> str:
     text = (
         f"{old} is the simulator of robocin's rSoccer (package rc-robosim), built here in its own "
         "release mode and stepped in the same process, round about with ours: the same teams and "
-        "fields, starts (of many at once, the first's) and kinds of command, 25 ms a step in five "
-        "ticks. Ratios are medians over rounds (slowest and fastest round in brackets): every "
-        "round has another start, and this machine is small and does other things besides."
+        "fields, starts (who plays one match at a time plays those of the many one after the "
+        "other, as far as the time goes) and kinds of command, 25 ms a step in five ticks. Ratios "
+        "are medians over rounds (slowest and fastest round in brackets): every round has other "
+        "starts, and this machine is small and does other things besides."
     )
     if not interface:
         return text
@@ -129,6 +131,7 @@ def facts(figures: Sequence[Figure]) -> str:
         "threads": _threads,
         "growth": _growth,
         "memory": _memory,
+        "hosting": _hosting,
         "start": _start,
     }
     found = []
@@ -166,6 +169,16 @@ def _opening(figures: Sequence[Figure]) -> str:
 def _memory(figures: list[Figure]) -> str:
     told = " and ".join(f"{digits(f.median, 2)} KiB for {f.game}" for f in figures)
     return f"Memory of a world that has seen contacts: {told}."
+
+
+def _hosting(figures: list[Figure]) -> str:
+    told = {figure.quantity: figure for figure in figures}
+    one = told[SPEED]
+    return (
+        f"{one.worlds:,} worlds ({one.game}) in one process, on {one.threads} threads: built in "
+        f"{digits(told[BUILT.name].median, 2)} s, {digits(told[HOSTED.name].median, 2)} GiB of "
+        f"memory in all once some touch, {digits(one.median)} steps a second."
+    )
 
 
 def _start(figures: list[Figure]) -> str:

@@ -449,7 +449,7 @@ class Viewpoint:
 
 @final
 class Potential:
-    """What a robot is to raise, in metres: paid by differences, a way there and back pays nothing."""
+    """What a robot is to raise, in metres. By its differences a way there and back pays nothing."""
 
     @staticmethod
     def ball_to_goal(field: Field) -> Potential:

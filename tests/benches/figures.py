@@ -36,6 +36,9 @@ OURS = [
     made_up("many", TASK, "Matches", 3.96, 1024, 2, "outside physics", "us a world-step"),
     made_up("one", TASK, "empty ParallelEnv", 150_000.0),
     made_up("memory", "SSL 11 v 11", "Simulator", 58.83, 512, 1, "memory", "KiB a world"),
+    made_up("hosting", RANDOM, "Simulator", 45_678.0, 100_000, 2),
+    made_up("hosting", RANDOM, "Simulator", 2.61, 100_000, 2, "memory of the process", "GiB"),
+    made_up("hosting", RANDOM, "Simulator", 1.234, 100_000, 2, "worlds built", "s"),
     made_up("start", TASK, "fresh process", 0.131, 1, 1, "first env and reset", "s"),
 ]
 PEERS = [

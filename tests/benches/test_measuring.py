@@ -5,6 +5,7 @@ from benches.measuring import (
     SPEED,
     Contest,
     Entrant,
+    LeftOut,
     Measure,
     Quantity,
     Values,
@@ -64,6 +65,17 @@ def test_what_goes_on_is_told() -> None:
     assert heard == [
         *("getting ready, core: game", "round 1 of 2, core: game", "round 2 of 2, core: game"),
     ]
+
+
+def test_what_a_machine_cannot_hold_is_left_out() -> None:
+    def start() -> Measure:
+        raise LeftOut("too little memory")
+
+    heard: list[str] = []
+    huge = Contest("hosting", "game", (Entrant("huge", 9, 1, start),))
+    figures = measure([huge, contest([])], 1, 0.1, heard.append)
+    assert {figure.group for figure in figures} == {"core"}
+    assert "left out, hosting: game: too little memory" in heard
 
 
 def test_contests_are_chosen_by_their_titles() -> None:

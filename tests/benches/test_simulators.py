@@ -4,11 +4,13 @@ from functools import partial
 import numpy as np
 import pytest
 
+from benches import simulators
 from benches.games import CROWD, RANDOM, Game
 from benches.measuring import SPEED
 from benches.simulators import ENOUGH, TOUCHING, Old, Ours, Player, bout, expect_contacts
-from rsoccer import WorldRng
+from rsoccer import Frame, WorldRng
 from rsoccer.compat import robosim
+from rsoccer.frame import Floats
 
 SHORT = [replace(game, episode=40) for game in (RANDOM[0], RANDOM[2])]
 
@@ -53,6 +55,32 @@ def test_a_bout_is_measured(game: Game) -> None:
         values = measure(1e-6)
         assert list(values) == [SPEED, TOUCHING]
         assert values[SPEED] > 0
+
+
+class Noting(Ours):
+    """Notes where its robots are placed."""
+
+    def __init__(self, game: Game, worlds: int, placed: list[Floats]) -> None:
+        super().__init__(game, worlds)
+        self.placed = placed
+
+    def place(self, start: Frame) -> None:
+        self.placed.extend(start.robots.position)
+        super().place(start)
+
+
+def test_one_match_after_the_other_has_the_starts_of_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(simulators, "play", lambda *_: (1.0, [0.5]))  # a second each
+    game, one, many = RANDOM[0], list[Floats](), list[Floats]()
+    singly = bout(game, lambda: Noting(game, 1, one), starts=3)
+    at_once = bout(game, lambda: Noting(game, 3, many), 3)
+    for _ in range(2):
+        singly(4.0)
+        at_once(2.0)
+    first, second = np.array(many[:6]), np.array(many[6:])
+    np.testing.assert_array_equal(one, [*first[:4], *second[:4]])
+    np.testing.assert_array_equal(first[:3], first[3:])
+    assert len(np.unique(many, axis=0)) == 6, "every round has starts of its own"
 
 
 def test_a_crowd_touches() -> None:

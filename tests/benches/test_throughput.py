@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from benches import contests, throughput
+from benches import contests, fresh, throughput
 from benches.contests import Sizes
 from benches.games import CROWD, RANDOM
 from benches.table import ROOT, load, this_machine
 
 QUICK = ["--rounds", "2", "--seconds", "0.001"]
-SMALL = Sizes(batch=2, many=(3, 4), shared=4, growing=(1, 3), football=(3,), trained=4, weighed=64)
+SMALL = Sizes(2, many=(3, 4), shared=4, growing=(1, 3), trained=4, weighed=64, hosted=8)
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +29,7 @@ def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
     assert machine.profile == "release"
     assert len(list(tmp_path.glob("*.png"))) == 1
     assert {figure.group for figure in figures} == {
-        *("core", "threads", "growth", "many", "one", "training", "memory", "start"),
+        *("core", "threads", "growth", "many", "one", "training", "memory", "hosting", "start"),
     }
     assert {(f.who, f.worlds, f.threads) for f in figures if f.group == "many"} == {
         *(("Matches", 3, 1), ("Matches", 3, 2), ("Matches", 4, 1), ("Matches", 4, 2)),
@@ -51,11 +51,14 @@ def test_some_can_be_picked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     assert {figure.game for figure in load(path)[1]} == {"SSLGoToBall-v0"}
 
 
-def test_nothing_to_measure_is_refused(tmp_path: Path) -> None:
+def test_nothing_to_measure_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(SystemExit, match=r"(?s)nothing to measure.*core: VSSS 3 v 3 random"):
         throughput.main([*QUICK, "--only", "chess", "--out", str(tmp_path)], SMALL)
     with pytest.raises(SystemExit):
         throughput.main(["--rounds", "0"], SMALL)
+    monkeypatch.setattr(fresh, "free_memory", lambda: 0)
+    with pytest.raises(SystemExit, match="nothing was measured"):
+        throughput.main([*QUICK, "--only", "hosting", "--out", str(tmp_path)], SMALL)
     assert not list(tmp_path.iterdir())
 
 

@@ -18,6 +18,8 @@ def test_a_table_without_peers_is_shown() -> None:
     assert "| VSSS 3 v 3 random | 25,000 | 50,000 |" in text
     assert "| `Matches` | `VSSSelfPlay-v0` | 1,024 | 2 | 40,000 | 4 us a world-step |" in text
     assert "59 KiB for SSL 11 v 11" in text
+    assert "100,000 worlds (VSSS 3 v 3 random) in one process, on 2 threads: built in 1.2 s" in text
+    assert "2.6 GiB of memory in all once some touch, 45,700 steps a second." in text
     assert "first env and reset 0.13 s" in text
     assert "robosim" not in text
     assert "vmas" not in text

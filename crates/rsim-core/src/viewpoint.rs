@@ -58,7 +58,7 @@ impl Viewpoint {
             if seat.turned {
                 let crossed = ball[self.crossed];
                 let mut codes = (0_u8..).map(f32::from).zip(self.other_side);
-                if let Some((_, other)) = codes.find(|(code, _)| *code == crossed) {
+                if let Some((_, other)) = codes.find(|(code, _)| (code - crossed).abs() < 0.5) {
                     ball[self.crossed] = other;
                 }
             }
@@ -108,6 +108,7 @@ mod tests {
     use crate::columns::{crossing_name, robot_column, row_size};
 
     #[test]
+    #[allow(clippy::float_cmp)] // only signs change, so bits are compared
     fn who_sees_the_field_turned_sees_the_other_goal_and_slots_that_nobody_fills_are_zero() {
         let slots = vec![Some(1), None, Some(0)];
         let viewpoint = Viewpoint::new(vec![

@@ -76,13 +76,14 @@ pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
     }
 }
 
-/// Contiguous values of an array: borrowed where they are, copied where they are not.
+/// Values of an array in C order: borrowed where they lie so, copied where they do not.
 pub(crate) fn values<'a, T: Element + Copy, D: ndarray::Dimension>(
     array: &'a PyReadonlyArray<'_, T, D>,
 ) -> std::borrow::Cow<'a, [T]> {
     match array.as_slice() {
-        Ok(slice) => slice.into(),
-        Err(_) => array.as_array().iter().copied().collect::<Vec<_>>().into(),
+        // The slice of an array in Fortran order would have its values in that.
+        Ok(slice) if array.is_c_contiguous() => slice.into(),
+        _ => array.as_array().iter().copied().collect::<Vec<_>>().into(),
     }
 }
 

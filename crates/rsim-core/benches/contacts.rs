@@ -1,0 +1,106 @@
+//! What contacts cost: `cargo bench --bench contacts` prints a table.
+//!
+//! Two teams face each other in lanes. In some lanes they push each other head on, in the others they
+//! stand still, far apart: the matches of a league differ by their contacts alone.
+
+use std::time::{Duration, Instant};
+
+use rsim_core::scenes::{Driver, Scene};
+use rsim_core::{Field, SimConfig, World};
+
+/// Steps in which those that push come to rest against each other, and steps that are timed then.
+const SETTLING: usize = 40;
+const TIMED: usize = 50;
+/// Times that every match is played, in turns: medians count.
+const ROUNDS: usize = 201;
+
+/// A league's match in which so many pairs push.
+struct Match {
+    pairs: usize,
+    /// Pushing already.
+    world: World,
+    commands: Vec<f32>,
+}
+
+impl Match {
+    /// `ahead` is the command that drives a robot straight ahead.
+    fn new(config: &SimConfig, ahead: &[f32], pairs: usize) -> Self {
+        let scene = lanes(config, ahead, pairs);
+        let mut world = scene.world();
+        // Without contacts a match would go without the solver.
+        world.never_skip();
+        let commands = scene.commands(&scene.start, 0, 0);
+        for _ in 0..SETTLING {
+            world.step(&commands).expect("the state stays finite");
+        }
+        Self { pairs, world, commands }
+    }
+
+    /// us that a step takes.
+    fn play(&self) -> f64 {
+        let (mut world, mut spent) = (self.world.clone(), Duration::ZERO);
+        for _ in 0..TIMED {
+            let start = Instant::now();
+            world.step(&self.commands).expect("the state stays finite");
+            spent += start.elapsed();
+            assert_eq!(world.contacts(), self.pairs, "pairs that push, and nothing else, touch");
+        }
+        spent.as_secs_f64() * 1e6 / TIMED as f64
+    }
+}
+
+/// Robots of the first lanes touch almost and drive at each other, the others stand still.
+fn lanes(config: &SimConfig, ahead: &[f32], pairs: usize) -> Scene {
+    let (field, robots) = (&config.field, config.blue.len());
+    let lane = field.width / (robots + 1) as f32;
+    let (near, far) = (config.blue[0].bounding_radius() + 0.001, field.length / 4.0);
+    let pose = |index: usize, side: f32, heading: f32| {
+        let x = if index < pairs { near } else { far };
+        [side * x, (index + 1) as f32 * lane - field.half_width(), heading]
+    };
+    let blue = (0..robots).map(|index| pose(index, -1.0, 0.0));
+    let yellow = (0..robots).map(|index| pose(index, 1.0, 180.0));
+    let poses: Vec<_> = blue.chain(yellow).collect();
+    let told = |index| if index % robots < pairs { ahead.to_vec() } else { Vec::new() };
+    let driver = Driver::Constant((0..2 * robots).map(told).collect());
+    let mut scene = Scene::at("lanes", config.clone(), &poses, driver);
+    scene.set_ball([0.0, field.half_width() - lane / 2.0], [0.0, 0.0]);
+    scene
+}
+
+/// Rows of a league's table; the first match is the one without contacts.
+fn rows(teams: &str, matches: &[Match]) -> Vec<String> {
+    let rounds: Vec<Vec<f64>> =
+        (0..ROUNDS).map(|_| matches.iter().map(Match::play).collect()).collect();
+    let without = median(rounds.iter().map(|times| times[0]));
+    let row = |(index, played): (usize, &Match)| {
+        let step = median(rounds.iter().map(|times| times[index]));
+        // Within a round first: a machine that slows down over the rounds does not enter it.
+        let ratio = median(rounds.iter().map(|times| times[index] / times[0]));
+        let adds = match played.pairs {
+            0 => String::new(),
+            contacts => format!("{:.1}", (ratio - 1.0) * without / contacts as f64),
+        };
+        format!("| {teams} | {} | {step:.0} | {ratio:.2} | {adds} |", played.pairs)
+    };
+    matches.iter().enumerate().map(row).collect()
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[allow(clippy::print_stdout)] // the table is what it is for
+fn main() {
+    let vss = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    let vss = [0, 1, 2, 3, 4, 5].map(|pairs| Match::new(&vss, &[46.0, 46.0], pairs));
+    let ssl = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let ssl = [0, 1, 3, 5, 7, 9, 11].map(|pairs| Match::new(&ssl, &[3.7], pairs));
+    println!("| match | contacts | a step, us | relative | each contact adds, us |");
+    println!("| --- | ---: | ---: | ---: | ---: |");
+    for row in [rows("VSSS 5 v 5", &vss), rows("SSL 11 v 11", &ssl)].concat() {
+        println!("{row}");
+    }
+}
