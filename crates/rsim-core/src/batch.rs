@@ -1,6 +1,6 @@
 //! Many matches of one configuration, stepped over plain slices and on several threads.
 
-use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 
 use crate::snapshot::{self, Header};
 use crate::world::State;
@@ -14,34 +14,61 @@ pub struct Batch {
     pool: Option<Pool>,
 }
 
-/// Threads do not survive a fork, so a pool is of one process.
+/// The threads that help the caller's. Threads do not survive a fork, so they are of one process.
 struct Pool {
     process: u32,
-    threads: rayon::ThreadPool,
+    helpers: rayon::ThreadPool,
 }
 
 impl Pool {
+    /// So many threads, the caller's among them.
     fn new(threads: usize) -> Result<Self, ConfigError> {
         let failed = |reason| ConfigError::Threads { threads, reason };
         if threads > MAX_THREADS {
             return Err(failed(format!("at most {MAX_THREADS} make sense")));
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|error| failed(error.to_string()))?;
-        Ok(Self { process: std::process::id(), threads: pool })
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).build();
+        let helpers = pool.map_err(|error| failed(error.to_string()))?;
+        Ok(Self { process: std::process::id(), helpers })
     }
 
-    /// The threads of this process.
-    fn here(&mut self) -> &rayon::ThreadPool {
+    fn threads(&self) -> usize {
+        self.helpers.current_num_threads() + 1
+    }
+
+    /// Has the threads of this process do all portions, each taking the next as it gets free. The
+    /// caller's works too: it is awake, and to wake another in its place costs milliseconds. First
+    /// error by world, if any.
+    fn share<P>(&mut self, portions: impl Iterator<Item = P> + Send) -> Result<(), StepError>
+    where
+        P: Iterator<Item = Result<(), StepError>>,
+    {
         if self.process != std::process::id() {
-            let count = self.threads.current_num_threads();
-            let pool = Self::new(count).expect("as many threads as before the fork should start");
+            let pool = Self::new(self.threads()).expect("as many threads as before should start");
             // The old pool's threads are not in this process: dropping it would wait for them.
             std::mem::forget(std::mem::replace(self, pool));
         }
-        &self.threads
+        let (portions, failures) = (Mutex::new(portions), Mutex::new(Vec::new()));
+        let work = || {
+            // Held only to take the next portion, some hundred microseconds of work.
+            let next = || portions.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let failed: Vec<_> =
+                std::iter::from_fn(next).flatten().filter_map(Result::err).collect();
+            failures.lock().unwrap_or_else(PoisonError::into_inner).extend(failed);
+        };
+        self.helpers.in_place_scope(|scope| {
+            for _ in 0..self.helpers.current_num_threads() {
+                scope.spawn(|_| work());
+            }
+            work();
+        });
+        let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failures.into_iter().min_by_key(|failure| failure.world).map_or(Ok(()), Err)
     }
 }
+
+/// Worlds that a thread takes at once: enough that taking them costs nothing beside stepping them.
+const MOST_AT_ONCE: usize = 16;
 
 /// More than any machine has; asking for so many is a slip.
 const MAX_THREADS: usize = 1024;
@@ -80,7 +107,7 @@ impl Batch {
 
     /// Number of threads that `step` uses.
     pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, |pool| pool.threads.current_num_threads())
+        self.pool.as_ref().map_or(1, Pool::threads)
     }
 
     /// Starts new matches in the worlds of the mask. `rows` has one row for each of them, and so has
@@ -157,10 +184,14 @@ impl Batch {
         };
         // One world never touches a pool: sharing out one world costs more than stepping it.
         if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
-            let pairs = self.worlds.par_iter_mut().zip(out.par_chunks_exact_mut(size));
-            return pool
-                .here()
-                .install(|| pairs.enumerate().map(step).reduce(|| Ok(()), Result::and));
+            let portion = (self.worlds.len() / (8 * pool.threads())).clamp(1, MOST_AT_ONCE);
+            let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
+            let firsts = (0..).step_by(portion);
+            let portions = firsts.zip(pairs).map(|(first, (worlds, rows))| {
+                let pairs = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
+                (first..).zip(pairs).map(&step)
+            });
+            return pool.share(portions);
         }
         // Every world steps, also after one that failed.
         let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));

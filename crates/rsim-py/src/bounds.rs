@@ -20,7 +20,7 @@ pub(crate) fn limit(
         writeable("numbers", numbers, &[n, seers, size])?;
     let most: PyReadonlyArray<'_, f32, Ix1> = readable("most", most, &[size])?;
     let (most, numbers) = (values(&most), numbers.as_slice_mut()?);
-    if most.iter().any(|most| !(*most >= 0.0)) {
+    if most.iter().any(|most| most.is_nan() || *most < 0.0) {
         return Err(PyValueError::new_err("most must be 0 or above"));
     }
     py.detach(|| {
