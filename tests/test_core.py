@@ -253,11 +253,11 @@ def test_limits_hold_from_both_sides_and_leave_what_is_no_number() -> None:
 
 def test_what_can_be_clipped_is_a_copy_and_all_else_is_left_to_the_caller() -> None:
     numbers = np.array([[-9.0, 0.5], [1.0, 9.0]], np.float32)
-    for given, expected in [
+    for array, expected in [
         (numbers, [[-1.0, 0.5], [1.0, 1.0]]),
         (numbers.T, [[-1.0, 1.0], [0.5, 1.0]]),
     ]:
-        copied = clipped(given, (2, 2))
+        copied = clipped(array, (2, 2))
         assert copied is not None
         assert np.array_equal(copied, expected)
     assert numbers[0, 0] == -9.0
