@@ -4,7 +4,7 @@ use rapier2d::math::{Pose, Vector};
 use rapier2d::parry::shape::Cuboid;
 
 use crate::ball_model::Surface;
-use crate::outline::Outline;
+use crate::outline::{Outline, Placed};
 use crate::{BallModel, Field};
 
 /// A fixed block that stands on the floor, or a bar above it.
@@ -32,6 +32,12 @@ impl Wall {
 
     pub(crate) fn outline(&self) -> Outline {
         Outline::Box { half: self.half }
+    }
+
+    /// Its outline, where it stands.
+    pub(crate) fn placed(&self) -> Placed {
+        let (position, heading) = (self.pose.translation, self.pose.rotation);
+        Placed { outline: self.outline(), position, heading }
     }
 
     /// Whether a ball on the floor can meet it.

@@ -166,8 +166,7 @@ impl Flight<'_> {
             Obstacle::Floor => Near { distance: place.z - radius, normal: Vec3::Z },
             Obstacle::Wall(index) => {
                 let wall = &self.walls[index];
-                let (at, facing) = (wall.pose.translation, wall.pose.rotation);
-                let nearest = wall.outline().nearest_at(at, facing, point);
+                let nearest = wall.placed().nearest(point);
                 Near::of_upright(&nearest, [wall.bottom, wall.top], place.z, radius)
             }
             Obstacle::Robot(index) => {

@@ -57,4 +57,4 @@ pub use viewpoint::{Seat, Viewpoint};
 pub use world::World;
 
 /// Number of the physics: raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 3;
+pub const PHYSICS_VERSION: u32 = 4;

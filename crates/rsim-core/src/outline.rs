@@ -9,9 +9,18 @@ use crate::robot_model::Body;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Outline {
     /// A rectangle with these half sides.
-    Box { half: Vector },
+    Box {
+        half: Vector,
+    },
     /// A disc cut off at `front` along x, so that its flat front is twice `half_flat` wide.
-    CutDisc { radius: f32, front: f32, half_flat: f32 },
+    CutDisc {
+        radius: f32,
+        front: f32,
+        half_flat: f32,
+    },
+    Disc {
+        radius: f32,
+    },
 }
 
 /// The point of an outline that is nearest to another point.
@@ -41,6 +50,11 @@ impl Outline {
             Self::CutDisc { radius, front, half_flat } => {
                 nearest_of_cut_disc(radius, front, half_flat, point)
             }
+            Self::Disc { radius } => {
+                let from_center = point.length();
+                let normal = if from_center > 0.0 { point / from_center } else { Vector::X };
+                Nearest { distance: from_center - radius, normal }
+            }
         }
     }
 
@@ -49,6 +63,46 @@ impl Outline {
     pub(crate) fn nearest_at(&self, position: Vector, heading: Rotation, point: Vector) -> Nearest {
         let found = self.nearest(heading.inverse() * (point - position));
         Nearest { normal: heading * found.normal, ..found }
+    }
+}
+
+/// An outline at a place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placed {
+    pub(crate) outline: Outline,
+    pub(crate) position: Vector,
+    pub(crate) heading: Rotation,
+}
+
+impl Placed {
+    /// Distance to another, m, or less: of two that are no discs it is the widest strip between
+    /// them along one of their sides. Not positive if they touch.
+    pub(crate) fn gap(&self, other: &Self) -> f32 {
+        match (self.outline, other.outline) {
+            (Outline::Disc { radius }, _) => other.nearest(self.position).distance - radius,
+            (_, Outline::Disc { radius }) => self.nearest(other.position).distance - radius,
+            _ => self.strip_along_own_sides(other).max(other.strip_along_own_sides(self)),
+        }
+    }
+
+    pub(crate) fn nearest(&self, point: Vector) -> Nearest {
+        self.outline.nearest_at(self.position, self.heading, point)
+    }
+
+    fn strip_along_own_sides(&self, other: &Self) -> f32 {
+        let apart = other.position - self.position;
+        let side = Vector::new(self.heading.re, self.heading.im);
+        let strip =
+            |across: Vector| apart.dot(across).abs() - self.extent(across) - other.extent(across);
+        strip(side).max(strip(side.perp()))
+    }
+
+    /// From the middle to the farthest point in a direction; the cut of a disc is not seen.
+    fn extent(&self, direction: Vector) -> f32 {
+        match self.outline {
+            Outline::Box { half } => half.dot((self.heading.inverse() * direction).abs()),
+            Outline::CutDisc { radius, .. } | Outline::Disc { radius } => radius,
+        }
     }
 }
 
@@ -114,10 +168,35 @@ mod tests {
         close([0.0715 + 0.03, half_flat + 0.0004], 0.030_002_7, [1.0, 0.0133]);
     }
 
+    fn placed(outline: Outline, position: [f32; 2], degrees: f32) -> Placed {
+        Placed { outline, position: position.into(), heading: Rotation::new(degrees.to_radians()) }
+    }
+
+    #[test]
+    fn gaps_are_what_a_ruler_shows() {
+        let square = Outline::of(Body::Square { side: 0.075 });
+        let disc = Outline::Disc { radius: 0.09 };
+        let wall = Outline::Box { half: Vector::new(1.0, 0.1) };
+        let corner = 0.0375 * std::f32::consts::SQRT_2;
+        for (a, b, gap) in [
+            (placed(square, [0.0, 0.0], 0.0), placed(square, [0.1, 0.02], 90.0), 0.025),
+            (placed(square, [0.0, 0.0], 45.0), placed(square, [0.1, 0.0], 0.0), 0.0625 - corner),
+            (placed(square, [0.0, 0.0], 45.0), placed(wall, [0.5, -0.2], 0.0), 0.1 - corner),
+            (placed(square, [0.0, 0.0], 0.0), placed(disc, [0.2, 0.0], 0.0), 0.0725),
+            (placed(disc, [0.0, 0.0], 0.0), placed(disc, [0.0, -0.2], 10.0), 0.02),
+            (placed(Outline::of(CUT_DISC), [0.0, 0.0], 0.0), placed(disc, [0.2, 0.0], 0.0), 0.0385),
+            (placed(square, [0.0, 0.0], 0.0), placed(square, [0.07, 0.0], 0.0), -0.005),
+        ] {
+            assert!((a.gap(&b) - gap).abs() < 1e-6, "{a:?} {b:?}: {}", a.gap(&b));
+            assert!((b.gap(&a) - gap).abs() < 1e-6, "{b:?} {a:?}: {}", b.gap(&a));
+        }
+    }
+
     #[test]
     fn a_step_along_the_normal_changes_the_distance_by_as_much() {
-        for body in [CUT_DISC, Body::Square { side: 0.075 }] {
-            let outline = Outline::of(body);
+        let square = Body::Square { side: 0.075 };
+        let disc = Outline::Disc { radius: 0.05 };
+        for outline in [Outline::of(CUT_DISC), Outline::of(square), disc] {
             for draw in 0..2000_u64 {
                 let point = Vector::new(uniform(draw), uniform(draw + 10_000)) * 0.3;
                 let found = outline.nearest(point);
@@ -125,7 +204,10 @@ mod tests {
                 assert!((found.normal.length() - 1.0).abs() < 1e-5);
                 let outside = found.distance >= 0.0;
                 let gained = stepped.distance - found.distance;
-                assert!(!outside || (gained - 1e-3).abs() < 1e-5, "{body:?} {point:?}: {gained}");
+                assert!(
+                    !outside || (gained - 1e-3).abs() < 1e-5,
+                    "{outline:?} {point:?}: {gained}"
+                );
             }
         }
     }

@@ -136,7 +136,7 @@ impl Placement {
 
     /// From a ball at height `z` to a wall, m; negative inside.
     fn gap_to_wall(&self, wall: &Wall, center: Vector, z: f32) -> f32 {
-        let nearest = wall.outline().nearest_at(wall.pose.translation, wall.pose.rotation, center);
+        let nearest = wall.placed().nearest(center);
         let radius = self.ball.radius;
         Near::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius).distance
     }

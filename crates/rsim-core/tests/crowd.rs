@@ -1,6 +1,7 @@
 //! Many bodies pushing: nobody leaves the arena, nobody stays in anybody, nothing explodes.
 
 use rsim_core::scenes::{self, Scene, robots};
+use rsim_core::{RobotModel, SimConfig};
 
 /// Steps of random play and of crowds: 100,000 ticks each.
 const STEPS: u64 = 20_000;
@@ -39,6 +40,23 @@ fn long_play_stays_sound() {
             }
         }
         assert!(contacts as u64 > STEPS / 4, "{}: only {contacts} contacts", scene.name);
+    }
+}
+
+#[test]
+fn round_robots_in_a_crowd_stay_out_of_each_other() {
+    let scene = scenes::ssl_chase(SimConfig::ssl(6, 6));
+    let apart = 2.0 * RobotModel::SSL_GENERIC.bounding_radius();
+    let (rows, contacts) = scene.play(&mut scene.world(), 400);
+    assert!(contacts > 1000, "only {contacts} contacts");
+    for row in rows.chunks_exact(scene.config.row_size()) {
+        let all: Vec<&[f32]> = robots(row).collect();
+        for (index, a) in all.iter().enumerate() {
+            for b in &all[index + 1..] {
+                let depth = apart - (a[0] - b[0]).hypot(a[1] - b[1]);
+                assert!(depth < 1e-3, "{} mm", depth * 1e3);
+            }
+        }
     }
 }
 

@@ -109,8 +109,11 @@ fn parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
         num_solver_iterations: SUB_STEPS,
-        // Scales the engine's tolerances: contacts are predicted 2 mm ahead instead of 20 mm.
+        // Scales the engine's tolerances, here to a tenth.
         length_unit: 0.1,
+        // Points of two that meet are seen 8 mm ahead, as far as the corner of a spinning robot comes
+        // in a tick of 5 ms. With 2 mm, robots in a crowd sank into each other by up to 13 mm.
+        normalized_prediction_distance: 0.08,
         // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).
         contact_softness: SpringCoefficients::new(200.0, 2.0),
         static_contact_softness: SpringCoefficients::new(400.0, 2.0),

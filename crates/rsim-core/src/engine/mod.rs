@@ -103,6 +103,7 @@ struct Inverse {
 pub(crate) struct Scratch {
     pipeline: PhysicsPipeline,
     ccd: CCDSolver,
+    trial: quiet::Trial,
     // A match has no joints and no soft bodies; the pipeline wants to see that for itself.
     joints: ImpulseJointSet,
     multibodies: MultibodyJointSet,
@@ -114,6 +115,7 @@ impl Scratch {
         Self {
             pipeline: PhysicsPipeline::new(),
             ccd: CCDSolver::new(),
+            trial: quiet::Trial::default(),
             joints: ImpulseJointSet::new(),
             multibodies: MultibodyJointSet::new(),
             soft_bodies: SoftBodySet::new(),
@@ -206,8 +208,8 @@ impl Engine {
         ball: &BallHooks,
         room: &Room,
     ) -> Result<(), NonFinite> {
-        if self.skips && self.clear && self.is_quiet(ball, room) {
-            self.coast();
+        let quiet = self.skips && self.clear;
+        if quiet && self.coast(&mut scratch.trial, ball.physique, ball.flies, room) {
             self.skipped = self.skipped.wrapping_add(1);
             return Ok(());
         }

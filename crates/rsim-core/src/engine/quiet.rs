@@ -1,31 +1,28 @@
-//! Ticks in which nothing can touch: bodies coast, and the solver rests.
+//! Ticks in which nothing touches: bodies coast, and the solver rests.
 //!
-//! Coasting computes what the solver would, in its own sub-steps. Whether it is allowed is decided on
-//! the safe side, first by circles grown by all that they may move, then, where those meet, by a line
-//! that keeps the two bodies apart for the whole tick.
+//! Coasting computes what the solver would, in its own sub-steps. Bodies that can meet in the tick
+//! are looked at when the solver would look: before the first sub-step, after each, and where they
+//! would be one sub-step later, as it stops bodies one ahead. If two come too near, the solver gets
+//! the tick from its start.
 
-use rapier2d::math::Vector;
+use rapier2d::math::{Rotation, Vector};
 
-use super::{BALL, BallHooks, Engine, Inverse, Motion, Push, robot};
+use super::{BALL, Engine, Inverse, Motion, Push, robot, rotation};
 use crate::Field;
 use crate::arena::Wall;
-use crate::outline::Outline;
+use crate::outline::{Outline, Placed};
 use crate::physique::Physique;
-use crate::robot_model::Body;
 
-/// Bodies that stay farther apart than this do not touch, m: the solver's own prediction, and a tenth.
-/// Nearer ones do to the solver: it has them bounce in the tick before they meet.
-const MARGIN: f32 = 0.002_2;
-
-/// More bodies than the leagues allow: then every tick is solved.
-const MOST: usize = 32;
+/// Bodies that stay farther apart than this do not touch, m. Between two corners that pass each
+/// other the solver is wrong by less; below, it stops some that would not have met.
+const MARGIN: f32 = 4e-4;
 
 /// The part of a field that is free of walls, and the walls around it.
 #[derive(Debug, Clone)]
 pub(crate) struct Room {
     /// A body that stays within is far from every wall.
     free: Vector,
-    walls: Vec<(Outline, Wall)>,
+    walls: Vec<Placed>,
 }
 
 impl Room {
@@ -35,151 +32,179 @@ impl Room {
         let free_x = field.half_length() - field.corner;
         Self {
             free: Vector::new(free_x, field.reach_y()),
-            walls: standing.map(|wall| (wall.outline(), wall.clone())).collect(),
+            walls: standing.map(Wall::placed).collect(),
         }
     }
 
-    /// Whether a body may touch a wall.
-    fn may_touch(&self, body: &Moving) -> bool {
-        let beyond = body.center.abs() + Vector::splat(body.reach);
-        if beyond.x < self.free.x && beyond.y < self.free.y {
-            return false;
-        }
-        self.walls.iter().any(|(outline, wall)| {
-            let (at, facing) = (wall.pose.translation, wall.pose.rotation);
-            let nearest = outline.nearest_at(at, facing, body.center);
-            // A wall is convex: all of it lies behind the line through its nearest point.
-            nearest.distance < body.reach
-                && nearest.distance + body.way.dot(nearest.normal).min(0.0)
-                    < body.extent(nearest.normal) + body.slack
-        })
+    /// Walls that reach into a circle.
+    fn walls_near(&self, circle: Circle) -> impl Iterator<Item = &Placed> {
+        let beyond = circle.center.abs() + Vector::splat(circle.radius);
+        let is_free = beyond.x < self.free.x && beyond.y < self.free.y;
+        let walls = if is_free { &[] } else { self.walls.as_slice() };
+        let disc = circle.placed();
+        walls.iter().filter(move |wall| disc.gap(wall) < 0.0)
     }
 }
 
-/// A body during a tick, on the safe side.
-#[derive(Clone, Copy)]
-struct Moving {
+/// All that a body can cover in a tick.
+#[derive(Debug, Clone, Copy)]
+struct Circle {
     center: Vector,
-    /// Where its centre goes, m.
-    way: Vector,
-    /// Half the side of a square along its heading and across; none of a disc.
-    side: Option<Vector>,
-    /// Of the circle around it, m.
     radius: f32,
-    /// How far any point of it strays from that way, m, and half the margin.
-    slack: f32,
-    /// Of the circle that it stays in.
-    reach: f32,
 }
 
-impl Moving {
-    const NOTHING: Self = Self {
-        center: Vector::ZERO,
-        way: Vector::ZERO,
-        side: None,
-        radius: 0.0,
-        slack: 0.0,
-        reach: 0.0,
-    };
-
-    /// From the centre to the farthest point in a direction, at the start of the tick.
-    fn extent(&self, direction: Vector) -> f32 {
-        self.side
-            .map_or(self.radius, |side| side.dot(direction).abs() + side.perp_dot(direction).abs())
+impl Circle {
+    fn meets(&self, other: &Self) -> bool {
+        let reach = self.radius + other.radius;
+        (self.center - other.center).length_squared() < reach * reach
     }
 
-    /// Whether the two may touch.
-    fn may_touch(&self, other: &Self) -> bool {
-        let apart = other.center - self.center;
-        let reach = self.reach + other.reach;
-        if apart.length_squared() >= reach * reach {
-            return false;
+    fn placed(self) -> Placed {
+        let outline = Outline::Disc { radius: self.radius };
+        Placed { outline, position: self.center, heading: Rotation::IDENTITY }
+    }
+}
+
+/// A body, and what it can meet in a tick.
+#[derive(Debug, Clone, Copy)]
+struct Near {
+    body: Solid,
+    other: Other,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Other {
+    Body(Solid),
+    Wall(Placed),
+}
+
+/// A body, and the outline that others touch.
+#[derive(Debug, Clone, Copy)]
+struct Solid {
+    body: usize,
+    outline: Outline,
+}
+
+impl Solid {
+    /// What the solver takes a body for.
+    fn of(body: usize, physique: &Physique) -> Self {
+        if body == BALL {
+            return Self { body, outline: Outline::Disc { radius: physique.ball.radius } };
         }
-        let way = other.way - self.way;
-        let slack = self.slack + other.slack;
-        let is_between = |direction: Vector| {
-            let gap = apart.dot(direction);
-            let least = gap.abs() + (way.dot(direction) * 1.0_f32.copysign(gap)).min(0.0);
-            least > self.extent(direction) + other.extent(direction) + slack
+        let outline = match physique.robots[body - 1].outline {
+            Outline::CutDisc { radius, .. } => Outline::Disc { radius },
+            whole => whole,
         };
-        let lines = [Some(apart), self.side, other.side];
-        !lines.into_iter().flatten().any(|line| {
-            let direction = line.normalize_or_zero();
-            is_between(direction) || is_between(direction.perp())
+        Self { body, outline }
+    }
+
+    /// The same as the ball meets it.
+    fn as_it_is(self, physique: &Physique) -> Self {
+        Self { outline: physique.robots[self.body - 1].outline, ..self }
+    }
+
+    fn placed(&self, motions: &[Motion]) -> Placed {
+        let Motion { position, heading, .. } = motions[self.body];
+        Placed { outline: self.outline, position, heading: rotation(heading) }
+    }
+}
+
+/// What a tick without the solver is tried with; empty between ticks.
+#[derive(Default)]
+pub(super) struct Trial {
+    circles: Vec<Circle>,
+    near: Vec<Near>,
+    now: Vec<Motion>,
+    end: Vec<Motion>,
+}
+
+impl Trial {
+    /// Whether all that can meet are apart now.
+    fn is_apart(&self) -> bool {
+        self.near.iter().all(|near| {
+            let body = near.body.placed(&self.now);
+            let gap = match &near.other {
+                Other::Body(other) => body.gap(&other.placed(&self.now)),
+                Other::Wall(wall) => body.gap(wall),
+            };
+            gap > MARGIN
         })
     }
 }
 
 impl Engine {
-    /// Whether nothing can touch anything in the coming tick.
-    pub(super) fn is_quiet(&self, ball: &BallHooks, room: &Room) -> bool {
-        let mut bodies = [Moving::NOTHING; MOST];
-        let robots = ball.physique.robots.len();
-        if robots >= MOST {
-            return false;
-        }
+    /// Plays a tick without the solver, if nothing touches in it; else nothing has changed.
+    pub(super) fn coast(
+        &mut self,
+        trial: &mut Trial,
+        physique: &Physique,
+        flies: bool,
+        room: &Room,
+    ) -> bool {
         // A ball in the air touches others elsewhere.
-        let first = if ball.flies { robot(0) } else { BALL };
-        for (count, index) in (first..=robots).enumerate() {
-            let body = self.moving(index, ball.physique);
-            if bodies[..count].iter().any(|other| body.may_touch(other)) || room.may_touch(&body) {
+        self.find_near(trial, physique, if flies { robot(0) } else { BALL }, room);
+        trial.now.clone_from(&self.motions);
+        let sub_steps = self.parameters.num_solver_iterations;
+        let length = self.parameters.dt / sub_steps as f32;
+        for sub_step in 0..=sub_steps {
+            if !trial.is_apart() {
                 return false;
             }
-            bodies[count] = body;
+            if sub_step == sub_steps {
+                trial.end.clone_from(&trial.now);
+            }
+            for (index, motion) in trial.now.iter_mut().enumerate() {
+                coast(motion, &self.pushes[index], self.inverses[index], length);
+            }
         }
+        if !trial.is_apart() {
+            return false;
+        }
+        std::mem::swap(&mut self.motions, &mut trial.end);
+        self.moved.fill(true);
         true
     }
 
-    fn moving(&self, body: usize, physique: &Physique) -> Moving {
-        let (motion, push, inverse) =
-            (&self.motions[body], &self.pushes[body], &self.inverses[body]);
-        let (radius, side) = if body == BALL {
-            (physique.ball.radius, None)
-        } else {
-            let model = &physique.robots[body - 1].model;
-            let side = match model.body {
-                Body::Square { side } => Some(motion.heading * (side / 2.0)),
-                Body::Round { .. } => None,
-            };
-            (model.bounding_radius(), side)
-        };
-        let tick = self.parameters.dt;
-        let way = motion.velocity * tick;
-        let pushed = push.force.length() * inverse.mass * tick * tick;
-        let turned = (motion.spin.abs() + push.torque.abs() * inverse.inertia * tick) * tick;
-        let swings = if side.is_some() { turned * radius } else { 0.0 };
-        let slack = pushed + swings + MARGIN / 2.0;
-        Moving {
-            center: motion.position,
-            way,
-            side,
-            radius,
-            slack,
-            reach: radius + way.length() + slack,
+    fn find_near(&self, trial: &mut Trial, physique: &Physique, first: usize, room: &Room) {
+        let Trial { circles, near, .. } = trial;
+        circles.clear();
+        near.clear();
+        for index in first..self.motions.len() {
+            let circle = self.circle(index, physique);
+            let body = Solid::of(index, physique);
+            for (other, _) in circles.iter().enumerate().filter(|(_, other)| other.meets(&circle)) {
+                let other = Solid::of(first + other, physique);
+                let body = if other.body == BALL { body.as_it_is(physique) } else { body };
+                near.push(Near { body, other: Other::Body(other) });
+            }
+            let walls = room.walls_near(circle);
+            near.extend(walls.map(|wall| Near { body, other: Other::Wall(*wall) }));
+            circles.push(circle);
         }
     }
 
-    /// A tick without contacts.
-    pub(super) fn coast(&mut self) {
-        let sub_steps = self.parameters.num_solver_iterations;
-        let length = self.parameters.dt / sub_steps as f32;
-        for (index, motion) in self.motions.iter_mut().enumerate() {
-            coast(motion, &self.pushes[index], self.inverses[index], length, sub_steps);
-        }
-        self.moved.fill(true);
+    fn circle(&self, body: usize, physique: &Physique) -> Circle {
+        let radius = if body == BALL {
+            physique.ball.radius
+        } else {
+            physique.robots[body - 1].model.bounding_radius()
+        };
+        let (motion, push) = (&self.motions[body], &self.pushes[body]);
+        // To where the look ahead ends.
+        let time = self.parameters.dt * (1.0 + 1.0 / self.parameters.num_solver_iterations as f32);
+        let faster = push.force.length() * self.inverses[body].mass * time;
+        let way = (motion.velocity.length() + faster) * time;
+        Circle { center: motion.position, radius: radius + way + MARGIN }
     }
 }
 
-fn coast(motion: &mut Motion, push: &Push, inverse: Inverse, length: f32, sub_steps: usize) {
-    let faster = push.force * inverse.mass * length;
-    let turns = push.torque * inverse.inertia * length;
-    for _ in 0..sub_steps {
-        motion.velocity += faster;
-        motion.spin += turns;
-        motion.position += motion.velocity * length;
-        let angle = motion.spin * length;
-        let heading = motion.heading;
-        let turned = Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x);
-        motion.heading = turned.normalize();
-    }
+/// A sub-step without contacts.
+fn coast(motion: &mut Motion, push: &Push, inverse: Inverse, length: f32) {
+    motion.velocity += push.force * inverse.mass * length;
+    motion.spin += push.torque * inverse.inertia * length;
+    motion.position += motion.velocity * length;
+    let angle = motion.spin * length;
+    let heading = motion.heading;
+    let turned = Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x);
+    motion.heading = turned.normalize();
 }
