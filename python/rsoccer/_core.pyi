@@ -25,6 +25,7 @@ __all__ = [
     "Sight",
     "SimConfig",
     "Simulator",
+    "Steering",
     "Viewpoint",
     "build_info",
     "clipped",
@@ -418,6 +419,35 @@ class SimConfig:
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
+
+@final
+class Steering:
+    """What actions, five numbers in [-1, 1], ask of robots that are told their body's velocity.
+
+    `scales` are what a 1 asks for: velocity along two axes (m/s), turn rate (rad/s), speed of a
+    kick (m/s; none below 0), dribbler (share of its speed; off up to 0). Velocities are along the
+    axes of the field as the robot's side sees it, if `along_field`, else along the robot's own.
+    Robots from `n_blue` on see the field turned half round.
+
+    Raises:
+        ValueError: not five scales, or one that is not finite.
+        OverflowError: `n_blue` below 0.
+    """
+
+    def __new__(cls, scales: Sequence[float], along_field: bool, n_blue: int) -> Steering: ...
+    def commands(
+        self, actions: NDArray[np.float32], rows: NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        """Commands (n, robots, 6) for actions (n, robots, 5) of the robots in rows (n, row).
+
+        The columns are `COMMAND_COLUMNS["omni"]`.
+
+        Raises:
+            TypeError: an array that is not float32.
+            ValueError: an array of another shape.
+        """
+
+    def __reduce__(self) -> tuple[object, tuple[list[float], bool, int]]: ...
 
 @final
 class Viewpoint:

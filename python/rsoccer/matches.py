@@ -30,6 +30,8 @@ Seed = int | Sequence[int | None] | None  # of the first world, or one for each
 Seeds = list[int | None]
 Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
+_NONE: Final = np.empty(0, np.intp)
+
 
 class Matches:
     """n matches of a task, stepped together; actions and observations are (n, agents, ...).
@@ -110,9 +112,9 @@ class Matches:
         actions = checks.actions(actions, shape)
         if np.count_nonzero(self._begun) < self.worlds:
             raise RuntimeError("step before reset: some worlds have begun no episode")
-        still = np.flatnonzero(self._done)
+        still = np.flatnonzero(self._done) if np.count_nonzero(self._done) else _NONE
         held = self._hold(still) if len(still) else None
-        self._move(actions)
+        self._move(actions, ~self._done if held else None)
         outcome = self._judge()
         if held:
             self._release(still, held, outcome)
@@ -129,17 +131,17 @@ class Matches:
         self._viewpoint.fill(self.play.frame, self.play.view)
         self._viewpoint.fill(self.play.last_frame, self.play.last_view)
 
-    def _move(self, actions: Floats) -> None:
-        """Every driver acts, and the worlds move on."""
-        play = self.play
-        driven = np.empty_like(play.actions)
-        driven[:, self.drivers.learners] = actions
+    def _move(self, actions: Floats, active: Mask | None) -> None:
+        """Every driver acts, and the worlds, or those that are active, move on."""
+        play, driven = self.play, actions
+        if self.drivers.crews:
+            driven = np.empty_like(play.actions)
+            driven[:, self.drivers.learners] = actions
         for crew in self.drivers.crews:
             crew.act(play, self._observations, driven)
         commands = self.task.get_commands(play, driven)
         play.commands = checks.commands(commands, play.commands.shape)
         play.actions = driven
-        active = ~self._done if np.count_nonzero(self._done) else None
         # The older buffer takes the new rows, so that nothing has changed if the step fails.
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()

@@ -7,10 +7,12 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Matches
-from rsoccer.frame import Floats
+from rsoccer._core import Steering
+from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
-from rsoccer.tasks.ssl import CHOICES, Ssl
+from rsoccer.tasks.ssl import AXES, CHOICES, Ssl
 from tests.helpers import pushing
+from tests.tasks import steering_reference
 from tests.tasks.ssl_scenes import make, scene
 
 NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
@@ -87,6 +89,35 @@ def test_commands_are_shares_of_what_the_robot_can() -> None:
     assert commands[0, 0] == pytest.approx([1.85, -3.7, 1.0, 3.25, 0.0, 1.0])
     commands = task.get_commands(play, np.array([[[0.0, 0.0, 0.0, -0.5, -1.0]]], np.float32))
     assert not commands.any()
+
+
+@pytest.mark.parametrize("axes", AXES)
+@pytest.mark.parametrize("worlds", [1, 5])
+def test_commands_are_what_the_reference_says(axes: str, worlds: int) -> None:
+    task = SslSelfPlay(blue=3, yellow=2, axes=axes)
+    matches = Matches(task, worlds)
+    matches.reset(0)
+    actions = np.random.default_rng(0).uniform(-1, 1, (worlds, 5, 5)).astype(np.float32)
+    told = task.get_commands(matches.play, actions)
+    assert told.dtype == np.float32
+    expected = steering_reference.commands(task, matches.frame, actions)
+    np.testing.assert_allclose(told, expected, rtol=1e-6, atol=1e-6)
+
+
+def test_steering_refuses_what_does_not_fit() -> None:
+    steering = Steering([1.0] * 5, True, 1)
+    actions, rows = np.zeros((3, 2, 5), np.float32), Frame.empty(3, 1, 1).rows
+    assert steering.commands(actions, rows).shape == (3, 2, 6)
+    with pytest.raises(ValueError, match=r"actions must have shape \(3, 2, 5\), got \(3, 2, 4\)"):
+        steering.commands(actions[..., :4], rows)
+    with pytest.raises(ValueError, match=r"rows must have shape \(3, 36\), got \(2, 36\)"):
+        steering.commands(actions, rows[:2])
+    with pytest.raises(TypeError, match="actions must be an array of float32, got float64"):
+        steering.commands(actions.astype(np.float64), rows)
+    with pytest.raises(ValueError, match="scales must be finite, got inf"):
+        Steering([1.0, np.inf, 1.0, 1.0, 1.0], True, 1)
+    with pytest.raises(ValueError, match="expected a sequence of length 5"):
+        Steering([1.0], True, 1)
 
 
 def test_for_yellow_the_game_is_turned_half_round() -> None:

@@ -5,10 +5,12 @@
 //! come out as plain rows, whose columns are named once in [`columns`].
 //!
 //! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
-//! that the first team attacks, y to the left. The crate knows nothing of episodes or
-//! rules of play, and knows the two teams only as an order of robots. What tasks work out for every
-//! robot in every step is here besides: a [`Viewpoint`] turns rows into what robots see, [`Sight`]
-//! scales that for a network, a [`Potential`] is what a robot is to raise.
+//! that the first team attacks, y to the left. The crate knows nothing of episodes or rules of play,
+//! and knows the two teams only as an order of robots.
+//!
+//! What tasks work out for every robot in every step is here besides: a [`Viewpoint`] turns rows
+//! into what robots see, [`Sight`] scales that for a network, a [`Potential`] is what a robot is to
+//! raise, [`Steering`] turns actions into commands.
 #![forbid(unsafe_code)]
 
 mod arena;
@@ -39,6 +41,7 @@ pub mod scenes;
 pub mod shaping;
 mod sight;
 mod snapshot;
+pub mod steering;
 mod tick;
 mod touch;
 mod viewpoint;
@@ -53,6 +56,7 @@ pub use mouth_model::Mouth;
 pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
 pub use shaping::Potential;
 pub use sight::{Block, Sight};
+pub use steering::Steering;
 pub use viewpoint::{Seat, Viewpoint};
 pub use world::World;
 

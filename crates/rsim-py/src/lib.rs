@@ -10,6 +10,7 @@ mod models;
 mod shaping;
 mod sight;
 mod simulator;
+mod steering;
 mod viewpoint;
 
 use pyo3::prelude::*;
@@ -29,6 +30,8 @@ mod _core {
     use crate::sight::Sight;
     #[pymodule_export]
     use crate::simulator::Simulator;
+    #[pymodule_export]
+    use crate::steering::Steering;
     #[pymodule_export]
     use crate::viewpoint::Viewpoint;
 

@@ -14,17 +14,14 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks
-from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, Frame
+from rsoccer._core import SimConfig, Steering
+from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
 TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
 LEGAL_KICK: Final = 6.5  # m/s, SSL rules
 AXES: Final = ("field", "robot")
-
-_BODY: Final = COMMAND_COLUMNS["omni"]
-_KICK, _DRIBBLER = _BODY.index("kick_v_x"), _BODY.index("dribbler")
 
 # What agents that choose may do: stand, eight ways to drive, turn left and right, each with the
 # dribbler running; kick, standing; in the order of an action's numbers.
@@ -76,17 +73,12 @@ class Ssl(Soccer):
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
-        asked = actions * self.action_scales
-        commands = np.zeros((*actions.shape[:2], len(_BODY)), np.float32)
-        commands[..., :3] = asked[..., :3]
-        if self.axes == "field":
-            heading = play.frame.robots.heading * self._side_signs[:, None]
-            cos, sin = heading[..., 0], heading[..., 1]
-            x, y = asked[..., 0], asked[..., 1]
-            commands[..., 0], commands[..., 1] = x * cos + y * sin, y * cos - x * sin
-        np.maximum(asked[..., 3], 0.0, out=commands[..., _KICK])
-        np.greater(actions[..., 4], 0.0, out=commands[..., _DRIBBLER], casting="unsafe")
-        return commands
+        return self._steering.commands(actions, play.frame.rows)
+
+    def is_off_field(self, places: Floats) -> Mask:
+        """(n,) whether places (n, 2) are beyond the field's lines."""
+        beyond = np.abs(places) > self._corner
+        return np.logical_or(beyond[:, 0], beyond[:, 1])
 
     @cached_property
     def reach(self) -> np.float32:
@@ -101,9 +93,14 @@ class Ssl(Soccer):
         return np.array([robot.top_speed, robot.top_speed, TURN, kick, 1.0], np.float32)
 
     @cached_property
-    def _side_signs(self) -> Floats:
-        """(robots,) -1 for yellow, whose game is turned half round."""
-        return np.repeat(np.array([1.0, -1.0], np.float32), self.team_sizes())
+    def _corner(self) -> Floats:
+        """(2,) where two lines of the field meet, metres."""
+        return np.array([self.config.field.half_length, self.config.field.half_width], np.float32)
+
+    @cached_property
+    def _steering(self) -> Steering:
+        """What actions ask for."""
+        return Steering(self.action_scales.tolist(), self.axes == "field", self.n_blue)
 
 
 def ball_at_mouth(frame: Frame, robot: int, reach: np.float32) -> Floats:

@@ -152,9 +152,6 @@ class SslDribbling(Ssl):
         (x_min, y_min), (x_max, y_max) = np.array(self.course.bounds, np.float32)
         x, y = frame.blue.position[:, 0].T
         outside = (x < x_min) | (x > x_max) | (y < y_min) | (y > y_max)
-        ball, field = np.abs(frame.ball.position), self.config.field
-        out = (ball[:, 0] > np.float32(field.half_length)) | (
-            ball[:, 1] > np.float32(field.half_width)
-        )
+        out = self.is_off_field(frame.ball.position)
         failed: Mask = outside | out | (frame.blue.touched_foe[:, 0] > 0.5)
         return failed

@@ -58,7 +58,8 @@ class SslGoToBall(Ssl):
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """The ball in the mouth counts most; coming nearer to that is paid, leaving costs."""
-        reached, left = self._reached(play.frame), self._left(play.frame)
+        reached = self._reached(play.frame)
+        left = self.is_off_field(play.frame.blue.position[:, 0])
         terms = {
             "reached": reached[:, None].astype(np.float32),
             "approach": rewards.to_mouth(play, self.config),
@@ -81,10 +82,3 @@ class SslGoToBall(Ssl):
 
     def _reached(self, frame: Frame) -> Mask:
         return np.greater(frame.blue.infrared[:, 0], 0.5)
-
-    def _left(self, frame: Frame) -> Mask:
-        position, field = np.abs(frame.blue.position[:, 0]), self.config.field
-        return np.logical_or(
-            position[:, 0] > np.float32(field.half_length),
-            position[:, 1] > np.float32(field.half_width),
-        )

@@ -67,9 +67,3 @@ class SslPass(Ssl):
         way = receiver - ball.position
         towards = way[:, 0] * ball.velocity[:, 0] + way[:, 1] * ball.velocity[:, 1]
         return np.logical_or(speed < SLOW, (towards < 0.0) & (speed > FLIES))
-
-    def out(self, frame: Frame) -> Mask:
-        """(n,) whether the ball has left the field."""
-        ball, field = np.abs(frame.ball.position), self.config.field
-        beyond = ball[:, 0] > np.float32(field.half_length)
-        return np.logical_or(beyond, ball[:, 1] > np.float32(field.half_width))

@@ -46,7 +46,7 @@ class SslPassEndurance(SslPass):
         kicked |= distance[:, 0] > self.reach + FREE
         received = self._received(play.frame)
         missed = kicked & self.missed(play.frame, play.frame.blue.position[:, 1])
-        failed = (missed | self.out(play.frame)) & ~received
+        failed = (missed | self.is_off_field(play.frame.ball.position)) & ~received
         terms = {
             "received": received[:, None].astype(np.float32),
             "ball_to_mate": (last - distance)[:, 1:],

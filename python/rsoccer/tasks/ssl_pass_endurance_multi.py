@@ -57,7 +57,7 @@ class SslPassEnduranceMulti(SslPass):
         memory["on_its_way"] |= far
         receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
         missed = memory["on_its_way"] & self.missed(play.frame, receiver)
-        failed = missed | self.out(play.frame)
+        failed = missed | self.is_off_field(play.frame.ball.position)
         terms = {
             "passes": passed[:, None].astype(np.float32),
             "ball_to_mate": nearer[:, None],

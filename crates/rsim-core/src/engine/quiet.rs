@@ -143,9 +143,19 @@ impl Engine {
     ) -> bool {
         // A ball in the air touches others elsewhere.
         self.find_near(trial, physique, if flies { robot(0) } else { BALL }, room);
+        let (sub_steps, length) = (self.parameters.num_solver_iterations, self.sub_step());
+        if trial.near.is_empty() {
+            coast(&mut self.motions, &self.pushes, &self.inverses, length, sub_steps);
+        } else if !self.coast_on_trial(trial, sub_steps) {
+            return false;
+        }
+        self.moved.fill(true);
+        true
+    }
+
+    /// Coasts unless two come too near on the way, or would in one sub-step more.
+    fn coast_on_trial(&mut self, trial: &mut Trial, sub_steps: usize) -> bool {
         trial.now.clone_from(&self.motions);
-        let sub_steps = self.parameters.num_solver_iterations;
-        let length = self.parameters.dt / sub_steps as f32;
         for sub_step in 0..=sub_steps {
             if !trial.is_apart() {
                 return false;
@@ -153,16 +163,18 @@ impl Engine {
             if sub_step == sub_steps {
                 trial.end.clone_from(&trial.now);
             }
-            for (index, motion) in trial.now.iter_mut().enumerate() {
-                coast(motion, &self.pushes[index], self.inverses[index], length);
-            }
+            coast(&mut trial.now, &self.pushes, &self.inverses, self.sub_step(), 1);
         }
-        if !trial.is_apart() {
-            return false;
+        let apart = trial.is_apart();
+        if apart {
+            std::mem::swap(&mut self.motions, &mut trial.end);
         }
-        std::mem::swap(&mut self.motions, &mut trial.end);
-        self.moved.fill(true);
-        true
+        apart
+    }
+
+    /// s.
+    fn sub_step(&self) -> f32 {
+        self.parameters.dt / self.parameters.num_solver_iterations as f32
     }
 
     fn find_near(&self, trial: &mut Trial, physique: &Physique, first: usize, room: &Room) {
@@ -191,20 +203,26 @@ impl Engine {
         };
         let (motion, push) = (&self.motions[body], &self.pushes[body]);
         // To where the look ahead ends.
-        let time = self.parameters.dt * (1.0 + 1.0 / self.parameters.num_solver_iterations as f32);
+        let time = self.parameters.dt + self.sub_step();
         let faster = push.force.length() * self.inverses[body].mass * time;
         let way = (motion.velocity.length() + faster) * time;
         Circle { center: motion.position, radius: radius + way + MARGIN }
     }
 }
 
-/// A sub-step without contacts.
-fn coast(motion: &mut Motion, push: &Push, inverse: Inverse, length: f32) {
-    motion.velocity += push.force * inverse.mass * length;
-    motion.spin += push.torque * inverse.inertia * length;
-    motion.position += motion.velocity * length;
-    let angle = motion.spin * length;
-    let heading = motion.heading;
-    let turned = Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x);
-    motion.heading = turned.normalize();
+/// So many sub-steps without contacts.
+fn coast(motions: &mut [Motion], pushes: &[Push], inverses: &[Inverse], length: f32, times: usize) {
+    for ((motion, push), inverse) in motions.iter_mut().zip(pushes).zip(inverses) {
+        let faster = push.force * inverse.mass * length;
+        let turns = push.torque * inverse.inertia * length;
+        for _ in 0..times {
+            motion.velocity += faster;
+            motion.spin += turns;
+            motion.position += motion.velocity * length;
+            let angle = motion.spin * length;
+            let heading = motion.heading;
+            let turned = Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x);
+            motion.heading = turned.normalize();
+        }
+    }
 }

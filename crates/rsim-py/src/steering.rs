@@ -1,0 +1,62 @@
+//! What actions ask of robots, for arrays of actions and rows.
+
+use numpy::{Ix3, PyArray3, PyArrayMethods, PyReadonlyArray};
+use pyo3::prelude::*;
+use rsim_core::columns::{BALL_COLUMNS, OMNI_COLUMNS, ROBOT_COLUMNS, row_size};
+use rsim_core::steering::ACTION_SIZE;
+
+use crate::arrays::{Rows, finite, readable, sizes, values};
+
+/// What actions ask of robots that are told their body's velocity.
+#[pyclass(frozen, module = "rsoccer._core")]
+pub(crate) struct Steering {
+    steering: rsim_core::Steering,
+    n_blue: usize,
+}
+
+#[pymethods]
+impl Steering {
+    #[new]
+    fn new(scales: [f32; ACTION_SIZE], along_field: bool, n_blue: usize) -> PyResult<Self> {
+        finite("scales", &scales)?;
+        Ok(Self { steering: rsim_core::Steering { scales, along_field }, n_blue })
+    }
+
+    fn commands<'py>(
+        &self,
+        py: Python<'py>,
+        actions: &Bound<'py, PyAny>,
+        rows: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let [n, robots, _] = sizes("actions", actions)?;
+        let actions: PyReadonlyArray<'_, f32, Ix3> =
+            readable("actions", actions, &[n, robots, ACTION_SIZE])?;
+        let rows: Rows = readable("rows", rows, &[n, row_size(robots)])?;
+        let (actions, rows) = (values(&actions), values(&rows));
+        let commands = PyArray3::zeros(py, [n, robots, OMNI_COLUMNS.len()], false);
+        {
+            let mut out = commands.readwrite();
+            let out = out.as_slice_mut()?;
+            py.detach(|| {
+                let states = rows
+                    .chunks_exact(row_size(robots))
+                    .flat_map(|row| row[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len()));
+                let told = actions.chunks_exact(ACTION_SIZE).zip(states).enumerate();
+                for (out, (index, (action, state))) in
+                    out.chunks_exact_mut(OMNI_COLUMNS.len()).zip(told)
+                {
+                    let turned = index % robots >= self.n_blue;
+                    self.steering.command(action, [state[2], state[3]], turned, out);
+                }
+            });
+        }
+        Ok(commands)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> (Bound<'py, PyAny>, ([f32; ACTION_SIZE], bool, usize)) {
+        let Self { steering, n_blue } = slf.get();
+        (slf.get_type().into_any(), (steering.scales, steering.along_field, *n_blue))
+    }
+}
