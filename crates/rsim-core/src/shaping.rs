@@ -57,19 +57,19 @@ impl Potential {
         let me = Vector::new(robots[0], robots[1]);
         match *self {
             Self::BallToGoal { goal_x } => {
-                let to = |x: f32| length(Vector::new(x, ball.y));
+                let to = |x: f32| Vector::new(x, ball.y).length();
                 0.5 * (to(goal_x + ball.x) - to(goal_x - ball.x))
             }
             Self::BehindBall { goal_x, behind, most } => {
                 let to_goal = Vector::new(goal_x - ball.x, -ball.y);
-                let per = behind / length(to_goal).max(behind);
+                let per = behind / to_goal.length().max(behind);
                 let at = ball - to_goal * per;
                 let at = Vector::new(at.x.max(-most.x), at.y.max(-most.y).min(most.y));
-                -length(at - me)
+                -(at - me).length()
             }
             Self::AtMouth { reach } => {
                 let mouth = me + Vector::new(robots[2], robots[3]) * reach;
-                -length(ball - mouth)
+                -(ball - mouth).length()
             }
         }
     }
@@ -80,7 +80,7 @@ pub fn nearest_to_ball(row: &[f32], n_blue: usize, out: &mut [bool]) {
     let (ball, robots) = row.split_at(BALL_COLUMNS.len());
     let distance = |robot: usize| {
         let at = &robots[robot * ROBOT_COLUMNS.len()..];
-        length(Vector::new(at[0] - ball[0], at[1] - ball[1]))
+        Vector::new(at[0] - ball[0], at[1] - ball[1]).length()
     };
     let split = n_blue.min(out.len());
     let (blue, yellow) = out.split_at_mut(split);
@@ -97,10 +97,6 @@ pub fn nearest_to_ball(row: &[f32], n_blue: usize, out: &mut [bool]) {
 pub fn effort(action: &[f32]) -> f32 {
     let total: f32 = action.iter().map(|number| number.abs()).sum();
     total / action.len() as f32
-}
-
-fn length(vector: Vector) -> f32 {
-    (vector.x * vector.x + vector.y * vector.y).sqrt()
 }
 
 #[cfg(test)]

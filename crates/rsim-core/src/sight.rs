@@ -60,7 +60,7 @@ impl Eye {
 
     /// Distance, and cosine and sine of the bearing, of what lies `offset` away.
     fn polar(&self, offset: Vector, per_metre: f32) -> [f32; 3] {
-        let distance = length(offset);
+        let distance = offset.length();
         let bearing = self.turn(offset) / distance.max(TINY);
         [distance * per_metre, bearing.x, bearing.y]
     }
@@ -160,17 +160,13 @@ impl Sight {
 
 /// Bearing of the goal from the ball, how near the ball is, and how well the robot stands behind it.
 fn shot(eye: &Eye, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
-    let way = length(to_goal).max(TINY);
-    let distance = length(to_ball).max(TINY);
+    let way = to_goal.length().max(TINY);
+    let distance = to_ball.length().max(TINY);
     let bearing = eye.turn(to_goal) / way;
     // Not the system's: it would differ in the last bit between platforms.
     let near = libm::expf(distance * -NEAR);
     let along = to_ball.x * to_goal.x + to_ball.y * to_goal.y;
     [bearing.x, bearing.y, near, near * (along / (way * distance))]
-}
-
-fn length(vector: Vector) -> f32 {
-    (vector.x * vector.x + vector.y * vector.y).sqrt()
 }
 
 #[cfg(test)]
