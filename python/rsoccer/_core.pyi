@@ -430,8 +430,7 @@ class Steering:
     Robots from `n_blue` on see the field turned half round.
 
     Raises:
-        ValueError: not five scales, or one that is not finite.
-        OverflowError: `n_blue` below 0.
+        ValueError: not five scales, one that is not finite, or `n_blue` below 0.
     """
 
     def __new__(cls, scales: Sequence[float], along_field: bool, n_blue: int) -> Steering: ...

@@ -30,8 +30,6 @@ Seed = int | Sequence[int | None] | None  # of the first world, or one for each
 Seeds = list[int | None]
 Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
-_NONE: Final = np.empty(0, np.intp)
-
 
 class Matches:
     """n matches of a task, stepped together; actions and observations are (n, agents, ...).
@@ -112,7 +110,7 @@ class Matches:
         actions = checks.actions(actions, shape)
         if np.count_nonzero(self._begun) < self.worlds:
             raise RuntimeError("step before reset: some worlds have begun no episode")
-        still = np.flatnonzero(self._done) if np.count_nonzero(self._done) else _NONE
+        still = np.flatnonzero(self._done)
         held = self._hold(still) if len(still) else None
         self._move(actions, ~self._done if held else None)
         outcome = self._judge()

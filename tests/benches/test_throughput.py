@@ -17,6 +17,7 @@ SMALL = Sizes(2, many=(3, 4), shared=4, growing=(1, 3), trained=4, weighed=64, h
 @pytest.fixture(autouse=True)
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without peers, and with few games."""
+    # Short, but long enough for a crowd to gather.
     short = dataclasses.replace(CROWD[0], episode=120)
     monkeypatch.setattr(contests, "GAMES", (RANDOM[0], RANDOM[2], short, RANDOM[3], RANDOM[4]))
     monkeypatch.setattr(contests, "peer", lambda name: None)

@@ -116,6 +116,8 @@ def test_steering_refuses_what_does_not_fit() -> None:
         steering.commands(actions.astype(np.float64), rows)
     with pytest.raises(ValueError, match="scales must be finite, got inf"):
         Steering([1.0, np.inf, 1.0, 1.0, 1.0], True, 1)
+    with pytest.raises(ValueError, match="n_blue must not be negative, got -1"):
+        Steering([1.0] * 5, True, -1)
     with pytest.raises(ValueError, match="expected a sequence of length 5"):
         Steering([1.0], True, 1)
 

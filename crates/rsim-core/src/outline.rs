@@ -9,18 +9,11 @@ use crate::robot_model::Body;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Outline {
     /// A rectangle with these half sides.
-    Box {
-        half: Vector,
-    },
+    Box { half: Vector },
     /// A disc cut off at `front` along x, so that its flat front is twice `half_flat` wide.
-    CutDisc {
-        radius: f32,
-        front: f32,
-        half_flat: f32,
-    },
-    Disc {
-        radius: f32,
-    },
+    CutDisc { radius: f32, front: f32, half_flat: f32 },
+    /// The ball, and round robots among themselves.
+    Disc { radius: f32 },
 }
 
 /// The point of an outline that is nearest to another point.
@@ -185,6 +178,7 @@ mod tests {
             (placed(square, [0.0, 0.0], 0.0), placed(disc, [0.2, 0.0], 0.0), 0.0725),
             (placed(disc, [0.0, 0.0], 0.0), placed(disc, [0.0, -0.2], 10.0), 0.02),
             (placed(Outline::of(CUT_DISC), [0.0, 0.0], 0.0), placed(disc, [0.2, 0.0], 0.0), 0.0385),
+            (placed(Outline::of(CUT_DISC), [0.0, 0.0], 0.0), placed(wall, [1.2, 0.0], 0.0), 0.11),
             (placed(square, [0.0, 0.0], 0.0), placed(square, [0.07, 0.0], 0.0), -0.005),
         ] {
             assert!((a.gap(&b) - gap).abs() < 1e-6, "{a:?} {b:?}: {}", a.gap(&b));

@@ -191,8 +191,9 @@ impl World {
         })
     }
 
-    /// Has every tick go through the contact solver, also those in which nothing can touch. Slower,
-    /// and the same but for rounding: for tests and benchmarks that compare.
+    /// Has every tick go through the contact solver, also those in which nothing touches. Slower,
+    /// and the same but for rounding, and now and then for two corners that pass each other: for
+    /// tests and benchmarks that compare.
     pub fn never_skip(&mut self) {
         self.skips = false;
         self.state.engine.set_skips(false);
@@ -204,7 +205,7 @@ impl World {
         self.state.engine.set_sub_steps(sub_steps.get());
     }
 
-    /// Ticks of this match in which nothing could touch, so that they went without the solver.
+    /// Ticks of this match in which nothing touched, so that they went without the solver.
     pub fn skipped_ticks(&self) -> u32 {
         self.state.engine.skipped()
     }

@@ -1,7 +1,7 @@
-//! Ticks in which nothing can touch go without the contact solver. That changes rounding, no more.
+//! Ticks in which nothing touches go without the contact solver. That changes rounding, no more.
 
 use rsim_core::columns::{BALL_COLUMNS, ball_column};
-use rsim_core::scenes::{self, Scene};
+use rsim_core::scenes::{self, Driver, Scene, uniform};
 use rsim_core::{Field, SimConfig};
 
 /// Scenes with and without contacts, in both leagues.
@@ -49,6 +49,42 @@ fn a_tick_with_the_solver_is_a_tick_without_but_for_rounding() {
         let skipped = world.skipped_ticks();
         assert!((10..1990).contains(&skipped), "{}: {skipped} ticks skipped", scene.name);
     }
+}
+
+#[test]
+fn a_fast_ball_grazes_with_and_without_the_solver() {
+    const SPEED: f32 = 19.0; // nearly as fast as a ball may be
+    let mut grazed = 0;
+    for shot in 0..2000_u64 {
+        let draw = |nth: u64| f32::midpoint(1.0, uniform(shot + nth * 5000)); // from 0 to 1
+        let mut scene = Scene::lined_up("graze", SimConfig::ssl(1, 0), Driver::STILL);
+        scene.config.time_step = scene.config.tick;
+        let heading = std::f32::consts::TAU * draw(0);
+        for (name, value) in
+            [("x", 0.0), ("y", 0.0), ("cos", heading.cos()), ("sin", heading.sin())]
+        {
+            scene.set_robot_column(0, name, value);
+        }
+        // From 1 mm past the disc to just past its flat front.
+        let aside = 0.1125 - 0.021 * draw(1);
+        scene.set_ball([-0.3 - SPEED * scene.config.tick * draw(2), aside], [SPEED, 0.0]);
+        let mut world = scene.world();
+        let (mut row, mut other) = (scene.start.clone(), scene.start.clone());
+        for step in 0..14 {
+            let commands = scene.commands(&row, step, 0);
+            let mut solved = world.clone();
+            solved.never_skip();
+            solved.step(&commands).expect("finite");
+            world.step(&commands).expect("finite");
+            solved.write_row(&mut other);
+            world.write_row(&mut row);
+            let error = difference(&row, &other);
+            assert!(error < 2e-5, "shot {shot} tick {step}: {error}\n{row:?}\n{other:?}");
+        }
+        let turned = (row[ball_column("v_y")] / row[ball_column("v_x")]).abs();
+        grazed += u32::from((1e-3..0.2).contains(&turned));
+    }
+    assert!(grazed > 50, "only {grazed} shots grazed");
 }
 
 #[test]

