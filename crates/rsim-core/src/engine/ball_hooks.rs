@@ -7,7 +7,7 @@ use rapier2d::prelude::*;
 
 use super::{Partner, partner};
 use crate::arena::Wall;
-use crate::outline::{Nearest, Outline};
+use crate::outline::Placed;
 use crate::physique::Physique;
 
 /// Surfaces nearer than this touch, m: then the contact is where it is. Farther ones are looked for
@@ -28,10 +28,8 @@ pub(crate) struct BallHooks<'a> {
 }
 
 /// What the ball is about to meet: its outline where it is, and how it moves against the ball.
-struct Obstacle<'a> {
-    outline: &'a Outline,
-    position: Vector,
-    heading: Rotation,
+struct Obstacle {
+    place: Placed,
     /// Velocity of the ball against it, m/s.
     velocity: Vector,
 }
@@ -61,13 +59,9 @@ impl PhysicsHooks for BallHooks<'_> {
             _ => return,
         };
         let center = ball.translation();
-        let wall;
         let outline = match with {
-            Partner::Robot(index) => &self.physique.robots[index].outline,
-            Partner::Wall(index) => {
-                wall = self.walls[index].outline();
-                &wall
-            }
+            Partner::Robot(index) => self.physique.robots[index].outline,
+            Partner::Wall(index) => self.walls[index].outline(),
         };
         let velocity = |collider: &Collider| {
             let body = collider.parent().map(|handle| &context.bodies[handle]);
@@ -75,9 +69,7 @@ impl PhysicsHooks for BallHooks<'_> {
         };
         let pose = other.position();
         let obstacle = Obstacle {
-            outline,
-            position: pose.translation,
-            heading: pose.rotation,
+            place: Placed { outline, position: pose.translation, heading: pose.rotation },
             velocity: velocity(ball) - velocity(other),
         };
         let radius = self.physique.ball.radius;
@@ -99,16 +91,12 @@ impl PhysicsHooks for BallHooks<'_> {
     }
 }
 
-impl Obstacle<'_> {
-    fn nearest(&self, center: Vector) -> Nearest {
-        self.outline.nearest_at(self.position, self.heading, center)
-    }
-
+impl Obstacle {
     /// Where a ball at `center` touches within `time`, going straight. The distance to a convex
     /// outline is a convex function of time, so Newton's method comes up to the contact and never
     /// passes it.
     fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
-        let now = self.nearest(center);
+        let now = self.place.nearest(center);
         if now.distance - radius <= TOUCHING {
             // The point of the outline, seen as touched by a ball that is just there.
             let distance = now.distance - radius;
@@ -129,7 +117,7 @@ impl Obstacle<'_> {
             if after > time {
                 return None;
             }
-            nearest = self.nearest(center + self.velocity * after);
+            nearest = self.place.nearest(center + self.velocity * after);
         }
         let way = self.velocity * after;
         let distance = -way.dot(nearest.normal);

@@ -104,9 +104,14 @@ fn awake() -> RigidBodyBuilder {
 /// Sub-steps of the solver in a tick. `cargo bench --bench solver` shows what fewer and more give.
 const SUB_STEPS: usize = 4;
 
-/// Points of two that meet are seen so far ahead, m/s: as fast as the corner of a VSSS robot that
-/// spins in place. 8 mm in a tick of 5 ms.
-const SEEN_AHEAD: f32 = 1.6;
+/// Points of two that meet are seen so far ahead, m, at least. With 2 mm, the engine's default at
+/// this scale, round robots that many others push in a crowd were for moments 13 mm deep in each
+/// other; with this, 0.6 mm.
+const SEEN_AHEAD: f32 = 0.008;
+
+/// In long ticks they are seen as far ahead as the corner of a VSSS robot comes that spins in place,
+/// m/s.
+const CORNER_SPEED: f32 = 1.6;
 
 /// Scales the engine's tolerances, here to a tenth.
 const LENGTH_UNIT: f32 = 0.1;
@@ -117,9 +122,7 @@ fn parameters(tick: f32) -> IntegrationParameters {
         dt: tick,
         num_solver_iterations: SUB_STEPS,
         length_unit: LENGTH_UNIT,
-        // With 2 mm, the engine's default at this scale, round robots that many others push in a
-        // crowd were for moments 13 mm deep in each other; with this, 0.6 mm.
-        normalized_prediction_distance: SEEN_AHEAD * tick / LENGTH_UNIT,
+        normalized_prediction_distance: SEEN_AHEAD.max(CORNER_SPEED * tick) / LENGTH_UNIT,
         // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).
         contact_softness: SpringCoefficients::new(200.0, 2.0),
         static_contact_softness: SpringCoefficients::new(400.0, 2.0),
