@@ -215,7 +215,8 @@ impl World {
         row::write(self.physique(), &self.state, out);
     }
 
-    /// Pairs of bodies or walls in contact, or about to be: what makes a scene a crowd.
+    /// Pairs of bodies, or of a body and a wall, that pressed on each other in the last tick: what
+    /// makes a scene a crowd.
     pub fn contacts(&self) -> usize {
         self.state.engine.contacts()
     }

@@ -296,9 +296,9 @@ impl Engine {
         })
     }
 
-    /// Pairs of bodies or walls that the solver has in contact, or about to be.
+    /// Pairs of bodies, or of a body and a wall, that pressed on each other in the last tick.
     pub(crate) fn contacts(&self) -> usize {
-        self.narrow_phase.contact_pairs().filter(|pair| pair.has_any_active_contact()).count()
+        self.narrow_phase.contact_pairs().filter(|pair| pressed(pair).is_some()).count()
     }
 }
 
