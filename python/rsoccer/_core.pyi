@@ -295,6 +295,10 @@ class RobotModel:
         """Most acceleration that the wheels transmit."""
 
     @property
+    def jerk(self) -> float:
+        """Most change of its acceleration, m/s³; 0 for no limit."""
+
+    @property
     def mouth_width(self) -> float: ...
     @property
     def beam_distance(self) -> float: ...
@@ -313,6 +317,10 @@ class RobotModel:
     @property
     def grip(self) -> float:
         """Strongest force of the dribbler, N."""
+
+    @property
+    def bar_force(self) -> float:
+        """Force of the running bar on the ball, N."""
 
     @property
     def bar_speed(self) -> float:

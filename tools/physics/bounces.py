@@ -13,7 +13,7 @@ from tools.physics.scene import STEP, Scene, Track, first
 
 TOPIC = "bounces"
 SPEEDS = np.array([0.5, 1.0, 2.0, 4.0, 8.0])  # m/s
-TICKS = (0.0025, 0.005, 0.0125)  # s
+TICKS = (0.001, 0.0025, 0.005)  # s
 SIDES = {"front": 0.0, "left side": 90.0, "back": 180.0, "right side": -100.0}
 SLANTS = ((2.0, 45.0), (6.0, 45.0), (4.0, 15.0), (4.0, 75.0))  # m/s, degrees to the wall
 

@@ -17,7 +17,7 @@ TOPIC = "floor"
 ENDLESS = Field("ssl_b", length=200.0, width=200.0)
 KICKS = (6.5, 4.0, 2.0)  # m/s
 DIRECTIONS = (0.0, 30.0, 45.0, 90.0, 200.0)  # degrees
-TICKS = (0.0025, 0.005, 0.0125)  # s
+TICKS = (0.001, 0.0025, 0.005)  # s
 
 LAW = "closed form"
 GRAZED = "the same and Coulomb's law"
@@ -28,7 +28,7 @@ SPEED_AT_6 = Line(TOPIC, "speed at 6 m", "m/s", percent(3), LAW)
 STOP = Line(TOPIC, "where it stops", "m", percent(3), LAW)
 WAY_ALONG = Line(TOPIC, "way in 2 s, in five directions", "m", percent(1), LAW)
 SPEED_ALONG = Line(TOPIC, "speed after 2 s, in five directions", "m/s", percent(1), LAW)
-WAY_BY_TICK = Line(TOPIC, "way in 2 s, at ticks of 2.5, 5 and 12.5 ms", "m", percent(1), LAW)
+WAY_BY_TICK = Line(TOPIC, "way in 2 s, at ticks of 1, 2.5 and 5 ms", "m", percent(1), LAW)
 SPEED_BY_TICK = Line(TOPIC, "speed after 2 s, at those ticks", "m/s", percent(1), LAW)
 GRAZE_WAY = Line(
     TOPIC, "way in 1 s with a graze of a wall, at those ticks", "m", percent(1), GRAZED

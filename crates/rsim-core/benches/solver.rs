@@ -11,7 +11,7 @@ use rsim_core::scenes::{self, Driver, Scene, robots};
 use rsim_core::{RobotModel, SimConfig, World};
 
 const SUB_STEPS: [usize; 5] = [1, 2, 3, 4, 8];
-const TICKS: [f32; 3] = [0.002_5, 0.005, 0.012_5];
+const TICKS: [f32; 3] = [0.001, 0.002_5, 0.005];
 /// What matches are played with: `SUB_STEPS` of the engine.
 const DEFAULT_SUB_STEPS: usize = 4;
 

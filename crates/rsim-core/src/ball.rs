@@ -138,7 +138,7 @@ mod tests {
             let rolls = speed * model.rolling_share;
             let expected = (speed * speed - rolls * rolls) / (2.0 * model.sliding_deceleration)
                 + rolls * rolls / (2.0 * model.rolling_deceleration);
-            for tick in [0.0025, 0.005, 0.0125] {
+            for tick in [0.001, 0.0025, 0.005] {
                 let (way, _) = roll_out(&model, kicked(Vector::new(0.6, 0.8)), tick);
                 let error = (way / expected - 1.0).abs();
                 assert!(error < 2e-3, "{}: {way} m, expected {expected} m", model.name);

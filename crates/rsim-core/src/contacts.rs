@@ -5,7 +5,7 @@ use rapier2d::math::Vector;
 
 use crate::ball::Rolling;
 use crate::ball_model::Surface;
-use crate::engine::{BALL, Contact, Motion, Partner, robot};
+use crate::engine::{BALL, Contact, Motion, Partner, Press, robot};
 use crate::impact::{Other, Sphere};
 use crate::mouth::Held;
 use crate::physique::Physique;
@@ -103,12 +103,100 @@ fn running_bar(
     Some((surface, mouth.bar_speed * share))
 }
 
-/// Notes which robots met, and how fast.
-pub(crate) fn note_crashes(state: &mut State, n_blue: usize) {
-    let State { engine, robots, touched, .. } = state;
-    for (pair, normal) in engine.robot_contacts() {
-        let [first, second] = pair.map(|index| robots[index].drive.expected_velocity);
-        let foes = (pair[0] < n_blue) != (pair[1] < n_blue);
-        touched.robots(pair, foes, (first - second).dot(normal));
+/// Notes who touches a ball that is caught: nothing bounces there.
+pub(crate) fn settle_caught(state: &mut State) {
+    let State { engine, touched, .. } = state;
+    for contact in engine.ball_contacts() {
+        if let Partner::Robot(index) = contact.with {
+            touched.ball(index);
+        }
     }
+}
+
+/// Closing speed below which robots do not bounce off each other and off walls, m/s.
+const ROBOT_BOUNCE_SPEED: f32 = 0.1;
+
+/// Robots against walls: as robots against robots. Nobody has published how a robot comes off one.
+const WALL_RESTITUTION: f32 = 0.2;
+
+/// Speed from which two that pressed on each other come apart, m/s. Robots that push each other in
+/// a crowd jitter by less.
+const SEPARATING: f32 = 0.05;
+
+/// Gives robots the bounce of their contacts, and notes who crashed into whom, and how fast.
+pub(crate) fn settle_robots(
+    state: &mut State,
+    physique: &Physique,
+    n_blue: usize,
+    presses: &[Press],
+) {
+    for press in presses {
+        let closing = -separation(state, press, |state, index| {
+            let drive = &state.robots[index].drive;
+            (drive.expected_velocity, drive.expected_spin)
+        });
+        if let Partner::Robot(other) = press.with {
+            let foes = (press.robot < n_blue) != (other < n_blue);
+            state.touched.robots([press.robot, other], foes, closing);
+        }
+        if closing > ROBOT_BOUNCE_SPEED {
+            rebound(state, physique, press, closing);
+        }
+    }
+}
+
+/// Robots that lean on something, a bit each: what pressed on them in the last tick has not come off
+/// them in it.
+pub(crate) fn leaning(state: &State, presses: &[Press]) -> u64 {
+    let lasting = presses.iter().filter(|press| {
+        separation(state, press, |state, index| {
+            let motion = state.engine.motion(robot(index));
+            (motion.velocity, motion.spin)
+        }) < SEPARATING
+    });
+    lasting.fold(0, |all, press| {
+        let other = if let Partner::Robot(other) = press.with { 1 << other } else { 0 };
+        all | 1 << press.robot | other
+    })
+}
+
+/// Speed at which two come apart where they press, m/s, if they move and turn as `moves` says.
+fn separation(state: &State, press: &Press, moves: impl Fn(&State, usize) -> (Vector, f32)) -> f32 {
+    let at = |index: usize| {
+        let (velocity, spin) = moves(state, index);
+        let arm = press.point - state.engine.motion(robot(index)).position;
+        velocity + arm.perp() * spin
+    };
+    let with = if let Partner::Robot(other) = press.with { at(other) } else { Vector::ZERO };
+    (with - at(press.robot)).dot(press.normal)
+}
+
+/// Has two come apart by their share of the speed at which they came together.
+fn rebound(state: &mut State, physique: &Physique, press: &Press, closing: f32) {
+    let Press { robot: first, with, normal, point } = *press;
+    let restitution = |index: usize| physique.robots[index].model.restitution;
+    let yields = |index: usize| {
+        let turn = (point - state.engine.motion(robot(index)).position).perp_dot(normal);
+        let body = &physique.robots[index];
+        body.inverse_mass + turn * turn * body.inverse_inertia
+    };
+    let (mean, per_impulse) = match with {
+        Partner::Robot(other) => {
+            (restitution(first).midpoint(restitution(other)), yields(first) + yields(other))
+        }
+        Partner::Wall(_) => (restitution(first).midpoint(WALL_RESTITUTION), yields(first)),
+    };
+    let apart = separation(state, press, |state, index| {
+        let motion = state.engine.motion(robot(index));
+        (motion.velocity, motion.spin)
+    });
+    let impulse = normal * ((mean * closing - apart) / per_impulse).max(0.0);
+    let arm = |index: usize| point - state.engine.motion(robot(index)).position;
+    let (own_arm, other) =
+        (arm(first), if let Partner::Robot(other) = with { Some(other) } else { None });
+    if let Some(other) = other {
+        let arm = arm(other);
+        state.engine.hit(robot(other), impulse, arm);
+    }
+    state.engine.hit(robot(first), -impulse, own_arm);
 }

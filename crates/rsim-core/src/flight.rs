@@ -7,7 +7,7 @@ use rapier2d::math::Vector;
 use crate::BallModel;
 use crate::arena::Wall;
 use crate::ball::{Ball, Rolling};
-use crate::engine::{Engine, Motion, robot, rotation};
+use crate::engine::{BALL, Engine, Motion, robot, rotation};
 use crate::impact::{Other, Sphere};
 use crate::obstacle::{Near, Obstacle};
 use crate::physique::Physique;
@@ -58,17 +58,7 @@ impl Flight<'_> {
     /// Moves the ball for `time`: it starts at `position` with `motion` in the plane.
     pub(crate) fn fly(mut self, ball: &mut Ball, position: Vector, velocity: Vector, time: f32) {
         let model = &self.physique.ball;
-        let mut body = Body {
-            place: position.extend(ball.z + model.radius),
-            sphere: Sphere {
-                velocity: velocity.extend(ball.v_z),
-                spin: ball.spin,
-                radius: model.radius,
-                mass: model.mass,
-            },
-            hops: ball.hops,
-            down: false,
-        };
+        let mut body = self.body(ball, position, velocity);
         self.step_aside(&mut body);
         let mut left = time;
         for _ in 0..MOST_CONTACTS {
@@ -90,7 +80,40 @@ impl Flight<'_> {
                 break;
             }
         }
-        ball.z = if body.down { 0.0 } else { (body.place.z - model.radius).max(0.0) };
+        self.settle(ball, &body);
+    }
+
+    /// Lets a ball that is caught in the plane rise or fall for `time`.
+    pub(crate) fn fall(mut self, ball: &mut Ball, time: f32) {
+        let motion = self.engine.motion(BALL);
+        let mut body = self.body(ball, motion.position, motion.velocity);
+        body.place.z += (ball.v_z - GRAVITY * time / 2.0) * time;
+        body.sphere.velocity.z -= GRAVITY * time;
+        if body.place.z < self.physique.ball.radius {
+            land(&self.physique.ball, &mut body);
+            body.place.z = self.physique.ball.radius;
+        }
+        self.settle(ball, &body);
+    }
+
+    fn body(&self, ball: &Ball, position: Vector, velocity: Vector) -> Body {
+        let model = &self.physique.ball;
+        Body {
+            place: position.extend(ball.z + model.radius),
+            sphere: Sphere {
+                velocity: velocity.extend(ball.v_z),
+                spin: ball.spin,
+                radius: model.radius,
+                mass: model.mass,
+            },
+            hops: ball.hops,
+            down: false,
+        }
+    }
+
+    /// Puts the ball where the body has got to.
+    fn settle(&mut self, ball: &mut Ball, body: &Body) {
+        ball.z = if body.down { 0.0 } else { (body.place.z - body.sphere.radius).max(0.0) };
         ball.v_z = body.sphere.velocity.z;
         if ball.z == 0.0 && ball.v_z.abs() < lowest_take_off() {
             ball.v_z = 0.0;
@@ -101,7 +124,7 @@ impl Flight<'_> {
     }
 
     /// Robots may have driven into the ball since it was moved last: they hit it, and it makes room.
-    /// Where a wall leaves none, the robot has to.
+    /// Where a wall leaves none, it slips up over an edge, or is caught in the next tick.
     fn step_aside(&mut self, body: &mut Body) {
         for index in 0..self.physique.robots.len() {
             let near = self.near(Obstacle::Robot(index), body.place);
@@ -113,13 +136,6 @@ impl Flight<'_> {
         for index in 0..self.walls.len() {
             let near = self.near(Obstacle::Wall(index), body.place);
             body.place -= near.normal * near.distance.min(0.0);
-        }
-        for index in 0..self.physique.robots.len() {
-            let near = self.near(Obstacle::Robot(index), body.place);
-            if near.distance < 0.0 {
-                let back = near.normal.truncate() * near.distance;
-                self.engine.shift(robot(index), back);
-            }
         }
     }
 

@@ -7,6 +7,7 @@ use crate::ball::Rolling;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::engine::{BALL, robot};
 use crate::flight::lowest_take_off;
+use crate::kicks::Kicks;
 use crate::mouth::Held;
 use crate::physique::Physique;
 use crate::robot_model::Drive;
@@ -39,8 +40,9 @@ impl Handling {
 
 /// What all robots together do to the ball in a tick.
 struct Effect {
-    /// N s, in the plane.
+    /// N s, in the plane, but for kicks.
     impulse: Vector,
+    kicks: Kicks,
     /// m/s upward; of the highest chip.
     v_z: f32,
     /// Spin that dribblers add, rad/s; none is left where somebody kicks.
@@ -60,7 +62,13 @@ pub(crate) fn handle_ball(
 ) {
     let ball = state.engine.motion(BALL);
     let rolling = Rolling { velocity: ball.velocity, spin: state.ball.spin };
-    let mut all = Effect { impulse: Vector::ZERO, v_z: 0.0, spin: Vec3::ZERO, kicked: false };
+    let mut all = Effect {
+        impulse: Vector::ZERO,
+        kicks: Kicks::default(),
+        v_z: 0.0,
+        spin: Vec3::ZERO,
+        kicked: false,
+    };
     let mut handled = false;
     for (index, body) in physique.robots.iter().enumerate() {
         let recharging = (state.robots[index].recharging - tick).max(0.0);
@@ -79,23 +87,29 @@ pub(crate) fn handle_ball(
         let motion = state.engine.motion(robot(index));
         let held = Held::find(&body.model, &motion, &physique.ball, ball.position, state.ball.z);
         let Some(held) = held else { continue };
-        let impulse = if kicks {
+        handled = true;
+        state.touched.ball(index);
+        if kicks {
             state.robots[index].recharging = mouth.recharge;
             let after = held.kicked(ball.velocity, told.kick, told.chip, body.kick_gain);
             all.kicked = true;
             all.v_z = all.v_z.max(after.z);
-            (after.truncate() - ball.velocity) * physique.ball.mass
-        } else {
-            all.spin += held.spun(rolling, told.dribbler, tick).spin - rolling.spin;
-            held.pull(ball.velocity, told.dribbler, tick)
-        };
-        handled = true;
+            let change = (after.truncate() - ball.velocity) * physique.ball.mass;
+            all.kicks.add(index, motion.heading, change);
+            continue;
+        }
+        all.spin += held.spun(rolling, told.dribbler, tick).spin - rolling.spin;
+        let impulse = held.pull(ball.velocity, told.dribbler, tick);
         all.impulse += impulse;
-        state.touched.ball(index);
         state.engine.hit(robot(index), -impulse, ball.position - motion.position);
     }
     if !handled {
         return;
+    }
+    for (index, impulse) in all.kicks.shared() {
+        let arm = ball.position - state.engine.motion(robot(index)).position;
+        state.engine.hit(robot(index), -impulse, arm);
+        all.impulse += impulse;
     }
     state.engine.hit(BALL, all.impulse, Vector::ZERO);
     if all.kicked {

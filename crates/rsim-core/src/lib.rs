@@ -28,6 +28,7 @@ mod field;
 mod flight;
 mod handling;
 mod impact;
+mod kicks;
 mod mouth;
 mod mouth_model;
 mod obstacle;
@@ -41,6 +42,7 @@ pub mod scenes;
 pub mod shaping;
 mod sight;
 mod snapshot;
+mod squeeze;
 pub mod steering;
 mod tick;
 mod touch;
@@ -61,4 +63,4 @@ pub use viewpoint::{Seat, Viewpoint};
 pub use world::World;
 
 /// Number of the physics: raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 4;
+pub const PHYSICS_VERSION: u32 = 5;

@@ -102,7 +102,7 @@ impl<'a> Held<'a> {
         let radius = self.model.radius;
         let wanted = self.robot.heading * (-self.mouth.bar_speed * share);
         // A solid sphere's rim follows a force at it 2.5 times as readily as its centre.
-        let force = self.mouth.bar_friction * self.mouth.grip * share;
+        let force = self.mouth.bar_friction * self.mouth.bar_force * share;
         let most = 2.5 * force / self.model.mass * tick;
         let rim = rolling.rim(radius);
         rolling.with_rim(rim + (wanted - rim).clamp_length_max(most), radius)

@@ -24,6 +24,8 @@ pub struct Mouth {
     pub kick_keeps: f32,
     /// Strongest force with which the dribbler holds the ball, N. Beyond it the ball is lost.
     pub grip: f32,
+    /// Force of the running bar on the ball, N: its friction gives the ball back-spin.
+    pub bar_force: f32,
     /// Surface speed of the dribbler's bar, m/s: the back-spin that it aims at.
     pub bar_speed: f32,
     /// Restitution of the bar, which is damped: of the mouth while the dribbler runs.
@@ -46,6 +48,7 @@ impl Mouth {
             ("robot.max_chip", self.max_chip),
             ("robot.recharge", self.recharge),
             ("robot.grip", self.grip),
+            ("robot.bar_force", self.bar_force),
             ("robot.bar_speed", self.bar_speed),
             ("robot.bar_friction", self.bar_friction),
         ] {

@@ -36,6 +36,15 @@ impl Outline {
         }
     }
 
+    /// From the origin to the farthest point that moves the outline when it turns, m.
+    pub(crate) fn turning_radius(&self) -> f32 {
+        match *self {
+            Self::Box { half } => half.length(),
+            Self::CutDisc { radius, .. } => radius,
+            Self::Disc { .. } => 0.0,
+        }
+    }
+
     /// Nearest to `point`, in the outline's own frame.
     pub(crate) fn nearest(&self, point: Vector) -> Nearest {
         match *self {

@@ -101,6 +101,9 @@ pub struct OmniDrive {
     pub turn_brake: f32,
     /// Most acceleration that the wheels transmit, m/s²: what pushing and being pushed is about.
     pub traction: f32,
+    /// Most change of its acceleration, m/s³, when it speeds up and slows down along its path; 0 for
+    /// no limit.
+    pub jerk: f32,
 }
 
 impl RobotModel {
@@ -218,6 +221,7 @@ impl OmniDrive {
         ] {
             positive(name, got)?;
         }
+        not_negative("robot.jerk", self.jerk)?;
         let angles = self.wheel_angles;
         let ordered = angles.windows(2).all(|pair| pair[0] + 1.0 < pair[1]);
         if !(ordered && angles[0] >= 0.0 && angles[3] < 360.0) {

@@ -177,6 +177,7 @@ const OMNI: OmniDrive = OmniDrive {
     turn_speed_up: 50.8,
     turn_brake: 51.6,
     traction: 6.9,
+    jerk: 0.0,
 };
 
 /// Radius (m), height (m) and mass (kg) of the fallback; TIGERs' are the same.
@@ -206,9 +207,13 @@ const fn ssl(
             beam_height: 0.0215,  // through the middle of a ball on the floor
             max_kick,
             max_chip,
-            recharge: 0.1,        // ER-Force's simulator asks for at least that
-            kick_keeps: 0.35,     // TIGERs: across the front, in a redirect
-            grip: 0.5,            // TIGERs: least force of their bar on the ball
+            recharge: 0.1,    // ER-Force's simulator asks for at least that
+            kick_keeps: 0.35, // TIGERs: across the front, in a redirect
+            // Ours: with the floor's own hold on a ball with back-spin (3 m/s²) it keeps the ball in
+            // up to 5.6 m/s², less than a robot's full brake. TIGERs drive with the ball at up to
+            // 1.2 m/s² and 5 rad/s (Sumatra, DragBallSkill and ProtectiveGetBallSkill).
+            grip: 0.12,
+            bar_force: 0.5,       // TIGERs: least force of their bar on the ball
             bar_speed: 2.0,       // TIGERs: 2 to 5 m/s at the surface
             bar_restitution: 0.2, // ER-Force: ball on dribbler bar
             bar_friction: 1.5,    // likewise

@@ -2,9 +2,12 @@
 //! solved, and what happened is noted.
 
 use crate::ball::Rolling;
-use crate::engine::{BALL, BallHooks, Motion, NonFinite, Scratch, robot};
+use rapier2d::math::Vector;
+
+use crate::engine::{BALL, BallHooks, Level, Motion, NonFinite, Press, Scratch, robot};
 use crate::flight::Flight;
 use crate::physique::Physique;
+use crate::squeeze::Squeeze;
 use crate::world::{Fixed, State};
 use crate::{contacts, handling};
 
@@ -31,8 +34,14 @@ impl Tick<'_> {
         } else {
             self.fly(state, &before, scratch)?;
         }
-        contacts::note_crashes(state, self.rules.config.blue.len());
-        self.feel_loads(state);
+        state.engine.list_presses(&mut scratch.presses);
+        contacts::settle_robots(
+            state,
+            self.physique,
+            self.rules.config.blue.len(),
+            &scratch.presses,
+        );
+        self.feel_loads(state, &scratch.presses);
         let after = state.engine.motion(BALL).position.extend(state.ball.z);
         state.crossing.watch(&self.rules.config.field, before.position.extend(z), after);
         Ok(())
@@ -55,10 +64,16 @@ impl Tick<'_> {
         let (way, end) = start.after(ball, length);
         let mean = way / length;
         state.engine.set_velocity(BALL, mean);
-        let hooks = self.hooks(false);
+        let squeeze = self.squeeze(state, mean);
+        if let Some(squeeze) = &squeeze {
+            state.engine.set_velocity(BALL, squeeze.velocity);
+        }
+        let hooks = self.hooks(Level::Floor, squeeze);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         let mut now = Rolling { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
-        if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
+        if squeeze.is_some() {
+            contacts::settle_caught(state);
+        } else if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
             now = now.after(ball, length / 2.0).1;
         } else {
             now.velocity += end.velocity - mean;
@@ -75,8 +90,18 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
-        let hooks = self.hooks(true);
+        let squeeze = self.squeeze(state, before.velocity);
+        let level = if let Some(squeeze) = &squeeze {
+            state.engine.set_velocity(BALL, squeeze.velocity);
+            Level::Caught { height: state.ball.z + self.physique.ball.radius }
+        } else {
+            Level::Air
+        };
+        let hooks = self.hooks(level, squeeze);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
+        if squeeze.is_some() {
+            contacts::settle_caught(state);
+        }
         let flight = Flight {
             physique: self.physique,
             walls: &self.rules.walls,
@@ -84,13 +109,24 @@ impl Tick<'_> {
             touched: &mut state.touched,
         };
         let length = self.rules.config.tick;
-        flight.fly(&mut state.ball, before.position, before.velocity, length);
+        if squeeze.is_some() {
+            flight.fall(&mut state.ball, length);
+        } else {
+            flight.fly(&mut state.ball, before.position, before.velocity, length);
+        }
         Ok(())
     }
 
-    fn hooks(&self, flies: bool) -> BallHooks<'_> {
+    /// Whether the ball, which moves with `velocity`, is caught in this tick.
+    fn squeeze(&self, state: &State, velocity: Vector) -> Option<Squeeze> {
+        let height = state.ball.z + self.physique.ball.radius;
+        let (room, tick) = (&self.rules.room, self.rules.config.tick);
+        Squeeze::find(&state.engine, self.physique, room, velocity, height, tick)
+    }
+
+    fn hooks(&self, level: Level, squeeze: Option<Squeeze>) -> BallHooks<'_> {
         let (walls, tick) = (&*self.rules.walls, self.rules.config.tick);
-        BallHooks { physique: self.physique, walls, flies, tick }
+        BallHooks { physique: self.physique, walls, level, squeeze, tick }
     }
 
     fn drive_robots(&self, state: &mut State) {
@@ -103,10 +139,12 @@ impl Tick<'_> {
         }
     }
 
-    fn feel_loads(&self, state: &mut State) {
+    fn feel_loads(&self, state: &mut State, presses: &[Press]) {
+        let leaning = contacts::leaning(state, presses);
         for (index, body) in self.physique.robots.iter().enumerate() {
             let motion = state.engine.motion(robot(index));
-            state.robots[index].drive.feel(&body.limits, &motion);
+            let leans = leaning & (1 << index) != 0;
+            state.robots[index].drive.feel(&body.limits, &motion, leans);
         }
     }
 

@@ -162,3 +162,32 @@ fn two_robots_head_on_stall() {
 fn first_robot(scene: &mut Scene) -> &mut [f32] {
     rsim_core::scenes::robots_mut(&mut scene.start).next().expect("a robot")
 }
+
+/// Turn rates of a robot that turns for `steps` on the spot and is then told to drive on at `power`.
+fn spin_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
+    let top = wheels(model).max_wheel_speed;
+    let mut scene = lone_robot([0.0, 0.0]);
+    scene.config.blue = vec![model.clone()];
+    scene.config.field.length = 6.0;
+    scene.set_ball([0.0, 0.3], [0.0, 0.0]);
+    let mut world = scene.world();
+    let mut row = scene.start.clone();
+    let turn = |world: &mut World, wheels: [f32; 2], row: &mut [f32]| {
+        world.step(&wheels).expect("finite");
+        world.write_row(row);
+        robots(row).next().expect("a robot")[6]
+    };
+    for _ in 0..steps {
+        turn(&mut world, [-top, top], &mut row);
+    }
+    (0..40).map(|_| turn(&mut world, [power * top; 2], &mut row)).collect()
+}
+
+#[test]
+fn a_robot_told_full_speed_straight_on_stops_spinning() {
+    for steps in [1, 2, 4, 12] {
+        let rates = spin_then_drive(&RobotModel::VSS_440RPM, steps, 1.0);
+        assert!(rates[0] > 4.0, "it spun: {} rad/s", rates[0]);
+        assert!(rates[19].abs() < 1e-2, "{steps} steps: {rates:?}");
+    }
+}

@@ -190,7 +190,7 @@ fn every_parameter_does_what_it_says() {
     assert!(recoil(2.0) < recoil(1.0), "a heavier robot moves less");
 
     let held = |factor: f32| {
-        let scene = ball_in_mouth(&[0.0, 0.0, 9.0, 0.0, 0.0, 1.0]);
+        let scene = ball_in_mouth(&[0.0, 0.0, 4.8, 0.0, 0.0, 1.0]);
         robot_at(&with(scene, one_changed(false, "grip", factor)).after(60))
             [robot_column("infrared")]
     };

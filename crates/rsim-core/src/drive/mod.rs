@@ -59,25 +59,32 @@ struct Demand {
     load: Vector,
     /// The same about the vertical axis, N m s.
     turning_load: f32,
+    /// What the wheels changed of the velocity in the last tick for their command's sake, m/s.
+    last_change: Vector,
 }
 
 /// What wheels give in a tick, in the robot's own frame: N s and N m s.
 struct Pull {
     impulse: Vector,
     turn: f32,
+    /// The part of the impulse that is for the command's sake, as a change of velocity, m/s.
+    change: Vector,
 }
 
 /// What a robot's wheels remember from one tick to the next.
 ///
 /// A bounded correction of the velocity alone creeps when the robot is pushed: each tick undoes
 /// only what the last one did. So wheels also carry over the load that they felt in the last tick,
-/// within the same bounds.
+/// within the same bounds. They do so only while the robot leans on something: the load of an impact
+/// does not come again.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Drive {
     /// Impulse that others gave in the last tick, N s.
     load: Vector,
     /// Likewise about the vertical axis, N m s.
     turning_load: f32,
+    /// What the wheels changed of the velocity in the last tick for their command's sake, m/s.
+    change: Vector,
     /// What the robot will do if nobody touches it.
     pub(crate) expected_velocity: Vector,
     pub(crate) expected_spin: f32,
@@ -100,21 +107,26 @@ impl Drive {
             spin: motion.spin,
             load: own(self.load),
             turning_load: self.turning_load,
+            last_change: own(self.change),
         };
         let pull = match &limits.wheels {
             Wheels::Differential(wheels) => wheels.pull(limits, command, &demand),
             Wheels::Omni(wheels) => wheels.pull(limits, &wheels.wanted(command), &demand),
             Wheels::EachOmni(wheels) => wheels.pull(limits, &wheels.rolled(command), &demand),
         };
-        let impulse = motion.heading * pull.impulse.x + motion.heading.perp() * pull.impulse.y;
+        let turned = |own: Vector| motion.heading * own.x + motion.heading.perp() * own.y;
+        let impulse = turned(pull.impulse);
+        self.change = turned(pull.change);
         self.expected_velocity = motion.velocity + impulse / limits.mass;
         self.expected_spin = motion.spin + pull.turn / limits.inertia;
         (impulse / limits.tick, pull.turn / limits.tick)
     }
 
-    /// Takes note of what the tick did beyond what the wheels had asked for.
-    pub(crate) fn feel(&mut self, limits: &Limits, motion: &Motion) {
-        self.load = (motion.velocity - self.expected_velocity) * limits.mass;
-        self.turning_load = (motion.spin - self.expected_spin) * limits.inertia;
+    /// Takes note of what the tick did beyond what the wheels had asked for. `leans` says whether the
+    /// robot stays in contact with what pressed on it.
+    pub(crate) fn feel(&mut self, limits: &Limits, motion: &Motion, leans: bool) {
+        let felt = if leans { 1.0 } else { 0.0 };
+        self.load = (motion.velocity - self.expected_velocity) * (limits.mass * felt);
+        self.turning_load = (motion.spin - self.expected_spin) * (limits.inertia * felt);
     }
 }

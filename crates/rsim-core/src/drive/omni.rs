@@ -30,6 +30,8 @@ pub(super) struct Wheels {
     /// N s and N m s.
     traction: f32,
     turn_traction: f32,
+    /// m/s in one tick, more or less than in the last; infinite without a limit.
+    jerk: f32,
 }
 
 impl Wheels {
@@ -50,6 +52,7 @@ impl Wheels {
             turn_speed_up: drive.turn_speed_up * tick,
             turn_brake: drive.turn_brake * tick,
             traction,
+            jerk: if drive.jerk > 0.0 { drive.jerk * tick * tick } else { f32::INFINITY },
             // The wheels' forces act at their distance; never so weak that it could not turn freely.
             turn_traction: (traction * drive.wheel_distance)
                 .max(inertia * drive.turn_speed_up.max(drive.turn_brake) * tick),
@@ -89,17 +92,58 @@ impl Wheels {
     }
 
     pub(super) fn pull(&self, limits: &Limits, wanted: &Wanted, demand: &Demand) -> Pull {
-        let change = wanted.velocity - demand.velocity;
-        let slower = change.dot(demand.velocity) < 0.0;
-        let change = change.clamp_length_max(if slower { self.brake } else { self.speed_up });
-        let turn = wanted.spin - demand.spin;
-        let most = if turn * demand.spin < 0.0 { self.turn_brake } else { self.turn_speed_up };
-        let turn = limits.inertia * turn.clamp(-most, most) - demand.turning_load;
+        let missing = wanted.velocity - demand.velocity;
+        let slower = missing.dot(demand.velocity) < 0.0;
+        let most = if slower { self.brake } else { self.speed_up };
+        let change = self.eased(missing.clamp_length_max(self.arriving(missing, most)), demand);
+        let missing_turn = wanted.spin - demand.spin;
+        let slower = missing_turn * demand.spin < 0.0;
+        let most = if slower { self.turn_brake } else { self.turn_speed_up };
+        let turn = missing_turn.clamp(-most, most);
+        let load = held_against(demand.load, missing, change);
+        let turning_load = if turn == missing_turn || turn * demand.turning_load < 0.0 {
+            demand.turning_load
+        } else {
+            0.0
+        };
         Pull {
-            impulse: (change * limits.mass - demand.load).clamp_length_max(self.traction),
-            turn: turn.clamp(-self.turn_traction, self.turn_traction),
+            change,
+            impulse: (change * limits.mass - load).clamp_length_max(self.traction),
+            turn: (limits.inertia * turn - turning_load)
+                .clamp(-self.turn_traction, self.turn_traction),
         }
     }
+}
+
+impl Wheels {
+    /// Change of speed (m/s) in a tick from which the change can still fall to nothing when nothing is
+    /// missing any more, at most `most`.
+    fn arriving(&self, missing: Vector, most: f32) -> f32 {
+        if self.jerk.is_infinite() {
+            return most;
+        }
+        // n ticks that fall by `jerk` each make up for n (n + 1) / 2 of them.
+        let ticks = (2.0 * missing.length() / self.jerk + 0.25).sqrt() - 0.5;
+        most.min(self.jerk * ticks.max(0.0))
+    }
+
+    /// A change of velocity (m/s) as near to `change` as the last one allows.
+    fn eased(&self, change: Vector, demand: &Demand) -> Vector {
+        if self.jerk.is_infinite() {
+            return change;
+        }
+        demand.last_change + (change - demand.last_change).clamp_length_max(self.jerk)
+    }
+}
+
+/// The part of a load that wheels make up for. While a robot is far from the velocity that it is
+/// told, this leaves out what drives it there: wheels do not work against their own command.
+fn held_against(load: Vector, missing: Vector, change: Vector) -> Vector {
+    if change == missing {
+        return load;
+    }
+    let direction = change.normalize_or_zero();
+    load - direction * load.dot(direction).max(0.0)
 }
 
 /// `(A^T A)^-1 A^T` of the four rows of A.

@@ -9,6 +9,7 @@ use super::{Partner, partner};
 use crate::arena::Wall;
 use crate::outline::Placed;
 use crate::physique::Physique;
+use crate::squeeze::Squeeze;
 
 /// Surfaces nearer than this touch, m: then the contact is where it is. Farther ones are looked for
 /// along the ball's way.
@@ -17,21 +18,40 @@ const TOUCHING: f32 = 1e-4;
 /// How near the search along the way comes to the contact, m.
 const FOUND: f32 = 1e-5;
 
+/// Most looks of that search. A slow ball beside a fast corner takes the most.
+const LOOKS: usize = 32;
+
 /// The rules of one tick.
 pub(crate) struct BallHooks<'a> {
     pub(crate) physique: &'a Physique,
     pub(crate) walls: &'a [Wall],
-    /// In the air the ball meets others elsewhere: [`crate::flight`].
-    pub(crate) flies: bool,
+    pub(crate) level: Level,
+    /// If the ball is caught between others it stays in contact with all of them.
+    pub(crate) squeeze: Option<Squeeze>,
     /// s.
     pub(crate) tick: f32,
 }
 
-/// What the ball is about to meet: its outline where it is, and how it moves against the ball.
+/// Where the ball is in a tick, which decides what it meets in the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Level {
+    Floor,
+    /// It meets others elsewhere: [`crate::flight`].
+    Air,
+    /// In the air and caught between others, so that it meets what is as high as its centre.
+    Caught {
+        /// m.
+        height: f32,
+    },
+}
+
+/// What the ball is about to meet: its outline where it is, and how it moves.
 struct Obstacle {
     place: Placed,
-    /// Velocity of the ball against it, m/s.
+    /// Velocity of the ball against its middle, m/s.
     velocity: Vector,
+    /// rad/s.
+    spin: f32,
 }
 
 /// Where the ball will touch: nearest point at that instant, and the centre of the ball then.
@@ -44,8 +64,10 @@ struct Touch {
 
 impl PhysicsHooks for BallHooks<'_> {
     // Only the ball's collider asks for hooks, so one of each pair is the ball.
-    fn filter_contact_pair(&self, _context: &PairFilterContext) -> Option<SolverFlags> {
-        (!self.flies).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
+    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
+        let met = colliders.iter().find_map(|collider| partner(collider.user_data));
+        met.is_some_and(|with| self.meets(with)).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
     }
 
     /// Puts the contact of the ball where it will be: the engine has the nearest points of now, and
@@ -63,17 +85,23 @@ impl PhysicsHooks for BallHooks<'_> {
             Partner::Robot(index) => self.physique.robots[index].outline,
             Partner::Wall(index) => self.walls[index].outline(),
         };
-        let velocity = |collider: &Collider| {
+        let motion = |collider: &Collider| {
             let body = collider.parent().map(|handle| &context.bodies[handle]);
-            body.map_or(Vector::ZERO, |body| body.velocity_at_point(center))
+            body.map_or((Vector::ZERO, 0.0), |body| (body.linvel(), body.angvel()))
         };
         let pose = other.position();
+        let ((ball_velocity, _), (velocity, spin)) = (motion(ball), motion(other));
         let obstacle = Obstacle {
             place: Placed { outline, position: pose.translation, heading: pose.rotation },
-            velocity: velocity(ball) - velocity(other),
+            velocity: ball_velocity - velocity,
+            spin,
         };
         let radius = self.physique.ball.radius;
-        let touch = obstacle.touch(center, radius, self.tick);
+        let touch = if self.squeeze.is_some() {
+            Some(obstacle.nearest(center, radius))
+        } else {
+            obstacle.touch(center, radius, self.tick)
+        };
         if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
             let Some(touch) = touch else {
                 manifold.solver_contacts.clear();
@@ -91,38 +119,69 @@ impl PhysicsHooks for BallHooks<'_> {
     }
 }
 
-impl Obstacle {
-    /// Where a ball at `center` touches within `time`, going straight. The distance to a convex
-    /// outline is a convex function of time, so Newton's method comes up to the contact and never
-    /// passes it.
-    fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
-        let now = self.place.nearest(center);
-        if now.distance - radius <= TOUCHING {
-            // The point of the outline, seen as touched by a ball that is just there.
-            let distance = now.distance - radius;
-            let touching = center - now.normal * distance;
-            return Some(Touch { normal: now.normal, distance, center: touching });
+impl BallHooks<'_> {
+    /// Whether the ball meets something in the plane.
+    fn meets(&self, with: Partner) -> bool {
+        match self.level {
+            Level::Floor => true,
+            Level::Air => false,
+            Level::Caught { height } => match with {
+                Partner::Robot(index) => height < self.physique.robots[index].model.height,
+                Partner::Wall(index) => height < self.walls[index].top,
+            },
         }
-        let (mut nearest, mut after) = (now, 0.0);
-        for _ in 0..32 {
-            let closing = -self.velocity.dot(nearest.normal);
+    }
+}
+
+impl Obstacle {
+    /// The point of the outline that is nearest, seen as touched by a ball that is just there.
+    fn nearest(&self, center: Vector, radius: f32) -> Touch {
+        let now = self.place.nearest(center);
+        let distance = now.distance - radius;
+        Touch { normal: now.normal, distance, center: center - now.normal * distance }
+    }
+
+    /// Where a ball at `center` touches within `time`, as both go on straight and the obstacle turns on.
+    ///
+    /// Each look leads to a time before which they cannot touch: the distance to a convex outline
+    /// shrinks no faster than along the normal, and by turning no faster than its farthest corner
+    /// moves. So the search comes up to the contact and never passes it.
+    fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
+        let mut nearest = self.place.nearest(center);
+        if nearest.distance - radius <= TOUCHING {
+            return Some(self.nearest(center, radius));
+        }
+        let corner_speed = self.spin.abs() * self.place.outline.turning_radius();
+        let (mut place, mut after) = (self.place, 0.0);
+        for _ in 0..LOOKS {
             let gap = nearest.distance - radius;
-            if closing <= 0.0 {
-                return None;
-            }
             if gap <= FOUND {
                 break;
+            }
+            let closing = corner_speed - self.velocity.dot(nearest.normal);
+            if closing <= 0.0 {
+                return None;
             }
             after += gap / closing;
             if after > time {
                 return None;
             }
-            nearest = self.place.nearest(center + self.velocity * after);
+            place.heading = turned(self.place.heading, self.spin * after);
+            nearest = place.nearest(center + self.velocity * after);
         }
-        let way = self.velocity * after;
-        let distance = -way.dot(nearest.normal);
-        Some(Touch { normal: nearest.normal, distance, center: center + way })
+        let center = center + self.velocity * after;
+        let arm = center - nearest.normal * radius - place.position;
+        let closing = (arm.perp() * self.spin - self.velocity).dot(nearest.normal);
+        let distance = (closing * after).max(0.0);
+        Some(Touch { normal: nearest.normal, distance, center })
     }
+}
+
+/// A heading turned by an angle of a fraction of a radian.
+fn turned(heading: Rotation, angle: f32) -> Rotation {
+    let Rotation { re, im } = heading;
+    let turned = Vector::new(re - angle * im, im + angle * re).normalize();
+    rotation(turned)
 }
 
 /// The rotation of a heading.

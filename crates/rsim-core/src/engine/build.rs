@@ -23,6 +23,7 @@ impl Engine {
             motions: Vec::new(),
             pushes: Vec::new(),
             inverses: Vec::new(),
+            ball_mass: physique.ball.mass,
             moved: Vec::new(),
             clear: false,
             skips: true,
@@ -35,7 +36,7 @@ impl Engine {
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
             let collider = ColliderBuilder::new(SharedShape::new(wall.shape()))
                 .position(wall.pose)
-                .restitution(WALL_RESTITUTION)
+                .restitution(0.0)
                 .friction(WALL_FRICTION);
             engine.colliders.insert(collider.user_data(label(Partner::Wall(index))));
         }
@@ -47,7 +48,7 @@ impl Engine {
         let ball = &physique.ball;
         // Its bounce and friction are solved in closed form, and its spin has three axes: the engine
         // only keeps it out of others.
-        let collider = ColliderBuilder::ball(ball.radius)
+        let collider = ColliderBuilder::ball(ball.radius + SEEN_AROUND)
             .restitution(0.0)
             .restitution_combine_rule(CoefficientCombineRule::Min)
             .friction(0.0)
@@ -66,8 +67,10 @@ impl Engine {
             // Among robots and walls the cheapest shape does; the ball meets the true outline.
             Body::Round { radius, .. } => SharedShape::ball(radius),
         };
+        // Nothing bounces for the engine: it would bounce one point of a contact after the other, which
+        // turns two squares that meet face to face.
         let collider = ColliderBuilder::new(shape)
-            .restitution(model.restitution)
+            .restitution(0.0)
             .friction(model.friction)
             .user_data(label(Partner::Robot(index)));
         // Seen ahead too, so that a robot does not drive into a ball that lies before it.
@@ -92,8 +95,7 @@ impl Engine {
 }
 
 /// Robots against walls, averaged with the robot's own: as robots against robots. Nobody has
-/// published how a robot comes off a wall.
-const WALL_RESTITUTION: f32 = 0.2;
+/// published how a robot slides along a wall.
 const WALL_FRICTION: f32 = 0.2;
 
 fn awake() -> RigidBodyBuilder {
@@ -108,6 +110,14 @@ const SUB_STEPS: usize = 4;
 /// this scale, round robots that many others push in a crowd were for moments 13 mm deep in each
 /// other; with this, 0.6 mm.
 const SEEN_AHEAD: f32 = 0.008;
+
+/// The ball is a little larger for the engine, m, which else would see no contact before a ball that
+/// lies still. The hook of the ball knows how far everything really is.
+pub(super) const SEEN_AROUND: f32 = 0.001;
+
+/// The same for a caught ball, m: the engine looks ahead along the velocity at which a ball begins a
+/// tick, and another body may push a caught one along faster.
+pub(super) const SEEN_AROUND_CAUGHT: f32 = 0.02;
 
 /// In long ticks they are seen as far ahead as the corner of a VSSS robot comes that spins in place,
 /// m/s.

@@ -7,12 +7,15 @@ mod quiet;
 
 use rapier2d::geometry::NEW_CONTACT_BIT;
 use rapier2d::math::{Pose, Vector};
+use rapier2d::parry::query::TrackedContact;
 use rapier2d::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use build::{SEEN_AROUND, SEEN_AROUND_CAUGHT};
+
 use crate::physique::Physique;
 
-pub(crate) use ball_hooks::{BallHooks, rotation};
+pub(crate) use ball_hooks::{BallHooks, Level, rotation};
 pub(crate) use quiet::Room;
 
 /// The body that is the ball.
@@ -50,7 +53,7 @@ pub(crate) enum Partner {
     Robot(usize),
 }
 
-/// A contact in which the last tick pressed.
+/// A contact of the ball in which the last tick pressed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Contact {
     pub(crate) with: Partner,
@@ -58,6 +61,17 @@ pub(crate) struct Contact {
     pub(crate) normal: Vector,
     /// N s, along the normal.
     pub(crate) pressing: f32,
+}
+
+/// A contact of a robot with a wall or another robot in which the last tick pressed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Press {
+    pub(crate) robot: usize,
+    pub(crate) with: Partner,
+    /// From the robot to its partner, a unit vector.
+    pub(crate) normal: Vector,
+    /// Where they press, in the mean, m.
+    pub(crate) point: Vector,
 }
 
 /// Bodies of one match.
@@ -75,6 +89,8 @@ pub(crate) struct Engine {
     motions: Vec<Motion>,
     pushes: Vec<Push>,
     inverses: Vec<Inverse>,
+    /// What the solver takes the ball for, kg.
+    ball_mass: f32,
     /// Which bodies are elsewhere than the solver has them.
     moved: Vec<bool>,
     /// Whether nothing pressed on anything in the solver's last tick.
@@ -105,6 +121,8 @@ pub(crate) struct Scratch {
     pipeline: PhysicsPipeline,
     ccd: CCDSolver,
     trial: quiet::Trial,
+    /// Contacts of robots in the last tick.
+    pub(crate) presses: Vec<Press>,
     // A match has no joints and no soft bodies; the pipeline wants to see that for itself.
     joints: ImpulseJointSet,
     multibodies: MultibodyJointSet,
@@ -117,6 +135,7 @@ impl Scratch {
             pipeline: PhysicsPipeline::new(),
             ccd: CCDSolver::new(),
             trial: quiet::Trial::default(),
+            presses: Vec::new(),
             joints: ImpulseJointSet::new(),
             multibodies: MultibodyJointSet::new(),
             soft_bodies: SoftBodySet::new(),
@@ -134,6 +153,7 @@ impl Engine {
         // The ball does not turn in the plane: its spin has three axes and is kept elsewhere.
         self.set_mass(BALL, physique.ball.mass, 1.0);
         self.inverses[BALL].inertia = 0.0;
+        self.ball_mass = physique.ball.mass;
         for (index, body) in physique.robots.iter().enumerate() {
             self.set_mass(robot(index), body.model.mass, body.model.inertia());
         }
@@ -163,6 +183,35 @@ impl Engine {
         let ball = &mut self.motions[BALL];
         (ball.position, ball.velocity) = (position, velocity);
         self.moved[BALL] = true;
+    }
+
+    /// Whether the ball was caught in the solver's last tick.
+    pub(crate) fn was_caught(&self) -> bool {
+        self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
+    }
+
+    /// Force (N) on a body over its mass, during the next tick.
+    pub(crate) fn acceleration(&self, body: usize) -> Vector {
+        self.pushes[body].force * self.inverses[body].mass
+    }
+
+    /// Has the solver take the ball for a caught one, or for what it is. [`Engine::hit`] never takes it
+    /// for a caught one.
+    fn catch_ball(&mut self, ball: &BallHooks) {
+        let mass = ball.squeeze.map_or(ball.physique.ball.mass, |squeeze| squeeze.mass);
+        if self.ball_mass == mass {
+            return;
+        }
+        let around = if ball.squeeze.is_some() { SEEN_AROUND_CAUGHT } else { SEEN_AROUND };
+        // What pressed on a heavy ball must not start the solution for a light one.
+        self.parameters.warmstart_coefficient = if mass < self.ball_mass { 0.0 } else { 1.0 };
+        self.ball_mass = mass;
+        let properties = MassProperties::new(Vector::ZERO, mass, 1.0);
+        let body = &mut self.bodies[self.handles[BALL]];
+        let collider = &mut self.colliders[body.colliders()[0]];
+        collider.set_mass_properties(properties);
+        collider.set_shape(SharedShape::ball(ball.physique.ball.radius + around));
+        body.recompute_mass_properties_from_colliders(&self.colliders);
     }
 
     pub(crate) fn set_velocity(&mut self, body: usize, velocity: Vector) {
@@ -196,12 +245,6 @@ impl Engine {
         self.skipped
     }
 
-    /// Moves a body aside.
-    pub(crate) fn shift(&mut self, body: usize, by: Vector) {
-        self.motions[body].position += by;
-        self.moved[body] = true;
-    }
-
     /// One tick.
     pub(crate) fn step(
         &mut self,
@@ -209,13 +252,22 @@ impl Engine {
         ball: &BallHooks,
         room: &Room,
     ) -> Result<(), NonFinite> {
-        let quiet = self.skips && self.clear;
-        if quiet && self.try_coasting(&mut scratch.trial, ball.physique, ball.flies, room) {
+        let quiet = self.skips && self.clear && ball.squeeze.is_none();
+        if quiet
+            && self.try_coasting(
+                &mut scratch.trial,
+                ball.physique,
+                ball.level != Level::Floor,
+                room,
+            )
+        {
             self.skipped = self.skipped.wrapping_add(1);
             return Ok(());
         }
+        self.catch_ball(ball);
         self.tell_solver();
         let solved = self.solve(scratch, ball);
+        self.parameters.warmstart_coefficient = 1.0;
         self.ask_solver();
         solved
     }
@@ -283,17 +335,34 @@ impl Engine {
         })
     }
 
-    /// Pairs of robots that pressed on each other in the last tick, with the normal from the first to
-    /// the second.
-    pub(crate) fn robot_contacts(&self) -> impl Iterator<Item = ([usize; 2], Vector)> {
-        self.narrow_phase.contact_pairs().filter_map(|pair| {
+    /// Contacts of robots that pressed in the last tick, into `presses`.
+    pub(crate) fn list_presses(&self, presses: &mut Vec<Press>) {
+        presses.clear();
+        if self.clear {
+            return;
+        }
+        presses.extend(self.narrow_phase.contact_pairs().filter_map(|pair| {
             let labels = [pair.collider1, pair.collider2].map(|of| self.colliders[of].user_data);
-            let [Some(Partner::Robot(first)), Some(Partner::Robot(second))] = labels.map(partner)
-            else {
-                return None;
+            let (robot, with, sign) = match labels.map(partner) {
+                [Some(Partner::Robot(robot)), Some(with)] => (robot, with, 1.0),
+                [Some(with), Some(Partner::Robot(robot))] => (robot, with, -1.0),
+                _ => return None,
             };
-            pressed(pair).map(|(normal, _)| ([first, second], normal))
-        })
+            let (normal, _) = pressed(pair)?;
+            Some(Press { robot, with, normal: normal * sign, point: self.middle(pair)? })
+        }));
+    }
+
+    /// Where a pair presses, in the mean of its points weighted by impulse, m.
+    fn middle(&self, pair: &ContactPair) -> Option<Vector> {
+        let pose = self.colliders[pair.collider1].position();
+        let (sum, weight) = solved_points(pair).fold((Vector::ZERO, 0.0), |(sum, all), point| {
+            (
+                sum + pose.transform_point(point.local_p1) * point.data.impulse,
+                all + point.data.impulse,
+            )
+        });
+        (weight > 0.0).then(|| sum / weight)
     }
 
     /// Pairs of bodies, or of a body and a wall, that pressed on each other in the last tick.
@@ -307,15 +376,22 @@ fn pressed(pair: &ContactPair) -> Option<(Vector, f32)> {
     let manifolds = pair.manifolds().iter();
     manifolds
         .map(|manifold| {
-            // Only contacts that were solved in this tick: others keep old impulses.
-            let solved = manifold.data.solver_contacts.iter();
-            let points = solved.map(|contact| {
-                let point = (contact.contact_id[0] & !NEW_CONTACT_BIT) as usize;
-                manifold.points[point].data.impulse
-            });
-            (manifold.data.normal, points.sum())
+            let pressing = points_of(manifold).map(|point| point.data.impulse).sum();
+            (manifold.data.normal, pressing)
         })
         .find(|(_, pressing): &(Vector, f32)| *pressing > 0.0)
+}
+
+/// Points of a pair that were solved in this tick: others keep old impulses.
+fn solved_points(pair: &ContactPair) -> impl Iterator<Item = &TrackedContact<ContactData>> {
+    pair.manifolds().iter().flat_map(points_of)
+}
+
+fn points_of(manifold: &ContactManifold) -> impl Iterator<Item = &TrackedContact<ContactData>> {
+    manifold.data.solver_contacts.iter().map(|contact| {
+        let point = (contact.contact_id[0] & !NEW_CONTACT_BIT) as usize;
+        &manifold.points[point]
+    })
 }
 
 const BALL_LABEL: u128 = 0;

@@ -5,7 +5,7 @@
 //! would be one sub-step later, as it stops bodies one ahead. If two come too near, the solver gets
 //! the tick from its start.
 
-use rapier2d::math::{Rotation, Vector};
+use rapier2d::math::Vector;
 
 use super::{BALL, Engine, Inverse, Motion, Push, robot, rotation};
 use crate::Field;
@@ -23,7 +23,15 @@ const MARGIN: f32 = 4e-4;
 pub(crate) struct Room {
     /// A body that stays within is far from every wall.
     free: Vector,
-    walls: Vec<Placed>,
+    walls: Vec<Standing>,
+}
+
+/// A wall that stands on the floor.
+#[derive(Debug, Clone)]
+pub(crate) struct Standing {
+    pub(crate) place: Placed,
+    /// m.
+    pub(crate) top: f32,
 }
 
 impl Room {
@@ -33,17 +41,20 @@ impl Room {
         let free_x = field.half_length() - field.corner;
         Self {
             free: Vector::new(free_x, field.reach_y()),
-            walls: standing.map(Wall::placed).collect(),
+            walls: standing.map(|wall| Standing { place: wall.placed(), top: wall.top }).collect(),
         }
     }
 
     /// Walls that reach into a circle.
-    fn walls_near(&self, circle: Circle) -> impl Iterator<Item = &Placed> {
-        let beyond = circle.center.abs() + Vector::splat(circle.radius);
+    pub(crate) fn walls_near(
+        &self,
+        center: Vector,
+        radius: f32,
+    ) -> impl Iterator<Item = &Standing> {
+        let beyond = center.abs() + Vector::splat(radius);
         let is_free = beyond.x < self.free.x && beyond.y < self.free.y;
         let walls = if is_free { &[] } else { self.walls.as_slice() };
-        let disc = circle.placed();
-        walls.iter().filter(move |wall| disc.gap(wall) < 0.0)
+        walls.iter().filter(move |wall| wall.place.nearest(center).distance < radius)
     }
 }
 
@@ -60,11 +71,6 @@ impl Circle {
     fn meets(&self, other: &Self) -> bool {
         let reach = self.radius + other.radius;
         (self.center - other.center).length_squared() < reach * reach
-    }
-
-    fn placed(self) -> Placed {
-        let outline = Outline::Disc { radius: self.radius };
-        Placed { outline, position: self.center, heading: Rotation::IDENTITY }
     }
 }
 
@@ -201,8 +207,12 @@ impl Engine {
             }
             let margin =
                 if index == BALL { self.margin_of_ball(physique, circle.speed) } else { MARGIN };
-            let walls = room.walls_near(circle);
-            near.extend(walls.map(|wall| Pair { one: body, other: Other::Wall(*wall), margin }));
+            let walls = room.walls_near(circle.center, circle.radius);
+            near.extend(walls.map(|wall| Pair {
+                one: body,
+                other: Other::Wall(wall.place),
+                margin,
+            }));
             circles.push(circle);
         }
     }
