@@ -18,6 +18,9 @@ class Frozen:
         self.calls.append("place")
         out[worlds] = rows
 
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
+        self.calls.append("reposition_balls")
+
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
         self.calls.append("step")
 

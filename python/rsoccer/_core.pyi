@@ -629,6 +629,24 @@ class Simulator:
             TypeError: wrong types.
         """
 
+    def reposition_balls(
+        self,
+        worlds: NDArray[np.bool_],
+        balls: NDArray[np.float32],
+        out: NDArray[np.float32],
+    ) -> None:
+        """Put the balls of the worlds of a mask (n,) elsewhere; all else of their matches goes on.
+
+        `balls` (number of True, ball columns) says where; position, velocity and spin count. Nobody
+        has touched them there, and they have crossed nothing. The rows of these worlds, as they now
+        read, are written into `out` (n, row).
+
+        Raises:
+            ValueError: a ball in a robot or outside, or a world that became non-finite before; the
+                world is named. Wrong shapes. Nothing has changed.
+            TypeError: wrong types.
+        """
+
     def step(
         self,
         commands: NDArray[np.float32],
@@ -644,7 +662,9 @@ class Simulator:
         Raises:
             ValueError: wrong shapes or values that are not finite. Nothing has moved.
             TypeError: wrong types.
-            RuntimeError: a world's state became non-finite; the others have stepped.
+            RuntimeError: the states of some worlds, which are named, became non-finite, or had
+                before. They are lost until `place`; the others have stepped, and their rows are
+                written.
         """
 
     def read(self, out: NDArray[np.float32]) -> None:

@@ -91,6 +91,29 @@ def commands(value: Array, shape: tuple[int, ...]) -> Floats:
     return np.array(value, np.float32, order="C")  # a copy: it is kept, and cleared at restarts
 
 
+def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
+    """Of n worlds those whose balls a task moves, as a mask (n,), and their balls (k, columns).
+
+    The task may name worlds in any order; the balls are in that of the mask.
+    """
+    if not isinstance(found, tuple) or len(found) != 2:
+        raise TypeError(f"reposition_ball: expected worlds and balls, or None, got {found!r}")
+    worlds = np.asarray(found[0])
+    if worlds.ndim != 1 or worlds.dtype.kind not in "iu":
+        raise TypeError(
+            f"reposition_ball: expected whole numbers (k,) for worlds, got {worlds.dtype} "
+            f"{worlds.shape}"
+        )
+    if len(worlds) and not (worlds.min() >= 0 and worlds.max() < n):
+        raise ValueError(f"reposition_ball: expected worlds 0 to {n - 1}, got {worlds.tolist()}")
+    mask = np.zeros(n, np.bool_)
+    mask[worlds] = True
+    if np.count_nonzero(mask) != len(worlds):
+        raise ValueError(f"reposition_ball: expected each world once, got {worlds.tolist()}")
+    balls = floats("reposition_ball: balls", found[1], (len(worlds), len(_core.BALL_COLUMNS)))
+    return mask, balls[np.argsort(worlds)]
+
+
 def weights(
     given: Mapping[str, float] | str, default: Mapping[str, float], paper: Mapping[str, float]
 ) -> dict[str, float]:

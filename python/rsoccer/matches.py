@@ -12,14 +12,18 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import Simulator
-from rsoccer.controllers import Controllers, CrewState, appoint
+from rsoccer.controllers import Controllers, appoint
 from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.outcome import Outcome
+from rsoccer.play import Play
 from rsoccer.registry import make_task
-from rsoccer.rng import WorldRng
-from rsoccer.saved import Saved, arrays_of
+from rsoccer.reposition import reposition_balls
+from rsoccer.rng import Seeds, WorldRng, next_streams
+from rsoccer.saved import Saved
 from rsoccer.simulator import Worlds
-from rsoccer.task import Play, Task
+from rsoccer.standing import Standing
+from rsoccer.task import Task
+from rsoccer.whole import Whole
 
 __all__ = ["AUTORESETS", "Matches", "Outcome"]
 
@@ -27,8 +31,6 @@ AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
 Indices = NDArray[np.intp]
 Seed = int | Sequence[int | None] | None  # of the first world, or one for each
-Seeds = list[int | None]
-Held = tuple[Play, list[CrewState], Floats]  # what may change in worlds that stand still
 
 
 class Matches:
@@ -36,6 +38,11 @@ class Matches:
 
     `autoreset` says what happens to a match that ended: it begins anew within the same step, or
     in the next one (which then ignores its actions and rewards nothing), or when `reset` says so.
+
+    Input that is refused changes nothing. What fails later (a policy, a method of the task, a world
+    whose numbers are finite no more) leaves the matches torn, with some parts a step ahead of
+    others: `step`, `state_dict` and resets of some worlds then raise a RuntimeError that says what
+    failed, until `reset` of all worlds or `load_state_dict` mends them.
     """
 
     def __init__(
@@ -66,7 +73,7 @@ class Matches:
         self.observation_high = self.task.observation_high  # (o,)
         threads = checks.whole("threads", threads, 1)
         if simulator is None:
-            simulator = Simulator(self.task.config, worlds=worlds, threads=threads)
+            simulator = Simulator(self.task.config, worlds, threads)
         self._simulator = simulator
         root = WorldRng.seeded(checks.whole("seed", seed, 0), worlds)
         self._start = root.split("start")
@@ -76,8 +83,9 @@ class Matches:
             crew.rng = root.split(crew.name)
         seen = (worlds, len(self.drivers.seers), self.observation_size)
         self._observations = np.zeros(seen, np.float32)
-        self._done = np.zeros(worlds, np.bool_)
-        self._begun = np.zeros(worlds, np.bool_)
+        self._done, self._begun = np.zeros((2, worlds), np.bool_)
+        self._stepped = 0  # calls of `step`, to tell which failed
+        self._whole = Whole()
 
     @property
     def frame(self) -> Frame:
@@ -96,31 +104,42 @@ class Matches:
 
         World i gets `seed + i`, or `seed[i]`; without a seed its random streams go on. `rows`
         (k, row) are starts for the k worlds of the mask, in place of the task's own.
+
+        Raises:
+            RuntimeError: a reset of some worlds only, of matches that a failure has torn.
+            ValueError, TypeError: what is no seed, mask or start; then nothing has changed.
         """
         seeds = checks.seeds(seed, self.worlds)
         worlds = np.flatnonzero(checks.mask(mask, self.worlds))
+        if len(worlds) < self.worlds:
+            self._whole.check()
         if rows is not None:
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
-        self._begin(worlds, rows, seeds)
+        if len(worlds):
+            self._begin(worlds, rows, seeds)
         return self._of_learners(self._observations)
 
     def step(self, actions: Floats) -> Outcome:
-        """One control step: `actions` (n, agents, action), clipped to [-1, 1]."""
-        shape = (self.worlds, len(self.agents), self.action_size)
-        actions = checks.actions(actions, shape)
+        """One control step: `actions` (n, agents, action), clipped to [-1, 1].
+
+        Raises:
+            RuntimeError: some worlds have begun no episode, or an earlier step failed half way.
+            ValueError, TypeError: what are no such actions; nothing has changed.
+        """
+        self._whole.check()
+        actions = checks.actions(actions, (self.worlds, len(self.agents), self.action_size))
         if np.count_nonzero(self._begun) < self.worlds:
             raise RuntimeError("step before reset: some worlds have begun no episode")
-        still = np.flatnonzero(self._done)
-        held = self._hold(still) if len(still) else None
-        self._move(actions, ~self._done if held else None)
-        outcome = self._judge()
-        if held:
-            self._release(still, held, outcome)
-        self._begin_again(still, outcome)
-        return outcome
+        self._stepped += 1
+        try:
+            return self._play_on(actions)
+        except BaseException as error:  # an interrupt too
+            self._whole.tear(f"step {self._stepped}", error)
+            raise
 
     def state_dict(self) -> dict[str, Array]:
         """Everything that the future depends on; `load_state_dict` continues exactly from it."""
+        self._whole.check()
         return self._saved().read()
 
     def load_state_dict(self, state: Mapping[str, Array]) -> None:
@@ -128,6 +147,20 @@ class Matches:
         self._saved().put(state)
         self._viewpoint.fill(self.play.frame, self.play.view)
         self._viewpoint.fill(self.play.last_frame, self.play.last_view)
+        self._whole.mend()
+
+    def _play_on(self, actions: Floats) -> Outcome:
+        """One control step with actions that nothing speaks against."""
+        still = np.flatnonzero(self._done)
+        standing = None
+        if len(still):
+            standing = Standing(still, self.play, self.drivers.crews, self._observations)
+        self._move(actions, ~self._done if standing else None)
+        outcome = self._judge()
+        if standing:
+            standing.release(self._observations, outcome)
+        self._begin_again(still, outcome)
+        return outcome
 
     def _move(self, actions: Floats, active: Mask | None) -> None:
         """Every driver acts, and the worlds, or those that are active, move on."""
@@ -140,26 +173,11 @@ class Matches:
         commands = self.task.get_commands(play, driven)
         play.commands = checks.commands(commands, play.commands.shape)
         play.actions = driven
-        # The older buffer takes the new rows, so that nothing has changed if the step fails.
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
-        self._put_back(active)
+        reposition_balls(self.task, self._simulator, play, self._viewpoint, active)
         self._viewpoint.fill(play.frame, play.view)
         play.steps += 1
-
-    def _put_back(self, active: Mask | None) -> None:
-        """Go on from elsewhere in worlds where the task says so."""
-        play, found = self.play, self.task.put_back(self.play.frame)
-        if found is None:
-            return
-        worlds, rows = found
-        if active is not None:
-            worlds, rows = worlds[active[worlds]], rows[active[worlds]]
-        mask = np.zeros(self.worlds, np.bool_)
-        mask[worlds] = True
-        self._simulator.place(mask, np.ascontiguousarray(rows), out=play.frame.rows)
-        play.last_frame.rows[worlds] = play.frame.rows[worlds]
-        self._viewpoint.fill(play.last_frame, play.last_view)
 
     def _judge(self) -> Outcome:
         """What the step is worth and where it led, before anything begins again."""
@@ -179,22 +197,6 @@ class Matches:
         none = self._observations[:0]
         return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
 
-    def _hold(self, still: Indices) -> Held:
-        """A copy of all that a step may change in worlds that are to stand still."""
-        crews = [crew.hold(still) for crew in self.drivers.crews]
-        return self.play.take(still), crews, self._observations[still]
-
-    def _release(self, still: Indices, held: Held, outcome: Outcome) -> None:
-        """Worlds that stood still are as they were, and nothing happened in them."""
-        play, crews, self._observations[still] = held
-        self.play.put(still, play)
-        for crew, its in zip(self.drivers.crews, crews, strict=True):
-            crew.put(still, its)
-        for array in (outcome.rewards, outcome.terminated, outcome.truncated):
-            array[still] = 0
-        for term in outcome.terms.values():
-            term[still] = 0.0
-
     def _begin_again(self, still: Indices, outcome: Outcome) -> None:
         """Restart as `autoreset` says, and show what there is to see before and after."""
         ended = outcome.ended
@@ -211,44 +213,36 @@ class Matches:
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
     ) -> None:
         """Start episodes in some worlds, from `rows` (k, row) or the task's own starts."""
-        if not len(worlds):
-            return
-        start, *others = self._next_streams(worlds, seeds)
+        start, *others = next_streams(self._saved().streams, worlds, seeds)
         if rows is None:
             rows = self.task.get_initial_positions_frame(start).rows
+        part = self.task.new_play(len(worlds), self._viewpoint, others[0])
         mask = np.zeros(self.worlds, np.bool_)
         mask[worlds] = True
         self._simulator.place(mask, rows, out=self.play.frame.rows)
-        part = self.task.new_play(len(worlds), self._viewpoint, others[0])
+        try:
+            self._enter(worlds, part)
+            for crew, rng in zip(self.drivers.crews, others[1:], strict=True):
+                crew.restart(worlds, rng, self.action_size)
+        except BaseException as error:
+            self._whole.tear("reset", error)
+            raise
+        self._start.put(worlds, start)
+        if len(worlds) == self.worlds:
+            self._whole.mend()
+
+    def _enter(self, worlds: Indices, part: Play) -> None:
+        """Let some worlds, which were just placed, show their first moment."""
         part.start(self.play.frame.rows[worlds], self._viewpoint)
         self._observations[worlds] = self.task.observe(part)
         self.play.put(worlds, part)
-        self._start.put(worlds, start)
-        for crew, rng in zip(self.drivers.crews, others[1:], strict=True):
-            crew.restart(worlds, rng, self.action_size)
         self._done[worlds] = False
         self._begun[worlds] = True
-
-    def _next_streams(self, worlds: Indices, seeds: Seeds | None) -> list[WorldRng]:
-        """Streams of some worlds, for starts, the task and each crew: as they are, or seeded."""
-        streams = {name: rng[worlds] for name, rng in self._streams().items()}
-        if seeds is not None:
-            fresh = {i: seed for i, w in enumerate(worlds) if (seed := seeds[w]) is not None}
-            told, root = np.array(list(fresh), np.intp), WorldRng.seeded_each([*fresh.values()])
-            for name, rng in streams.items():
-                rng.put(told, root.split(name))
-        return list(streams.values())
-
-    def _streams(self) -> dict[str, WorldRng]:
-        """All streams by name."""
-        crews = {crew.name: crew.rng for crew in self.drivers.crews}
-        return {"start": self._start, "task": self.play.rng, **crews}
 
     def _saved(self) -> Saved:
         """Where all state is."""
         own = {"observations": self._observations, "done": self._done, "begun": self._begun}
-        arrays = {**arrays_of(self.play, self.drivers.crews), **own}
-        return Saved(self._simulator, arrays, self._streams())
+        return Saved.of(self._simulator, self.play, self.drivers.crews, self._start, own)
 
     def _of_learners(self, seen: Floats) -> Floats:
         """The learners' part of what there is for all seers (n, seers, ...); a copy."""

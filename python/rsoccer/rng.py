@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rsoccer.frame import Floats, Mask
 
 Words = NDArray[np.uint64]
+Seeds = list[int | None]  # of each world; None where its streams go on
 
 _WORD: Final = 2**64
 _GOLDEN: Final = 0x9E3779B97F4A7C15  # 2**64 / golden ratio, odd
@@ -105,6 +106,19 @@ class WorldRng:
         words = _mixed(self._state[:, None] + steps)
         self._state = self._state + np.uint64(count * _GOLDEN % _WORD)
         return words
+
+
+def next_streams(
+    streams: dict[str, WorldRng], worlds: NDArray[np.intp], seeds: Seeds | None
+) -> list[WorldRng]:
+    """Copies of the streams of some worlds, in order: as they are, or seeded, each by its name."""
+    parts = {name: rng[worlds] for name, rng in streams.items()}
+    if seeds is not None:
+        fresh = {i: seed for i, w in enumerate(worlds) if (seed := seeds[w]) is not None}
+        told, root = np.array(list(fresh), np.intp), WorldRng.seeded_each([*fresh.values()])
+        for name, rng in parts.items():
+            rng.put(told, root.split(name))
+    return list(parts.values())
 
 
 def _begun(seeds: Words) -> Words:

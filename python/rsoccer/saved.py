@@ -1,6 +1,6 @@
 """Matches as arrays: all that their future depends on, read and put back."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,20 @@ class Saved:
     simulator: Worlds
     arrays: dict[str, Array]
     streams: dict[str, WorldRng]
+
+    @classmethod
+    def of(
+        cls,
+        simulator: Worlds,
+        play: Play,
+        crews: Sequence[Crew],
+        start: WorldRng,
+        others: dict[str, Array],
+    ) -> "Saved":
+        """All of some matches: their play and drivers, the streams of starts, other arrays."""
+        arrays = arrays_of(play, crews) | others
+        streams = {"start": start, "task": play.rng} | {crew.name: crew.rng for crew in crews}
+        return cls(simulator, arrays, streams)
 
     def read(self) -> dict[str, Array]:
         """Copies of everything, by name."""
@@ -41,7 +55,7 @@ class Saved:
         return {f"rng.{name}": rng.state for name, rng in self.streams.items()}
 
 
-def arrays_of(play: Play, crews: Iterable[Crew]) -> dict[str, Array]:
+def arrays_of(play: Play, crews: Sequence[Crew]) -> dict[str, Array]:
     """Arrays of a play and its drivers by name, but for the streams and what follows from them."""
     arrays: dict[str, Array] = {
         "frame": play.frame.rows,

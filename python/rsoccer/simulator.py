@@ -11,8 +11,18 @@ class Worlds(Protocol):
     def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
         """Start the worlds of the mask (n,) at `rows` (k, row); write their rows into `out`."""
 
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
+        """Put the balls (k, ball column) of the worlds of the mask (n,) elsewhere, and only them.
+
+        Robots and all else go on; write the rows of these worlds into `out`. Only tasks with a
+        `reposition_ball` of their own ask for it.
+        """
+
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-        """Move active worlds one control step; write their rows into `out` (n, row)."""
+        """Move active worlds one control step; write their rows into `out` (n, row).
+
+        May raise; `Matches` are torn then, until all worlds are placed anew.
+        """
 
 
 @runtime_checkable

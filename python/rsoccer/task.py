@@ -85,11 +85,13 @@ class Task(ABC):
         """What a picture of one world shows on the floor: targets, gates, areas."""
         return ()
 
-    def put_back(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        """Worlds (k,) in which play goes on from elsewhere, and from which rows (k, row); or None.
+    def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
+        """Worlds (k,) where the ball goes on from elsewhere, and balls (k, ball column); or None.
 
-        Asked after each step: for a ball that left the field and comes back. What was between is
-        not to be rewarded, so there `last_frame` becomes equal to `frame`.
+        Asked after each step: for a ball that left the field and comes back. Position, velocity
+        and spin count, as `frame.ball.data` has them; worlds may be in any order. Robots go on as
+        they are. What was between is not to be rewarded, so there `last_frame` becomes equal to
+        `frame`.
         """
         return None
 

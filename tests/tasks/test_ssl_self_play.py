@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
-from rsoccer import Matches
-from rsoccer.frame import Frame
+from rsoccer import Matches, SimConfig
+from rsoccer._core import CROSSINGS, Field
+from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslSelfPlay
 from tests.tasks.ssl_scenes import STAND, play, run, scene
 
@@ -118,5 +119,67 @@ def test_a_goal_is_the_largest_part_of_what_a_match_pays() -> None:
     assert got.largest() == "goal"
 
 
-def test_a_frame_is_put_back_only_where_a_ball_has_left() -> None:
-    assert TASK.put_back(Frame.empty(3, 3, 3)) is None
+def test_a_ball_is_repositioned_only_where_it_has_left() -> None:
+    assert TASK.reposition_ball(Frame.empty(3, 3, 3)) is None
+
+
+def crowded(task: SslSelfPlay, robots: Floats, left_at: tuple[float, float]) -> Floats:
+    """Where the ball comes back that left over the touch line, among robots at (robots, 2)."""
+    frame = Frame.empty(1, task.n_blue, task.n_yellow)
+    frame.robots.position[:] = robots
+    frame.ball.crossed[:] = CROSSINGS.index(
+        "touch_line_left" if left_at[1] > 0 else "touch_line_right"
+    )
+    frame.ball.crossed_at[:] = left_at
+    answer = task.reposition_ball(frame)
+    assert answer is not None
+    place: Floats = answer[1][0, :2]
+    return place
+
+
+@pytest.mark.parametrize("around", ["line", "block"])
+def test_where_robots_take_the_whole_line_another_place_is_free(around: str) -> None:
+    """With none free along the line, the first place was taken, in the middle of a robot."""
+    task = SslSelfPlay(blue=11, yellow=11)
+    if around == "line":
+        robots = np.stack([np.linspace(-2.1, 2.1, 22), np.full(22, 1.8)], axis=-1)
+    else:
+        x = np.concatenate([np.linspace(-1.6, 1.6, 14), np.linspace(-0.8, 0.8, 8)])
+        robots = np.stack([x, np.where(np.arange(22) < 14, 1.8, 1.6)], axis=-1)
+    robots = robots.astype(np.float32)
+    place = crowded(task, robots, (0.0, 2.0))
+    gaps = np.linalg.norm(robots - place, axis=1)
+    assert gaps.min() > 0.09 + 0.0215, "in the open"
+    assert np.abs(place[1]) < 1.79, "the line is full"
+    # No place of a fine net is much nearer and free too.
+    net = np.stack(np.meshgrid(np.arange(-2.8, 2.81, 0.02), np.arange(-1.8, 1.81, 0.02)), axis=-1)
+    away = np.linalg.norm(net - [0.0, 1.8], axis=-1)
+    clear = np.linalg.norm(net[..., None, :] - robots, axis=-1).min(axis=-1) > 0.09 + 2 * 0.0215
+    assert np.hypot(*(place - [0.0, 1.8])) < away[clear].min() + 0.08
+
+
+def test_a_place_off_the_line_is_the_same_for_both_sides() -> None:
+    task, rng = SslSelfPlay(blue=11, yellow=11), np.random.default_rng(0)
+    off = 0
+    for _ in range(100):
+        x = np.linspace(-2.1, 2.1, 22) + rng.uniform(-0.03, 0.03, 22)
+        robots = np.stack([x, 1.8 + rng.uniform(-0.02, 0.02, 22)], axis=-1).astype(np.float32)
+        left_at = (float(np.float32(rng.uniform(-0.5, 0.5))), 2.0)
+        ours = crowded(task, robots, left_at)
+        theirs = crowded(task, -robots, (-left_at[0], -left_at[1]))
+        assert np.array_equal(ours, -theirs)
+        off += int(ours[1] < 1.79)
+    assert off > 50
+
+
+@pytest.mark.parametrize("field", Field.PRESETS)
+def test_no_robots_can_cover_all_places_of_a_field(field: str) -> None:
+    config = SimConfig(field, 1, 0, robot="ssl_generic")
+    most = config.field.max_robots
+    task = SslSelfPlay(field=field, blue=most, yellow=most)
+    places = task._lattice
+    robots = np.random.default_rng(0).uniform(-0.1, 0.1, (1, 50, 2)).astype(np.float32)
+    covered = [
+        (~task._clear(places[None], robots[:, at : at + 1])).sum() for at in range(robots.shape[1])
+    ]
+    assert max(covered) * 2 * most < len(places)

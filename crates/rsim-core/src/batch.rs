@@ -1,7 +1,7 @@
 //! Many matches of one configuration, stepped over plain slices and on several threads.
 
-use std::sync::{Mutex, PoisonError};
-
+use crate::columns::BALL_COLUMNS;
+use crate::pool::Pool;
 use crate::snapshot::{self, Header};
 use crate::world::State;
 use crate::{ConfigError, PlaceError, SimConfig, SnapshotError, StepError, World};
@@ -14,64 +14,8 @@ pub struct Batch {
     pool: Option<Pool>,
 }
 
-/// The threads that help the caller's. Threads do not survive a fork, so they are of one process.
-struct Pool {
-    process: u32,
-    helpers: rayon::ThreadPool,
-}
-
-impl Pool {
-    /// So many threads, the caller's among them.
-    fn new(threads: usize) -> Result<Self, ConfigError> {
-        let failed = |reason| ConfigError::Threads { threads, reason };
-        if threads > MAX_THREADS {
-            return Err(failed(format!("at most {MAX_THREADS} make sense")));
-        }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads - 1).build();
-        let helpers = pool.map_err(|error| failed(error.to_string()))?;
-        Ok(Self { process: std::process::id(), helpers })
-    }
-
-    fn threads(&self) -> usize {
-        self.helpers.current_num_threads() + 1
-    }
-
-    /// Has the threads of this process do all portions, each taking the next as it gets free. The
-    /// caller's works too: it is awake, and to wake another in its place costs milliseconds. First
-    /// error by world, if any.
-    fn share<P>(&mut self, portions: impl Iterator<Item = P> + Send) -> Result<(), StepError>
-    where
-        P: Iterator<Item = Result<(), StepError>>,
-    {
-        if self.process != std::process::id() {
-            let pool = Self::new(self.threads()).expect("as many threads as before should start");
-            // The old pool's threads are not in this process: dropping it would wait for them.
-            std::mem::forget(std::mem::replace(self, pool));
-        }
-        let (portions, failures) = (Mutex::new(portions), Mutex::new(Vec::new()));
-        let work = || {
-            // Held only to take the next portion, some hundred microseconds of work.
-            let next = || portions.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let failed: Vec<_> =
-                std::iter::from_fn(next).flatten().filter_map(Result::err).collect();
-            failures.lock().unwrap_or_else(PoisonError::into_inner).extend(failed);
-        };
-        self.helpers.in_place_scope(|scope| {
-            for _ in 0..self.helpers.current_num_threads() {
-                scope.spawn(|_| work());
-            }
-            work();
-        });
-        let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-        failures.into_iter().min_by_key(|failure| failure.world).map_or(Ok(()), Err)
-    }
-}
-
 /// Worlds that a thread takes at once: enough that taking them costs nothing beside stepping them.
 const MOST_AT_ONCE: usize = 16;
-
-/// More than any machine has; asking for so many is a slip.
-const MAX_THREADS: usize = 1024;
 
 /// More than any memory holds.
 const MAX_WORLDS: usize = 10_000_000;
@@ -132,9 +76,7 @@ impl Batch {
             .enumerate()
             .map(|(nth, (world, row))| {
                 let own = parameters.map(|all| &all[nth * parameters_size..][..parameters_size]);
-                self.worlds[world]
-                    .check(row, own)
-                    .map_err(|error| PlaceError::InWorld { world, error: Box::new(error) })
+                self.worlds[world].check(row, own).map_err(|error| error.in_world(world))
             })
             .collect::<Result<Vec<_>, _>>()?;
         for (world, start) in chosen().zip(starts) {
@@ -144,11 +86,40 @@ impl Batch {
         Ok(())
     }
 
+    /// Puts the ball elsewhere in the worlds of the mask; all else of their matches goes on. `balls`
+    /// has a ball for each of them (see [`World::reposition_ball`]); `out` has a row for every world;
+    /// those of the chosen ones are written.
+    ///
+    /// # Errors
+    /// The first world that the ball cannot go on in from there; then no world has changed.
+    pub fn reposition_balls(
+        &mut self,
+        mask: &[bool],
+        balls: &[f32],
+        out: &mut [f32],
+    ) -> Result<(), PlaceError> {
+        let size = self.config().row_size();
+        let chosen = || (0..mask.len()).filter(|&world| mask[world]);
+        debug_assert_eq!(balls.len(), chosen().count() * BALL_COLUMNS.len());
+        let starts = chosen()
+            .zip(balls.chunks_exact(BALL_COLUMNS.len()))
+            .map(|(world, ball)| {
+                self.worlds[world].check_ball(ball).map_err(|error| error.in_world(world))
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        for (world, start) in chosen().zip(starts) {
+            self.worlds[world].put_ball(&start);
+            self.worlds[world].write_row(&mut out[world * size..][..size]);
+        }
+        Ok(())
+    }
+
     /// One control step of the active worlds (all, when `active` is `None`). Rows of the others in
     /// `out` stay as they are.
     ///
     /// # Errors
-    /// A world became non-finite, or had been and was not placed since. All others have stepped.
+    /// All worlds that became non-finite, or had been and were not placed since. All others have
+    /// stepped, and their rows are written.
     ///
     /// # Panics
     /// When the process was forked and the operating system refuses to start threads anew.
@@ -178,24 +149,26 @@ impl Batch {
             if active.is_some_and(|active| !active[index]) {
                 return Ok(());
             }
-            world.step(commands(index)).map_err(|_| StepError { world: index })?;
+            world.step(commands(index)).map_err(|_| index)?;
             world.write_row(row);
             Ok(())
         };
         // One world never touches a pool: sharing out one world costs more than stepping it.
-        if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
-            let portion = (self.worlds.len() / (8 * pool.threads())).clamp(1, MOST_AT_ONCE);
-            let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
-            let firsts = (0..).step_by(portion);
-            let portions = firsts.zip(pairs).map(|(first, (worlds, rows))| {
-                let pairs = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
-                (first..).zip(pairs).map(&step)
-            });
-            return pool.share(portions);
-        }
-        // Every world steps, also after one that failed.
-        let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));
-        pairs.enumerate().map(step).fold(Ok(()), Result::and)
+        let lost: Vec<usize> =
+            if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
+                let portion = (self.worlds.len() / (8 * pool.threads())).clamp(1, MOST_AT_ONCE);
+                let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
+                let firsts = (0..).step_by(portion);
+                let portions = firsts.zip(pairs).map(|(first, (worlds, rows))| {
+                    let pairs = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
+                    (first..).zip(pairs).map(&step)
+                });
+                pool.share(portions)
+            } else {
+                let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));
+                pairs.enumerate().map(step).filter_map(Result::err).collect()
+            };
+        if lost.is_empty() { Ok(()) } else { Err(StepError::in_worlds(lost)) }
     }
 
     /// Writes the rows of all worlds.
@@ -247,7 +220,10 @@ mod tests {
                 for _ in 0..2 {
                     // Lost until it is placed; the others go on.
                     let before = rows.clone();
-                    assert_eq!(batch.step(&told, &mut rows, None), Err(StepError { world: 1 }));
+                    assert_eq!(
+                        batch.step(&told, &mut rows, None),
+                        Err(StepError::in_worlds(vec![1]))
+                    );
                     let size = scene.config.row_size();
                     assert_ne!(rows[..size], before[..size]);
                     assert_eq!(rows[size..2 * size], before[size..2 * size]);

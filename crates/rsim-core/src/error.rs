@@ -120,6 +120,9 @@ pub enum PlaceError {
     /// Parameters that make no ball or robot.
     #[error("params: {0}")]
     Parameters(ConfigError),
+    /// A ball for a match that is no match any more.
+    #[error("its state became non-finite; place that world again")]
+    Lost,
     /// The same, in one world of many.
     #[error("world {world}: {error}")]
     InWorld {
@@ -130,12 +133,27 @@ pub enum PlaceError {
     },
 }
 
-/// A world whose state became non-finite while it was stepped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the state of world {world} became non-finite; place that world again")]
+impl PlaceError {
+    /// The same, in one world of many.
+    pub(crate) fn in_world(self, world: usize) -> Self {
+        Self::InWorld { world, error: Box::new(self) }
+    }
+}
+
+/// Worlds whose state became non-finite while they were stepped, or had become so before.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("the state of worlds {worlds:?} became non-finite; place them again")]
 pub struct StepError {
-    /// Index of the first such world.
-    pub world: usize,
+    /// Indices of all such worlds, in order.
+    pub worlds: Vec<usize>,
+}
+
+impl StepError {
+    /// Of these worlds, given in any order.
+    pub(crate) fn in_worlds(mut worlds: Vec<usize>) -> Self {
+        worlds.sort_unstable();
+        Self { worlds }
+    }
 }
 
 /// Bytes that are not a snapshot of this simulator.

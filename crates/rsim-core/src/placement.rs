@@ -36,6 +36,13 @@ pub(crate) struct Start {
     pub(crate) ball: Ball,
 }
 
+/// Where the ball is and how it moves, as its columns ask for it.
+#[derive(Debug, Clone)]
+pub(crate) struct BallStart {
+    pub(crate) motion: Motion,
+    pub(crate) ball: Ball,
+}
+
 /// Checks starting rows against the field and the models.
 pub(crate) struct Placement {
     field: Field,
@@ -64,17 +71,11 @@ impl Placement {
     /// The start that `row` asks for. `physique` says how high robots are in that world.
     pub(crate) fn read(&self, row: &[f32], physique: &Physique) -> Result<Start, PlaceError> {
         let (columns, robots) = row.split_at(BALL_COLUMNS.len());
-        let (motion, ball) = read_ball(columns);
+        let BallStart { motion, ball } = self.read_ball_alone(columns)?;
         let mut motions = vec![motion];
         motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(read_robot));
-        if !(ball.z.is_finite() && ball.v_z.is_finite() && ball.spin.is_finite()) {
-            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
-        }
-        if ball.z < 0.0 {
-            return Err(PlaceError::Below { z: ball.z });
-        }
-        for (who, motion) in motions.iter_mut().enumerate() {
-            self.check_alone(who, motion, if who == BALL { ball.z } else { 0.0 })?;
+        for (who, motion) in motions.iter_mut().enumerate().skip(1) {
+            self.check_alone(who, motion, 0.0)?;
         }
         for second in 1..motions.len() {
             self.check_ball(second, &motions, &ball, physique)?;
@@ -84,6 +85,34 @@ impl Placement {
             }
         }
         Ok(Start { motions, ball })
+    }
+
+    /// The ball that `columns` ask for, where the others stay as they are in `motions`, of which the
+    /// first is the ball's own and does not count.
+    pub(crate) fn read_ball(
+        &self,
+        columns: &[f32],
+        mut motions: Vec<Motion>,
+        physique: &Physique,
+    ) -> Result<BallStart, PlaceError> {
+        let start = self.read_ball_alone(columns)?;
+        motions[BALL] = start.motion;
+        (1..motions.len())
+            .try_for_each(|who| self.check_ball(who, &motions, &start.ball, physique))?;
+        Ok(start)
+    }
+
+    /// The ball that `columns` ask for, if the field has room for it.
+    fn read_ball_alone(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
+        let (mut motion, ball) = read_ball(columns);
+        if !(ball.z.is_finite() && ball.v_z.is_finite() && ball.spin.is_finite()) {
+            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
+        }
+        if ball.z < 0.0 {
+            return Err(PlaceError::Below { z: ball.z });
+        }
+        self.check_alone(BALL, &mut motion, ball.z)?;
+        Ok(BallStart { motion, ball })
     }
 
     /// Checks a body by itself, and makes its heading a unit vector.

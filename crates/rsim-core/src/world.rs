@@ -4,19 +4,19 @@ use std::cell::RefCell;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use rapier2d::math::Vector;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::{Wall, walls};
 use crate::ball::Ball;
 use crate::crossing::Crossing;
 use crate::drive::Drive;
-use crate::engine::{Engine, Motion, NonFinite, Room, Scratch};
+use crate::engine::{Engine, NonFinite, Room, Scratch};
+use crate::line_up::line_up;
 use crate::physique::Physique;
 use crate::placement::{Placement, Start};
 use crate::tick::Tick;
 use crate::touch::Touched;
-use crate::{ConfigError, PlaceError, RobotModel, SimConfig, StepError, row};
+use crate::{ConfigError, PlaceError, SimConfig, StepError, row};
 
 thread_local! {
     /// One per thread and not per world: a world keeps only what a match is.
@@ -28,7 +28,7 @@ thread_local! {
 /// Everything that its future depends on is in here, so a clone plays on as the original does.
 #[derive(Clone)]
 pub struct World {
-    rules: Arc<Fixed>,
+    pub(crate) rules: Arc<Fixed>,
     pub(crate) state: State,
     skips: bool,
 }
@@ -39,7 +39,7 @@ pub(crate) struct Fixed {
     pub(crate) walls: Vec<Wall>,
     pub(crate) room: Room,
     physique: Physique,
-    placement: Placement,
+    pub(crate) placement: Placement,
     pub(crate) command_columns: usize,
     /// A world that nobody has touched. Starting from it leaves nothing of an earlier match.
     pristine: State,
@@ -56,7 +56,7 @@ pub(crate) struct State {
     /// The bodies of a world that differs from the models.
     own: Option<Box<Physique>>,
     /// Whether a number left the finite ones; only placing the world anew mends it.
-    broken: bool,
+    pub(crate) broken: bool,
 }
 
 impl State {
@@ -173,7 +173,7 @@ impl World {
     pub fn step(&mut self, commands: &[f32]) -> Result<(), StepError> {
         debug_assert_eq!(commands.len(), self.config().command_size());
         if self.state.broken {
-            return Err(StepError { world: 0 });
+            return Err(StepError { worlds: vec![0] });
         }
         self.state.crossing = Crossing::default();
         self.state.touched.forget();
@@ -187,7 +187,7 @@ impl World {
         state.own = own;
         stepped.and_then(|()| self.state.check()).map_err(|NonFinite| {
             self.state.broken = true;
-            StepError { world: 0 }
+            StepError { worlds: vec![0] }
         })
     }
 
@@ -221,7 +221,7 @@ impl World {
         self.state.engine.contacts()
     }
 
-    fn physique(&self) -> &Physique {
+    pub(crate) fn physique(&self) -> &Physique {
         self.state.own.as_deref().unwrap_or(&self.rules.physique)
     }
 }
@@ -230,21 +230,4 @@ impl World {
 pub(crate) struct Checked {
     start: Start,
     own: Option<Box<Physique>>,
-}
-
-/// Each team in a line across the middle of its half, facing the other's goal.
-fn line_up(config: &SimConfig) -> Vec<Motion> {
-    let still = |position, heading| Motion { position, heading, velocity: Vector::ZERO, spin: 0.0 };
-    let widest = config.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);
-    let even = config.field.width / (config.field.max_robots + 1) as f32;
-    let spacing = even.max(2.2 * widest);
-    let mut motions = vec![still(Vector::ZERO, Vector::X)];
-    for (team, side) in [(&config.blue, -1.0), (&config.yellow, 1.0)] {
-        for index in 0..team.len() {
-            let y = (index as f32 - (team.len() as f32 - 1.0) / 2.0) * spacing;
-            let x = side * config.field.length / 4.0;
-            motions.push(still(Vector::new(x, y), Vector::new(-side, 0.0)));
-        }
-    }
-    motions
 }

@@ -4,6 +4,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rsim_core::Batch;
+use rsim_core::columns::BALL_COLUMNS;
 
 use crate::arrays::{Commands, Mask, Rows, RowsOut, finite, readable, values, writeable};
 use crate::config::{SimConfig, count, invalid};
@@ -58,6 +59,23 @@ impl Simulator {
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
         py.detach(|| self.0.place(&mask, &rows, params.as_deref(), out)).map_err(invalid)
+    }
+
+    fn reposition_balls(
+        &mut self,
+        py: Python<'_>,
+        worlds: &Bound<'_, PyAny>,
+        balls: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let mask = values(&mask);
+        let chosen = mask.iter().filter(|&&chosen| chosen).count();
+        let balls: Rows = readable("balls", balls, &[chosen, BALL_COLUMNS.len()])?;
+        let balls = values(&balls);
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.reposition_balls(&mask, &balls, out)).map_err(invalid)
     }
 
     #[pyo3(signature = (commands, out, active = None))]

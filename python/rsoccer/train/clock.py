@@ -50,6 +50,11 @@ class TimedSimulator:
         with self._clock.measure("physics"):
             self._simulator.place(worlds, rows, out)
 
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
+        """Put the balls of some worlds elsewhere."""
+        with self._clock.measure("physics"):
+            self._simulator.reposition_balls(worlds, balls, out)
+
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
         """One control step of every active world."""
         with self._clock.measure("physics"):
