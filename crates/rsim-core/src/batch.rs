@@ -235,4 +235,26 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn all_worlds_that_are_lost_are_named_and_take_no_ball() {
+        let scene = scenes::random_play();
+        for threads in [1, 2] {
+            let (mut batch, mut rows) = scene.batch(40, threads);
+            let told = scene.commands(&scene.start, 0, 0).repeat(40);
+            for world in [33, 7, 20] {
+                let wrong = Vector::new(f32::NAN, 0.0);
+                batch.worlds[world].state.engine.set_velocity(BALL, wrong);
+            }
+            let error = batch.step(&told, &mut rows, None).expect_err("lost");
+            assert_eq!(error.worlds, [7, 20, 33]);
+            assert!(error.to_string().contains("worlds [7, 20, 33]"), "{error}");
+            let (mut mask, before) = ([false; 40], rows.clone());
+            mask[7] = true;
+            let ball = &scene.start[..BALL_COLUMNS.len()];
+            let refused = batch.reposition_balls(&mask, ball, &mut rows).expect_err("lost");
+            assert_eq!(refused, PlaceError::Lost.in_world(7));
+            assert_eq!(rows, before);
+        }
+    }
 }
