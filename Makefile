@@ -53,8 +53,9 @@ docs: $(VENV)/built ## write the README's tables and pictures again from code an
 physics: $(VENV)/built ## measure the physics again; write its page and draw its pictures
 	$(BIN)/python -m tools.physics
 
-soak: $(VENV)/tools ## ten million ticks of random play on every field (some minutes)
+soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in all tasks (some minutes)
 	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test soak
+	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/test_pressing.py --numprocesses auto
 
 bench: $(VENV)/built ## measure speed on this machine (some minutes; needs it quiet)
 	$(CARGO) bench --locked --bench step

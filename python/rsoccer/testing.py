@@ -2,7 +2,7 @@
 
 A batched task fails in ways that no single run shows: a forgotten axis, state on self, a world
 that reads its neighbour's numbers. So the same worlds are played together and alone, and must not
-differ in one bit.
+differ in one bit. Other faults show only under pressure, so robots are also driven at the ball.
 """
 
 import copy
@@ -11,13 +11,17 @@ import random
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 
 from rsoccer.frame import Array, Floats
 from rsoccer.matches import Matches
 from rsoccer.outcome import Outcome
+from rsoccer.pressing import Pressing
 from rsoccer.task import Play, Task
+
+PRESSED: Final = 8  # times as many worlds as are compared: what breaks under pressure is rare
 
 
 class TaskError(AssertionError):
@@ -30,12 +34,15 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
     Row i of a batch equals a single world seeded `seed + i`, in every autoreset mode and through
     partial resets; an episode after others equals the same one in fresh matches; nothing is kept
     on the task; no global random numbers; play is read, not written; numbers are float32, finite.
+    All that holds too when every learner drives at the ball, so that robots press on each other and
+    on walls, and the ball leaves the field; what raises then is a fault as well.
     """
     if worlds < 2:
         raise ValueError(f"worlds: expected at least 2, to compare neighbours, got {worlds}")
-    task = _hurried(task, max(2, steps // 5))
+    lasting, task = _hurried(task, steps), _hurried(task, max(2, steps // 5))
     with _leaves_no_trace(task):
         _check_play(task, worlds, seed)
+        _check_pressure(lasting, worlds, steps, seed)
         for autoreset, share in {"same_step": 1, "next_step": 2, "disabled": 2}.items():
             _check_alone(task, worlds, max(4, steps // share), seed, autoreset)
         _check_history(task, worlds, steps, seed)
@@ -102,11 +109,11 @@ def _check_alone(task: Task, worlds: int, steps: int, seed: int, autoreset: str)
     """Row i of a batch = a single world seeded `seed + i`, whatever ends and begins meanwhile."""
     many = Matches(task, worlds, seed, autoreset=autoreset)
     ones = [Matches(task, 1, seed + i, autoreset=autoreset) for i in range(worlds)]
-    rng = np.random.default_rng(seed)
+    rng, pressing = np.random.default_rng(seed), Pressing(task, seed)
     ended = 0
     _compare(many.reset(), [one.reset() for one in ones], "the first observations")
     for step in range(steps):
-        actions = _actions(rng, many)
+        actions = _actions(rng, many) if autoreset == "same_step" else pressing.actions(many)
         outcome = many.step(actions)
         alone = [one.step(actions[i : i + 1]) for i, one in enumerate(ones)]
         where = f"in step {step} ({autoreset})"
@@ -134,6 +141,23 @@ def _check_history(task: Task, worlds: int, steps: int, seed: int) -> None:
         actions = _actions(rng, fresh)
         ours, theirs = used.step(actions), fresh.step(actions)
         _compare_outcomes(ours, [theirs], f"in step {step} after other episodes")
+
+
+def _check_pressure(task: Task, worlds: int, steps: int, seed: int) -> None:
+    """Robots that all drive at the ball, in many worlds: nothing breaks, and nothing is NaN."""
+    matches, pressing = Matches(task, PRESSED * worlds, seed), Pressing(task, seed)
+    matches.reset()
+    for step in range(steps):
+        where = f"in step {step} under pressure, when all drive at the ball"
+        try:
+            outcome = matches.step(pressing.actions(matches))
+        except Exception as error:
+            raise TaskError(f"{type(error).__name__} {where}: {error}") from error
+        terms, facts = outcome.terms.items(), outcome.metrics.items()
+        numbers = {"the observation": outcome.final_observations, **dict(terms), **dict(facts)}
+        for name, array in numbers.items():
+            finite = bool(np.isfinite(array).all())
+            _expect(finite, f"{name!r} has NaN or infinite numbers {where}")
 
 
 def _actions(rng: np.random.Generator, matches: Matches) -> Floats:
