@@ -17,6 +17,7 @@ from rsoccer._core import (
     COMMAND_COLUMNS,
     CROSSINGS,
     ROBOT_COLUMNS,
+    Field,
     SimConfig,
     Simulator,
     build_info,
@@ -81,6 +82,26 @@ def test_a_configuration_survives_json_and_pickle() -> None:
 def test_a_bad_configuration_is_refused_by_name(options: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=words):
         SimConfig(**options)
+
+
+def test_a_field_by_numbers_keeps_the_robots_of_its_league() -> None:
+    """An SSL field whose goals have no walls of their own got a VSSS robot and ball."""
+    for field, robot, ball in (
+        (Field("ssl_b", goal_wall=0.0, goal_line_margin=0.0), "ssl_generic", "ssl_tigers"),
+        (Field("vss_3v3", goal_wall=0.01, goal_line_margin=0.3), "vss_440rpm", "vss_rsim"),
+    ):
+        config = SimConfig(field, 1, 1)
+        assert (config.robot.name, config.ball.name) == (robot, ball)
+
+
+def test_on_a_field_of_no_league_robots_and_ball_must_be_told() -> None:
+    field = Field.from_json(Field("ssl_b").to_json().replace("ssl_b", "backyard"))
+    given: dict[str, Any] = {"robot": "ssl_generic", "ball": "ssl_tigers"}
+    assert SimConfig(field, 1, 1, **given).field.name == "backyard"
+    for name, model in given.items():
+        other = next(iter(given.keys() - {name}))
+        with pytest.raises(ValueError, match=f'{other} must be given .*"backyard"'):
+            SimConfig(field, 1, 1, **{name: model})
 
 
 @pytest.mark.parametrize(

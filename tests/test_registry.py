@@ -61,6 +61,41 @@ def test_a_new_task_gets_its_name() -> None:
     assert VssSelfPlay.name == "VSSSelfPlay-v0"
 
 
+def test_a_second_name_does_not_rename_the_tasks_of_the_first() -> None:
+    """Its tasks, and what they had saved, carried the second name from then on."""
+
+    class Mine(VssSelfPlay):
+        pass
+
+    rsoccer.register("Mine-v0", Mine)
+    with pytest.raises(ValueError, match=r"known as 'Mine-v0' already; registry.alias\('Yours-v0'"):
+        rsoccer.register("Yours-v0", Mine)
+    assert Mine.name == "Mine-v0"
+    assert "Yours-v0" not in rsoccer.list_tasks()
+    registry.alias("Yours-v0", "Mine-v0")
+    assert type(rsoccer.make_task("Yours-v0")) is Mine
+
+    class Further(Mine):
+        pass
+
+    rsoccer.register("Further-v0", Further)
+    assert (Mine.name, Further.name) == ("Mine-v0", "Further-v0")
+
+
+@pytest.mark.parametrize("error", [TypeError, ValueError, KeyError])
+def test_what_making_a_task_raises_is_not_swallowed(error: type[Exception]) -> None:
+    """The task was registered, but silently had no id in any library."""
+
+    class Mine(VssSelfPlay):
+        def __init__(self) -> None:
+            raise error("a slip of its author")
+
+    with pytest.raises(error, match="a slip of its author"):
+        rsoccer.register("Mine-v0", Mine)
+    assert "Mine-v0" not in rsoccer.list_tasks()
+    assert Mine.name == VssSelfPlay.name
+
+
 def test_a_task_need_not_be_a_dataclass() -> None:
     class Plain(VssSelfPlay):
         def __init__(self, speed: float = 0.1) -> None:

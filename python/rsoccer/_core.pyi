@@ -16,6 +16,7 @@ __all__ = [
     "BALL_PARAMETERS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
+    "FASTEST",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
     "BallModel",
@@ -33,6 +34,9 @@ __all__ = [
     "limit",
     "nearest",
 ]
+
+FASTEST: float
+"""Fastest that a body may be placed with, m/s."""
 
 BALL_COLUMNS: tuple[str, ...]
 """Names of the ball's columns.
@@ -361,8 +365,9 @@ class RobotModel:
 class SimConfig:
     """What is fixed for the life of a simulator: field, models, team sizes, time steps.
 
-    `robot` is one model for all, or one for each robot, blue first. Robot and ball default to the
-    league's: `vss_440rpm` and `vss_rsim`, `ssl_generic` and `ssl_tigers`.
+    `robot` is one model for all, or one for each robot, blue first. Robot and ball default to those
+    of the league that has a field of that name, whatever its numbers: `vss_440rpm` and `vss_rsim`,
+    `ssl_generic` and `ssl_tigers`.
 
     Raises:
         ValueError: a name that is no preset, more robots than the league allows, or times (s) that

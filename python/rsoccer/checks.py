@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Mapping
+from numbers import Real
 
 import numpy as np
 
 from rsoccer import _core
+from rsoccer._core import SimConfig
 from rsoccer.frame import Array, Floats, Mask
 
 
@@ -23,6 +25,31 @@ def within(name: str, value: object, least: int, most: int) -> int:
     if (number := whole(name, value, least)) > most:
         raise ValueError(f"{name}: expected at most {most}, got {number}")
     return number
+
+
+def number(name: str, value: object, least: float, most: float) -> float:
+    """A finite number from `least` to `most`."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name}: expected a number, got {value!r}")
+    if not least <= float(value) <= most:  # nor is NaN
+        raise ValueError(f"{name}: expected {least:g} to {most:g}, got {value}")
+    return float(value)
+
+
+def flag(name: str, value: object) -> bool:
+    """True or False, and nothing else that counts as either."""
+    if not isinstance(value, bool | np.bool_):
+        raise TypeError(f"{name}: expected True or False, got {value!r}")
+    return bool(value)
+
+
+def drive(config: SimConfig, kind: str, needed: str) -> None:
+    """Robots of one model that has a drive of this kind; `needed` says it in words."""
+    names = sorted({robot.name for robot in config.robots})
+    if len(names) > 1:
+        raise ValueError(f"robot: expected one model for all, got {names}")
+    if config.robot.drive != kind:
+        raise ValueError(f"robot: expected one {needed}, got {names[0]!r}")
 
 
 def seeds(value: object, n: int) -> list[int | None] | None:
@@ -115,17 +142,21 @@ def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
 
 
 def weights(
-    given: Mapping[str, float] | str, default: Mapping[str, float], paper: Mapping[str, float]
+    given: object, default: Mapping[str, float], paper: Mapping[str, float]
 ) -> dict[str, float]:
     """The default weights with those given in their place, or the paper's."""
     if isinstance(given, str):
         if given != "paper":
             raise ValueError(f"weights: expected a mapping or 'paper', got {given!r}")
         given = paper
-    unknown = sorted(set(given) - set(default))
+    if not isinstance(given, Mapping):
+        raise TypeError(f"weights: expected a mapping or 'paper', got {given!r}")
+    unknown = sorted(set(given) - set(default), key=str)
     if unknown:
         raise ValueError(f"weights: unknown {unknown}; valid are {list(default)}")
     for name, weight in given.items():
+        if isinstance(weight, bool) or not isinstance(weight, Real):
+            raise TypeError(f"weights: expected a number for {name!r}, got {weight!r}")
         if not math.isfinite(weight):
             raise ValueError(f"weights: expected a finite number for {name!r}, got {weight}")
     return {**default, **given}

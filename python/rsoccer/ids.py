@@ -1,23 +1,16 @@
 """The tasks' ids in Gymnasium's and PettingZoo's registries: `rsoccer/VSS-v0`."""
 
-from collections.abc import Callable
-
 import gymnasium
 import pettingzoo
 
-from rsoccer.task import Task
 
-
-def announce(name: str, make: Callable[[], Task]) -> None:
+def announce(name: str, learners: int | None) -> None:
     """Let Gymnasium make a task with one learner, and PettingZoo one with any, by its id.
 
-    Entry points are names, so that nothing is imported before somebody asks.
+    `learners` is None where only options say how many there are; such a task has no id. Entry
+    points are names, so that nothing is imported before somebody asks.
     """
     ident = f"rsoccer/{name}"
-    try:
-        learners = len(make().agents)
-    except (TypeError, ValueError):
-        return  # there is no such task unless options say which
     if learners == 1:
         gymnasium.registry.pop(ident, None)
         gymnasium.register(

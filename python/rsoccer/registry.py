@@ -3,7 +3,6 @@
 import inspect
 import re
 from collections.abc import Mapping
-from functools import partial
 from typing import Any, Final, NamedTuple
 
 from rsoccer import ids
@@ -26,7 +25,13 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 def register(name: str, task_class: type[Task]) -> None:
     """Make a task known by `name`, such as "MyTask-v0", which its tasks then carry.
 
-    Gymnasium and PettingZoo know it as "rsoccer/MyTask-v0", the former where one robot learns.
+    Gymnasium and PettingZoo know it as "rsoccer/MyTask-v0", the former where one robot learns;
+    neither does where an option has no default. `alias` gives a task a second name.
+
+    Raises:
+        TypeError: what is no subclass of `Task`.
+        ValueError: a name without a version, or one that is taken, or a task that has a name.
+        Exception: whatever making the task raises, if all its options have defaults.
     """
     _check_name(name)
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
@@ -35,9 +40,16 @@ def register(name: str, task_class: type[Task]) -> None:
         raise ValueError(f"name: {name!r} is already taken by {_TASKS[name].__qualname__}")
     if name in _ALIASES:
         raise ValueError(f"name: {name!r} is already taken, for {_ALIASES[name].task}")
+    known = next((other for other, its in _TASKS.items() if its is task_class), name)
+    if known != name:
+        raise ValueError(
+            f"task_class: {task_class.__qualname__} is known as {known!r} already; "
+            f"registry.alias({name!r}, {known!r}) gives it another name"
+        )
+    learners = None if _needs_options(task_class) else len(task_class().agents)
     task_class.name = name
     _TASKS[name] = task_class
-    ids.announce(name, task_class)
+    ids.announce(name, learners)
 
 
 def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the task's own)
@@ -48,9 +60,9 @@ def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the t
     _check_name(name)
     if name in _TASKS or _ALIASES.get(name, (task, options)) != (task, options):
         raise ValueError(f"name: {name!r} is already taken")
-    make_task(task, **options)  # refuses what cannot be made
+    learners = len(make_task(task, **options).agents)  # refuses what cannot be made
     _ALIASES[name] = Alias(task, options)
-    ids.announce(name, partial(make_task, name))
+    ids.announce(name, learners)
 
 
 def retire(name: str, hint: str) -> None:
@@ -90,6 +102,13 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
 def list_options(task_class: type[Task]) -> list[str]:
     """Names of the options that a task's class takes."""
     return list(inspect.signature(task_class).parameters)
+
+
+def _needs_options(task_class: type[Task]) -> bool:
+    """Whether it cannot be made without saying something."""
+    variadic = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    parameters = inspect.signature(task_class).parameters.values()
+    return any(p.default is p.empty and p.kind not in variadic for p in parameters)
 
 
 def _check_name(name: str) -> None:

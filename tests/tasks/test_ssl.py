@@ -7,7 +7,7 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Matches
-from rsoccer._core import Steering
+from rsoccer._core import Field, Steering
 from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
 from rsoccer.tasks.ssl import AXES, CHOICES, Ssl
@@ -26,9 +26,14 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
         ({"weights": "old"}, ValueError, "weights: expected a mapping or 'paper', got 'old'"),
         ({"weights": {"energy": float("nan")}}, ValueError, "weights: expected a finite number"),
         ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
-        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one told its body's velocity"),
+        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one that is told its body's veloc"),
         ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
         ({"field": "ssl_z"}, ValueError, "ssl_z"),
+        ({"field": "vss_5v5"}, ValueError, "field: expected one of the SSL|at most 5 on a vss_5v5"),
+        ({"ball": "tennis"}, ValueError, "ball must be one of.*tennis"),
+        ({"weights": None}, TypeError, "weights: expected a mapping or 'paper', got None"),
+        ({"weights": {"energy": "3"}}, TypeError, "weights: expected a number for 'energy'"),
+        ({"discrete": 1}, TypeError, "discrete: expected True or False, got 1"),
         ({"colour": 1}, ValueError, "unknown option colour"),
     ],
 )
@@ -175,3 +180,26 @@ def test_tasks_are_data() -> None:
     assert SslStaticDefenders(scenario=3) != SslStaticDefenders()
     with pytest.raises(AttributeError):
         SslStaticDefenders().scenario = 3  # type: ignore[misc]
+
+
+def test_a_field_without_room_for_the_starts_is_refused_when_the_task_is_made() -> None:
+    small = Field("ssl_challenge", length=1.5, width=1.2)
+    for name, options in (
+        ("SSLDribbling-v0", {}),
+        ("SSLSelfPlay-v0", {"blue": 11, "yellow": 11}),
+        ("SSLContestedPossession-v0", {"scenario": 4}),
+        ("SSLStaticDefenders-v0", {}),
+    ):
+        with pytest.raises(ValueError, match="field: no room for this task on"):
+            make(name, field=small, **options)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_on_every_field_of_the_ssl_matches_start(name: str) -> None:
+    for field in ("ssl_a", "ssl_b", "ssl_challenge"):
+        Matches(make(name, field=field), 8).reset()
+
+
+def test_whether_contact_is_strict_is_yes_or_no() -> None:
+    with pytest.raises(TypeError, match="strict_contact: expected True or False, got 'no'"):
+        SslContestedPossession(strict_contact="no")  # type: ignore[arg-type]

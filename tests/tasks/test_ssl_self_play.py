@@ -172,7 +172,7 @@ def test_a_place_off_the_line_is_the_same_for_both_sides() -> None:
     assert off > 50
 
 
-@pytest.mark.parametrize("field", Field.PRESETS)
+@pytest.mark.parametrize("field", [name for name in Field.PRESETS if name.startswith("ssl")])
 def test_no_robots_can_cover_all_places_of_a_field(field: str) -> None:
     config = SimConfig(field, 1, 0, robot="ssl_generic")
     most = config.field.max_robots

@@ -5,6 +5,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
+from rsoccer._core import FASTEST
 from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 from rsoccer.rng import WorldRng
@@ -181,8 +182,24 @@ def test_weights_are_data() -> None:
         ({"n_blue": 99}, ValueError, "99|robots"),
         ({"n_yellow": -1}, ValueError, "n_yellow: expected at least 0"),
         ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
-        ({"ball_speed": -0.1}, ValueError, "ball_speed: expected 0 or more"),
-        ({"ball_speed": float("nan")}, ValueError, "ball_speed: expected 0 or more"),
+        ({"ball_speed": -0.1}, ValueError, "ball_speed: expected 0 to 20, got -0.1"),
+        ({"ball_speed": float("nan")}, ValueError, "ball_speed: expected 0 to 20, got nan"),
+        ({"ball_speed": 30}, ValueError, "ball_speed: expected 0 to 20, got 30"),
+        ({"ball_speed": "fast"}, TypeError, "ball_speed: expected a number, got 'fast'"),
+        ({"ball_speed": None}, TypeError, "ball_speed: expected a number, got None"),
+        ({"weights": None}, TypeError, "weights: expected a mapping or 'paper', got None"),
+        ({"weights": ["goal"]}, TypeError, "weights: expected a mapping or 'paper'"),
+        ({"weights": {"goal": "3"}}, TypeError, "weights: expected a number for 'goal', got '3'"),
+        ({"weights": {1: 3.0, "style": 1}}, ValueError, r"weights: unknown \[1, 'style'\]"),
+        ({"discrete": "no"}, TypeError, "discrete: expected True or False, got 'no'"),
+        ({"robot": "ssl_generic"}, ValueError, "robot: expected one with two wheels"),
+        ({"robot": ["vss_440rpm"] * 3 + ["vss_650rpm"] * 3}, ValueError, "robot: expected one mod"),
+        ({"field": "vss_9v9"}, ValueError, "field must be one of.*vss_9v9"),
+        (
+            {"field": "ssl_b"},
+            ValueError,
+            "field: expected one of VSSS, like .vss_5v5.",
+        ),
         ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid.*'goal'"),
         ({"weights": {"goal": float("inf")}}, ValueError, "weights: expected a finite number"),
         ({"robot": "vss_9000rpm"}, ValueError, "vss_9000rpm"),
@@ -193,6 +210,16 @@ def test_options_that_make_no_task_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         VssSelfPlay(**options)
+
+
+def test_a_ball_may_start_as_fast_as_a_match_can_start() -> None:
+    """At 30 m/s a match was refused at its first start, or at some later one."""
+    task = VssSelfPlay(ball_speed=FASTEST)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
+    fastest = np.hypot(*frame.ball.velocity.T).max()
+    assert fastest > 0.99 * FASTEST
+    frame.ball.velocity[0] = [0.6 * FASTEST * (1 + 1e-7), 0.8 * FASTEST * (1 + 1e-7)]
+    Matches(task, 2000).reset(rows=frame.rows)
 
 
 def test_tasks_are_data() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from rsoccer.train import Args
+from rsoccer.train import Args, checkpoint
 from rsoccer.train.curve import draw_curve
 from rsoccer.train.log import Log, Tally, read_progress
 
@@ -58,6 +58,31 @@ def test_the_curve_is_a_picture_even_with_gaps(tmp_path: Path) -> None:
     path = draw_curve(tmp_path, tmp_path / "curve.png")
     content = path.read_bytes()
     assert content.startswith(b"\x89PNG") and len(content) > 10_000
+
+
+@pytest.mark.parametrize(
+    ("task", "title"),
+    [
+        ("VSSMulti-v0", "Learning to play VSSMulti-v0, 3 v 3"),
+        ("SSLPassEndurance-v0", "Learning to play SSLPassEndurance-v0, 2 v 0"),
+    ],
+)
+def test_the_curve_says_what_is_learned(
+    task: str, title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every run was titled "three a side"."""
+    from matplotlib.figure import Figure
+
+    args = Args(task, tmp_path, progress=False)
+    rows(Log(args, 0, 0), 0, 3)
+    checkpoint.save(
+        tmp_path / checkpoint.FILE_NAME,
+        checkpoint.Checkpoint({"x": np.zeros(1)}, {"args": args.to_json()}),
+    )
+    drawn: list[Figure] = []
+    monkeypatch.setattr(Figure, "savefig", lambda figure, path: drawn.append(figure))
+    draw_curve(tmp_path, tmp_path / "curve.png")
+    assert drawn[0].axes[0].get_title() == title
 
 
 def test_without_rows_there_is_no_curve(tmp_path: Path) -> None:

@@ -58,6 +58,7 @@ pub use config::{SimConfig, check_team};
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use field::Field;
 pub use mouth_model::Mouth;
+pub use placement::FASTEST;
 pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
 pub use shaping::Potential;
 pub use sight::{Block, Sight};

@@ -2,7 +2,7 @@
 #![allow(clippy::float_cmp)] // what must be the same is exact
 
 use rsim_core::columns::{
-    BALL_COLUMNS, BALL_PARAMETERS, ball_column, parameters_size, robot_column,
+    BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
 };
 use rsim_core::scenes::{self, Driver, Scene, ball_in_mouth, robots};
 use rsim_core::{PlaceError, SimConfig, World};
@@ -130,7 +130,7 @@ fn a_worlds_own_height_of_robots_counts() {
     let mut world = scene.world();
     let mut factors = vec![1.0; parameters_size(1)];
     let height = BALL_PARAMETERS.len()
-        + rsim_core::columns::ROBOT_PARAMETERS.iter().position(|name| *name == "height").unwrap();
+        + ROBOT_PARAMETERS.iter().position(|name| *name == "height").expect("a parameter");
     factors[height] = 0.5;
     world.place(&scene.start, Some(&factors)).expect("valid");
     let robot = robots(&scene.start).next().expect("a robot");

@@ -38,13 +38,11 @@ impl SimConfig {
         rsim_core::check_team("n_yellow", &field, n_yellow).map_err(invalid)?;
         let ball = match ball {
             Some(ball) => ball.found()?.0,
-            None if is_ssl(&field) => rsim_core::BallModel::SSL_TIGERS,
-            None => rsim_core::BallModel::VSS_RSIM,
+            None => league("ball", &field)?.0,
         };
         let mut blue = match robot {
             Some(robot) => robot.models(n_blue + n_yellow)?,
-            None if is_ssl(&field) => vec![rsim_core::RobotModel::SSL_GENERIC; n_blue + n_yellow],
-            None => vec![rsim_core::RobotModel::VSS_440RPM; n_blue + n_yellow],
+            None => vec![league("robot", &field)?.1; n_blue + n_yellow],
         };
         let yellow = blue.split_off(n_blue);
         let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick };
@@ -165,9 +163,21 @@ impl SimConfig {
     }
 }
 
-/// What an SSL field is known by: goals that stand free.
-fn is_ssl(field: &rsim_core::Field) -> bool {
-    field.goal_wall > 0.0
+/// Ball and robot of the league that has a field of this name. Not by its numbers: an SSL field
+/// whose goals have no walls of their own would get a VSSS robot.
+fn league(
+    asked: &str,
+    field: &rsim_core::Field,
+) -> PyResult<(rsim_core::BallModel, rsim_core::RobotModel)> {
+    let preset = rsim_core::Field::PRESETS.iter().find(|preset| preset.name == field.name);
+    match preset.map(|preset| preset.goal_wall > 0.0) {
+        Some(true) => Ok((rsim_core::BallModel::SSL_TIGERS, rsim_core::RobotModel::SSL_GENERIC)),
+        Some(false) => Ok((rsim_core::BallModel::VSS_RSIM, rsim_core::RobotModel::VSS_440RPM)),
+        None => Err(PyValueError::new_err(format!(
+            "{asked} must be given where the field is of no known league, got field {:?}",
+            field.name
+        ))),
+    }
 }
 
 /// Models of robots: one for all, or one for each.

@@ -51,7 +51,8 @@ mod _core {
         commands.set_item("omni_wheels", PyTuple::new(py, columns::OMNI_WHEELS_COLUMNS)?)?;
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
-        module.add("COMMAND_COLUMNS", commands)
+        module.add("COMMAND_COLUMNS", commands)?;
+        module.add("FASTEST", rsim_core::FASTEST)
     }
 
     /// How this module was built: version, profile ("release" or "debug"), number of the physics.

@@ -14,14 +14,16 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, Steering
+from rsoccer._core import SimConfig, Simulator, Steering
 from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
 TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
 LEGAL_KICK: Final = 6.5  # m/s, SSL rules
 AXES: Final = ("field", "robot")
+STARTS: Final = 16  # that are tried on another field than a task's own
 
 # What agents that choose may do: stand, eight ways to drive, turn left and right, each with the
 # dribbler running; kick, standing; in the order of an action's numbers.
@@ -58,8 +60,21 @@ class Ssl(Soccer):
             raise ValueError(f"axes: expected one of {AXES}, got {self.axes!r}")
         weights = checks.weights(self.weights, self.WEIGHTS, self.PAPER_WEIGHTS)
         object.__setattr__(self, "weights", weights)
-        if self.config.robot.drive != "omni":
-            raise ValueError(f"robot: expected one told its body's velocity, got {self.robot!r}")
+        checks.flag("discrete", self.discrete)
+        checks.drive(self.config, "omni", "that is told its body's velocity")
+        if not self.config.field.touch_line_margin > 0.0:
+            raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")
+        if self.field != type(self).field:
+            self._check_room()
+
+    def _check_room(self) -> None:
+        """ValueError unless a match can start on a field that is not the task's own."""
+        rng = WorldRng.seeded(0, STARTS)
+        try:
+            rows = self.get_initial_positions_frame(rng).rows
+            Simulator(self.config, STARTS).place(np.ones(STARTS, np.bool_), rows, rows.copy())
+        except ValueError as error:
+            raise ValueError(f"field: no room for this task on {self.field!r}: {error}") from error
 
     def team_sizes(self) -> tuple[int, int]:
         """Robots of blue and of yellow."""

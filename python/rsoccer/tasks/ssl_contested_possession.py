@@ -32,6 +32,7 @@ class SslContestedPossession(SslAttack):
         """Refuse options that make no task, by name."""
         if self.scenario is not None:
             checks.within("scenario", self.scenario, 1, scenarios.CONTESTED_SCENARIOS)
+        checks.flag("strict_contact", self.strict_contact)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:

@@ -1,15 +1,15 @@
 """What all VSSS tasks share: starts, wheels, rewards and the score."""
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from dataclasses import field as default
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import SimConfig
+from rsoccer._core import FASTEST, SimConfig
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
@@ -33,7 +33,7 @@ APART: Final = 0.1  # metres between centres at the start
 
 @dataclass(frozen=True)
 class Vss(Soccer):
-    """VSSS on the field for three a side; subclasses say who plays.
+    """VSSS, by default on the field for three a side; subclasses say who plays.
 
     A match starts with everything at random places and ends with a goal of either side.
     """
@@ -42,9 +42,12 @@ class Vss(Soccer):
     n_yellow: int = 3
     max_steps: int = 1200  # 30 s
     ball_speed: float = 0.0  # m/s, the most that the ball starts with
-    weights: Mapping[str, float] | str = field(default_factory=dict)  # in place of WEIGHTS; "paper"
+    weights: Mapping[str, float] | str = default(
+        default_factory=dict
+    )  # in place of WEIGHTS; "paper"
     robot: str = "vss_440rpm"  # a robot model of the simulator
     discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
+    field: str = "vss_3v3"  # or "vss_5v5", whatever the sizes of the teams
 
     action_size = 2  # left and right wheel, of their top speed
     CHOICES: ClassVar[Floats] = CHOICES
@@ -54,15 +57,17 @@ class Vss(Soccer):
         checks.whole("n_blue", self.n_blue, 1)
         checks.whole("n_yellow", self.n_yellow, 0)
         checks.whole("max_steps", self.max_steps, 1)
-        if not 0.0 <= self.ball_speed < math.inf:
-            raise ValueError(f"ball_speed: expected 0 or more m/s, got {self.ball_speed}")
+        checks.number("ball_speed", self.ball_speed, 0.0, FASTEST)
+        checks.flag("discrete", self.discrete)
         object.__setattr__(self, "weights", checks.weights(self.weights, WEIGHTS, PAPER_WEIGHTS))
-        self.config  # noqa: B018  (the simulator knows what fields and robots there are)
+        checks.drive(self.config, "differential", "with two wheels")
+        if self.config.field.touch_line_margin > 0.0:
+            raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
 
     @cached_property
     def config(self) -> SimConfig:
-        """The 1.50 x 1.30 m field, golf ball, 25 ms steps."""
-        return SimConfig("vss_3v3", self.n_blue, self.n_yellow, robot=self.robot)
+        """The field of 1.50 x 1.30 m or the one that the option names, golf ball, 25 ms steps."""
+        return SimConfig(self.field, self.n_blue, self.n_yellow, robot=self.robot)
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robots anywhere, apart; robots face anywhere."""

@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from rsoccer.frame import Array
+from rsoccer.registry import make_task
+from rsoccer.train.checkpoint import FILE_NAME, load
 from rsoccer.train.log import SCORE, read_progress
 
 NAMES = {
@@ -17,7 +19,10 @@ NAMES = {
 
 
 def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
-    """Goal score against each kind of opponent over samples, as a PNG file at `path`."""
+    """Goal score against each kind of opponent over samples, as a PNG file at `path`.
+
+    The title names the task of the run in `folder` and the sizes of its teams.
+    """
     from matplotlib.figure import Figure
 
     progress = read_progress(folder)
@@ -31,12 +36,20 @@ def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
     axes.axhline(0.0, color="black", linewidth=0.6)
     axes.set(ylim=(-1.05, 1.05), xlabel="samples (millions of decisions)")
     axes.set_ylabel("goal score while exploring\n(wins - losses) / matches")
-    axes.set_title("Learning to play three a side")
+    axes.set_title(_title(folder))
     axes.grid(alpha=0.25)
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="lower right", frameon=False, title="against")
     figure.savefig(path)
     return path
+
+
+def _title(folder: Path) -> str:
+    """What the run in a folder learns to play, if it has saved that already."""
+    if not (folder / FILE_NAME).is_file():
+        return "Learning to play"
+    task = make_task(load(folder / FILE_NAME).facts["args"]["task"])
+    return f"Learning to play {task.name}, {task.n_blue} v {task.n_yellow}"
 
 
 def _running_mean(values: Array, window: int) -> Array:

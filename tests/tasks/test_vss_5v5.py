@@ -1,0 +1,94 @@
+"""VSSS on the field for five a side: tasks, scripts, the trainer."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches, registry
+from rsoccer._core import CROSSINGS
+from rsoccer.evaluate import evaluate
+from rsoccer.policies.network import Network
+from rsoccer.pressing import Pressing
+from rsoccer.tasks import VssSelfPlay
+from rsoccer.testing import check_task
+from rsoccer.train import Args, train
+
+NAMES = [name for name in rsoccer.list_tasks() if name.startswith("VSS")]
+FIVE = VssSelfPlay(field="vss_5v5", n_blue=5, n_yellow=5)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_task_can_be_played_there(name: str) -> None:
+    task = rsoccer.make_task(name, field="vss_5v5", n_blue=5, n_yellow=5)
+    assert (task.config.field.name, task.config.field.length) == ("vss_5v5", 2.2)
+    check_task(task, worlds=3, steps=60)
+
+
+def test_teams_of_three_are_the_default_there_too() -> None:
+    task = rsoccer.make_task("VSSSelfPlay-v0", field="vss_5v5")
+    assert (task.n_blue, task.n_yellow) == (3, 3)
+    assert rsoccer.make_task("VSSSelfPlay-v0").config.field.name == "vss_3v3"
+
+
+def test_starts_use_the_whole_field_and_observations_their_range() -> None:
+    matches = Matches(FIVE, 64)
+    shown = matches.reset()
+    x, y = np.abs(matches.frame.robots.position).max(axis=(0, 1))
+    assert 0.95 < x < 1.1
+    assert 0.75 < y < 0.9
+    pressing = Pressing(FIVE)
+    for _ in range(100):
+        shown = matches.step(pressing.actions(matches)).observations
+    high = matches.observation_high
+    assert (np.abs(shown) >= high - 1e-6)[..., : FIVE.blocks["action"].columns.start].mean() < 1e-3
+
+
+@pytest.mark.parametrize("policy", ["chase", "scripted", "scripted:0.5"])
+def test_scripts_score_there(policy: str) -> None:
+    found = evaluate(policy, "ou", 20, seed=2, task=FIVE, worlds=20)
+    assert found.goal_score > 0.5
+    assert min(found.blue.wins, found.yellow.wins) > 4
+
+
+def test_goals_are_where_the_field_has_them() -> None:
+    matches = Matches(FIVE, 1, autoreset="disabled")
+    matches.reset(seed=0)
+    row = matches.frame.rows.copy()
+    frame = matches.frame.copy()
+    frame.rows[:] = row
+    frame.robots.position[0] = [[0.2 * i - 0.9, 0.7] for i in range(10)]
+    frame.ball.position[:] = [[1.0, 0.0]]
+    frame.ball.velocity[:] = [[1.5, 0.0]]
+    matches.reset(rows=frame.rows)
+    for _ in range(10):
+        outcome = matches.step(np.zeros((1, 10, 2), np.float32))
+        if outcome.terminated[0]:
+            break
+    assert CROSSINGS[int(matches.frame.ball.crossed[0])] == "goal_right"
+    assert matches.frame.ball.crossed_at[0, 0] == pytest.approx(1.1)
+
+
+def test_a_first_update_can_be_made_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for names in ("_TASKS", "_ALIASES"):
+        monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
+    registry.alias("FiveASide-v0", "VSSSelfPlay-v0", field="vss_5v5", n_blue=5, n_yellow=5)
+    args = Args(
+        "FiveASide-v0",
+        tmp_path,
+        samples=1,
+        threads=1,
+        progress=False,
+        alone=0.0,
+        worlds=3,
+        horizon=4,
+        hidden=(8,),
+        epochs=1,
+        minibatches=1,
+    )
+    policy = Network.load(train(args))
+    policy.check_fits(FIVE, FIVE.observation_size)
+    matches = Matches(FIVE, 2, controllers={"blue": policy})
+    matches.reset()
+    assert np.isfinite(matches.step(np.zeros((2, 5, 2), np.float32)).rewards).all()
