@@ -1,12 +1,14 @@
 """What a run tells: counts by opponent, files that go on where they were, a curve."""
 
+import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from rsoccer.train import Args, checkpoint
+from rsoccer.train import Args
+from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.curve import draw_curve
 from rsoccer.train.log import Log, Tally, read_progress
 
@@ -75,10 +77,7 @@ def test_the_curve_says_what_is_learned(
 
     args = Args(task, tmp_path, progress=False)
     rows(Log(args, 0, 0), 0, 3)
-    checkpoint.save(
-        tmp_path / checkpoint.FILE_NAME,
-        checkpoint.Checkpoint({"x": np.zeros(1)}, {"args": args.to_json()}),
-    )
+    (tmp_path / SETTINGS_FILE).write_text(json.dumps(args.to_json()))
     drawn: list[Figure] = []
     monkeypatch.setattr(Figure, "savefig", lambda figure, path: drawn.append(figure))
     draw_curve(tmp_path, tmp_path / "curve.png")

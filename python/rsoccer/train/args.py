@@ -11,6 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+SETTINGS_FILE = "args.json"
+"""In a run's folder: its settings, as they were when it was begun or resumed."""
+
 FREE_ON_RESUME = ("out", "resume", "overwrite", "samples", "checkpoint_seconds", "progress")
 """Fields that a resumed run may set. Of these only `samples` changes what an update computes: the
 step size falls towards the end that it names."""

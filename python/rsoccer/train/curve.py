@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 
 from rsoccer.frame import Array
 from rsoccer.registry import make_task
-from rsoccer.train.checkpoint import FILE_NAME, load
+from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.log import SCORE, read_progress
 
 NAMES = {
@@ -45,10 +46,11 @@ def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
 
 
 def _title(folder: Path) -> str:
-    """What the run in a folder learns to play, if it has saved that already."""
-    if not (folder / FILE_NAME).is_file():
+    """What the run in a folder learns to play, if that is written there."""
+    settings = folder / SETTINGS_FILE
+    if not settings.is_file():
         return "Learning to play"
-    task = make_task(load(folder / FILE_NAME).facts["args"]["task"])
+    task = make_task(json.loads(settings.read_text())["task"])
     return f"Learning to play {task.name}, {task.n_blue} v {task.n_yellow}"
 
 

@@ -25,7 +25,7 @@ from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
 from rsoccer.train import checkpoint
-from rsoccer.train.args import Args
+from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.clock import Clock
 from rsoccer.train.lessons import Lessons
@@ -393,5 +393,5 @@ def _open_run(args: Args) -> Checkpoint | None:
     if path.exists() and not (args.resume or args.overwrite):
         raise ValueError(f"out: {args.out} holds a run; set resume, overwrite, or another folder")
     settings = json.dumps(args.to_json(), indent=2)
-    write_atomically(args.out / "args.json", settings.encode())
+    write_atomically(args.out / SETTINGS_FILE, settings.encode())
     return saved
