@@ -14,6 +14,7 @@ import rsoccer
 from rsoccer import Matches, policies
 from rsoccer.parallel import SoccerParallelEnv, parallel_env
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import list_options
 from rsoccer.single import single_env
 from rsoccer.vector import vector_env
@@ -88,7 +89,7 @@ def network_of(name: str) -> Network:
         "mean": np.zeros(task.observation_size, np.float32),
         "std": np.ones(task.observation_size, np.float32),
     }
-    facts = {"format": "rsoccer-policy-1", "task": name, "activation": "tanh", "clip": "10"}
+    facts = {"format": FORMAT, "task": name, "activation": "tanh", "clip": "10"}
     return Network(arrays, facts | {size: str(number) for size, number in sizes.items()})
 
 
@@ -249,7 +250,7 @@ def test_a_network_of_a_task_that_shows_something_else_is_refused(name: str) -> 
         **{"mean": zeros, "std": zeros + 1},
     }
     metadata = {
-        **{"format": "rsoccer-policy-1", "task": name, "activation": "tanh"},
+        **{"format": FORMAT, "task": name, "activation": "tanh"},
         **{"observation_size": str(task.observation_size), "action_size": str(task.action_size)},
         "layout": task.layout,
     }

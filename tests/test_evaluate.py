@@ -14,6 +14,7 @@ from rsoccer.frame import Floats
 from rsoccer.policies.base import Memory, Policy, Seen
 from rsoccer.policies.chase import Chase
 from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import FORMAT
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
@@ -33,7 +34,7 @@ def a_network(seed: int = 0) -> Network:
         "mean": np.zeros(task.observation_size),
         "std": np.ones(task.observation_size),
     }
-    metadata = {"format": "rsoccer-policy-1", "task": task.name, "activation": "tanh"}
+    metadata = {"format": FORMAT, "task": task.name, "activation": "tanh"}
     return Network(
         {name: array.astype(np.float32) for name, array in arrays.items()},
         metadata | {name: str(size) for name, size in sizes.items()},

@@ -6,7 +6,8 @@ import pytest
 from rsoccer.frame import Array, Floats
 from rsoccer.policies import make
 from rsoccer.policies.base import Seen
-from rsoccer.policies.network import FORMAT, Network
+from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
 from rsoccer.train.clock import Clock
@@ -17,14 +18,16 @@ SHARES = {"latest": 0.5, "past": 0.3, "ou": 0.2}
 OBSERVED = 5
 
 
-def constant(action: float) -> Network:
-    """A network that always gives one action."""
+def constant(action: float, spread: float | None = None) -> Network:
+    """A network that always gives one action, or draws around it."""
     arrays = {
         "layers.0.weight": np.zeros((2, OBSERVED), np.float32),
         "layers.0.bias": np.full(2, action, np.float32),
         "mean": np.zeros(OBSERVED, np.float32),
         "std": np.ones(OBSERVED, np.float32),
     }
+    if spread is not None:
+        arrays["action_std"] = np.full(2, spread, np.float32)
     sizes = {"observation_size": str(OBSERVED), "action_size": "2"}
     metadata = {"format": FORMAT, "task": "x", "activation": "tanh", "clip": "10", **sizes}
     return Network(arrays, metadata)
@@ -81,6 +84,35 @@ def test_each_world_is_played_by_its_own_opponent() -> None:
         assert rows.any()
         np.testing.assert_allclose(actions[rows], action, rtol=1e-6)
     assert pool.opponents.tolist() == memory["opponent"].tolist()
+
+
+def test_past_selves_played_their_mean_though_they_had_learned_with_chance() -> None:
+    pool = new_pool(past=0)
+    pool.latest = constant(0.1, spread=0.3)
+    pool.freeze(constant(-0.1, spread=0.3), 0)
+    rng, memory = start(pool, 2000)
+    actions = pool.act(seen(2000), rng, memory)
+    for code, mean in {LATEST: 0.1, PAST: -0.1}.items():
+        drawn = actions[memory["opponent"] == code]
+        assert drawn.mean() == pytest.approx(mean, abs=0.02)
+        assert drawn.std() == pytest.approx(0.3, abs=0.02)
+    again = pool.act(seen(2000), rng, memory)
+    rows = memory["opponent"] != OU
+    assert (again[rows] != actions[rows]).mean() > 0.99, "the streams did not move on"
+
+
+def test_what_a_past_self_draws_depends_on_its_world_alone() -> None:
+    pool = new_pool(past=0, repeat=2)
+    pool.latest = constant(0.0, spread=0.3)
+    rng, memory = start(pool, 30)
+    alone = rng[np.arange(7, 8)], {name: array[7:8].copy() for name, array in memory.items()}
+    memory["opponent"][:], alone[1]["opponent"][:] = LATEST, LATEST
+    memory["age"][:5] = 1  # these decide in other steps
+    together = [pool.act(seen(30), rng, memory)[7] for _ in range(6)]
+    for step, action in enumerate(together):
+        np.testing.assert_array_equal(pool.act(seen(1), *alone)[0], action)
+        assert step % 2 == 0 or np.array_equal(action, together[step - 1]), "it is held for 2"
+    assert not np.array_equal(together[1], together[2])
 
 
 def test_drifting_worlds_drift_as_the_ou_policy_does() -> None:

@@ -1,8 +1,10 @@
 """Policies by name: what can drive a robot that does not learn."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from rsoccer.policies.base import Policy, Seen
 from rsoccer.policies.chase import Chase
@@ -17,7 +19,15 @@ from rsoccer.policies.weave import Weave
 from rsoccer.policies.zero import Zero
 from rsoccer.task import Task
 
-__all__ = ["Policy", "Seen", "make", "names", "names_with_skill"]
+if TYPE_CHECKING:
+    from rsoccer.policies.network import Network
+
+__all__ = ["Policy", "Seen", "make", "names", "names_with_skill", "trained_on"]
+
+Player = str | os.PathLike[str] | Policy
+"""A policy by name (`zero`, `ou`, ...), by the path of its file, or itself."""
+
+FILE_ENDING: Final = ".safetensors"
 
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "chase": Chase,
@@ -46,8 +56,11 @@ def names_with_skill() -> list[str]:
     return sorted(_WITH_SKILL)
 
 
-def make(policy: str | os.PathLike[str] | Policy, task: Task) -> Policy:
-    """A policy fit for the robots of `task`, from its name, its file, or itself."""
+def make(policy: Player, task: Task) -> Policy:
+    """A policy fit for the robots of `task`, from its name, its file, or itself.
+
+    A file plays as it was trained; "policy.safetensors:mean" and ":sample" say how it shall.
+    """
     if not isinstance(policy, Policy):
         given = os.fspath(policy)
         name, colon, skill = given.partition(":")
@@ -57,6 +70,14 @@ def make(policy: str | os.PathLike[str] | Policy, task: Task) -> Policy:
             policy = _with_skill(name, skill, task) if colon else _MAKERS[name](task)
     policy.check_fits(task, task.observation_size)
     return policy
+
+
+def trained_on(policy: Player) -> str | None:
+    """Name of the task that a policy was trained on; None for scripts and noise."""
+    if isinstance(policy, Policy):
+        return policy.task_name
+    given = os.fspath(policy)
+    return None if given.partition(":")[0] in _MAKERS else _load(given).task_name
 
 
 def _with_skill(name: str, skill: str, task: Task) -> Policy:
@@ -73,12 +94,24 @@ def _with_skill(name: str, skill: str, task: Task) -> Policy:
     return _WITH_SKILL[name](task, number)
 
 
-def _load(path: str) -> Policy:
+def _load(given: str) -> Network:
     """A trained policy from its file, or an error that says what could have been meant."""
-    if not (path.endswith(".safetensors") or os.path.exists(path)):
+    path, play = _path_and_play(given)
+    if not (path.endswith(FILE_ENDING) or os.path.exists(path)):
         raise ValueError(
-            f"unknown policy {path!r}: expected one of {names()} or the path of a policy file"
+            f"unknown policy {given!r}: expected one of {names()} or the path of a policy file"
         )
     from rsoccer.policies.network import Network  # a script needs no file format
 
-    return Network.load(path)
+    return Network.load(path, play)
+
+
+def _path_and_play(given: str) -> tuple[str, str | None]:
+    """A file's path, and what follows its last colon, if that is no part of the path."""
+    from rsoccer.policies.network import PLAYS
+
+    path, colon, play = given.rpartition(":")
+    if not colon or os.path.exists(given) or given.endswith(FILE_ENDING):
+        return given, None
+    known = play in PLAYS or path.endswith(FILE_ENDING)
+    return (path, play) if known else (given, None)

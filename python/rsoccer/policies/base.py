@@ -35,6 +35,11 @@ class Policy(ABC):
             self._made_for = task.config, tuple(task.sides)
 
     @property
+    def task_name(self) -> str | None:
+        """Name of the task that it was trained on, for `make_task`; None if it was not trained."""
+        return None
+
+    @property
     def knows_task(self) -> bool:
         """Whether it was made for one field and its teams."""
         return self._made_for is not None

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.files import write_atomically
+from rsoccer.files import safetensors_bytes, write_atomically
 
 FORMAT = "rsoccer-checkpoint-1"
 FILE_NAME = "checkpoint.safetensors"
@@ -34,11 +34,9 @@ class Checkpoint:
 
 def save(path: Path, checkpoint: Checkpoint) -> None:
     """Write the checkpoint so that `path` holds either the old or the new one, whole."""
-    from safetensors.numpy import save as to_bytes
-
     arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
     metadata = {"format": FORMAT, "facts": json.dumps(checkpoint.facts)}
-    write_atomically(path, to_bytes(arrays, metadata))
+    write_atomically(path, safetensors_bytes(arrays, metadata))
 
 
 def load(path: Path) -> Checkpoint:

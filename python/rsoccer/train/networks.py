@@ -9,7 +9,8 @@ import torch
 from torch import Tensor, nn
 
 from rsoccer.frame import Array, Floats
-from rsoccer.policies.network import FORMAT, Network
+from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task
 
 OBSERVATION_CLIP = 10.0  # standard deviations; rarer values are bounded
@@ -47,21 +48,26 @@ class ActorCritic(nn.Module):
         """Entropy of the Gaussian, the same for every observation."""
         return (self.log_std + 0.5 * math.log(2 * math.pi * math.e)).sum()
 
-    def export(self, task: Task, mean: Floats, std: Floats) -> Network:
-        """The policy as everyone else plays it: its mean action, in NumPy."""
-        arrays: dict[str, Array] = {"mean": mean, "std": std}
+    def export(self, task: Task, name: str, repeat: int, mean: Floats, std: Floats) -> Network:
+        """The policy as it plays while it learns, in NumPy.
+
+        `name` is that of the task for `make_task`; each decision is held for `repeat` steps.
+        """
+        spread = self.log_std.detach().exp().numpy().copy()
+        arrays: dict[str, Array] = {"mean": mean, "std": std, "action_std": spread}
         linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
         for index, layer in enumerate(linear):
             arrays[f"layers.{index}.weight"] = layer.weight.detach().numpy().copy()
             arrays[f"layers.{index}.bias"] = layer.bias.detach().numpy().copy()
         metadata = {
             "format": FORMAT,
-            "task": task.name,
+            "task": name,
             "layout": task.layout,
             "observation_size": str(linear[0].in_features),
             "action_size": str(linear[-1].out_features),
             "activation": "tanh",
             "clip": f"{OBSERVATION_CLIP:g}",
+            "action_repeat": str(repeat),
         }
         return Network(arrays, metadata)
 

@@ -62,6 +62,7 @@ class Pool(Policy):
             return self._act(seen, rng, memory)
 
     def _act(self, seen: Seen, rng: WorldRng, memory: dict[str, Array]) -> Floats:
+        assert seen.observations is not None, "a pool observes"
         drift = {name[6:]: array for name, array in memory.items() if name.startswith("drift.")}
         drifting = self._drift.act(seen, rng, drift)
         opponent, held = memory["opponent"], memory["held"]
@@ -70,7 +71,9 @@ class Pool(Policy):
         for code, network in self._networks():
             rows = due & (opponent == code)
             if rows.any():
-                held[rows] = network.act(_only(seen, rows), rng[rows], {})
+                streams = rng[rows]
+                held[rows] = network.choose(seen.observations[rows], streams)
+                rng.put(rows, streams)
         return np.where((opponent == OU)[:, None, None], drifting, held)
 
     def freeze(self, network: Network, born: int) -> None:
@@ -124,10 +127,3 @@ class Pool(Policy):
 def kinds(opponent: Array) -> Array:
     """Index into `KINDS` of each opponent's code (n,)."""
     return np.minimum(opponent, PAST)
-
-
-def _only(seen: Seen, rows: Array) -> Seen:
-    """What the robots of some worlds see."""
-    assert seen.observations is not None, "a pool observes"
-    shape = (int(rows.sum()), *seen.shape[1:])
-    return Seen(shape=shape, view=None, observations=seen.observations[rows])

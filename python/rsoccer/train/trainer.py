@@ -308,8 +308,9 @@ class Trainer:
     # -- Keeping --
 
     def network(self) -> Network:
-        """The present policy as everyone else plays it: the mean action, in NumPy."""
-        return self.model.export(self.task, *self.seen.as_floats())
+        """The present policy as it plays here, in NumPy."""
+        name, repeat = self.args.task, self.args.action_repeat
+        return self.model.export(self.task, name, repeat, *self.seen.as_floats())
 
     def save(self, saved: Checkpoint) -> None:
         """Put a checkpoint, and the policy of the same moment, on disk."""

@@ -1,0 +1,161 @@
+"""Policy files: whole, equal where policies are, and refused where they are not fit."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from safetensors import safe_open
+from safetensors.numpy import save_file
+
+from rsoccer.policies.network import Network
+from tests.policies.test_network import ACTION, HIDDEN, OBSERVATION, Arrays, Metadata, parts
+
+Spoil = Callable[[Arrays, Metadata], object]
+
+
+def test_a_file_keeps_everything(tmp_path: Path) -> None:
+    arrays, metadata = parts(action_repeat="3")
+    arrays["action_std"] = np.full(ACTION, 0.5, np.float32)
+    network = Network(arrays, metadata)
+    network.save(tmp_path / "policy.safetensors")
+    loaded = Network.load(tmp_path / "policy.safetensors")
+    assert loaded.metadata == network.metadata
+    assert loaded.action_repeat == 3
+    assert loaded.task_name == "VSSSelfPlay-v0"
+    assert {name: array.tobytes() for name, array in loaded.arrays().items()} == {
+        name: array.tobytes() for name, array in network.arrays().items()
+    }
+    assert [path.name for path in tmp_path.iterdir()] == ["policy.safetensors"]
+
+
+def test_equal_policies_were_files_of_different_bytes(tmp_path: Path) -> None:
+    path = tmp_path / "policy.safetensors"
+    contents = set()
+    for order in range(10):
+        arrays, metadata = parts()
+        metadata = dict(np.random.default_rng(order).permutation(list(metadata.items())).tolist())
+        Network(arrays, metadata).save(path)
+        contents.add(path.read_bytes())
+    assert len(contents) == 1
+    with safe_open(path, framework="numpy") as file:
+        assert file.metadata() == metadata
+        assert sorted(file.keys()) == sorted(arrays)
+        for name in file.keys():  # noqa: SIM118
+            np.testing.assert_array_equal(file.get_tensor(name), arrays[name])
+    (header,) = {int.from_bytes(content[:8], "little") for content in contents}
+    assert header % 8 == 0, "the data are not aligned"
+
+
+def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "policy.safetensors"
+    network = Network(*parts())
+    network.save(path)
+    before = path.read_bytes()
+
+    def full_disk(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full_disk)
+    with pytest.raises(OSError, match="No space left"):
+        Network(*parts(action_repeat="2")).save(path)
+    assert path.read_bytes() == before
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+
+
+SPOILED: dict[str, tuple[Spoil, str]] = {
+    "no format": (lambda arrays, facts: facts.pop("format"), "'format'.*rsoccer-policy-2.*None"),
+    "format before the spread": (
+        lambda arrays, facts: facts.update(format="rsoccer-policy-1"),
+        "'format' should be 'rsoccer-policy-2', got 'rsoccer-policy-1'",
+    ),
+    "spread of 0": (
+        lambda arrays, facts: arrays.update(action_std=np.zeros(ACTION, np.float32)),
+        "'action_std'.*above 0",
+    ),
+    "spread of another size": (
+        lambda arrays, facts: arrays.update(action_std=np.ones(3, np.float32)),
+        "'action_std' should be float32",
+    ),
+    "other format": (lambda arrays, facts: facts.update(format="x"), "'format'.*'x'"),
+    "other activation": (lambda arrays, facts: facts.update(activation="relu"), "'relu'"),
+    "no task": (lambda arrays, facts: facts.pop("task"), "'task'"),
+    "clip of 0": (lambda arrays, facts: facts.update(clip="0"), "'clip'.*'0'"),
+    "clip no number": (lambda arrays, facts: facts.update(clip="ten"), "'clip'.*'ten'"),
+    "half a repeat": (lambda arrays, facts: facts.update(action_repeat="1.5"), "'action_repeat'"),
+    "wrong size": (lambda arrays, facts: facts.update(observation_size="6"), "'5'.*'6'"),
+    "no layers": (
+        lambda arrays, facts: [arrays.pop(name) for name in list(arrays) if "layers" in name],
+        "layers.0.weight",
+    ),
+    "missing bias": (lambda arrays, facts: arrays.pop("layers.1.bias"), "layers.1.bias"),
+    "missing mean": (lambda arrays, facts: arrays.pop("mean"), "mean"),
+    "unknown array": (lambda arrays, facts: arrays.update(extra=arrays["mean"]), "extra"),
+    "gap in layers": (
+        lambda arrays, facts: arrays.update(
+            {"layers.7.weight": arrays["mean"], "layers.7.bias": arrays["mean"]}
+        ),
+        "layers.7",
+    ),
+    "layers that do not meet": (
+        lambda arrays, facts: arrays.update(
+            {"layers.1.weight": np.zeros((HIDDEN, 3), np.float32)},
+        ),
+        "layers.1.weight takes 3",
+    ),
+    "bias of another size": (
+        lambda arrays, facts: arrays.update({"layers.0.bias": np.zeros(3, np.float32)}),
+        "layers.0.bias",
+    ),
+    "double precision": (
+        lambda arrays, facts: arrays.update(mean=np.zeros(OBSERVATION)),
+        "'mean' should be float32",
+    ),
+    "std of 0": (lambda arrays, facts: arrays["std"].fill(0.0), "'std'.*above 0"),
+    "NaN": (lambda arrays, facts: arrays["layers.1.weight"].fill(np.nan), "layers.1.weight.*NaN"),
+}
+
+
+@pytest.mark.parametrize(("spoil", "message"), SPOILED.values(), ids=SPOILED)
+def test_wrong_parts_are_refused(spoil: Spoil, message: str, tmp_path: Path) -> None:
+    arrays, metadata = parts()
+    spoil(arrays, metadata)
+    with pytest.raises(ValueError, match=message):
+        Network(arrays, metadata)
+    path = tmp_path / "spoiled.safetensors"
+    save_file(arrays, path, metadata=metadata)
+    with pytest.raises(ValueError, match=rf"spoiled\.safetensors.*{message}"):
+        Network.load(path)
+
+
+def test_no_truncated_file_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "policy.safetensors"
+    Network(*parts()).save(path)
+    whole = path.read_bytes()
+    for length in [0, 1, 7, 8, 9, 200, len(whole) // 2, len(whole) - 1]:
+        path.write_bytes(whole[:length])
+        with pytest.raises(ValueError, match=r"policy\.safetensors is not a usable policy file"):
+            Network.load(path)
+
+
+@pytest.mark.parametrize("content", [b"PK\x03\x04 a zip", b"\xff" * 64, b"\x80\x04K\x01."])
+def test_foreign_files_are_refused(content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "policy.safetensors"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"policy\.safetensors.*not safetensors"):
+        Network.load(path)
+
+
+def test_a_file_of_unknown_number_types_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "half.safetensors"
+    arrays, metadata = parts()
+    save_file({**arrays, "mean": arrays["mean"].astype(np.float16)}, path, metadata=metadata)
+    with pytest.raises(ValueError, match="'mean' should be float32"):
+        Network.load(path)
+
+
+def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        Network.load(tmp_path / "nowhere.safetensors")
+    with pytest.raises(ValueError, match="folder"):
+        Network.load(tmp_path)
