@@ -4,11 +4,13 @@ import csv
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rsoccer
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, train
+from rsoccer.train.log import Tally, read_progress
 
 TASKS = rsoccer.list_tasks()  # before the short tasks of other tests here are known
 
@@ -39,3 +41,27 @@ def test_a_first_update_can_be_made(name: str, tmp_path: Path) -> None:
         math.isfinite(float(row[key]))
         for key in ("reward", "value_error", "divergence", "action_std")
     )
+
+
+def test_a_metric_named_seconds_was_written_over_the_runs_own(tmp_path: Path) -> None:
+    args = Args(
+        "SSLGoToBall-v0",
+        tmp_path,
+        samples=2 * 3 * 4,
+        threads=1,
+        progress=False,
+        worlds=3,
+        horizon=4,
+        hidden=(8,),
+        cut=0.0,
+    )
+    train(args)
+    seconds = read_progress(tmp_path)["seconds"]
+    assert len(seconds) == 2
+    assert 0.0 < seconds[0] < seconds[1], "no clock on the wall"
+    assert "episode/seconds" in read_progress(tmp_path)
+    own = {name for name in read_progress(tmp_path) if "/" not in name}
+    assert own >= {"seconds", "samples", "episodes", "reward", "time_physics"}
+    tally = Tally(("ou",))
+    tally.add(np.zeros(1, int), {name: np.full(1, 7.0) for name in own})
+    assert set(tally.take()) & own == {"episodes"}, "a metric takes a column of the run"

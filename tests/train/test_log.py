@@ -21,14 +21,14 @@ def test_ended_matches_are_counted_by_opponent() -> None:
     row = tally.take()
     assert row == {
         "episodes": 3,
-        "goal_score": 0.0,
-        "goal_score_ou": 0.5,
-        "goal_score_latest": -1.0,
+        "episode/goal_score": 0.0,
+        "episode_ou/goal_score": 0.5,
+        "episode_latest/goal_score": -1.0,
         "goals_for": 1.0,
         "goals_against": 1.0,
-        "time": 5.0,
-        "time_ou": 5.5,
-        "time_latest": 4.0,
+        "episode/time": 5.0,
+        "episode_ou/time": 5.5,
+        "episode_latest/time": 4.0,
     }
 
 
@@ -36,13 +36,15 @@ def test_where_no_match_ended_there_is_no_mean() -> None:
     tally = Tally(("ou",))
     tally.add(np.array([], int), {"goal_score": np.array([])})
     row = tally.take()
-    assert row["episodes"] == 0 and math.isnan(row["goal_score"]) and row["goals_for"] == 0
+    assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["goals_for"] == 0
 
 
 def rows(log: Log, first: int, last: int) -> int:
     for update in range(first, last):
         score = float("nan") if update == 1 else update / 10
-        log.write(100 * update, {"samples": 100 * update, "reward": 1.0, "goal_score_ou": score})
+        log.write(
+            100 * update, {"samples": 100 * update, "reward": 1.0, "episode_ou/goal_score": score}
+        )
     log.close()
     return log.size
 
@@ -92,7 +94,13 @@ def test_without_rows_there_is_no_curve(tmp_path: Path) -> None:
 
 def test_the_bar_shows_goals_and_wins(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     log = Log(Args(out=tmp_path, samples=400), 0, 0)
-    row = {"reward": 0.5, "episodes": 4, "goal_score": 0.5, "goals_for": 3, "goals_against": 1}
+    row = {
+        "reward": 0.5,
+        "episodes": 4,
+        "episode/goal_score": 0.5,
+        "goals_for": 3,
+        "goals_against": 1,
+    }
     log.write(400, row)
     log.close()
     shown = capsys.readouterr().err

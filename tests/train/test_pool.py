@@ -98,7 +98,7 @@ def test_past_selves_played_their_mean_though_they_had_learned_with_chance() -> 
         assert drawn.std() == pytest.approx(0.3, abs=0.02)
     again = pool.act(seen(2000), rng, memory)
     rows = memory["opponent"] != OU
-    assert (again[rows] != actions[rows]).mean() > 0.99, "the streams did not move on"
+    assert (again[rows] != actions[rows]).mean() > 0.99, "it drew the same again"
 
 
 def test_what_a_past_self_draws_depends_on_its_world_alone() -> None:

@@ -146,7 +146,7 @@ def test_a_run_starts_with_a_lone_learner_and_goes_on_with_all(tmp_path: Path) -
     trainer.run(Stop(), 0)
     assert list(trainer.matches.agents) == ["blue_0", "blue_1", "blue_2"]
     assert not trainer.alone
-    shares = [row["goal_score_latest"] for row in progress(tmp_path)]
+    shares = [row["episode_latest/goal_score"] for row in progress(tmp_path)]
     assert set(shares[:3]) == {"nan"}, "nobody but drifting robots at first"
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from rsoccer.frame import Array
 from rsoccer.registry import make_task
 from rsoccer.train.args import SETTINGS_FILE
-from rsoccer.train.log import SCORE, read_progress
+from rsoccer.train.log import SCORE, against, read_progress
 
 NAMES = {
     "ou": ("drifting robots (OU)", "#3a7d44"),
@@ -30,7 +30,7 @@ def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
     figure = Figure(figsize=(8.0, 4.5), dpi=130, layout="constrained")
     axes = figure.add_subplot()
     for kind, (label, colour) in NAMES.items():
-        scores = progress.get(f"{SCORE}_{kind}", np.zeros(0))
+        scores = progress.get(against(kind, SCORE), np.zeros(0))
         if np.isfinite(scores).any():
             smooth = _running_mean(scores, window)
             axes.plot(progress["samples"] / 1e6, smooth, label=label, color=colour, linewidth=2)

@@ -16,6 +16,8 @@ from rsoccer.train.args import Args
 FILE_NAME = "progress.csv"
 SCORE = "goal_score"
 """Metric of an ended episode that counts as goals and wins: +1 for us, -1 against us."""
+EPISODE = "episode/"
+"""What columns of a task's metrics begin with: whatever it calls them, the run's own are others."""
 
 Row = dict[str, float]
 
@@ -38,9 +40,9 @@ class Tally:
         row: Row = {"episodes": len(kinds)}
         for name in self._ended[0][1]:
             values = np.concatenate([metrics[name] for _, metrics in self._ended])
-            row[name] = _mean(values)
+            row[EPISODE + name] = _mean(values)
             for index, kind in enumerate(self._kinds):
-                row[f"{name}_{kind}"] = _mean(values[kinds == index])
+                row[against(kind, name)] = _mean(values[kinds == index])
             if name == SCORE:
                 row["goals_for"] = float((values > 0).sum())
                 row["goals_against"] = float((values < 0).sum())
@@ -104,7 +106,7 @@ class Log:
     def _summary(self) -> str:
         """Goals and share of wins over the last updates; the reward, where nobody scores."""
         total = {name: sum(row.get(name, 0.0) for row in self._recent) for name in _SUMMED}
-        if SCORE not in self._recent[-1] or not total["episodes"]:
+        if EPISODE + SCORE not in self._recent[-1] or not total["episodes"]:
             return f"reward {self._recent[-1]['reward']:.3f}"
         goals_for, goals_against = total["goals_for"], total["goals_against"]
         won = goals_for / total["episodes"]
@@ -112,6 +114,11 @@ class Log:
 
 
 _SUMMED = ("episodes", "goals_for", "goals_against")
+
+
+def against(kind: str, metric: str) -> str:
+    """Column of a metric's mean over episodes against one kind of opponent."""
+    return f"episode_{kind}/{metric}"
 
 
 def read_progress(folder: Path) -> dict[str, Array]:
