@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Box
 from pettingzoo import AECEnv, ParallelEnv
-from pettingzoo.utils.conversions import parallel_to_aec
+from pettingzoo.utils.conversions import parallel_to_aec_wrapper
+from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from rsoccer import by_agent, spaces
 from rsoccer.controllers import Controllers
@@ -64,8 +65,21 @@ def env(
     **options: Any,  # noqa: ANN401  (those of parallel_env)
 ) -> AECEnv[str, Floats, Floats | None]:
     """The same match for PettingZoo's turn-by-turn API (AEC): agents act one after another."""
-    match = parallel_env(name, render_mode, **options)
-    return parallel_to_aec(match)
+    return OrderEnforcingWrapper(Turns(parallel_env(name, render_mode, **options)))
+
+
+class Turns(parallel_to_aec_wrapper[str, Floats, Any]):
+    """Agents act one after another; the match moves once all have chosen."""
+
+    def __init__(self, match: SoccerParallelEnv) -> None:
+        """Play this match."""
+        super().__init__(match)
+        self._match = match
+
+    def step(self, action: Any) -> None:  # noqa: ANN401  (whatever the agent's space holds)
+        """The agent whose turn it is chooses, unless the match was closed."""
+        self._match.expect_open("step")
+        super().step(action)
 
 
 class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
@@ -153,6 +167,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         in place of the task's own starts, laid out as `Frame.rows`; other options are left to
         whoever else may read them.
         """
+        self.expect_open("reset")
         row = starts(reset_options(options), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=row)
         self.agents = self.possible_agents.copy()
@@ -164,6 +179,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         self, actions: Mapping[str, Any]
     ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
         """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
+        self.expect_open("step")
         self._matches.check_turn()
         try:
             outcome = self._matches.step(by_agent.stack(actions, self.agents, self.task))
@@ -187,10 +203,17 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
     def _no_infos(self) -> Infos:
         return {agent: {} for agent in self.possible_agents}
 
+    def expect_open(self, call: str) -> None:
+        """ClosedEnvironmentError for a call that comes after `close`."""
+        self._screen.expect_open(call)
+
     def render(self) -> Image | None:
         """The match as an image (height, width, 3), or in a window."""
         return self._screen.show(self._matches)
 
     def close(self) -> None:
-        """Close the window, if there is one; may be repeated."""
+        """End its use: `reset`, `step` and `render` raise ClosedEnvironmentError from now on.
+
+        A window closes too. May be repeated.
+        """
         self._screen.close()

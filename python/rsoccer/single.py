@@ -104,6 +104,7 @@ class SoccerEnv(OneSeat, gymnasium.Env[Floats, Any]):
         in place of the task's own starts, laid out as `Frame.rows`; other options are left to
         whoever else may read them.
         """
+        self._screen.expect_open("reset")
         seed = None if seed is None else checks.whole("seed", seed, 0)
         rows = starts(reset_options(options), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=rows)
@@ -114,6 +115,7 @@ class SoccerEnv(OneSeat, gymnasium.Env[Floats, Any]):
 
     def step(self, action: Action) -> tuple[Floats, float, bool, bool, Info]:
         """The learner acts for one control step; an action beyond [-1, 1] counts as the bound."""
+        self._screen.expect_open("step")
         self._matches.check_turn()
         chosen = actions_of(self.task, action, self.action_space)
         outcome = self._matches.step(chosen[None, None])
@@ -129,5 +131,8 @@ class SoccerEnv(OneSeat, gymnasium.Env[Floats, Any]):
         return self._screen.show(self._matches)
 
     def close(self) -> None:
-        """Close the window, if there is one; may be repeated."""
+        """End its use: `reset`, `step` and `render` raise ClosedEnvironmentError from now on.
+
+        A window closes too. May be repeated.
+        """
         self._screen.close()

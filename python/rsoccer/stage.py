@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from gymnasium.error import ClosedEnvironmentError
 from gymnasium.spaces import Space
 from numpy.typing import NDArray
 
@@ -64,7 +65,10 @@ class StageMatches(Matches):
 
 
 class Screen:
-    """Shows matches in the way that was asked for; what draws is imported only then."""
+    """Shows matches in the way that was asked for, until it is closed for good.
+
+    What draws is imported only when there is something to show.
+    """
 
     def __init__(self, mode: str | None, task: Task, modes: Sequence[str] = RENDER_MODES) -> None:
         """`mode` is one of `modes` or None."""
@@ -72,9 +76,11 @@ class Screen:
             raise ValueError(f"render_mode: expected one of {modes} or None, got {mode!r}")
         self._mode, self._modes, self._fps = mode, modes, frames_per_second(task)
         self._window: Window | None = None
+        self.closed = False
 
     def show(self, matches: StageMatches) -> Image | None:
         """A lone match as an image (height, width, 3), or in a window."""
+        self.expect_open("render")
         if self._mode is None:
             text = f"render() needs a render_mode, one of {self._modes}"
             warnings.warn(text, stacklevel=3)
@@ -91,6 +97,7 @@ class Screen:
 
     def image(self, matches: StageMatches, world: int = 0) -> Image:
         """One of the matches as an image (height, width, 3)."""
+        self.expect_open("render")
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
         from rsoccer.render.image import draw_image
@@ -104,8 +111,14 @@ class Screen:
             extras=marked(matches, world),
         )
 
+    def expect_open(self, call: str) -> None:
+        """ClosedEnvironmentError, Gymnasium's own, for calls that come after `close`."""
+        if self.closed:
+            raise ClosedEnvironmentError(f"{call} after close: make another environment")
+
     def close(self) -> None:
         """Close the window, if there is one; may be repeated."""
+        self.closed = True
         if self._window is not None:
             self._window.close()
             self._window = None

@@ -124,6 +124,7 @@ class SoccerVectorEnv(OneSeat, VectorEnv[Floats, Array, Array]):
         `options["reset_mask"]` (n,) says in which matches, if not in all; `options["frame"]` is a
         row (row,), or one for each match (n, row), to start from. Other options are ignored.
         """
+        self._screen.expect_open("reset")
         told = reset_options(options)
         mask = _reset_mask(told, self.num_envs)
         rows = starts(told, self.task, mask)
@@ -136,6 +137,7 @@ class SoccerVectorEnv(OneSeat, VectorEnv[Floats, Array, Array]):
 
     def step(self, actions: Array) -> tuple[Floats, Doubles, Mask, Mask, Infos]:
         """The learners act for one control step, actions (n, action) or choices (n,)."""
+        self._screen.expect_open("step")
         if self.autoreset_mode is AutoresetMode.DISABLED:
             self._matches.check_turn()
         chosen = actions_of(self.task, actions, self.action_space)
@@ -155,6 +157,10 @@ class SoccerVectorEnv(OneSeat, VectorEnv[Floats, Array, Array]):
             self._screen.show(self._matches)
             return None
         return tuple(self._screen.image(self._matches, world) for world in range(self.num_envs))
+
+    def close_extras(self, **kwargs: Any) -> None:  # noqa: ANN401  (Gymnasium's own)
+        """After `close`, `reset`, `step` and `render` raise ClosedEnvironmentError."""
+        self._screen.close()
 
     def _infos(self, outcome: Outcome, steps: NDArray[np.int64]) -> Infos:
         """What there is to tell of matches that have ended."""
