@@ -9,6 +9,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
+from tests.policies.test_network_chance import fitting
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -93,7 +94,8 @@ def test_evaluate_prints_a_table_and_writes_results(
         str(file),
     ]
     assert cli.main(given) == 0
-    header, *rows = capsys.readouterr().out.splitlines()
+    task, _, header, *rows = capsys.readouterr().out.splitlines()
+    assert task == "VSSSelfPlay-v0"
     assert header.split()[:2] == ["policy", "opponent"]
     assert [row.split()[:3] for row in rows] == [["chase", "zero", "4"], ["chase", "ou", "4"]]
     zero, ou = json.loads(file.read_text())
@@ -144,6 +146,52 @@ def test_watch_films_without_a_display(
     assert cli.main(given) == 0
     assert str(file) in capsys.readouterr().out
     assert file.stat().st_size > 1000
+
+
+@pytest.fixture
+def filmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Any]:
+    """What `watch` asks to be filmed: the task, its drivers, and names on the board."""
+    record, video = pytest.importorskip("rsoccer.render.record"), tmp_path / "never.mp4"
+    told: list[Any] = []
+
+    def film(task: rsoccer.Task, controllers: Any, *_: Any, names: Any, **__: Any) -> Any:  # noqa: ANN401
+        told.append((task.name, controllers, names))
+        return iter([]), 40.0
+
+    monkeypatch.setattr(record, "film_match", film)
+    monkeypatch.setattr("rsoccer.render.video.write_video", lambda *_: video)
+    return told
+
+
+def test_watch_put_ou_in_the_place_of_the_tasks_own_robots(filmed: list[Any]) -> None:
+    given = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
+    assert cli.main(given) == 0
+    assert cli.main([*given, "--opponent", "zero"]) == 0
+    assert cli.main(["watch", "scripted", "--video", "never.mp4"]) == 0
+    (_, own, names), (_, other, _), (task, both, _) = filmed
+    assert own == {"blue_0": "strike", "yellow_0": "hold"}
+    assert names == ("STRIKE", "HOLD")
+    assert other == {"blue_0": "strike", "yellow_0": "zero"}
+    assert task == "VSSSelfPlay-v0"
+    assert set(both.values()) == {"scripted", "ou"}
+
+
+def test_watch_and_evaluate_asked_for_the_task_that_the_file_names(
+    filmed: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "policy.safetensors"
+    fitting(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
+    assert cli.main(["watch", f"{file}:mean", "--video", "never.mp4"]) == 0
+    ((task, controllers, names),) = filmed
+    assert task == "SSLPassEndurance-v0"
+    assert controllers == {"blue_0": f"{file}:mean", "blue_1": "receive"}
+    assert names[1] == ""
+    capsys.readouterr()
+    assert cli.main(["evaluate", str(file), "--matches", "3"]) == 0
+    task, _, header, row = capsys.readouterr().out.splitlines()
+    assert task == "SSLPassEndurance-v0"
+    assert header.split()[:4] == ["policy", "opponent", "matches", "received"]
+    assert row.split()[:3] == [str(file), "-", "3"]
 
 
 def test_watch_plays_in_a_window() -> None:

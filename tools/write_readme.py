@@ -86,7 +86,8 @@ def policy_names() -> str:
     names = ", ".join(f"`{name}`" for name in policies.names())
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
     return (
-        f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}."
+        f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
+        "A file plays as it was trained, by chance too, or as in `policy.safetensors:mean`."
     )
 
 
@@ -113,7 +114,7 @@ def _evaluation_row(evaluation: dict[str, Any]) -> tuple[str, ...]:
     counts = [str(evaluation[key]) for key in ("matches", "wins", "draws", "losses")]
     interval = f"{evaluation['low']:+.2f} to {evaluation['high']:+.2f}"
     opponent = Path(evaluation["opponent"]).name.removesuffix(".safetensors")
-    return (opponent, *counts, f"{evaluation['goal_score']:+.2f}", interval)
+    return (opponent, *counts, f"{evaluation['score']:+.2f}", interval)
 
 
 def pictures() -> str:

@@ -12,12 +12,18 @@ from typing import Annotated
 from tyro.conf import Positional, arg, subcommand
 
 from rsoccer import policies, registry
+from rsoccer.controllers import lineup, opponents_of, task_for
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.files import write_atomically
 from rsoccer.task import Task
 from rsoccer.train import Args, train
 
-PLAYER = "a name that `rsoccer list` prints, or the path of a policy file"
+PLAYER = (
+    "a name that `rsoccer list` prints, or the path of a policy file, which plays as it was "
+    "trained unless :mean or :sample follows"
+)
+OWN_TASK = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
+OWN_OPPONENT = "(default: whom the task has, or ou)"
 POLICY = arg(metavar="POLICY", help=PLAYER)
 
 
@@ -36,6 +42,7 @@ class List:
             _write(f"{name}: {', '.join([task_name, *told])}")
         _write(f"policies: {', '.join(policies.names())}, or the path of a policy file")
         skilled = (f"{name}:0.5" for name in policies.names_with_skill())
+        _write("a file plays as it was trained; :mean or :sample may follow its name")
         _write(f"a skill from 0 to 1 may follow, as in {', '.join(skilled)}")
 
 
@@ -50,16 +57,16 @@ class Train(Args):
 
 @dataclass(frozen=True)
 class Evaluate:
-    """Play a policy against others, from both sides of the field, and print how it fares."""
+    """Play a policy at its task, and print how well it does; from both sides where two play."""
 
     policy: Annotated[str, Positional, POLICY]
-    opponents: tuple[str, ...] = ("ou",)
+    opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=OWN_OPPONENT)] = ()
     """one row of the table for each; names or paths, as for the policy"""
     matches: int = 200
-    """for each opponent; half of them as blue, half as yellow"""
+    """for each opponent; where two sides play, half of them as blue, half as yellow"""
     seed: int = 0
     """the same seed gives the same table"""
-    task: str = "VSSSelfPlay-v0"
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=OWN_TASK)] = None
     """what is played"""
     worlds: int = 50
     """matches played at once"""
@@ -72,13 +79,13 @@ class Evaluate:
         """Play, then print the table."""
         if self.json is not None and not self.json.parent.is_dir():
             raise ValueError(f"json: expected a file in a folder that exists, got {self.json}")
-        evaluations = [self._against(opponent) for opponent in self.opponents]
-        _write(table(evaluations))
+        evaluations = [self._against(opponent) for opponent in self.opponents or (None,)]
+        _write(f"{evaluations[0].task}\n\n{table(evaluations)}")
         if self.json is not None:
             results = [evaluation.as_dict() for evaluation in evaluations]
             write_atomically(self.json, (json.dumps(results, indent=2) + "\n").encode())
 
-    def _against(self, opponent: str) -> Evaluation:
+    def _against(self, opponent: str | None) -> Evaluation:
         return evaluate(
             self.policy,
             opponent,
@@ -95,9 +102,9 @@ class Watch:
     """Show a match in a window, or film it."""
 
     policy: Annotated[str, Positional, POLICY] = "chase"
-    opponent: str = "ou"
+    opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=OWN_OPPONENT)] = None
     """who plays yellow, against the policy in blue; likewise"""
-    task: str = "VSSSelfPlay-v0"
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=OWN_TASK)] = None
     """what is played"""
     seed: int = 0
     """another seed, another match"""
@@ -117,12 +124,14 @@ class Watch:
         from rsoccer.render.record import film_match
         from rsoccer.render.video import write_video
 
+        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
+        opponents = opponents_of(task) if self.opponent is None else [self.opponent]
         images, fps = film_match(
-            self.task,
-            {"blue": self.policy, "yellow": self.opponent},
+            task,
+            lineup(task, self.policy, self.opponent),
             self.seed,
             self.seconds,
-            names=(_team_name(self.policy), _team_name(self.opponent)),
+            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
             width=self.width,
         )
         if self.video is not None:
@@ -130,7 +139,7 @@ class Watch:
             return
         from rsoccer.render.window import Window
 
-        window = Window(self.task, fps * self.speed)
+        window = Window(task.name, fps * self.speed)
         for image in images:
             if not window.show(image):
                 break

@@ -1,6 +1,7 @@
 """Who drives each robot: learners from outside, policies from within."""
 
-from collections.abc import Mapping
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from rsoccer import checks, policies
 from rsoccer.frame import Floats
 from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
@@ -16,6 +18,8 @@ from rsoccer.view import SIDES
 Controller = str | Policy | Learn
 Controllers = Mapping[str, Controller]
 Seats = slice | NDArray[np.intp]
+DEFAULT_TASK = "VSSSelfPlay-v0"  # what scripts play if nobody says
+DRIFT = "ou"  # who drives the other team where both learn and nobody is named
 CrewState = tuple[WorldRng, Memory]
 
 
@@ -119,6 +123,56 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
         for key in ("all", team, name):
             chosen[name] = given.get(key, chosen[name])
     return {name: _checked(name, controller) for name, controller in chosen.items()}
+
+
+def task_for(*players: Controller | os.PathLike[str]) -> Task:
+    """The task that the first trained one of these was trained on; VSSSelfPlay-v0 if none was."""
+    names = (policies.trained_on(who) for who in players if not isinstance(who, Learn))
+    return make_task(next(filter(None, names), DEFAULT_TASK))
+
+
+def lineup(
+    task: Task, policy: Controller, opponent: Controller | None = None, side: str | None = None
+) -> dict[str, Controller]:
+    """A driver for each robot when `policy` takes the part of those that learn.
+
+    Mates that do not learn follow who the task has for them. So does the other team, unless it
+    learns too, which `ou` then does for it, or `opponent` is given. With `side` "blue" or "yellow"
+    that is the team that has the part, robot for robot.
+    """
+    home, away = _teams(task)
+    own = [policy if driver is LEARN else driver for driver in home.values()]
+    foes: list[Controller] = [DRIFT if driver is LEARN else driver for driver in away.values()]
+    if opponent is not None:
+        if not foes:
+            raise ValueError(f"opponent: {task.name} has one team only, got {opponent!r}")
+        foes = [opponent] * len(foes)
+    if side is None or next(iter(home)).startswith(side):
+        return {**dict(zip(home, own, strict=True)), **dict(zip(away, foes, strict=True))}
+    return {**_in_place_of(home, foes), **_in_place_of(away, own)}
+
+
+def opponents_of(task: Task) -> list[str]:
+    """Names of the policies that the task has for the team that a learner plays against."""
+    foes = (DRIFT if isinstance(driver, Learn) else driver for driver in _teams(task)[1].values())
+    return list(dict.fromkeys(foes))
+
+
+def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
+    """Robots and who the task has for them: the first learner's team, and the other."""
+    if not task.agents:
+        raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
+    side = task.agents[0].rsplit("_", 1)[0]
+    drivers = task.default_controllers()
+    home = {robot: drivers[robot] for robot in task.robots if robot.startswith(side)}
+    return home, {robot: drivers[robot] for robot in task.robots if robot not in home}
+
+
+def _in_place_of(
+    robots: Mapping[str, object], drivers: Sequence[Controller]
+) -> dict[str, Controller]:
+    """Another team's drivers, robot for robot; where it is smaller, its last one drives more."""
+    return {robot: drivers[min(i, len(drivers) - 1)] for i, robot in enumerate(robots)}
 
 
 def _checked(name: str, controller: object) -> Controller:

@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from enum import Enum
 from functools import cached_property
-from typing import Final, NamedTuple
+from typing import ClassVar, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,7 @@ class Task(ABC):
     action_size: int  # numbers that drive one robot, each in [-1, 1]
     max_steps: int  # the clock; ending by it is truncation, not `done`
     sides: Sequence[str] = SIDES  # teams whose robots may look: views have room for these
+    success: ClassVar[str | None] = None  # the metric that says how well an episode went, if any
 
     @property
     @abstractmethod
@@ -98,6 +99,20 @@ class Task(ABC):
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Facts of each world (n,) that count at the end of an episode."""
         return {}
+
+    @property
+    def full_success(self) -> float | None:
+        """Value of `success` with which all is reached; None where more is always better."""
+        return 1.0
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether yellow can play blue's part, as it can where both teams learn.
+
+        Then a policy is evaluated from both sides, and `success` is +1, 0 or -1 as blue sees it.
+        """
+        learning = {name.rsplit("_", 1)[0] for name in self.agents}
+        return set(SIDES) <= learning.intersection(self.sides)
 
     @property
     def action_table(self) -> Floats | None:

@@ -40,21 +40,21 @@ def wilson_low(wins: int, of: int) -> float:
 def test_it_beats_drifting_from_either_side() -> None:
     """Nine in ten of the matches that are decided, and a goal score of 0.8."""
     found = score("scripted", "ou", 100)
-    for part in (found, found.blue, found.yellow):
+    for part in (found, found.sides["blue"], found.sides["yellow"]):
         assert part.wins / (part.wins + part.losses) >= 0.9
-        assert part.goal_score >= 0.8
+        assert part.score >= 0.8
     assert found.low > 0.8
     assert wilson_low(found.wins, found.wins + found.losses) > 0.9
 
 
 def test_it_beats_chasers_from_either_side() -> None:
     found = score("scripted", "chase", 80, VssSelfPlay(max_steps=600))
-    assert min(found.blue.low, found.yellow.low) > 0.3
+    assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.3
 
 
 def test_it_scores_against_robots_that_stand_still_and_hardly_into_its_own_goal() -> None:
     found = score("scripted", "zero", 40, VssSelfPlay(max_steps=800))
-    assert min(found.blue.low, found.yellow.low) > 0.8
+    assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.8
     assert found.losses <= 1
 
 
@@ -67,7 +67,7 @@ def test_more_skill_is_stronger(better: str, worse: str) -> None:
 @pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (2, 2), (5, 5), (2, 4)])
 def test_sides_of_any_size_play(blue: int, yellow: int) -> None:
     task = VssSelfPlay(n_blue=blue, n_yellow=yellow, max_steps=400)
-    found: Results = score("scripted", "ou", 20, task).blue
+    found: Results = score("scripted", "ou", 20, task).sides["blue"]
     assert found.wins - found.losses >= 5
 
 

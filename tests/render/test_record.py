@@ -9,8 +9,10 @@ from PIL import Image as Pillow
 
 from rsoccer import Matches
 from rsoccer.frame import Floats
+from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
 from rsoccer.render.record import GOAL_PAUSE, LEAST_WIDTH, _film
+from tests.policies.test_network_chance import fitting
 
 CHASE = {"all": "chase"}
 SCORING_SEED = 3
@@ -34,6 +36,15 @@ def film(seconds: float, spy: Spy) -> list[Image]:
     matches = Matches("VSSSelfPlay-v0", seed=SCORING_SEED, controllers=CHASE, autoreset="disabled")
     renderer: Any = spy
     return list(_film(matches, renderer, seconds, ("A", "B")))
+
+
+def test_a_trained_policys_own_task_was_not_filmed(tmp_path: Path) -> None:
+    file = tmp_path / "policy.safetensors"
+    fitting(make_task("SSLPassEndurance-v0")).save(file)
+    images, _ = film_match(controllers={"blue_0": f"{file}:mean"}, seconds=0.05)
+    assert len(list(images)) == 3
+    with pytest.raises(ValueError, match="chase.*SSLPassEndurance|SSLPassEndurance.*chase"):
+        film_match(controllers={"blue_0": str(file), "blue_1": "chase"})
 
 
 def test_goals_are_counted_over_episodes_and_the_clock_runs_on() -> None:

@@ -12,7 +12,7 @@ EVALUATION = {
     "wins": 300,
     "draws": 60,
     "losses": 40,
-    "goal_score": 0.65,
+    "score": 0.65,
     "low": 0.6,
     "high": 0.7,
 }

@@ -22,7 +22,8 @@ from rsoccer.task import Task
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
-__all__ = ["Policy", "Seen", "make", "names", "names_with_skill", "trained_on"]
+__all__ = ["Policy", "Seen", "make", "name_of", "names", "names_with_skill"]
+__all__ += ["Player", "trained_on"]
 
 Player = str | os.PathLike[str] | Policy
 """A policy by name (`zero`, `ou`, ...), by the path of its file, or itself."""
@@ -78,6 +79,11 @@ def trained_on(policy: Player) -> str | None:
         return policy.task_name
     given = os.fspath(policy)
     return None if given.partition(":")[0] in _MAKERS else _load(given).task_name
+
+
+def name_of(policy: Player) -> str:
+    """What to call a policy in tables: its name or file, or its class if it has neither."""
+    return type(policy).__name__ if isinstance(policy, Policy) else os.fspath(policy)
 
 
 def _with_skill(name: str, skill: str, task: Task) -> Policy:

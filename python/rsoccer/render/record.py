@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.controllers import Controllers
+from rsoccer.controllers import Controllers, task_for
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
 from rsoccer.render.image import Image, Renderer, default_width
@@ -24,7 +24,7 @@ LEAST_WIDTH = 720
 
 def record_match(
     path: Path | str,
-    task: Task | str = "VSSSelfPlay-v0",
+    task: Task | str | None = None,
     controllers: Controllers | None = None,
     seed: int = 0,
     seconds: float = 30.0,
@@ -34,16 +34,17 @@ def record_match(
 ) -> Path:
     """Play `seconds` of a match, episode after episode, into an .mp4 or .gif; the path written.
 
-    `controllers` are those of `Matches` and must leave no robot to a learner; `names` stand on the
-    score board, blue's first. Without a `width`, in pixels, it is one at which robots can be told
-    apart.
+    `controllers` are those of `Matches` and must leave no robot to a learner; `lineup` makes them
+    of a policy and an opponent. Without a `task` it is that of the first trained policy among
+    them, or VSSSelfPlay-v0. `names` stand on the score board, blue's first. Without a `width`, in
+    pixels, it is one at which robots can be told apart.
     """
     images, fps = film_match(task, controllers, seed, seconds, names=names, width=width)
     return write_video(path, images, fps)
 
 
 def film_match(
-    task: Task | str = "VSSSelfPlay-v0",
+    task: Task | str | None = None,
     controllers: Controllers | None = None,
     seed: int = 0,
     seconds: float = 30.0,
@@ -54,6 +55,7 @@ def film_match(
     """The images that `record_match` writes, played while they are drawn, and images a second."""
     if not (math.isfinite(seconds) and seconds > 0):
         raise ValueError(f"seconds: expected a positive number, got {seconds}")
+    task = task_for(*(controllers or {}).values()) if task is None else task
     matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
     if matches.agents:
         raise ValueError(

@@ -25,6 +25,7 @@ class SslAttack(Ssl):
     """
 
     half_only = True
+    success = "goal_score"
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 1.0,

@@ -26,6 +26,8 @@ class SslDribbling(Ssl):
     max_steps: int = 4800  # 120 s
     scenario: str = "paper"
 
+    success = "gates"
+
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "gate": 5.0,
         "progress": 1.0,
@@ -51,6 +53,11 @@ class SslDribbling(Ssl):
     def course(self) -> Course:
         """Robots and gates."""
         return COURSES[self.scenario]
+
+    @property
+    def full_success(self) -> float:
+        """All gates."""
+        return float(len(self.course.gates))
 
     def team_sizes(self) -> tuple[int, int]:
         """One among those that make the gates."""

@@ -26,6 +26,8 @@ class SslGoToBall(Ssl):
 
     foes: int = 0  # robots that stand in the way
 
+    success = "reached"
+
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "reached": 5.0,
         "approach": 1.0,

@@ -18,6 +18,8 @@ class SslPassEndurance(SslPass):
 
     max_steps: int = 120  # 3 s
 
+    success = "received"
+
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "received": 5.0,
         "ball_to_mate": 1.0,

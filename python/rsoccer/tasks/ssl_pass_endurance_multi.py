@@ -19,6 +19,9 @@ LONG: Final = np.float32(1.5)
 class SslPassEnduranceMulti(SslPass):
     """Both robots learn; as many passes as they can in 30 s. One that does not arrive ends it."""
 
+    success = "passes"
+    full_success = None
+
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "passes": 5.0,
         "ball_to_mate": 0.5,

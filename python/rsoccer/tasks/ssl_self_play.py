@@ -31,6 +31,8 @@ class SslSelfPlay(Ssl):
     blue: int = 3
     yellow: int = 3
 
+    success = "goal_score"
+
     WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 2.0,

@@ -14,6 +14,7 @@ from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
+from rsoccer.view import SIDES
 
 # Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
 # robots that stand still, goals are the largest part of what an episode pays.
@@ -51,6 +52,7 @@ class Vss(Soccer):
 
     action_size = 2  # left and right wheel, of their top speed
     CHOICES: ClassVar[Floats] = CHOICES
+    success = "goal_score"
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
@@ -63,6 +65,11 @@ class Vss(Soccer):
         checks.drive(self.config, "differential", "with two wheels")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
+
+    @property
+    def two_sided(self) -> bool:
+        """Both teams play, whoever drives them."""
+        return self.n_yellow > 0 and set(SIDES) <= set(self.sides)
 
     @cached_property
     def config(self) -> SimConfig:
