@@ -55,7 +55,8 @@ def tasks() -> str:
     """Every registered task with its sizes, and a picture of each."""
     names = rsoccer.list_tasks()
     rows = [_task_row(name) for name in names]
-    header = ("task", "what it is", "robots", "learners", "observation", "action", "time limit")
+    sizes = ("robots", "learners", "observation", "action", "time limit")
+    header = ("task", "what it is", "success", *sizes)
     return f"{table(header, rows)}\n\n{_gallery(names)}"
 
 
@@ -73,6 +74,7 @@ def _task_row(name: str) -> tuple[str, ...]:
     return (
         f"`{name}`",
         summary,
+        f"`{task.success}`",
         f"{task.n_blue} v {task.n_yellow}",
         str(len(task.agents)),
         str(task.observation_size),

@@ -145,7 +145,7 @@ def lineup(
     foes: list[Controller] = [DRIFT if driver is LEARN else driver for driver in away.values()]
     if opponent is not None:
         if not foes:
-            raise ValueError(f"opponent: {task.name} has one team only, got {opponent!r}")
+            raise ValueError(f"opponent: {task.name} has one team only, so nobody can be it")
         foes = [opponent] * len(foes)
     if side is None or next(iter(home)).startswith(side):
         return {**dict(zip(home, own, strict=True)), **dict(zip(away, foes, strict=True))}

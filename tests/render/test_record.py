@@ -43,7 +43,7 @@ def test_a_trained_policys_own_task_was_not_filmed(tmp_path: Path) -> None:
     fitting(make_task("SSLPassEndurance-v0")).save(file)
     images, _ = film_match(controllers={"blue_0": f"{file}:mean"}, seconds=0.05)
     assert len(list(images)) == 3
-    with pytest.raises(ValueError, match="chase.*SSLPassEndurance|SSLPassEndurance.*chase"):
+    with pytest.raises(ValueError, match=r"chase.*SSLPassEndurance|SSLPassEndurance.*chase"):
         film_match(controllers={"blue_0": str(file), "blue_1": "chase"})
 
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rsoccer.files import safetensors_bytes, write_atomically
 
-FORMAT = "rsoccer-checkpoint-1"
+FORMAT = "rsoccer-checkpoint-2"
 FILE_NAME = "checkpoint.safetensors"
 
 Arrays = dict[str, NDArray[Any]]
