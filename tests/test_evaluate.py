@@ -1,4 +1,3 @@
-import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +8,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.evaluate import Evaluation, Results, evaluate, table
+from rsoccer.evaluate import Results, evaluate
 from rsoccer.frame import Floats
 from rsoccer.policies.base import Memory, Policy, Seen
 from rsoccer.policies.chase import Chase
@@ -193,35 +192,6 @@ def test_one_policy_can_play_itself() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0")
     chase = Chase(task)
     assert evaluate(chase, chase, matches=4, seed=0, task=task).matches == 4
-
-
-# -- Words and tables -------------------------------------------------------------------------
-
-
-def test_tables_line_up() -> None:
-    results = [
-        evaluate("zero", opponent, matches=4, task=Decided()) for opponent in ("ou", "uniform")
-    ]
-    header, *rows = table(results).splitlines()
-    assert [row.split()[1] for row in rows] == ["ou", "uniform"]
-    for title in ("matches", "goal score", "as blue"):
-        end = header.index(title) + len(title)
-        assert all(row[end - 1] != " " and row[end : end + 1] in ("", " ") for row in rows)
-    assert str(results[0]).splitlines()[0].split() == header.split()
-
-
-def test_results_go_into_json() -> None:
-    result = evaluate("zero", "zero", matches=4, task=Decided())
-    read = json.loads(json.dumps(result.as_dict()))
-    assert read["matches"] == 4
-    assert read["sides"]["blue"]["wins"] == result.sides["blue"].wins
-    assert read["seed"] == 0
-    assert set(read) >= {"wins", "draws", "losses", "score", "low", "high", "decided_after"}
-
-
-def test_the_package_offers_the_function() -> None:
-    assert rsoccer.evaluate is evaluate
-    assert isinstance(rsoccer.evaluate("zero", "zero", 2, task=Decided()), Evaluation)
 
 
 # -- Wrong input ------------------------------------------------------------------------------

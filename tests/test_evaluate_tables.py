@@ -1,0 +1,33 @@
+"""Evaluations of two sides as text and as JSON."""
+
+import json
+
+import rsoccer
+from rsoccer.evaluate import Evaluation, evaluate, table
+from tests.test_evaluate import Decided
+
+
+def test_tables_line_up() -> None:
+    results = [
+        evaluate("zero", opponent, matches=4, task=Decided()) for opponent in ("ou", "uniform")
+    ]
+    header, *rows = table(results).splitlines()
+    assert [row.split()[1] for row in rows] == ["ou", "uniform"]
+    for title in ("matches", "goal score", "as blue"):
+        end = header.index(title) + len(title)
+        assert all(row[end - 1] != " " and row[end : end + 1] in ("", " ") for row in rows)
+    assert str(results[0]).splitlines()[0].split() == header.split()
+
+
+def test_results_go_into_json() -> None:
+    result = evaluate("zero", "zero", matches=4, task=Decided())
+    read = json.loads(json.dumps(result.as_dict()))
+    assert read["matches"] == 4
+    assert read["sides"]["blue"]["wins"] == result.sides["blue"].wins
+    assert read["seed"] == 0
+    assert set(read) >= {"wins", "draws", "losses", "score", "low", "high", "decided_after"}
+
+
+def test_the_package_offers_the_function() -> None:
+    assert rsoccer.evaluate is evaluate
+    assert isinstance(rsoccer.evaluate("zero", "zero", 2, task=Decided()), Evaluation)
