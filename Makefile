@@ -11,7 +11,7 @@ RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.to
 export PYTHON CARGO
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: nothing compiles twice
 
-.PHONY: help venv demo test check-format check-lint check-rust check-python format docs physics soak bench clean
+.PHONY: help venv demo test check-format check-lint check-rust check-python format docs physics golden soak bench clean
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -52,6 +52,9 @@ docs: $(VENV)/built ## write the README's tables and pictures again from code an
 
 physics: $(VENV)/built ## measure the physics again; write its page and draw its pictures
 	$(BIN)/python -m tools.physics
+
+golden: $(VENV)/tools ## renew the hashes that guard the physics, once PHYSICS_VERSION is raised
+	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test golden
 
 soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in all tasks (some minutes)
 	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test soak

@@ -20,9 +20,10 @@ const SLACK: f32 = 0.1;
 /// The same for a ball that was caught already: what presses on it comes off slowly.
 const HELD_SLACK: f32 = 0.5;
 
-/// How nearly opposite two sides must be, as the cosine of the angle: out of a wider wedge a ball
-/// slips by itself.
+/// How nearly opposite two sides must be to jam a ball, as the cosine of the angle: out of a wider
+/// wedge it slips by itself, with its own mass. At less than the second they leave it a way out.
 const OPPOSITE: f32 = 0.9;
+const ASLANT: f32 = 0.3;
 
 /// Mass of a caught ball for the solver, by the lightest robot that catches it.
 const CAUGHT_MASS: f32 = 0.5;
@@ -78,6 +79,8 @@ pub(crate) struct Squeeze {
     pub(crate) velocity: Vector,
     /// For the solver, kg.
     pub(crate) mass: f32,
+    /// Whether it cannot slip out.
+    pub(crate) jammed: bool,
 }
 
 impl Squeeze {
@@ -91,18 +94,23 @@ impl Squeeze {
         height: f32,
         tick: f32,
     ) -> Option<Self> {
-        let sides = Sides::around(engine, physique, room, height, tick);
+        let sides = Sides::find(engine, physique, room, height, tick);
         if sides.count < 2 {
             return None;
         }
         let slack = if engine.was_caught() { HELD_SLACK } else { SLACK };
-        let velocity = sides.catch(velocity, physique.ball.mass, tick, slack)?;
-        Some(Self { velocity, mass: (CAUGHT_MASS * sides.lightest()).max(physique.ball.mass) })
+        let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
+        let own = physique.ball.mass;
+        if let Some(velocity) = sides.jam(velocity, own, closes) {
+            let mass = (CAUGHT_MASS * sides.lightest()).max(own);
+            return Some(Self { velocity, mass, jammed: true });
+        }
+        sides.wedge(closes).then_some(Self { velocity, mass: own, jammed: false })
     }
 }
 
 impl Sides {
-    fn around(engine: &Engine, physique: &Physique, room: &Room, height: f32, tick: f32) -> Self {
+    fn find(engine: &Engine, physique: &Physique, room: &Room, height: f32, tick: f32) -> Self {
         let mut sides = Self { all: [None; MOST_SIDES], count: 0 };
         let (center, radius) = (engine.motion(BALL).position, physique.ball.radius);
         let bodies = || {
@@ -142,14 +150,17 @@ impl Sides {
         self.all.iter().flatten()
     }
 
-    /// How the ball moves on if two or three of them leave it no room at the end of the tick: with
-    /// what comes together, or else as it did.
-    fn catch(&self, velocity: Vector, mass: f32, tick: f32, slack: f32) -> Option<Vector> {
-        let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
-        let pair = self.pairs().find(|[a, b]| {
-            -a.normal.dot(b.normal) > OPPOSITE && closes(a.gap + b.gap, a.speed + b.speed)
-        });
-        if let Some([a, b]) = pair {
+    /// How the ball moves on if two or three of them leave it no room and no way out: with what comes
+    /// together, or else as it did. `closes` says whether room (m) that shrinks (m/s) is gone at the
+    /// end of the tick.
+    fn jam(
+        &self,
+        velocity: Vector,
+        mass: f32,
+        closes: impl Fn(f32, f32) -> bool,
+    ) -> Option<Vector> {
+        let mut pairs = self.pairs().filter(|[a, b]| closes(a.gap + b.gap, a.speed + b.speed));
+        if let Some([a, b]) = pairs.find(|[a, b]| -a.normal.dot(b.normal) > OPPOSITE) {
             // Friction keeps it where the two sides are so nearly opposite: it moves with them along
             // their common normal, and across it as it did.
             let axis = (a.normal - b.normal).normalize();
@@ -159,10 +170,17 @@ impl Sides {
                 / (weight_a + weight_b + mass);
             return Some(velocity + axis * (common - own));
         }
-        let wedged = self.pairs().any(|[a, b]| {
-            self.iter().any(|c| wedge([a, b, c]).is_some_and(|(gap, speed)| closes(gap, speed)))
+        let held = self.pairs().any(|[a, b]| {
+            self.iter().any(|c| around([a, b, c]).is_some_and(|(gap, speed)| closes(gap, speed)))
         });
-        wedged.then(|| self.common(velocity, mass))
+        held.then(|| self.common(velocity, mass))
+    }
+
+    /// Whether two of them close on the ball from aslant: it slips out, but must stay in contact.
+    fn wedge(&self, closes: impl Fn(f32, f32) -> bool) -> bool {
+        self.pairs().any(|[a, b]| {
+            -a.normal.dot(b.normal) > ASLANT && closes(a.gap + b.gap, a.speed + b.speed)
+        })
     }
 
     fn pairs(&self) -> impl Iterator<Item = [&Side; 2]> {
@@ -197,7 +215,7 @@ impl Sides {
 
 /// What three sides that hold a ball from all around leave of room (m), and how fast it shrinks
 /// (m/s); `None` if there is a way out.
-fn wedge(sides: [&Side; 3]) -> Option<(f32, f32)> {
+fn around(sides: [&Side; 3]) -> Option<(f32, f32)> {
     let [a, b, c] = sides.map(|side| side.normal);
     let determinant = a.perp_dot(b);
     if determinant.abs() < 0.1 {

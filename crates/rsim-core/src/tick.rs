@@ -71,7 +71,7 @@ impl Tick<'_> {
         let hooks = self.hooks(Level::Floor, squeeze);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         let mut now = Rolling { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
-        if squeeze.is_some() {
+        if squeeze.is_some_and(|squeeze| squeeze.jammed) {
             contacts::settle_caught(state);
         } else if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
             now = now.after(ball, length / 2.0).1;
@@ -90,7 +90,7 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
-        let squeeze = self.squeeze(state, before.velocity);
+        let squeeze = self.squeeze(state, before.velocity).filter(|squeeze| squeeze.jammed);
         let level = if let Some(squeeze) = &squeeze {
             state.engine.set_velocity(BALL, squeeze.velocity);
             Level::Caught { height: state.ball.z + self.physique.ball.radius }

@@ -4,16 +4,18 @@ use rapier2d::math::Vector;
 use rapier2d::prelude::*;
 
 use super::{BALL_LABEL, Engine, Inverse, Motion, Partner, Push, label};
-use crate::SimConfig;
 use crate::arena::Wall;
 use crate::physique::Physique;
 use crate::placement::FASTEST;
 use crate::robot_model::Body;
+use crate::{RobotModel, SimConfig};
 
 impl Engine {
     pub(crate) fn new(config: &SimConfig, physique: &Physique, walls: &[Wall]) -> Self {
+        let fastest = config.robots().map(RobotModel::top_speed).fold(0.0, f32::max);
+        let way = fastest * config.tick;
         let mut engine = Self {
-            parameters: parameters(config.tick),
+            parameters: parameters(config.tick, SEEN_AHEAD * way),
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None),
             narrow_phase: NarrowPhase::new(),
@@ -29,9 +31,9 @@ impl Engine {
             skips: true,
             skipped: 0,
         };
-        engine.insert_ball(physique, config.tick);
+        engine.insert_ball(physique, config.tick, way);
         for index in 0..physique.robots.len() {
-            engine.insert_robot(physique, index, config.tick);
+            engine.insert_robot(physique, index);
         }
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
             let collider = ColliderBuilder::new(SharedShape::new(wall.shape()))
@@ -44,11 +46,13 @@ impl Engine {
         engine
     }
 
-    fn insert_ball(&mut self, physique: &Physique, tick: f32) {
+    fn insert_ball(&mut self, physique: &Physique, tick: f32, way: f32) {
         let ball = &physique.ball;
         // Its bounce and friction are solved in closed form, and its spin has three axes: the engine
         // only keeps it out of others.
-        let collider = ColliderBuilder::ball(ball.radius + SEEN_AROUND)
+        // Larger by the way of a robot in a tick: beside a body that looks ahead along its own way the
+        // engine counts nobody else's. The hook of the ball knows how far everything really is.
+        let collider = ColliderBuilder::ball(ball.radius + way)
             .restitution(0.0)
             .restitution_combine_rule(CoefficientCombineRule::Min)
             .friction(0.0)
@@ -60,7 +64,7 @@ impl Engine {
         self.insert(body, collider);
     }
 
-    fn insert_robot(&mut self, physique: &Physique, index: usize, tick: f32) {
+    fn insert_robot(&mut self, physique: &Physique, index: usize) {
         let model = &physique.robots[index].model;
         let shape = match model.body {
             Body::Square { side } => SharedShape::cuboid(side / 2.0, side / 2.0),
@@ -73,9 +77,7 @@ impl Engine {
             .restitution(0.0)
             .friction(model.friction)
             .user_data(label(Partner::Robot(index)));
-        // Seen ahead too, so that a robot does not drive into a ball that lies before it.
-        let body = awake().soft_ccd_prediction(1.2 * model.top_speed() * tick);
-        self.insert(body, collider);
+        self.insert(awake(), collider);
     }
 
     fn insert(&mut self, body: RigidBodyBuilder, collider: ColliderBuilder) {
@@ -106,38 +108,32 @@ fn awake() -> RigidBodyBuilder {
 /// Sub-steps of the solver in a tick. `cargo bench --bench solver` shows what fewer and more give.
 const SUB_STEPS: usize = 4;
 
-/// Points of two that meet are seen so far ahead, m, at least. With 2 mm, the engine's default at
-/// this scale, round robots that many others push in a crowd were for moments 13 mm deep in each
-/// other; with this, 0.6 mm.
-const SEEN_AHEAD: f32 = 0.008;
+/// Bodies are seen so far ahead, by the way that the fastest robot drives in a tick: what two that
+/// drive at each other close in one, and a tenth. Also bodies at rest are, since others may push them
+/// along within the tick. Seen 8 mm ahead, and along their own ways, robots that chase a ball came now
+/// and then 12 mm into each other; so they come 3 mm.
+const SEEN_AHEAD: f32 = 2.2;
 
-/// The ball is a little larger for the engine, m, which else would see no contact before a ball that
-/// lies still. The hook of the ball knows how far everything really is.
-pub(super) const SEEN_AROUND: f32 = 0.001;
-
-/// The same for a caught ball, m: the engine looks ahead along the velocity at which a ball begins a
-/// tick, and another body may push a caught one along faster.
-pub(super) const SEEN_AROUND_CAUGHT: f32 = 0.02;
-
-/// In long ticks they are seen as far ahead as the corner of a VSSS robot comes that spins in place,
-/// m/s.
-const CORNER_SPEED: f32 = 1.6;
+/// The least, m, for slow robots whose corners spin.
+const SEEN_LEAST: f32 = 0.008;
 
 /// Scales the engine's tolerances, here to a tenth.
 const LENGTH_UNIT: f32 = 0.1;
 
 /// Settings for bodies of a few centimetres. The engine's defaults suit bodies of a metre.
-fn parameters(tick: f32) -> IntegrationParameters {
+fn parameters(tick: f32, ahead: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
         num_solver_iterations: SUB_STEPS,
         length_unit: LENGTH_UNIT,
-        normalized_prediction_distance: SEEN_AHEAD.max(CORNER_SPEED * tick) / LENGTH_UNIT,
+        normalized_prediction_distance: ahead.max(SEEN_LEAST) / LENGTH_UNIT,
         // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).
         contact_softness: SpringCoefficients::new(200.0, 2.0),
         static_contact_softness: SpringCoefficients::new(400.0, 2.0),
         normalized_allowed_linear_error: 0.000_5,
         normalized_max_corrective_velocity: 10.0,
+        // It would stop the ball where the larger one that the engine sees touches a wall.
+        max_ccd_substeps: 0,
         // Its allowed drift is a quarter of the ball at this scale.
         contact_recycling: false,
         ..IntegrationParameters::default()

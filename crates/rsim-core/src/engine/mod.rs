@@ -11,8 +11,6 @@ use rapier2d::parry::query::TrackedContact;
 use rapier2d::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use build::{SEEN_AROUND, SEEN_AROUND_CAUGHT};
-
 use crate::physique::Physique;
 
 pub(crate) use ball_hooks::{BallHooks, Level, rotation};
@@ -202,15 +200,12 @@ impl Engine {
         if self.ball_mass == mass {
             return;
         }
-        let around = if ball.squeeze.is_some() { SEEN_AROUND_CAUGHT } else { SEEN_AROUND };
         // What pressed on a heavy ball must not start the solution for a light one.
         self.parameters.warmstart_coefficient = if mass < self.ball_mass { 0.0 } else { 1.0 };
         self.ball_mass = mass;
         let properties = MassProperties::new(Vector::ZERO, mass, 1.0);
         let body = &mut self.bodies[self.handles[BALL]];
-        let collider = &mut self.colliders[body.colliders()[0]];
-        collider.set_mass_properties(properties);
-        collider.set_shape(SharedShape::ball(ball.physique.ball.radius + around));
+        self.colliders[body.colliders()[0]].set_mass_properties(properties);
         body.recompute_mass_properties_from_colliders(&self.colliders);
     }
 

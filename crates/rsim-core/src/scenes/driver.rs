@@ -65,14 +65,14 @@ fn towards(model: &RobotModel, robot: &[f32], target: [f32; 2]) -> Vec<f32> {
     let [x, y, cos, sin, ..] = robot else { unreachable!("a robot has {ROBOT_COLUMNS:?}") };
     let (to_x, to_y) = (target[0] - x, target[1] - y);
     let (ahead, aside) = (to_x * cos + to_y * sin, to_y * cos - to_x * sin);
-    let bearing = aside.atan2(ahead);
+    let bearing = libm::atan2f(aside, ahead); // the same on every platform, as golden hashes need
     match &model.drive {
         Drive::Differential(drive) => {
             let turn = bearing * 0.3;
             [(1.0 - turn) * drive.max_wheel_speed, (1.0 + turn) * drive.max_wheel_speed].to_vec()
         }
         Drive::Omni(drive) | Drive::OmniWheels(drive) => {
-            let away = ahead.hypot(aside).max(1e-3);
+            let away = (ahead * ahead + aside * aside).sqrt().max(1e-3);
             let mut command = vec![0.0; OMNI_COLUMNS.len()];
             command[0] = ahead / away * drive.max_speed;
             command[1] = aside / away * drive.max_speed;

@@ -128,7 +128,7 @@ impl Scene {
         assert_eq!(poses.len(), config.n_robots(), "one pose for each robot");
         let mut start = vec![0.0; config.row_size()];
         for (columns, [x, y, degrees]) in robots_mut(&mut start).zip(poses) {
-            let (sin, cos) = degrees.to_radians().sin_cos();
+            let (sin, cos) = libm::sincosf(degrees.to_radians());
             columns[..4].copy_from_slice(&[*x, *y, cos, sin]);
         }
         Self { name, config, start, parameters: None, driver }
