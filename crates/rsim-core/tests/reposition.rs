@@ -27,7 +27,8 @@ fn robots_go_on_as_if_nothing_had_happened() {
     // Robots that drive, slip and push each other, far from the ball, in a world of its own.
     let mut config = SimConfig::ssl(3, 3);
     config.time_step = 0.025;
-    let mut scene = Scene::lined_up("press", config, Driver::Random);
+    let driver = Driver::Constant(vec![vec![1.0, 0.1, 0.3, 0.0, 0.0, 0.0]; 6]);
+    let mut scene = Scene::lined_up("press", config, driver);
     for robot in 0..6 {
         scene.set_robot_column(robot, "x", -3.0 + 0.19 * robot as f32);
         scene.set_robot_column(robot, "y", 1.0);
