@@ -105,7 +105,8 @@ fn awake() -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic().can_sleep(false)
 }
 
-/// Sub-steps of the solver in a tick. `cargo bench --bench solver` shows what fewer and more give.
+/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` shows what fewer
+/// and more give.
 const SUB_STEPS: usize = 4;
 
 /// Bodies are seen so far ahead, by the way that the fastest robot drives in a tick: what two that

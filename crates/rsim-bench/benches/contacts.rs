@@ -1,4 +1,4 @@
-//! What contacts cost: `cargo bench --bench contacts` prints a table.
+//! What contacts cost: `cargo bench -p rsim-bench --bench contacts` prints a table.
 //!
 //! Two teams face each other in lanes. In some lanes they push each other head on, in the others they
 //! stand still, far apart: the matches of a league differ by their contacts alone.

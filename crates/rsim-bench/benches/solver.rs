@@ -1,5 +1,5 @@
 //! What the solver's sub-steps and the length of a tick give in accuracy, and what they cost:
-//! `cargo bench --bench solver` prints a table.
+//! `cargo bench -p rsim-bench --bench solver` prints a table.
 //!
 //! How deep bodies sink into each other says how well contacts are solved: they should not at all.
 //! Costs are per second of play, so that ticks of different length compare, and against the default.

@@ -1,0 +1,1 @@
+//! Nothing: what measures is in `benches`.

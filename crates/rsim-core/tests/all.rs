@@ -1,0 +1,34 @@
+//! All tests of the physics, one file a subject, as one program: linking is what takes long.
+
+use std::path::Path;
+
+mod bounce;
+mod chip;
+mod crowd;
+mod determinism;
+mod drive;
+mod floor;
+mod happened;
+mod input;
+mod mirror;
+mod mouth;
+mod omni;
+mod placement;
+mod shortcuts;
+mod shots;
+mod soak;
+
+#[test]
+fn no_file_of_tests_is_forgotten() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let files = folder.read_dir().expect("this file lies there");
+    let names: Vec<_> = files
+        .map(|file| file.expect("readable").path())
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .filter(|name| name != "all")
+        .collect();
+    assert!(names.len() > 10, "{names:?}");
+    for name in names {
+        assert!(include_str!("all.rs").contains(&format!("\nmod {name};\n")), "{name} never runs");
+    }
+}
