@@ -19,15 +19,6 @@ from tests.one_match import TASKS, VSS_TASKS
 WORLDS = 5
 STEPS = 130
 
-CASES: list[tuple[str, Controllers | None]] = [
-    (name, controllers)
-    for name in VSS_TASKS
-    for controllers in (
-        None,
-        {"yellow": "ou", "blue_1": "uniform"},
-        {"yellow": "chase", "blue_2": "zero"},
-    )
-]
 SCRIPTS = {
     "SSLContestedPossession-v0": "strike",
     "SSLDribbling-v0": "weave",
@@ -37,18 +28,31 @@ SCRIPTS = {
     "SSLSelfPlay-v0": "strike",
     "SSLStaticDefenders-v0": "strike",
 }
-CASES += [
-    (name, controllers)
-    for name, script in SCRIPTS.items()
-    for controllers in (None, {"all": "ou", "blue_0": script})
+ALONE: list[tuple[str, Controllers | None]] = [(name, None) for name in TASKS]
+DRIVEN: list[tuple[str, Controllers | None]] = [
+    ("VSSMulti-v0", {"yellow": "ou", "blue_1": "uniform"}),
+    ("VSSSelfPlay-v0", {"yellow": "chase", "blue_2": "zero"}),
+    ("SSLSelfPlay-v0", {"all": "ou", "blue_0": "strike"}),
+    ("SSLDribbling-v0", {"all": "ou", "blue_0": "weave"}),
+    ("SSLGoToBall-v0", {"all": "ou", "blue_0": "fetch"}),
+    ("SSLPassEnduranceMulti-v0", {"all": "ou", "blue_0": "passer"}),
 ]
+"""Every policy once: what it draws and remembers is its own in each task."""
 
 
-def test_every_task_is_among_the_cases() -> None:
-    assert {name for name, _ in CASES} == set(TASKS)
+def test_every_task_and_every_script_is_among_the_cases() -> None:
+    assert {name for name, _ in ALONE} == set(TASKS) == {*VSS_TASKS, *SCRIPTS}
+    driven = {policy for _, given in DRIVEN for policy in (given or {}).values()}
+    assert driven >= {"chase", "ou", "uniform", "zero", *SCRIPTS.values()}
 
 
-everywhere = pytest.mark.parametrize(("name", "controllers"), CASES)
+each_task = pytest.mark.parametrize(("name", "controllers"), ALONE)
+everywhere = pytest.mark.parametrize(("name", "controllers"), ALONE + DRIVEN)
+# Threads share out the physics, the views, what robots see, and what rewards are made of.
+every_kind = pytest.mark.parametrize(
+    ("name", "controllers"),
+    [*DRIVEN[:3], ("SSLStaticDefenders-v0", None), ("SSLPassEnduranceMulti-v0", None)],
+)
 
 
 def crowded(
@@ -124,7 +128,7 @@ def test_row_i_of_a_batch_is_a_single_world(name: str, controllers: Controllers 
     expect_equal(many, ones)
 
 
-@everywhere
+@every_kind
 def test_threads_do_not_change_results(name: str, controllers: Controllers | None) -> None:
     for threads in (2, 3):
         ours = crowded(name, controllers, WORLDS, threads=1)
@@ -133,7 +137,7 @@ def test_threads_do_not_change_results(name: str, controllers: Controllers | Non
         expect_equal(ours, [theirs])
 
 
-@everywhere
+@each_task
 def test_after_other_matches_a_match_is_as_a_fresh_one(
     name: str, controllers: Controllers | None
 ) -> None:
@@ -147,10 +151,18 @@ def test_after_other_matches_a_match_is_as_a_fresh_one(
 
 
 @everywhere
-@pytest.mark.parametrize("autoreset", ["same_step", "disabled"])
-def test_restored_is_as_never_stopped(
-    name: str, controllers: Controllers | None, autoreset: str
+def test_restored_is_as_never_stopped(name: str, controllers: Controllers | None) -> None:
+    expect_restored(name, controllers, "same_step")
+
+
+@every_kind
+def test_restored_without_autoreset_is_as_never_stopped(
+    name: str, controllers: Controllers | None
 ) -> None:
+    expect_restored(name, controllers, "disabled")
+
+
+def expect_restored(name: str, controllers: Controllers | None, autoreset: str) -> None:
     ours = crowded(name, controllers, WORLDS, seed=7, autoreset=autoreset)
     ours.reset()
     for _ in range(60):

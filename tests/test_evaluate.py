@@ -40,7 +40,6 @@ def a_network(seed: int = 0) -> Network:
 
 
 BETTER = [
-    ("VSSMulti-v0", "chase", 60, 0.72),
     ("VSSSelfPlay-v0", "chase", 60, 0.72),
     ("VSS-v0", "chase", 60, 0.3),  # one among mates that drift
     ("SSLSelfPlay-v0", "strike", 10, 0.72),

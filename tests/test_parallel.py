@@ -22,9 +22,12 @@ def test_pettingzoo_accepts_the_parallel_env(name: str, capsys: pytest.CaptureFi
     match = parallel_env(name)
     official.parallel_api_test(match, num_cycles=60)
     assert match.max_cycles == 60, "the tester's clock was not taken over"
-    official.parallel_api_test(parallel_env(name), num_cycles=1200)
     official.parallel_seed_test(lambda: parallel_env(name), num_cycles=50)
     assert "Passed" in capsys.readouterr().out
+
+
+def test_pettingzoo_accepts_long_matches() -> None:
+    official.parallel_api_test(parallel_env(SELF_PLAY), num_cycles=1200)
 
 
 @pytest.mark.parametrize("name", TASKS)

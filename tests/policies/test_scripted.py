@@ -64,7 +64,7 @@ def test_more_skill_is_stronger(better: str, worse: str) -> None:
     assert found.low > 0.0
 
 
-@pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (2, 2), (5, 5), (2, 4)])
+@pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (5, 5), (2, 4)])
 def test_sides_of_any_size_play(blue: int, yellow: int) -> None:
     task = VssSelfPlay(n_blue=blue, n_yellow=yellow, max_steps=400)
     found: Results = score("scripted", "ou", 20, task).sides["blue"]

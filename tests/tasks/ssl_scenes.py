@@ -86,14 +86,15 @@ def play(task: Task, policy: str, worlds: int = 24, seed: int = 5) -> Episodes:
     return got
 
 
-def expect_solved(task: Task, solver: str, metric: str, least: float, worlds: int = 24) -> None:
-    """The solver solves it, others do not and are paid less, and effort hardly counts."""
+def expect_solved(task: Task, solver: str, metric: str, least: float, worlds: int = 24) -> Episodes:
+    """The solver's episodes; it solves it, others do not and earn less, effort hardly counts."""
     solved, idle, wild = (play(task, name, worlds) for name in (solver, "zero", "uniform"))
     assert solved.metrics[metric].mean() >= least
     for other in (idle, wild):
         assert other.metrics[metric].mean() < 0.2 * least
         assert solved.returns.mean() > other.returns.mean() + 2.0
     assert solved.paid["energy"] < 0.02 * sum(solved.paid.values())
+    return solved
 
 
 def make(name: str, **options: Any) -> Task:  # noqa: ANN401
