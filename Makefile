@@ -5,13 +5,17 @@ CARGO ?= cargo
 
 VENV := .venv
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip install --disable-pip-version-check --constraint constraints.txt
+# Without bytecode: what is imported is compiled then, the rest of torch and sympy never.
+PIP := $(BIN)/python -m pip install --disable-pip-version-check --no-compile --constraint constraints.txt
 RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 
 export PYTHON CARGO
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: nothing compiles twice
 
-.PHONY: help venv demo test check-format check-lint check-rust check-python format docs physics golden soak bench clean
+# Lines of targets that run at the same time are not mixed, where make is new enough (4.0).
+WHOLE := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
+
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python format docs physics golden soak coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list these targets
@@ -22,18 +26,24 @@ venv: $(VENV)/made ## make the empty environment, for putting a PyTorch of your 
 demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, film a match
 	$(BIN)/python -m rsoccer.demo
 
-test: check-format check-lint check-rust check-python ## every check: formatting, lints, types, all tests
+test: ## every check: formatting, lints, types, all tests
+	@echo "two things are done at a time; each shows what it says when it is done"
+	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) check-python check-rust check-lint check-format
 
 check-format: $(VENV)/tools ## is everything formatted?
 	$(CARGO) fmt --all --check
 	$(BIN)/ruff format --check
 
-check-lint: $(VENV)/built ## lints, types and the stub of the compiled module
+check-lint: lint-rust lint-python ## lints, types and the stub of the compiled module
+
+lint-rust: $(VENV)/tools
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --workspace --no-deps
+
+lint-python: $(VENV)/built
 	$(BIN)/ruff check
 	$(BIN)/mypy
-	$(BIN)/python -m mypy.stubtest rsoccer._core
+	$(BIN)/python -m mypy.stubtest rsoccer._core --mypy-config-file tools/stubtest.ini
 
 check-rust: $(VENV)/tools ## tests of the physics
 	$(CARGO) test --locked
@@ -54,14 +64,17 @@ physics: $(VENV)/built ## measure the physics again; write its page and draw its
 	$(BIN)/python -m tools.physics
 
 golden: $(VENV)/tools ## renew the hashes that guard the physics, once PHYSICS_VERSION is raised
-	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test golden
+	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test all golden::
 
 soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in all tasks (some minutes)
-	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test soak
+	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/test_pressing.py --numprocesses auto
 
+coverage: $(VENV)/built ## which lines the tests run, of Python and Rust (some minutes)
+	$(BIN)/python -m tools.measure_coverage
+
 bench: $(VENV)/built ## measure speed on this machine (some minutes; needs it quiet)
-	$(CARGO) bench --locked --bench step
+	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 
 clean: ## remove everything that make made, downloads of Python packages included
@@ -82,5 +95,9 @@ $(VENV)/tools: pyproject.toml constraints.txt $(VENV)/made
 $(VENV)/built: $(VENV)/tools $(RUST)
 	@echo "building rSoccer and fetching what it needs (torch alone may be a 3 GB download)"
 	@if [ -f $(VENV)/torch.pth ]; then cp $(VENV)/torch.pth $(VENV)/lib/python3*/site-packages/; fi
-	PATH="$(CURDIR)/$(BIN):$$PATH" $(PIP) --no-build-isolation --editable '.[all]'
+# The compiler does not wait for the downloads; when pip calls it, it has done its work or is
+# waited for, and repeats what it had to say.
+	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
+	maturin develop --release --skip-install >/dev/null 2>&1 & \
+	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status
 	@touch $@
