@@ -89,16 +89,18 @@ def counting() -> dict[str, str]:
 def build() -> list[Path]:
     """Build tests and module with counters, put the module into the copy; what was built."""
     tests = built(["test", "--no-run"])
-    (module,) = built(["build", "--profile", "test", "--package", "rsim-py"])
+    # What measures speed refuses modules with assertions.
+    fast = {"CARGO_PROFILE_TEST_DEBUG_ASSERTIONS": "false"}
+    (module,) = built(["build", "--profile", "test", "--package", "rsim-py"], **fast)
     (target,) = (FOLDER / "python" / "rsoccer").glob("_core*.so")
     shutil.copyfile(module, target)
     return [*tests, target]
 
 
-def built(command: list[str]) -> list[Path]:
-    """What programs and modules a command of cargo makes."""
+def built(command: list[str], **settings: str) -> list[Path]:
+    """What programs and modules a command of cargo makes, under more settings."""
     line = [CARGO, *command, "--locked", "--message-format", "json-render-diagnostics"]
-    return list(made(said_by(line, counting())))
+    return list(made(said_by(line, counting() | settings)))
 
 
 def made(messages: str) -> list[Path]:
