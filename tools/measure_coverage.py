@@ -21,8 +21,8 @@ COUNTS: Final = FOLDER / "counts"
 MODULES: Final = (".so", ".dylib")
 CARGO: Final = os.environ.get("CARGO", "cargo")
 
-# Others' code, tests, and scenes, which are for tests.
-NOT_MEASURED: Final = r"(/\.cargo/|/rustc/|/rustlib/|/tests/|/benches/|/scenes/)"
+# Others' code, tests, examples, and scenes, which are for tests.
+NOT_MEASURED: Final = r"(/\.cargo/|/rustc/|/rustlib/|/tests/|/benches/|/examples/|/scenes/)"
 
 
 @dataclass(frozen=True)
