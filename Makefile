@@ -15,6 +15,11 @@ export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: 
 # Lines of targets that run at the same time are not mixed, where make is new enough (4.0).
 WHOLE := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 
+# Make's own flags are for make: cargo takes what it finds there for a jobserver that it may use.
+ifneq ($(MAKELEVEL),0)
+unexport MAKEFLAGS
+endif
+
 .PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python format docs physics golden soak coverage bench clean
 .DEFAULT_GOAL := help
 
