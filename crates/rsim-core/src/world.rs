@@ -156,7 +156,7 @@ impl World {
         self.state.engine.set_skips(self.skips);
         self.state.own.clone_from(&checked.own);
         if let Some(own) = &self.state.own {
-            self.state.engine.set_masses(own);
+            self.state.engine.fit(own);
         }
         for (body, motion) in checked.start.motions.iter().enumerate() {
             self.state.engine.set_motion(body, motion);

@@ -101,7 +101,7 @@ impl Wheels {
         let most = if slower { self.turn_brake } else { self.turn_speed_up };
         let turn = missing_turn.clamp(-most, most);
         let load = held_against(demand.load, missing, change);
-        let turning_load = if turn == missing_turn || turn * demand.turning_load < 0.0 {
+        let turning_load = if missing_turn.abs() <= most || turn * demand.turning_load < 0.0 {
             demand.turning_load
         } else {
             0.0
