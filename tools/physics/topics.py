@@ -5,6 +5,7 @@ from functools import cache
 from tools.physics import (
     air,
     bounces,
+    crashes,
     differential,
     dribbler,
     floor,
@@ -16,6 +17,8 @@ from tools.physics import (
     presets,
     pushing,
     shots,
+    skids,
+    squeezes,
 )
 from tools.physics.check import Check
 
@@ -25,9 +28,12 @@ MODULES = (
     bounces,
     omni,
     differential,
+    skids,
     kicker,
     dribbler,
     pushing,
+    squeezes,
+    crashes,
     shots,
     mirror,
     placing,
