@@ -51,7 +51,9 @@ class Check:
     def error(self) -> float:
         """How far off it is: a share of the reference, or in its unit."""
         error = abs(self.measured - self.reference)
-        return error / abs(self.reference) if self.tolerance.relative else error
+        if not self.tolerance.relative or error == 0.0:
+            return error
+        return error / abs(self.reference) if self.reference else float("inf")
 
     @property
     def used(self) -> float:

@@ -132,13 +132,21 @@ SSL_SHARED = {
     "beam_height": Number(0.0215, "m", "ours: through the middle of a ball on the floor"),
     "recharge": Number(0.1, "s", "ER-Force's simulator asks for at least that"),
     "kick_keeps": Number(0.35, "", "TIGERs: speed kept across the front in a redirect"),
-    "grip": Number(0.5, "N", "TIGERs: least force of their bar on the ball"),
+    "jerk": Number(0.0, "m/s³", "no limit; TIGERs estimate 20 of other teams' robots"),
+    "grip": Number(0.12, "N", "ours, by how TIGERs drive with the ball: 1.2 m/s² and 5 rad/s"),
+    "bar_force": Number(0.5, "N", "TIGERs: least force of their bar on the ball"),
     "bar_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s at the bar's surface"),
     "bar_restitution": Number(0.2, "", "ER-Force: ball on dribbler bar"),
     "bar_friction": Number(1.5, "", "likewise"),
     "restitution": Number(0.2, "", "TIGERs' simulator, robot on robot"),
     "friction": Number(0.2, "", "none published for two robots; ER-Force's for ball on robot"),
 }
+
+# What TIGERs' Sumatra says of driving: its estimate of other teams' robots (`botParamsDatabase`),
+# and how it drives with the ball (DragBallSkill, ProtectiveGetBallSkill).
+JERK = 20.0  # m/s³
+WITH_BALL = 1.2  # m/s²
+TURN_WITH_BALL = 5.0  # rad/s
 
 
 @dataclass(frozen=True)

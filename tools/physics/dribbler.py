@@ -5,21 +5,23 @@ from math import hypot, sqrt
 import numpy as np
 
 from rsoccer import SimConfig
+from rsoccer._core import RobotModel
 from rsoccer.frame import Array, length
 from tools.physics.check import EXACT, Checks, Line, percent, within
-from tools.physics.cited import BALLS
+from tools.physics.cited import BALLS, GENERIC, SSL_SHARED, TURN_WITH_BALL, WITH_BALL
 from tools.physics.kicker import reach, with_ball
 from tools.physics.scene import STEP, TICK, Scene, Track
 
 TOPIC = "dribbler"
 BALL = BALLS["ssl_tigers"]
-GRIP = 0.5  # N: TIGERs, least force of their bar on the ball
-FAST = 8.0  # rad/s: 6 m/s² on the circle, twice what the floor gives
-BAR_SPEED = 2.0  # m/s: TIGERs
+FAST = 7.0  # rad/s: 4.6 m/s² on the circle, more than the floor gives
+GRIP = SSL_SHARED["grip"].value  # N
+BAR_SPEED = SSL_SHARED["bar_speed"].value  # m/s
 MOVES = {
     "turning left at 3 rad/s": (0.0, 0.0, 3.0),
     "turning right at 3 rad/s": (0.0, 0.0, -3.0),
     "backwards at 0.5 m/s": (-0.5, 0.0, 0.0),
+    "backwards at 1.9 m/s": (-1.9, 0.0, 0.0),
     "forwards at 1 m/s": (1.0, 0.0, 0.0),
     "sideways at 0.5 m/s": (0.0, 0.5, 0.0),
 }
@@ -34,7 +36,18 @@ GAP = Line(TOPIC, "from front to ball after 2 s", "mm", within(5), "held")
 WITHOUT = Line(
     TOPIC, "without the dribbler: still in the mouth after 2 s", "of 3", EXACT, "no hold"
 )
-LOST = Line(TOPIC, "fastest turn that keeps the ball", "rad/s", percent(10), "0.5 N and the floor")
+TURN = Line(
+    TOPIC, "fastest turn from rest that keeps the ball", "rad/s", percent(10), "TIGERs drive so"
+)
+STEADY = Line(
+    TOPIC, "of one that turns already, ball and all", "rad/s", percent(5), "0.12 N and the floor"
+)
+BRAKE = Line(TOPIC, "hardest brake that keeps it", "m/s²", percent(5), "0.12 N and the floor")
+PUBLISHED = Line(TOPIC, "3 m/s to 1.9 m/s backwards: keeps it", "", EXACT, "TIGERs drive so")
+FULL_BRAKE = Line(TOPIC, "the same at a robot's full brake", "", EXACT, "beyond that brake")
+BACKWARDS = Line(
+    TOPIC, "fastest way backwards that keeps it", "m/s", percent(5), "speed of the bar"
+)
 NO_SLOWER = Line(TOPIC, "way in 1.5 s with the ball, by that without", "", percent(5), "as without")
 BACK_SPIN = Line(TOPIC, "speed of the ball's rim after 1 s", "m/s", within(0.1), "speed of the bar")
 BENDS = Line(TOPIC, "held in a turn: change of velocity in a tick", "m/s", percent(5), "circle")
@@ -82,10 +95,56 @@ def _holding() -> Checks:
 
 
 def _losing() -> Checks:
-    rates = np.arange(8.0, 14.0, 0.1)
+    rates = np.arange(3.0, 10.0, 0.1)
     turns = np.stack([0 * rates, 0 * rates, rates], axis=-1)
     kept = _told(turns, 1.0, 3.0).robots.infrared[-1, :, 0] == 1.0
-    yield LOST("full dribbler", fastest_turn(), rates[kept].max(initial=0.0))
+    yield TURN("full dribbler", TURN_WITH_BALL, fastest(rates, kept))
+    kept = turning(rates).play(3.0).robots.infrared[-1, :, 0] == 1.0
+    yield STEADY("full dribbler", fastest_turn(), fastest(rates, kept))
+    # The bar's back-spin has the floor brake the ball, too, up to its slide.
+    hardest = GRIP / BALL.mass + BALL.sliding_deceleration
+    tried = np.append(np.arange(1.0, GENERIC.brake, 0.1), GENERIC.brake)
+    kept = np.array([_braking(brake) for brake in tried])
+    yield BRAKE("3 m/s to 1.9 m/s backwards", hardest, fastest(tried, kept))
+    yield PUBLISHED(f"{WITH_BALL:g} m/s²", 1.0, _braking(WITH_BALL))
+    yield FULL_BRAKE(f"{GENERIC.brake:g} m/s²", 0.0, kept[-1])
+    # Backwards faster than the bar, the ball slips the other way, and the floor beats the grip.
+    speeds = np.arange(1.0, 3.0, 0.05)
+    kept = _going(-speeds).play(1.0).robots.infrared[-1, :, 0] == 1.0
+    yield BACKWARDS("full dribbler", BAR_SPEED, fastest(speeds, kept))
+
+
+def fastest(tried: Array, kept: Array) -> float:
+    """The last one before the first that loses the ball; no number if none or the first does."""
+    lost = np.flatnonzero(~kept)
+    return float(tried[lost[0] - 1]) if len(lost) and lost[0] else np.nan
+
+
+def turning(rates: Array | float, worlds: int | None = None, time_step: float = STEP) -> Scene:
+    """Robots that turn already, the ball and its back-spin with them."""
+    scene = with_ball(worlds=worlds or np.size(rates), time_step=time_step)
+    scene.robots.spin[:, 0] = rates
+    scene.ball.velocity[:, 1] = np.asarray(rates) * reach()
+    scene.ball.spin[:, 1] = -BAR_SPEED / BALL.radius
+    scene.tell(0, v_theta=rates, dribbler=1.0)
+    return scene
+
+
+def _going(speeds: Array, robot: RobotModel | str = "ssl_generic") -> Scene:
+    """Robots that drive along x already, the ball and its back-spin with them."""
+    scene = with_ball(robot, worlds=len(speeds), time_step=STEP)
+    scene.robots.velocity[:, 0, 0] = scene.ball.velocity[:, 0] = speeds
+    scene.ball.spin[:, 1] = -BAR_SPEED / BALL.radius
+    scene.tell(0, v_x=speeds, dribbler=1.0)
+    return scene
+
+
+def _braking(brake: float) -> bool:
+    """Whether one that brakes like this from 3 m/s, and drives back like this, keeps the ball."""
+    scene = _going(np.array([3.0]), RobotModel("ssl_generic", brake=brake, speed_up=brake))
+    scene.tell(0, v_x=-1.9)
+    seen = scene.play(np.ceil(4.9 / brake / STEP) * STEP + 0.25).robots.infrared[-1, 0, 0]
+    return bool(seen)
 
 
 def fastest_turn() -> float:
@@ -99,7 +158,7 @@ def fastest_turn() -> float:
     for _ in range(20):
         along = turn * reach()
         slip = hypot(along, BAR_SPEED)
-        inward = sqrt(GRIP**2 - (floor * along / slip) ** 2) + floor * BAR_SPEED / slip
+        inward = sqrt(max(GRIP**2 - (floor * along / slip) ** 2, 0.0)) + floor * BAR_SPEED / slip
         turn = sqrt(inward / (BALL.mass * reach()))
     return turn
 
@@ -124,8 +183,7 @@ def _spinning() -> Checks:
 
 def _releasing() -> Checks:
     """In a fast turn the grip bends the ball's way; after it, only the floor acts."""
-    scene = with_ball()
-    scene.tell(0, v_theta=FAST, dribbler=1.0)
+    scene = turning(FAST, time_step=TICK)
     match = scene.begin()
     bend = np.diff(match.run(1.0).ball.velocity[-2:, 0], axis=0)[0]
     yield BENDS(f"at {FAST:g} rad/s", FAST**2 * reach() * TICK, length(*bend))

@@ -5,6 +5,7 @@ from math import radians, sin, sqrt
 import numpy as np
 
 from rsoccer import SimConfig
+from rsoccer._core import RobotModel
 from rsoccer.frame import Array, length
 from tools.physics.check import EXACT, Checks, Line, percent, within
 from tools.physics.cited import BALLS, GENERIC, SSL_ROBOTS, G
@@ -16,6 +17,7 @@ HEADINGS = (0.0, 50.0, 180.0, 290.0)  # degrees
 KICKS = (1.0, 4.0, 6.5)  # m/s
 BEAM = 0.010  # m before the front: rSim's robot
 RECHARGE = 0.1  # s: ER-Force's simulator
+TOGETHER = (82.0, 90.0, 110.0, 130.0)  # degrees between two robots that kick one ball
 
 BEAM_DEPTH = Line(
     TOPIC, "farthest ball before the front that the beam sees", "mm", within(0.2), "rSim"
@@ -30,6 +32,8 @@ MOVING = Line(TOPIC, "kick of 4 m/s from a robot at 1 m/s", "m/s", percent(2), "
 MOST = Line(TOPIC, "hardest kick of each preset", "m/s", percent(2), "`robot-specs.yaml`")
 MOST_CHIP = Line(TOPIC, "hardest chip of each preset", "m/s", percent(2), "`robot-specs.yaml`")
 MISSES = Line(TOPIC, "kicks at a ball that is not in the mouth", "of 4", EXACT, "no beam is cut")
+TWO = Line(TOPIC, "two kick one ball with 8 m/s: its speed", "m/s", percent(2), "two plates")
+TWO_ASIDE = Line(TOPIC, "its direction off the middle", "degrees", within(0.5), "symmetry")
 RECHARGES = Line(TOPIC, "least time between two kicks", "s", within(0.0051), "ER-Force")
 
 
@@ -42,6 +46,7 @@ def checks() -> Checks:
     yield from _hardest()
     yield from _misses()
     yield from _recharging()
+    yield from _together()
 
 
 def reach(robot: str = "ssl_generic") -> float:
@@ -49,10 +54,13 @@ def reach(robot: str = "ssl_generic") -> float:
     return SSL_ROBOTS[robot].front + BALL.radius
 
 
-def with_ball(robot: str = "ssl_generic", worlds: int = 1, time_step: float = TICK) -> Scene:
+def with_ball(
+    robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
+) -> Scene:
     """A robot at the centre with the ball at its front."""
     scene = Scene(SimConfig("ssl_b", 1, 0, robot=robot, time_step=time_step), worlds)
-    scene.ball.position[:] = (reach(robot), 0.0)
+    name = robot if isinstance(robot, str) else robot.name
+    scene.ball.position[:] = (reach(name), 0.0)
     return scene
 
 
@@ -137,3 +145,24 @@ def _recharging() -> Checks:
     fast = np.append([False], track.ball.velocity[:, 0, 0] > 4.0)
     kicks = track.times[np.flatnonzero(fast[1:] & ~fast[:-1])]
     yield RECHARGES(f"{len(kicks)} kicks", RECHARGE, np.diff(kicks).min(initial=np.inf))
+
+
+def _together() -> Checks:
+    """Each with the ball at the outer edge of its mouth, so that there is room for both.
+
+    A plate pushes until the ball is as fast as the plate along the plate's direction, and gives no
+    more than alone: up to 90 degrees the first is the bound, beyond it the second.
+    """
+    for degrees in TOGETHER:
+        scene = Scene(SimConfig("ssl_b", 2, 0, time_step=TICK))
+        for index, turned in enumerate((degrees / 2, -degrees / 2)):
+            x, y = np.cos(radians(turned)), sin(radians(turned))
+            off = 0.03 if turned < 0 else -0.03
+            depth = reach() + 0.009
+            scene.robots.position[:, index] = (off * -y - depth * x, off * x - depth * y)
+            scene.face(index, turned)
+            scene.tell(index, kick_v_x=8.0)
+        velocity = scene.play(TICK).ball.velocity[-1, 0]
+        aslant, case = np.cos(radians(degrees / 2)), f"{degrees:g} degrees apart"
+        yield TWO(case, 8.0 * min(1 / aslant, 2 * aslant), length(*velocity))
+        yield TWO_ASIDE(case, 0.0, np.degrees(np.arctan2(velocity[1], velocity[0])))

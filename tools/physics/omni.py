@@ -1,6 +1,6 @@
 """SSL robots against the limits of their models: times to speed, directions, wheels."""
 
-from math import hypot
+from math import hypot, sqrt
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from rsoccer import SimConfig
 from rsoccer._core import RobotModel
 from rsoccer.frame import Array, length
 from tools.physics.check import Checks, Line, percent, within
-from tools.physics.cited import GENERIC, SSL_ROBOTS
+from tools.physics.cited import GENERIC, JERK, SSL_ROBOTS
 from tools.physics.scene import TICK, Scene, Track, first
 
 TOPIC = "omni"
@@ -30,6 +30,9 @@ AGREE = Line(TOPIC, "place after 1 s: wheel less body commands", "m", within(0.0
 SATURATED = Line(
     TOPIC, "direction of a command beyond the top speed", "degrees", within(0.1), "command"
 )
+JERKED_UP = Line(TOPIC, "speed-up with a jerk of at most 20 m/s³", "s", within(0.015), "S-curve")
+JERKED_DOWN = Line(TOPIC, "brake with that jerk", "s", within(0.015), "S-curve")
+MOST_JERK = Line(TOPIC, "largest jerk on that way", "m/s³", percent(1), "limit")
 
 
 def checks() -> Checks:
@@ -39,9 +42,12 @@ def checks() -> Checks:
     yield from _top_speeds()
     yield from _wheels()
     yield from _beyond()
+    yield from _jerked()
 
 
-def alone(robot: str = "ssl_generic", worlds: int = 1, time_step: float = TICK) -> Scene:
+def alone(
+    robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
+) -> Scene:
     """A robot at rest in the middle of a field, the ball far off."""
     scene = Scene(SimConfig("ssl_a", 1, 0, robot=robot, time_step=time_step), worlds)
     scene.ball.position[:] = (0.0, 4.0)
@@ -123,3 +129,29 @@ def _beyond() -> Checks:
         expected = np.degrees(np.arctan2(told[1], told[0]))
         case = f"({told[0]:g}, {told[1]:g}) m/s"
         yield SATURATED(case, expected, np.degrees(np.arctan2(place[1], place[0])))
+
+
+def s_curve(change: float, most: float, jerk: float) -> float:
+    """Time (s) to change the speed by so much: acceleration rises, holds at the most, and falls."""
+    if change > most**2 / jerk:
+        return change / most + most / jerk
+    return 2 * sqrt(change / jerk)
+
+
+def _jerked() -> Checks:
+    robot = RobotModel("ssl_generic", jerk=JERK)
+    for speed in (0.5, 1.0, 3.0):
+        for line, start, told, most in (
+            (JERKED_UP, 0.0, speed, GENERIC.speed_up),
+            (JERKED_DOWN, speed, 0.0, GENERIC.brake),
+        ):
+            scene = alone(robot)
+            scene.robots.velocity[:, 0, 0] = start
+            scene.tell(0, v_x=told)
+            track = scene.play(1.5)
+            way = track.robots.velocity[:, 0, 0, 0].astype(np.float64)
+            there = track.times[first(abs(way - told) < 0.001)]
+            case = f"{start:g} to {told:g} m/s"
+            yield line(case, s_curve(speed, most, JERK), there)
+            jerks = np.diff(np.diff(way, prepend=start), prepend=0.0) / TICK**2
+            yield MOST_JERK(case, JERK, abs(jerks).max())

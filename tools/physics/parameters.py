@@ -8,9 +8,10 @@ from rsoccer.frame import Array
 from tools.parts import table
 from tools.physics.check import EXACT, Checks, Line, percent
 from tools.physics.cited import BALLS, GENERIC, G
+from tools.physics.dribbler import turning
 from tools.physics.kicker import with_ball
 from tools.physics.omni import alone, speeds
-from tools.physics.scene import STEP, TICK, Scene
+from tools.physics.scene import TICK, Scene
 
 TOPIC = "parameters"
 BALL = BALLS["ssl_tigers"]
@@ -34,7 +35,7 @@ MEANINGS = {
         "speed": "Top speed and turn rate, and the wheels' top speed.",
         "traction": "What the wheels transmit: pushing, standing firm, skidding.",
         "kick": "Speed of kicks and chips, after the device's limit.",
-        "grip": "Force of the dribbler.",
+        "grip": "Force with which the dribbler holds the ball.",
     },
 }
 
@@ -45,7 +46,7 @@ HEIGHT = Line(
     TOPIC, "a chip at 0.17 m flies over robots of these heights", "", EXACT, "robot 0.143 m"
 )
 GRIP = Line(
-    TOPIC, "a turn of 9 rad/s keeps the ball at these grips", "", EXACT, "0.5 N times factor"
+    TOPIC, "a turn of 7 rad/s keeps the ball at these grips", "", EXACT, "0.12 N times factor"
 )
 MASS = Line(TOPIC, "speed that a ball gives a robot, by the model's", "", percent(2), "momentum")
 
@@ -154,9 +155,8 @@ def _mouth() -> Checks:
     scene.vary_robot(0, "kick", FACTORS)
     scene.tell(0, kick_v_x=4.0)
     yield from _ratios("robot kick", scene.play(TICK).ball.velocity[-1, :, 0])
-    scene = with_ball(worlds=3, time_step=STEP)
+    scene = turning(7.0, worlds=3)
     scene.vary_robot(0, "grip", FACTORS)
-    scene.tell(0, v_theta=9.0, dribbler=1.0)
     kept = scene.play(2.0).robots.infrared[-1, :, 0]
     for factor, got in zip(FACTORS, kept, strict=True):
         yield GRIP(f"robot grip x {factor:g}", float(factor >= 1), got)

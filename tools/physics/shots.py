@@ -23,6 +23,10 @@ SIDES = Line(TOPIC, "that pass the 20 mm side of an SSL goal", "of 500", EXACT, 
 BACKS = Line(TOPIC, "that pass its back", "of 500", EXACT, "walls are solid")
 ROBOTS = Line(TOPIC, "that pass a robot", "of 1000", EXACT, "robots are solid")
 TOUCHED = Line(TOPIC, "that touch the robot that they are aimed at", "of 1000", EXACT, "aim")
+SPINNING = Line(TOPIC, "that pass a robot that spins", "of 1000", EXACT, "robots are solid")
+SPIN_TOUCHED = Line(
+    TOPIC, "that touch the spinning robot that they are aimed at", "of 1000", EXACT, "aim"
+)
 BENT = Line(TOPIC, "bent when they pass a robot at 2 mm", "mm", within(0.001), CLEAR)
 GHOSTS = Line(TOPIC, "that touch when they pass at 2 mm", "of 1000", EXACT, CLEAR)
 WALL_BENT = Line(TOPIC, "bent 2 mm from a goal's side or a wall", "mm", within(0.001), CLEAR)
@@ -35,6 +39,7 @@ def checks() -> Checks:
     yield from _goal_sides()
     yield from _goal_backs()
     yield from _robots()
+    yield from _spinning()
     yield from _near_robots()
     yield from _near_walls()
     yield from _corners()
@@ -93,6 +98,25 @@ def _robots() -> Checks:
         beyond = (ball.position[-1] * -drawn[:, :2]).sum(axis=-1) > 0.1
         yield ROBOTS(f"`{field}`", 0, (beyond & (speed > 0.95 * SPEED)).sum())
         yield TOUCHED(f"`{field}`", SHOTS, (ball.last_touch[-1] == 0).sum())
+
+
+def _spinning() -> Checks:
+    """The same at robots that turn as fast as they can; here any ball beyond has passed."""
+    for field, half, spin in (("vss_3v3", 0.0375, 30.0), ("ssl_b", 0.0715, 26.2)):
+        scene = Scene(SimConfig(field, 1, 0), SHOTS)
+        drawn = _drawn([-0.4, 0, 0, 0, 0], [0.1, 0.3, 0.0, 0.8 * half, 180.0])
+        scene.face(0, drawn[:, 4])
+        spins = np.where(np.arange(SHOTS) % 2, spin, -spin)
+        scene.robots.spin[:, 0] = spins
+        if field == "ssl_b":
+            scene.tell(0, v_theta=spins)
+        else:
+            scene.tell(0, left=-46 * np.sign(spins), right=46 * np.sign(spins))
+        _shoot(scene, drawn[:, :2], drawn[:, 2:4])
+        ball = scene.play(0.1).ball
+        beyond = (ball.position[-1] * -drawn[:, :2]).sum(axis=-1) > 0.1
+        yield SPINNING(f"`{field}`, {spin:g} rad/s", 0, beyond.sum())
+        yield SPIN_TOUCHED(f"`{field}`, {spin:g} rad/s", SHOTS, (ball.last_touch[-1] == 0).sum())
 
 
 def _past(field: str, robots: int, start: Array, seconds: float) -> Track:

@@ -58,7 +58,7 @@ def checks() -> Checks:
 
 
 def gaps(track: Track) -> Array:
-    """From SSL robots' outlines, discs with a flat front, to the ball, m; (steps, worlds, robots)."""
+    """From SSL robots, discs with a flat front, to the ball, m; (steps, worlds, robots)."""
     away = track.ball.position[:, :, None].astype(np.float64) - track.robots.position
     cos, sin = np.moveaxis(track.robots.heading.astype(np.float64), -1, 0)
     x = away[..., 0] * cos + away[..., 1] * sin
