@@ -11,8 +11,11 @@ from tools.physics import cited
 from tools.physics.__main__ import PICTURES
 from tools.physics.check import EXACT, Check, Line, Tolerance, percent, within
 from tools.physics.closed_form import RollOut, Surface, bounce, floor
+from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, fastest_turn
+from tools.physics.kicker import reach
 from tools.physics.page import PAGE, alike, shown, written
 from tools.physics.topics import MODULES, TOPICS, checks
+from tools.physics.tyres import Motion, slid
 
 TEXT = PAGE.read_text()
 
@@ -54,6 +57,8 @@ def test_a_number_that_is_off_would_be_noticed() -> None:
     assert not off(within(0.01), 0.3, 0.311).holds
     assert off(EXACT, 6, 6).holds
     assert not off(EXACT, 6, 5).holds
+    assert off(percent(1), 0.0, 0.0).holds
+    assert not off(percent(1), 0.0, 1e-6).holds, "a share of nothing is nothing"
     assert not off(within(0.01), 0.3, math.nan).holds
     assert not off(EXACT, 0.0, math.nan).holds
 
@@ -84,6 +89,28 @@ def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
     assert spin[2] * ball.radius == pytest.approx(0.5 * 5 / 7), "it rolls along the wall"
     flat, _ = bounce(ball, wall, np.array([4.0, 1.0, 0.0]), np.zeros(3), normal)
     assert flat == pytest.approx([4.0 - 0.35 * 1.3, -0.3, 0.0])
+
+
+def test_sliding_tyres_agree_with_what_has_a_closed_form() -> None:
+    robot = cited.VSS_ROBOTS["vss_440rpm"]
+    ahead = slid(robot, 1.0, Motion(), 0.1)
+    assert ahead.forward == pytest.approx(robot.forward_grip * 0.1, rel=1e-3), "speeding up"
+    assert slid(robot, 1.0, Motion(), 0.3).forward == pytest.approx(1.0), "then its wheels roll"
+    aside = slid(robot, 0.0, Motion(left=1.0), 0.05)
+    assert aside.left == pytest.approx(1.0 - robot.side_grip * 0.05, rel=1e-3)
+    inertia = robot.side**2 / 6
+    turned = slid(robot, 0.0, Motion(spin=20.0), 0.05)
+    lost = robot.forward_grip * robot.track / 2 / inertia * 0.05
+    assert turned.spin == pytest.approx(20.0 - lost, rel=1e-3)
+
+
+def test_a_dribblers_fastest_turn_balances_grip_and_floor_against_the_circle() -> None:
+    turn = fastest_turn()
+    slip = math.hypot(turn * reach(), BAR_SPEED)
+    floor = BALL.mass * BALL.sliding_deceleration
+    along = floor * turn * reach() / slip
+    across = BALL.mass * turn**2 * reach() - floor * BAR_SPEED / slip
+    assert math.hypot(along, across) == pytest.approx(GRIP)
 
 
 def test_every_preset_is_cited() -> None:

@@ -66,11 +66,11 @@ def draw_dribble() -> Figure:
     """Robot and ball from above: along a loop with the dribbler on, then it is turned off."""
     scene = Scene(SimConfig("ssl_b", 1, 0, time_step=TICK))
     scene.ball.position[:] = (reach(), 0.0)
-    scene.tell(0, v_x=0.8, dribbler=1.0)
+    scene.tell(0, v_x=0.6, dribbler=1.0)
     match = scene.begin()
     parts = [match.run(0.8)]
-    scene.tell(0, v_theta=3.0)
-    parts.append(match.run(1.6))
+    scene.tell(0, v_theta=2.0)
+    parts.append(match.run(2.4))
     scene.tell(0, v_x=0.0, v_theta=0.0, dribbler=0.0)
     parts.append(match.run(1.2))
     made, [axes] = figure(width=8.0, height=4.5)
@@ -80,10 +80,10 @@ def draw_dribble() -> Figure:
     axes.plot(*robot[:, :2].T, color=BLUE, linewidth=2, label="robot's centre")
     axes.plot(*ball[:off].T, color=BALL, linewidth=2, label="ball, dribbler on")
     axes.plot(*ball[off:].T, color=BALL, linewidth=2, linestyle=":", label="ball, dribbler off")
-    for step in (0, *range(59, off, 80), off - 1):
+    for step in (0, *range(79, off, 100), off - 1):
         _draw_robot(axes, robot[step], ball[step])
     axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
-    axes.set_title("Forward at 0.8 m/s, then also turning at 3 rad/s; then let go")
+    axes.set_title("Forward at 0.6 m/s, then also turning at 2 rad/s; then let go")
     axes.legend(frameon=False, loc="upper left")
     return made
 

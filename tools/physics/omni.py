@@ -30,8 +30,8 @@ AGREE = Line(TOPIC, "place after 1 s: wheel less body commands", "m", within(0.0
 SATURATED = Line(
     TOPIC, "direction of a command beyond the top speed", "degrees", within(0.1), "command"
 )
-JERKED_UP = Line(TOPIC, "speed-up with a jerk of at most 20 m/s³", "s", within(0.015), "S-curve")
-JERKED_DOWN = Line(TOPIC, "brake with that jerk", "s", within(0.015), "S-curve")
+JERKED_UP = Line(TOPIC, "speed-up with a jerk of at most 20 m/s³", "s", within(0.01), "S-curve")
+JERKED_DOWN = Line(TOPIC, "brake with that jerk", "s", within(0.01), "S-curve")
 MOST_JERK = Line(TOPIC, "largest jerk on that way", "m/s³", percent(1), "limit")
 
 
@@ -150,7 +150,7 @@ def _jerked() -> Checks:
             scene.tell(0, v_x=told)
             track = scene.play(1.5)
             way = track.robots.velocity[:, 0, 0, 0].astype(np.float64)
-            there = track.times[first(abs(way - told) < 0.001)]
+            there = track.times[first(abs(way - told) < 1e-4)]
             case = f"{start:g} to {told:g} m/s"
             yield line(case, s_curve(speed, most, JERK), there)
             jerks = np.diff(np.diff(way, prepend=start), prepend=0.0) / TICK**2

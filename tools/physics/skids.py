@@ -41,10 +41,8 @@ def checks() -> Checks:
     """Every line of the acceptance about tyres that slide."""
     for name, robot in VSS_ROBOTS.items():
         for spin in SPINS[name]:
-            case, expected = (
-                f"`{name}`, {spin:g} rad/s",
-                straight_after(robot, top(robot), spin, SLOW),
-            )
+            case = f"`{name}`, {spin:g} rad/s"
+            expected = straight_after(robot, top(robot), spin, SLOW)
             yield STRAIGHT(case, expected, _straight(name, spin, TICK))
             yield STRAIGHT_SHORT(case, expected, _straight(name, spin, SHORT_TICK))
         yield from _skids(name, robot)
@@ -90,10 +88,8 @@ def _seesaw(name: str, robot: VssRobot) -> Checks:
         scene.commands[:] = rng.choice([-1e3, 1e3], scene.commands.shape)
         robots = match.run(scene.config.time_step).robots
         velocity, heading = robots.velocity[-1, :, 0], robots.heading[-1, :, 0]
-        along = (
-            abs((velocity * heading).sum(axis=-1)) + abs(robots.spin[-1, :, 0]) * robot.track / 2
-        )
-        tyre = max(tyre, float(along.max()))
+        turning = abs(robots.spin[-1, :, 0]) * robot.track / 2
+        tyre = max(tyre, float((abs((velocity * heading).sum(axis=-1)) + turning).max()))
         centre = max(centre, float(np.hypot(*velocity.T).max()))
     yield RIM(f"`{name}`, 5 s", top(robot), tyre)
     yield FASTEST(f"`{name}`, 5 s", 0.0, max(centre - top(robot), 0.0))
