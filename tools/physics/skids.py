@@ -23,14 +23,14 @@ SEESAWS = 100
 FRICTION = "friction against the slip"
 STRAIGHT = Line(TOPIC, "a spin told full speed straight on: time to 1 rad/s", "s", percent(10))
 STRAIGHT_SHORT = Line(TOPIC, "the same in ticks of 1 ms", "s", percent(2))
-ASIDE = Line(
-    TOPIC, "1 m/s sideways, told full speed: left of it sideways", "m/s", within(0.01), FRICTION
+ASIDE = Line(TOPIC, "and still sideways", "m/s", within(0.01), FRICTION)
+AHEAD = Line(
+    TOPIC, "told full speed from 1 m/s sideways: speed forward", "m/s", within(0.01), FRICTION
 )
-AHEAD = Line(TOPIC, "what it has gained forward", "m/s", within(0.01), FRICTION)
 LOCKED_AHEAD = Line(
-    TOPIC, "1 m/s at 45 degrees, wheels locked: left of it forward", "m/s", within(0.01), FRICTION
+    TOPIC, "1 m/s at 45 degrees, wheels locked: still forward", "m/s", within(0.01), FRICTION
 )
-LOCKED_ASIDE = Line(TOPIC, "left of it sideways", "m/s", within(0.01), FRICTION)
+LOCKED_ASIDE = Line(TOPIC, "and with locked wheels sideways", "m/s", within(0.01), FRICTION)
 RIM = Line(
     TOPIC, "fastest tyre along its wheel, full speed to and fro at random", "m/s", percent(1), "rim"
 )
