@@ -21,8 +21,10 @@ ENDLESS = Field("vss_3v3", length=200.0, width=200.0)
 SEESAWS = 100
 
 FRICTION = "friction against the slip"
-STRAIGHT = Line(TOPIC, "a spin told full speed straight on: time to 1 rad/s", "s", percent(10))
-STRAIGHT_SHORT = Line(TOPIC, "the same in ticks of 1 ms", "s", percent(2))
+STRAIGHT = Line(
+    TOPIC, "a spin told full speed straight on: time to 1 rad/s", "s", percent(10), FRICTION
+)
+STRAIGHT_SHORT = Line(TOPIC, "the same in ticks of 1 ms", "s", percent(2), FRICTION)
 ASIDE = Line(TOPIC, "and still sideways", "m/s", within(0.01), FRICTION)
 AHEAD = Line(
     TOPIC, "told full speed from 1 m/s sideways: speed forward", "m/s", within(0.01), FRICTION
