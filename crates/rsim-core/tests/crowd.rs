@@ -1,7 +1,7 @@
 //! Many bodies pushing: nobody leaves the arena, nobody stays in anybody, nothing explodes.
 
-use rsim_core::scenes::{self, Scene, robots};
-use rsim_core::{RobotModel, SimConfig};
+use rsim_core::scenes::{self, Driver, Scene, robots, uniform};
+use rsim_core::{Field, RobotModel, SimConfig, World};
 
 /// Steps of random play and of crowds: 100,000 ticks each.
 const STEPS: u64 = 20_000;
@@ -71,5 +71,61 @@ fn states_of_a_crowd_can_be_placed_again() {
         let mut read = row.to_vec();
         other.write_row(&mut read);
         assert_eq!(read[..4], row[..4], "the ball is where it was put");
+    }
+}
+
+/// A crowd from a random start: everybody anywhere, the ball rolling.
+fn scattered(config: &SimConfig, seed: u64) -> Scene {
+    let mut scene = Scene::lined_up("scattered", config.clone(), Driver::Chase);
+    let draw = |part: u64| uniform(seed * 7 + part);
+    let half = [config.field.half_length() - 0.08, config.field.half_width() - 0.08];
+    let velocity = [3.0 * draw(2), 3.0 * draw(3)];
+    scene.set_ball([half[0] * draw(0), half[1] * draw(1)], velocity);
+    scene.scatter(seed);
+    scene
+}
+
+/// States of crowds that cannot be placed again, of so many.
+fn refused(config: &SimConfig, states: u64) -> Vec<String> {
+    let mut again = World::new(config).expect("a valid configuration");
+    let mut refused = Vec::new();
+    for seed in 0..states / 250 {
+        let scene = scattered(config, seed);
+        let (rows, contacts) = scene.play(&mut scene.world(), 250);
+        assert!(contacts > 100, "only {contacts} contacts");
+        for (step, row) in rows.chunks_exact(config.row_size()).enumerate() {
+            let error = again.place(row, None).err();
+            refused.extend(error.map(|error| format!("start {seed}, step {step}: {error}")));
+        }
+    }
+    refused
+}
+
+/// Known: now and then a robot is some millimetres in another or in the ball for a tick.
+#[test]
+#[should_panic(expected = "refused")]
+fn states_of_vsss_crowds_can_all_be_placed_again() {
+    let five = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    for config in [SimConfig::vss(3, 3), five] {
+        let refused = refused(&config, 10_000);
+        assert!(refused.is_empty(), "refused {}: {refused:#?}", refused.len());
+    }
+}
+
+/// Known: robots that follow each other run up to 25 mm into each other when the first is stopped.
+#[test]
+#[should_panic(expected = "refused")]
+fn states_of_ssl_crowds_can_all_be_placed_again() {
+    for teams in [6, 11] {
+        let refused = refused(&SimConfig::ssl(teams, teams), 10_000);
+        assert!(refused.is_empty(), "refused {}: {refused:#?}", refused.len());
+    }
+}
+
+#[test]
+fn few_states_of_crowds_cannot_be_placed_again() {
+    for (config, most) in [(SimConfig::vss(3, 3), 5), (SimConfig::ssl(6, 6), 100)] {
+        let refused = refused(&config, 10_000);
+        assert!(refused.len() <= most, "refused {}: {refused:#?}", refused.len());
     }
 }

@@ -31,6 +31,20 @@ fn configurations_are_checked_by_name() {
 }
 
 #[test]
+fn ticks_too_long_to_be_true_were_taken() {
+    for (tick, time_step) in [(0.006, 0.024), (0.01, 0.02), (0.0125, 0.025), (0.025, 0.025)] {
+        for config in [SimConfig::vss(1, 1), SimConfig::ssl(1, 1)] {
+            let error = message(&SimConfig { tick, time_step, ..config });
+            assert!(error.contains("tick must be at most 0.005 s"), "{error}");
+            assert!(error.contains(&format!("got {tick}")), "{error}");
+        }
+    }
+    for tick in [0.005, 0.0025, 0.001] {
+        assert!(World::new(&SimConfig { tick, ..SimConfig::vss(1, 1) }).is_ok(), "{tick}");
+    }
+}
+
+#[test]
 fn every_preset_makes_a_match() {
     for field in Field::PRESETS {
         for robot in RobotModel::PRESETS {

@@ -36,6 +36,17 @@ impl Driver {
     }
 }
 
+/// What drives a robot that faces `degrees` with a velocity in the field's frame, m/s. On two wheels it
+/// drives with the part that is along its heading.
+pub fn driving(model: &RobotModel, degrees: f32, [v_x, v_y]: [f32; 2]) -> Vec<f32> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (ahead, aside) = (v_x * cos + v_y * sin, v_y * cos - v_x * sin);
+    match model.drive {
+        Drive::Differential(drive) => vec![ahead / drive.wheel_radius; 2],
+        Drive::Omni(_) | Drive::OmniWheels(_) => vec![ahead, aside, 0.0, 0.0, 0.0, 0.0],
+    }
+}
+
 /// What a robot is told in random play. `key` decides.
 fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
     let draw = |nth: u64| uniform(key.wrapping_add(nth));

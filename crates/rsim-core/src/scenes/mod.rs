@@ -1,11 +1,14 @@
 //! Named situations, shared by tests, benchmarks and examples.
 
 mod driver;
+mod measures;
+mod setup;
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use crate::{Batch, SimConfig, World};
 
-pub use driver::Driver;
+pub use driver::{Driver, driving};
+pub use measures::{ball_gap, deepest_ball, deepest_robots, kinetic_energy, robot_depth};
 
 /// A start, and how its robots are driven.
 #[derive(Debug, Clone)]

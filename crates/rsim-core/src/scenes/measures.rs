@@ -1,0 +1,94 @@
+//! What tests measure of a state: how near bodies are, and how much they move.
+
+use super::{Scene, robots, steps};
+use crate::columns::{ball_column, robot_column};
+use crate::{Body, RobotModel, SimConfig};
+
+/// From the outline of a robot to the surface of a ball on the floor, m; negative inside.
+///
+/// `robot` is its part of a row.
+pub fn ball_gap(model: &RobotModel, robot: &[f32], center: [f32; 2], radius: f32) -> f32 {
+    let (x, y) = (center[0] - robot[0], center[1] - robot[1]);
+    let (ahead, aside) = (x * robot[2] + y * robot[3], (y * robot[2] - x * robot[3]).abs());
+    let outside = |x: f32, y: f32| if x > 0.0 && y > 0.0 { x.hypot(y) } else { x.max(y) };
+    let gap = match model.body {
+        Body::Square { side } => outside(ahead.abs() - side / 2.0, aside - side / 2.0),
+        Body::Round { radius, front } => {
+            let half = (radius * radius - front * front).sqrt();
+            // Before the flat front nearest is the front or its corner; elsewhere the arc is.
+            if ahead * half > aside * front {
+                outside(ahead - front, aside - half)
+            } else {
+                ahead.hypot(aside) - radius
+            }
+        }
+    };
+    gap - radius
+}
+
+/// How deep two robots of one shape are in each other, m; negative, and for squares not exactly the
+/// distance, when apart.
+///
+/// # Panics
+/// When one is round and the other is not.
+pub fn robot_depth(a: (&RobotModel, &[f32]), b: (&RobotModel, &[f32])) -> f32 {
+    match (a.0.body, b.0.body) {
+        (Body::Round { radius, .. }, Body::Round { radius: other, .. }) => {
+            radius + other - (a.1[0] - b.1[0]).hypot(a.1[1] - b.1[1])
+        }
+        (Body::Square { side }, Body::Square { side: other }) => {
+            // The least overlap over the directions of both bodies' sides.
+            let directions =
+                [a, b].into_iter().flat_map(|(_, at)| [[at[2], at[3]], [-at[3], at[2]]]);
+            let reach = |side: f32, at: &[f32], to: [f32; 2]| {
+                let (along, across) =
+                    (at[2] * to[0] + at[3] * to[1], at[2] * to[1] - at[3] * to[0]);
+                side / 2.0 * (along.abs() + across.abs())
+            };
+            let overlap = directions.map(|to| {
+                let apart = (a.1[0] - b.1[0]) * to[0] + (a.1[1] - b.1[1]) * to[1];
+                reach(side, a.1, to) + reach(other, b.1, to) - apart.abs()
+            });
+            overlap.fold(f32::INFINITY, f32::min)
+        }
+        _ => unreachable!("leagues are not mixed"),
+    }
+}
+
+/// How deep the deepest two robots of a row are in each other, m; negative when all are apart.
+pub fn deepest_robots(config: &SimConfig, row: &[f32]) -> f32 {
+    let all: Vec<_> = config.robots().zip(robots(row)).collect();
+    let pairs = (0..all.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+    let depths = pairs.map(|(first, second)| robot_depth(all[first], all[second]));
+    depths.fold(f32::NEG_INFINITY, f32::max)
+}
+
+/// How deep a ball on the floor is in the robot that it is deepest in, m; negative when it touches none.
+pub fn deepest_ball(config: &SimConfig, row: &[f32]) -> f32 {
+    let all = config.robots().zip(robots(row));
+    let gaps = all.map(|(model, at)| ball_gap(model, at, [row[0], row[1]], config.ball.radius));
+    -gaps.fold(f32::INFINITY, f32::min)
+}
+
+/// Of all robots, and of the ball but for its spin, J.
+pub fn kinetic_energy(config: &SimConfig, row: &[f32]) -> f32 {
+    let square = |columns: &[f32]| columns.iter().map(|part| part * part).sum::<f32>();
+    let v_x = ball_column("v_x");
+    let ball = config.ball.mass * square(&row[v_x..v_x + 3]);
+    let (v_x, v_theta) = (robot_column("v_x"), robot_column("v_theta"));
+    let robots = config.robots().zip(robots(row)).map(|(model, at)| {
+        model.mass * square(&at[v_x..v_x + 2]) + model.inertia() * at[v_theta] * at[v_theta]
+    });
+    f32::midpoint(ball, robots.sum())
+}
+
+impl Scene {
+    /// The row at the start and after each tick for so many seconds.
+    pub fn every_tick(&self, seconds: f32) -> Vec<Vec<f32>> {
+        let mut scene = self.clone();
+        scene.config.time_step = scene.config.tick;
+        let (rows, _) = scene.play(&mut scene.world(), steps(seconds, scene.config.tick));
+        let rows = rows.chunks_exact(scene.config.row_size()).map(<[f32]>::to_vec);
+        std::iter::once(scene.start.clone()).chain(rows).collect()
+    }
+}

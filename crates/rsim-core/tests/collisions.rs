@@ -1,0 +1,194 @@
+//! Robots that run into each other: what they keep, and what their wheels make of it.
+
+use rsim_core::columns::robot_column;
+use rsim_core::scenes::{Driver, Scene, deepest_robots, driving, kinetic_energy, robots, uniform};
+use rsim_core::{RobotModel, SimConfig};
+
+const TICKS: [f32; 2] = [0.005, 0.0025];
+
+/// Two squares that come at each other along x, face to face, told to drive on at `told` rad/s.
+fn face_to_face(model: &RobotModel, tick: f32, speed: f32, gap: f32, told: f32) -> Scene {
+    let config = SimConfig::vss(1, 1);
+    let team = vec![model.clone()];
+    let config = SimConfig { tick, blue: team.clone(), yellow: team, ..config };
+    let away = model.front() + gap / 2.0;
+    let poses = [[-away, 0.0, 0.0], [away, 0.0, 180.0]];
+    let driver = Driver::Constant(vec![vec![told; 2]; 2]);
+    let mut scene = Scene::at("face_to_face", config, &poses, driver);
+    scene.set_ball([0.0, 0.6], [0.0, 0.0]);
+    scene.set_robot_column(0, "v_x", speed);
+    scene.set_robot_column(1, "v_x", -speed);
+    scene
+}
+
+/// Plays squares of `models` that meet face to face, in ticks of one of `ticks`. From `after` on (s),
+/// they must not turn; they must never slide off each other.
+fn check_faces(models: &[RobotModel], ticks: &[f32], after: f32) {
+    for model in models {
+        for (tick, speed) in ticks.iter().flat_map(|tick| SPEEDS.map(|speed| (*tick, speed))) {
+            for (gap, told) in [(0.0, 46.0), (0.0, 20.0), (0.003, 20.0), (0.05, 46.0), (0.001, 0.0)]
+            {
+                let scene = face_to_face(model, tick, speed, gap, told);
+                let label = format!("{} {tick} s {speed} m/s {gap} m {told}", model.name);
+                check_face(&scene, after, &label);
+            }
+        }
+    }
+}
+
+const SPEEDS: [f32; 6] = [0.2, 0.3, 0.5, 0.7, 0.9, 1.2];
+
+fn check_face(scene: &Scene, after: f32, label: &str) {
+    let rows = scene.every_tick(2.0);
+    let touched = rows.iter().any(|row| deepest_robots(&scene.config, row) > -2e-4);
+    assert!(touched, "{label}: they never met");
+    for (tick, row) in rows.iter().enumerate() {
+        for robot in robots(row) {
+            let turns = robot[6].abs() > 0.05 && tick as f32 * scene.config.tick >= after;
+            assert!(!turns, "{label}: tick {tick}: {} rad/s", robot[6]);
+            assert!(robot[1].abs() < 5e-4, "{label}: {} m aside", robot[1]);
+        }
+    }
+}
+
+#[test]
+fn squares_that_met_face_to_face_turned() {
+    check_faces(&[RobotModel::VSS_440RPM], &TICKS[..1], 0.0);
+}
+
+#[test]
+fn squares_that_met_face_to_face_slid_off_each_other() {
+    check_faces(&[RobotModel::VSS_440RPM, RobotModel::VSS_650RPM], &TICKS, 0.3);
+}
+
+/// Known: in some meetings they turn for a few ticks, at up to some rad/s, and turn back.
+#[test]
+#[should_panic(expected = "rad/s")]
+fn squares_that_meet_face_to_face_now_and_then_turn_for_a_moment() {
+    check_faces(&[RobotModel::VSS_440RPM, RobotModel::VSS_650RPM], &TICKS, 0.0);
+}
+
+/// Robots nose to tail that drive at a wall, `clear` before the first.
+fn train(config: &SimConfig, speed: f32, [gap, clear]: [f32; 2]) -> Scene {
+    let model = &config.blue[0];
+    let half = if model.mouth.is_some() { model.bounding_radius() } else { model.front() };
+    let first = config.field.reach_y() - half - clear;
+    let place = |nth: usize| [0.3, first - (2.0 * half + gap) * nth as f32, 90.0];
+    let poses: Vec<_> = (0..config.blue.len()).map(place).collect();
+    let told = driving(model, 90.0, [0.0, speed]);
+    let driver = Driver::Constant(vec![told; poses.len()]);
+    let mut scene = Scene::at("train", config.clone(), &poses, driver);
+    scene.set_ball([-0.4, 0.0], [0.0, 0.0]);
+    (0..poses.len()).for_each(|robot| scene.set_velocity(robot, [0.0, speed]));
+    scene
+}
+
+fn check_trains(robots: usize, speeds: [f32; 2]) {
+    for (config, speed) in [SimConfig::vss(robots, 0), SimConfig::ssl(robots, 0)].iter().zip(speeds)
+    {
+        for tick in TICKS {
+            for [gap, clear] in [[0.0, 0.0], [1e-3, 0.006], [1e-4, 0.011]] {
+                let config = SimConfig { tick, ..config.clone() };
+                let scene = train(&config, speed, [gap, clear]);
+                let label = format!("{} {tick} s {speed} m/s {gap} {clear}", config.blue[0].name);
+                check_train(&scene, speed, &label);
+            }
+        }
+    }
+}
+
+fn check_train(scene: &Scene, speed: f32, label: &str) {
+    for row in scene.every_tick(0.3) {
+        let depth = deepest_robots(&scene.config, &row);
+        assert!(depth < 3e-3, "{label}: {depth} m in each other");
+        let back = robots(&row).map(|robot| -robot[5] / speed).fold(0.0, f32::max);
+        assert!(back < 0.45, "{label}: thrown back at {back}");
+    }
+}
+
+#[test]
+fn a_robot_that_drives_into_a_wall_comes_back_by_its_restitution() {
+    check_trains(1, [1.15, 3.5]);
+}
+
+/// Known: robots that follow each other at one speed go on for a whole tick after the first is stopped,
+/// so by speed times tick into each other, and are thrown back at up to 1.5 times their speed.
+#[test]
+#[should_panic(expected = "in each other")]
+fn robots_nose_to_tail_go_into_each_other_when_the_first_is_stopped() {
+    check_trains(3, [1.15, 3.5]);
+}
+
+/// A robot that comes fast at another that spins or stands, both told to stand.
+fn crash(config: SimConfig, nth: u64) -> Scene {
+    let draw = |part: u64| uniform(nth * 16 + part);
+    let vss = config.blue[0].mouth.is_none();
+    let near = 2.2 * config.blue[0].bounding_radius();
+    let poses = [
+        [-near * (0.75 + 0.2 * draw(0)), 0.3 * near * draw(1), 180.0 * draw(2)],
+        [near * 0.5, 0.3 * near * draw(3), 180.0 * draw(4)],
+    ];
+    let mut scene = Scene::at("crash", config, &poses, Driver::STILL);
+    scene.set_ball([0.0, 0.6], [0.0, 0.0]);
+    let speed = if vss { 1.5 } else { 2.5 } + 0.8 * draw(5);
+    scene.set_robot_column(0, "v_x", speed);
+    scene.set_robot_column(0, "v_theta", if vss { 15.0 } else { 6.0 } * draw(6));
+    scene.set_robot_column(1, "v_x", 0.3 * speed * draw(7));
+    scene.set_robot_column(1, "v_theta", if vss { 20.0 } else { 8.0 } * draw(8));
+    scene
+}
+
+/// Plays crashes and counts those in which robots met.
+fn check_crashes(config: &SimConfig, check: impl Fn(&Scene, &[Vec<f32>], &str)) {
+    let (mut met, crash_speed) = (0, robot_column("crash_speed"));
+    for nth in 0..200 {
+        let tick = TICKS[usize::from(nth % 2 == 1)];
+        let scene = crash(SimConfig { tick, ..config.clone() }, nth);
+        let rows = scene.every_tick(0.3);
+        met +=
+            usize::from(rows.iter().any(|row| robots(row).any(|robot| robot[crash_speed] > 0.3)));
+        check(&scene, &rows, &format!("{} {nth}", scene.config.blue[0].name));
+    }
+    assert!(met > 120, "only {met} met");
+}
+
+fn both_leagues() -> [SimConfig; 3] {
+    let mut faster = SimConfig::vss(1, 1);
+    (faster.blue, faster.yellow) = (vec![RobotModel::VSS_650RPM], vec![RobotModel::VSS_650RPM]);
+    [SimConfig::vss(1, 1), faster, SimConfig::ssl(1, 1)]
+}
+
+#[test]
+fn robots_told_to_stand_gained_energy_after_a_crash() {
+    for config in both_leagues() {
+        check_crashes(&config, |scene, rows, label| {
+            let energies: Vec<f32> =
+                rows.iter().map(|row| kinetic_energy(&scene.config, row)).collect();
+            for (tick, pair) in energies.windows(2).enumerate() {
+                let risen = (pair[1] - pair[0]) / energies[0];
+                assert!(risen < 1e-4, "{label}, tick {tick}: energy rises by {risen}");
+            }
+        });
+    }
+}
+
+#[test]
+fn the_load_of_a_crash_came_again_in_the_next_tick() {
+    // Whom nobody touches and who is told to stand only slows down.
+    let touched_foe = robot_column("touched_foe");
+    for config in both_leagues() {
+        check_crashes(&config, |_, rows, label| {
+            for (tick, pair) in rows.windows(2).enumerate() {
+                if robots(&pair[1]).any(|robot| robot[touched_foe] > 0.0) {
+                    continue;
+                }
+                for (before, after) in robots(&pair[0]).zip(robots(&pair[1])) {
+                    let [slow, fast] = [after, before].map(|robot| robot[4].hypot(robot[5]));
+                    assert!(slow <= fast + 1e-3, "{label}, tick {tick}: {fast} to {slow} m/s");
+                    let [slow, fast] = [after, before].map(|robot| robot[6].abs());
+                    assert!(slow <= fast + 1e-2, "{label}, tick {tick}: {fast} to {slow} rad/s");
+                }
+            }
+        });
+    }
+}
