@@ -1,7 +1,7 @@
 //! Robots that run into each other: what they keep, and what their wheels make of it.
 
 use rsim_core::columns::robot_column;
-use rsim_core::scenes::{Driver, Scene, deepest_robots, driving, kinetic_energy, robots, uniform};
+use rsim_core::scenes::{Driver, Scene, deepest_robots, kinetic_energy, robots, uniform};
 use rsim_core::{RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
@@ -66,57 +66,6 @@ fn squares_that_met_face_to_face_slid_off_each_other() {
 #[should_panic(expected = "rad/s")]
 fn squares_that_meet_face_to_face_now_and_then_turn_for_a_moment() {
     check_faces(&[RobotModel::VSS_440RPM, RobotModel::VSS_650RPM], &TICKS, 0.0);
-}
-
-/// Robots nose to tail that drive at a wall, `clear` before the first.
-fn train(config: &SimConfig, speed: f32, [gap, clear]: [f32; 2]) -> Scene {
-    let model = &config.blue[0];
-    let half = if model.mouth.is_some() { model.bounding_radius() } else { model.front() };
-    let first = config.field.reach_y() - half - clear;
-    let place = |nth: usize| [0.3, first - (2.0 * half + gap) * nth as f32, 90.0];
-    let poses: Vec<_> = (0..config.blue.len()).map(place).collect();
-    let told = driving(model, 90.0, [0.0, speed]);
-    let driver = Driver::Constant(vec![told; poses.len()]);
-    let mut scene = Scene::at("train", config.clone(), &poses, driver);
-    scene.set_ball([-0.4, 0.0], [0.0, 0.0]);
-    (0..poses.len()).for_each(|robot| scene.set_velocity(robot, [0.0, speed]));
-    scene
-}
-
-fn check_trains(robots: usize, speeds: [f32; 2]) {
-    for (config, speed) in [SimConfig::vss(robots, 0), SimConfig::ssl(robots, 0)].iter().zip(speeds)
-    {
-        for tick in TICKS {
-            for [gap, clear] in [[0.0, 0.0], [1e-3, 0.006], [1e-4, 0.011]] {
-                let config = SimConfig { tick, ..config.clone() };
-                let scene = train(&config, speed, [gap, clear]);
-                let label = format!("{} {tick} s {speed} m/s {gap} {clear}", config.blue[0].name);
-                check_train(&scene, speed, &label);
-            }
-        }
-    }
-}
-
-fn check_train(scene: &Scene, speed: f32, label: &str) {
-    for row in scene.every_tick(0.3) {
-        let depth = deepest_robots(&scene.config, &row);
-        assert!(depth < 3e-3, "{label}: {depth} m in each other");
-        let back = robots(&row).map(|robot| -robot[5] / speed).fold(0.0, f32::max);
-        assert!(back < 0.45, "{label}: thrown back at {back}");
-    }
-}
-
-#[test]
-fn a_robot_that_drives_into_a_wall_comes_back_by_its_restitution() {
-    check_trains(1, [1.15, 3.5]);
-}
-
-/// Known: robots that follow each other at one speed go on for a whole tick after the first is stopped,
-/// so by speed times tick into each other, and are thrown back at up to 1.5 times their speed.
-#[test]
-#[should_panic(expected = "in each other")]
-fn robots_nose_to_tail_go_into_each_other_when_the_first_is_stopped() {
-    check_trains(3, [1.15, 3.5]);
 }
 
 /// A robot that comes fast at another that spins or stands, both told to stand.
