@@ -64,7 +64,7 @@ impl Flight<'_> {
         for _ in 0..MOST_CONTACTS {
             let gravity = if body.down { 0.0 } else { GRAVITY };
             let way = body.sphere.velocity - Vec3::Z * (gravity * left / 2.0);
-            let Some((after, obstacle, normal)) = self.first_contact(&body, way, left) else {
+            let Some((after, obstacle, normal)) = self.first_contact(&body, way, left, None) else {
                 body.place += way * left;
                 body.sphere.velocity.z -= gravity * left;
                 break;
@@ -75,8 +75,7 @@ impl Flight<'_> {
             if obstacle == Obstacle::Floor {
                 land(model, &mut body);
             } else if self.hit(&mut body, obstacle, normal) {
-                let outward = self.outward(obstacle, &body);
-                rest(&mut body, normal, outward, left);
+                self.rest(&mut body, obstacle, normal, left);
                 break;
             }
         }
@@ -139,13 +138,21 @@ impl Flight<'_> {
         }
     }
 
-    /// The first thing met within `time` of going straight along `way`: when, what, and from where.
-    fn first_contact(&self, body: &Body, way: Vec3, time: f32) -> Option<(f32, Obstacle, Vec3)> {
+    /// The first thing met within `time` of going straight along `way`, but for one: when, what, and
+    /// from where.
+    fn first_contact(
+        &self,
+        body: &Body,
+        way: Vec3,
+        time: f32,
+        but_for: Option<Obstacle>,
+    ) -> Option<(f32, Obstacle, Vec3)> {
         let walls = (0..self.walls.len()).map(Obstacle::Wall);
         let robots = (0..self.physique.robots.len()).map(Obstacle::Robot);
         let floor = (!body.down).then_some(Obstacle::Floor);
         let mut first: Option<(f32, Obstacle, Vec3)> = None;
-        for obstacle in floor.into_iter().chain(walls).chain(robots) {
+        let all = floor.into_iter().chain(walls).chain(robots);
+        for obstacle in all.filter(|obstacle| Some(*obstacle) != but_for) {
             let until = first.map_or(time, |(after, ..)| after);
             if let Some((after, normal)) = self.contact(obstacle, body.place, way, until) {
                 first = Some((after, obstacle, normal));
@@ -221,6 +228,23 @@ impl Flight<'_> {
         carried
     }
 
+    /// Lies on an obstacle for the rest of the tick, and runs off it as far as there is room.
+    fn rest(&self, body: &mut Body, obstacle: Obstacle, normal: Vec3, mut time: f32) {
+        let outward = self.outward(obstacle, body);
+        let falls = body.sphere.velocity - Vec3::Z * (GRAVITY * time);
+        let pressed = falls.dot(normal).min(0.0);
+        let mut velocity = falls - normal * pressed + (outward * (CROWN * time)).extend(0.0);
+        for _ in 0..MOST_CONTACTS {
+            let met = self.first_contact(body, velocity, time, Some(obstacle));
+            let Some((after, _, wall)) = met else { break };
+            body.place += velocity * after;
+            velocity -= wall * velocity.dot(wall).min(0.0);
+            time -= after;
+        }
+        body.place += velocity * time;
+        body.sphere.velocity = velocity;
+    }
+
     /// Away from the middle of an obstacle, in the plane.
     fn outward(&self, obstacle: Obstacle, body: &Body) -> Vector {
         let level = Vec3::new(
@@ -258,12 +282,4 @@ fn land(model: &BallModel, body: &mut Body) {
     if body.down {
         body.place.z = model.radius;
     }
-}
-
-/// Lies on something for the rest of the tick, and runs off it.
-fn rest(body: &mut Body, normal: Vec3, outward: Vector, time: f32) {
-    let falls = body.sphere.velocity - Vec3::Z * (GRAVITY * time);
-    let pressed = falls.dot(normal).min(0.0);
-    body.sphere.velocity = falls - normal * pressed + (outward * (CROWN * time)).extend(0.0);
-    body.place += body.sphere.velocity * time;
 }

@@ -16,7 +16,7 @@ use crate::{Field, PlaceError, SimConfig};
 
 /// Depth up to which bodies may overlap, m: what a running match may show under pressure, so that
 /// each of its states can be placed again.
-const TOLERANCE: f32 = 2e-3;
+const TOLERANCE: f32 = 0.01;
 
 /// Fastest that a body may move at the start, m/s. Kicks reach 14 m/s with the robot's own speed.
 pub const FASTEST: f32 = 20.0;

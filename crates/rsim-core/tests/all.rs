@@ -4,6 +4,8 @@ use std::path::Path;
 
 mod bounce;
 mod chip;
+mod collisions;
+mod corners;
 mod crowd;
 mod determinism;
 mod drive;
@@ -11,6 +13,8 @@ mod floor;
 mod golden;
 mod happened;
 mod input;
+mod jerk;
+mod kickers;
 mod mirror;
 mod mouth;
 mod omni;
@@ -19,6 +23,10 @@ mod reposition;
 mod shortcuts;
 mod shots;
 mod soak;
+mod spinning;
+mod squeeze;
+mod trains;
+mod tyres;
 
 #[test]
 fn no_file_of_tests_is_forgotten() {

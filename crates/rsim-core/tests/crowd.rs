@@ -101,9 +101,7 @@ fn refused(config: &SimConfig, states: u64) -> Vec<String> {
     refused
 }
 
-/// Known: now and then a robot is some millimetres in another or in the ball for a tick.
 #[test]
-#[should_panic(expected = "refused")]
 fn states_of_vsss_crowds_can_all_be_placed_again() {
     let five = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
     for config in [SimConfig::vss(3, 3), five] {
@@ -112,20 +110,10 @@ fn states_of_vsss_crowds_can_all_be_placed_again() {
     }
 }
 
-/// Known: robots that follow each other run up to 25 mm into each other when the first is stopped.
 #[test]
-#[should_panic(expected = "refused")]
 fn states_of_ssl_crowds_can_all_be_placed_again() {
     for teams in [6, 11] {
         let refused = refused(&SimConfig::ssl(teams, teams), 10_000);
         assert!(refused.is_empty(), "refused {}: {refused:#?}", refused.len());
-    }
-}
-
-#[test]
-fn few_states_of_crowds_cannot_be_placed_again() {
-    for (config, most) in [(SimConfig::vss(3, 3), 5), (SimConfig::ssl(6, 6), 100)] {
-        let refused = refused(&config, 10_000);
-        assert!(refused.len() <= most, "refused {}: {refused:#?}", refused.len());
     }
 }

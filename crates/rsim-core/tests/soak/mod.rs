@@ -4,9 +4,9 @@
 mod crowds;
 mod depths;
 
-use depths::{Depths, between_robots};
+use depths::Depths;
 use rsim_core::columns::ball_column;
-use rsim_core::scenes::{Driver, Scene, robots, uniform};
+use rsim_core::scenes::{Driver, Scene, robot_depth, robots, uniform};
 use rsim_core::{BallModel, Field, RobotModel, SimConfig};
 
 /// Ticks of the whole run, unless `RSIM_SOAK_TICKS` says otherwise.
@@ -60,7 +60,7 @@ fn fault(config: &SimConfig, row: &[f32], apart: &mut [u32], moments: u32) -> Op
     for first in 0..all.len() {
         for second in first + 1..all.len() {
             // A crash may press deeper for a moment; what stays is a fault.
-            let deep = between_robots(all[first], all[second]) > 0.002;
+            let deep = robot_depth(all[first], all[second]) > 0.002;
             apart[pair] = if deep { apart[pair] + 1 } else { 0 };
             if apart[pair] > moments {
                 return Some(format!("robots {first} and {second} stay in each other"));
