@@ -48,8 +48,8 @@ def test_starts_use_the_whole_field_and_observations_their_range() -> None:
 @pytest.mark.parametrize("policy", ["chase", "scripted", "scripted:0.5"])
 def test_scripts_score_there(policy: str) -> None:
     found = evaluate(policy, "ou", 20, seed=2, task=FIVE, worlds=20)
-    assert found.goal_score > 0.5
-    assert min(found.blue.wins, found.yellow.wins) > 4
+    assert found.score > 0.5
+    assert min(found.sides["blue"].wins, found.sides["yellow"].wins) > 4
 
 
 def test_goals_are_where_the_field_has_them() -> None:

@@ -12,7 +12,7 @@ use crate::engine::{BALL, Engine, Room, robot, rotation};
 use crate::physique::{Physique, RobotBody};
 
 /// Things that a ball can be caught between: more than fit around one.
-const MOST_SIDES: usize = 8;
+const MOST_SIDES: usize = 12;
 
 /// What is this near in space or time counts as touching: m, and m/s of coming closer.
 const NEAR: f32 = 5e-4;

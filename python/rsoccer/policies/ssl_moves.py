@@ -15,6 +15,8 @@ BRAKE: Final = np.float32(3.0)  # m/s², by which it slows down before its targe
 STEER: Final = np.float32(6.0)  # rad/s, per radian that it is off
 SOFT: Final = np.float32(8.0)  # m/s, per metre from its target: the last centimetres
 FAST_TURN: Final = 10.0  # rad/s, without the ball
+PULL: Final = np.float32(1.5)  # m/s², with the ball on the dribbler, faster and slower
+TWIST: Final = np.float32(15.0)  # rad/s², likewise
 AT_MOUTH: Final = np.float32(0.02)  # metres from its place in the mouth at which it has the ball
 ACROSS: Final = np.float32(0.04)  # metres across the front likewise
 STANDOFF: Final = np.float32(0.1)  # metres before the ball from which it goes straight in
@@ -46,6 +48,8 @@ class Mover:
         self.body = np.float32(2.0 * robot.bounding_radius)  # metres between robots that touch
         self.ball_room = np.float32(robot.bounding_radius + ball.radius)
         self.kick = np.float32(scales[KICK])
+        self._pull = PULL * np.float32(task.config.time_step)
+        self._twist = TWIST * np.float32(task.config.time_step)
         self._per_scale = np.float32(1.0) / scales
         self._of_robot = getattr(task, "axes", "field") == "robot"
 
@@ -63,6 +67,18 @@ class Mover:
         actions *= self._per_scale
         actions[..., KICK] = np.where(kick > 0.0, actions[..., KICK], np.float32(-1.0))
         return np.minimum(np.maximum(actions, -1.0), 1.0)
+
+    def gently(
+        self, me: RobotColumns, v_x: Floats, v_y: Floats, spin: Floats
+    ) -> tuple[Floats, Floats, Floats]:
+        """Velocity (m/s) and turn rate (rad/s) that differ little from what it does: with a ball.
+
+        The dribbler pulls a ball along with little more than 2 m/s².
+        """
+        way_x, way_y = v_x - me.velocity[..., 0], v_y - me.velocity[..., 1]
+        per = np.minimum(self._pull / np.maximum(length(way_x, way_y), TINY), np.float32(1.0))
+        turn = np.minimum(np.maximum(spin - me.spin, -self._twist), self._twist)
+        return me.velocity[..., 0] + way_x * per, me.velocity[..., 1] + way_y * per, me.spin + turn
 
     def has(self, view: View) -> Mask:
         """Whether the ball is in each seer's mouth, or as good as there."""

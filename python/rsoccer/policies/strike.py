@@ -121,7 +121,8 @@ class Strike(Policy):
         zero = np.float32(0.0)
         v_x, v_y = (np.where(shoots, zero, v) for v in self._carry(me.position, robots))
         kick = np.where(exact, self._mover.kick, zero)
-        return self._mover.actions(me, v_x, v_y, np.where(shoots, spin, zero), kick)
+        way = self._mover.gently(me, v_x, v_y, np.where(shoots, spin, zero))
+        return self._mover.actions(me, *way, kick)
 
     def _aim(self, x: Floats, y: Floats, robots: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
         """The best places in the goal to shoot at from x, y (n, robots, places), and the room.
