@@ -53,9 +53,9 @@ def test_it_beats_chasers_from_either_side() -> None:
 
 
 def test_it_scores_against_robots_that_stand_still_and_hardly_into_its_own_goal() -> None:
-    found = score("scripted", "zero", 40, VssSelfPlay(max_steps=800))
+    found = score("scripted", "zero", 160, VssSelfPlay(max_steps=800))
     assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.8
-    assert found.losses <= 1
+    assert found.losses <= 4
 
 
 @pytest.mark.parametrize(("better", "worse"), [("1", "0.5"), ("0.5", "0")])
@@ -75,7 +75,7 @@ def test_sides_of_any_size_play(blue: int, yellow: int) -> None:
 
 
 def test_the_keeper_stays_home() -> None:
-    worlds = 12
+    worlds = 60  # of few, one long scramble in a corner would be much
     controllers = {"blue": "scripted", "yellow": "ou"}
     matches = Matches(TASK, worlds, 4, 2, controllers=controllers, autoreset="disabled")
     matches.reset()

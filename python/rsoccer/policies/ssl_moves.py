@@ -73,7 +73,7 @@ class Mover:
     ) -> tuple[Floats, Floats, Floats]:
         """Velocity (m/s) and turn rate (rad/s) that differ little from what it does: with a ball.
 
-        The dribbler pulls a ball along with little more than 2 m/s².
+        The dribbler pulls a ball along with 2.6 m/s² at most.
         """
         way_x, way_y = v_x - me.velocity[..., 0], v_y - me.velocity[..., 1]
         per = np.minimum(self._pull / np.maximum(length(way_x, way_y), TINY), np.float32(1.0))

@@ -14,7 +14,7 @@ from rsoccer.view import View
 # -- Attack --
 APPROACH: Final = np.float32(1.0)  # m/s at which an attacker counts on coming to the ball
 LEAD: Final = np.float32(0.5)  # seconds that it looks ahead at most
-ALIGNED: Final = np.float32(1.2)  # metres off the line, per metre behind the ball, to start a run
+ALIGNED: Final = np.float32(1.8)  # metres off the line, per metre behind the ball, to start a run
 THROUGH: Final = np.float32(0.15)  # metres ahead on the line through the ball that a run aims at
 ROUND: Final = np.float32(0.10)  # metres that it keeps from the ball on the way to the run-up
 TRAPPED: Final = np.float32(0.1)  # metres by which there is no room behind the ball for a run
