@@ -5,7 +5,7 @@ use rapier2d::math::Vector;
 
 use crate::ball::Rolling;
 use crate::ball_model::Surface;
-use crate::engine::{BALL, Contact, Motion, Partner, Press, robot};
+use crate::engine::{BALL, Contact, Motion, Partner, Press, Undisturbed, robot};
 use crate::impact::{Other, Sphere};
 use crate::mouth::Held;
 use crate::physique::Physique;
@@ -24,6 +24,7 @@ pub(crate) fn settle(
     physique: &Physique,
     mean: Vector,
     now: &mut Rolling,
+    undisturbed: &[Undisturbed],
 ) -> bool {
     let mut contacts = [None; MOST];
     let found = state.engine.ball_contacts();
@@ -41,7 +42,7 @@ pub(crate) fn settle(
     let mut bounced = false;
     for contact in contacts.into_iter().flatten() {
         let normal = contact.normal.extend(0.0);
-        let (before, other) = partner_of(state, rules, physique, &contact);
+        let (before, other) = partner_of(state, rules, physique, &contact, undisturbed);
         let closing = (before - mean).dot(contact.normal);
         let rebound = sphere.rebound(&other, normal, closing);
         let friction = sphere.friction(&other, normal, contact.pressing + rebound);
@@ -64,6 +65,7 @@ fn partner_of(
     rules: &Fixed,
     physique: &Physique,
     contact: &Contact,
+    undisturbed: &[Undisturbed],
 ) -> (Vector, Other) {
     let model = &physique.ball;
     match contact.with {
@@ -78,8 +80,8 @@ fn partner_of(
                 other.surface = surface;
                 other.velocity.z = -down;
             }
-            let drive = &state.robots[index].drive;
-            (drive.expected_velocity + other.arm.perp() * drive.expected_spin, other)
+            let before = &undisturbed[index];
+            (before.velocity + other.arm.perp() * before.spin, other)
         }
     }
 }
@@ -129,11 +131,12 @@ pub(crate) fn settle_robots(
     physique: &Physique,
     n_blue: usize,
     presses: &[Press],
+    undisturbed: &[Undisturbed],
 ) {
     for press in presses {
-        let closing = -separation(state, press, |state, index| {
-            let drive = &state.robots[index].drive;
-            (drive.expected_velocity, drive.expected_spin)
+        let closing = -separation(state, press, |_, index| {
+            let before = &undisturbed[index];
+            (before.velocity, before.spin)
         });
         if let Partner::Robot(other) = press.with {
             let foes = (press.robot < n_blue) != (other < n_blue);

@@ -81,6 +81,8 @@ pub(crate) struct Squeeze {
     pub(crate) mass: f32,
     /// Whether it cannot slip out.
     pub(crate) jammed: bool,
+    /// Of the fastest around it, or its own, m/s.
+    pub(crate) speed: f32,
 }
 
 impl Squeeze {
@@ -101,11 +103,13 @@ impl Squeeze {
         let slack = if engine.was_caught() { HELD_SLACK } else { SLACK };
         let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
         let own = physique.ball.mass;
+        let speeds = sides.iter().map(|side| side.speed.abs());
+        let speed = speeds.fold(velocity.length(), f32::max);
         if let Some(velocity) = sides.jam(velocity, own, closes) {
             let mass = (CAUGHT_MASS * sides.lightest()).max(own);
-            return Some(Self { velocity, mass, jammed: true });
+            return Some(Self { velocity, mass, jammed: true, speed });
         }
-        sides.wedge(closes).then_some(Self { velocity, mass: own, jammed: false })
+        sides.wedge(closes).then_some(Self { velocity, mass: own, jammed: false, speed })
     }
 }
 
@@ -159,8 +163,12 @@ impl Sides {
         mass: f32,
         closes: impl Fn(f32, f32) -> bool,
     ) -> Option<Vector> {
-        let mut pairs = self.pairs().filter(|[a, b]| closes(a.gap + b.gap, a.speed + b.speed));
-        if let Some([a, b]) = pairs.find(|[a, b]| -a.normal.dot(b.normal) > OPPOSITE) {
+        let jam = self.pairs().filter(|[a, b]| {
+            -a.normal.dot(b.normal) > OPPOSITE && closes(a.gap + b.gap, a.speed + b.speed)
+        });
+        // Of several, those that leave the least room.
+        let room = |[a, b]: &[&Side; 2]| a.gap + b.gap;
+        if let Some([a, b]) = jam.min_by(|one, other| room(one).total_cmp(&room(other))) {
             // Friction keeps it where the two sides are so nearly opposite: it moves with them along
             // their common normal, and across it as it did.
             let axis = (a.normal - b.normal).normalize();

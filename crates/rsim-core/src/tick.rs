@@ -18,6 +18,10 @@ pub(crate) struct Tick<'a> {
     pub(crate) commands: &'a [f32],
 }
 
+/// Speed from which a squeeze is solved in parts, m/s: of what closes on the ball, or of the ball.
+const FAST_SQUEEZE: f32 = 1.0;
+const SQUEEZE_PARTS: u8 = 4;
+
 impl Tick<'_> {
     pub(crate) fn advance(
         &self,
@@ -27,12 +31,38 @@ impl Tick<'_> {
         let length = self.rules.config.tick;
         handling::handle_ball(state, self.physique, self.commands, self.columns(), length);
         self.drive_robots(state);
+        let before = state.engine.motion(BALL).position.extend(state.ball.z);
+        let parts = self.parts(state);
+        for _ in 0..parts {
+            self.move_bodies(state, scratch, length / f32::from(parts))?;
+        }
+        self.feel_loads(state, &scratch.presses);
+        let after = state.engine.motion(BALL).position.extend(state.ball.z);
+        state.crossing.watch(&self.rules.config.field, before, after);
+        Ok(())
+    }
+
+    /// Parts that the tick is solved in. While a ball is squeezed fast it slides along outlines that
+    /// turn, which one linear look at the contacts of a tick does not see.
+    fn parts(&self, state: &State) -> u8 {
+        let velocity = state.engine.motion(BALL).velocity;
+        let squeeze = self.squeeze(state, velocity, self.rules.config.tick);
+        if squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE) { SQUEEZE_PARTS } else { 1 }
+    }
+
+    /// Lets everything move and meet for `length`.
+    fn move_bodies(
+        &self,
+        state: &mut State,
+        scratch: &mut Scratch,
+        length: f32,
+    ) -> Result<(), NonFinite> {
+        state.engine.list_undisturbed(length, &mut scratch.undisturbed);
         let before = state.engine.motion(BALL);
-        let z = state.ball.z;
         if state.ball.is_down() {
-            self.roll(state, &before, scratch)?;
+            self.roll(state, &before, scratch, length)?;
         } else {
-            self.fly(state, &before, scratch)?;
+            self.fly(state, &before, scratch, length)?;
         }
         state.engine.list_presses(&mut scratch.presses);
         contacts::settle_robots(
@@ -40,10 +70,8 @@ impl Tick<'_> {
             self.physique,
             self.rules.config.blue.len(),
             &scratch.presses,
+            &scratch.undisturbed,
         );
-        self.feel_loads(state, &scratch.presses);
-        let after = state.engine.motion(BALL).position.extend(state.ball.z);
-        state.crossing.watch(&self.rules.config.field, before.position.extend(z), after);
         Ok(())
     }
 
@@ -58,22 +86,30 @@ impl Tick<'_> {
         state: &mut State,
         before: &Motion,
         scratch: &mut Scratch,
+        length: f32,
     ) -> Result<(), NonFinite> {
-        let (ball, length) = (&self.physique.ball, self.rules.config.tick);
+        let ball = &self.physique.ball;
         let start = Rolling { velocity: before.velocity, spin: state.ball.spin };
         let (way, end) = start.after(ball, length);
         let mean = way / length;
         state.engine.set_velocity(BALL, mean);
-        let squeeze = self.squeeze(state, mean);
+        let squeeze = self.squeeze(state, mean, length);
         if let Some(squeeze) = &squeeze {
             state.engine.set_velocity(BALL, squeeze.velocity);
         }
-        let hooks = self.hooks(Level::Floor, squeeze);
+        let hooks = self.hooks(Level::Floor, squeeze, length);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         let mut now = Rolling { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
         if squeeze.is_some_and(|squeeze| squeeze.jammed) {
             contacts::settle_caught(state);
-        } else if contacts::settle(state, self.rules, self.physique, mean, &mut now) {
+        } else if contacts::settle(
+            state,
+            self.rules,
+            self.physique,
+            mean,
+            &mut now,
+            &scratch.undisturbed,
+        ) {
             now = now.after(ball, length / 2.0).1;
         } else {
             now.velocity += end.velocity - mean;
@@ -89,15 +125,17 @@ impl Tick<'_> {
         state: &mut State,
         before: &Motion,
         scratch: &mut Scratch,
+        length: f32,
     ) -> Result<(), NonFinite> {
-        let squeeze = self.squeeze(state, before.velocity).filter(|squeeze| squeeze.jammed);
+        let squeeze = self.squeeze(state, before.velocity, length);
+        let squeeze = squeeze.filter(|squeeze| squeeze.jammed);
         let level = if let Some(squeeze) = &squeeze {
             state.engine.set_velocity(BALL, squeeze.velocity);
             Level::Caught { height: state.ball.z + self.physique.ball.radius }
         } else {
             Level::Air
         };
-        let hooks = self.hooks(level, squeeze);
+        let hooks = self.hooks(level, squeeze, length);
         state.engine.step(scratch, &hooks, &self.rules.room)?;
         if squeeze.is_some() {
             contacts::settle_caught(state);
@@ -108,7 +146,6 @@ impl Tick<'_> {
             engine: &mut state.engine,
             touched: &mut state.touched,
         };
-        let length = self.rules.config.tick;
         if squeeze.is_some() {
             flight.fall(&mut state.ball, length);
         } else {
@@ -117,16 +154,16 @@ impl Tick<'_> {
         Ok(())
     }
 
-    /// Whether the ball, which moves with `velocity`, is caught in this tick.
-    fn squeeze(&self, state: &State, velocity: Vector) -> Option<Squeeze> {
+    /// Whether the ball, which moves with `velocity`, is caught within `time`.
+    fn squeeze(&self, state: &State, velocity: Vector, time: f32) -> Option<Squeeze> {
         let height = state.ball.z + self.physique.ball.radius;
-        let (room, tick) = (&self.rules.room, self.rules.config.tick);
-        Squeeze::find(&state.engine, self.physique, room, velocity, height, tick)
+        let room = &self.rules.room;
+        Squeeze::find(&state.engine, self.physique, room, velocity, height, time)
     }
 
-    fn hooks(&self, level: Level, squeeze: Option<Squeeze>) -> BallHooks<'_> {
-        let (walls, tick) = (&*self.rules.walls, self.rules.config.tick);
-        BallHooks { physique: self.physique, walls, level, squeeze, tick }
+    fn hooks(&self, level: Level, squeeze: Option<Squeeze>, time: f32) -> BallHooks<'_> {
+        let walls = &*self.rules.walls;
+        BallHooks { physique: self.physique, walls, level, squeeze, time }
     }
 
     fn drive_robots(&self, state: &mut State) {

@@ -28,8 +28,8 @@ pub(crate) struct BallHooks<'a> {
     pub(crate) level: Level,
     /// If the ball is caught between others it stays in contact with all of them.
     pub(crate) squeeze: Option<Squeeze>,
-    /// s.
-    pub(crate) tick: f32,
+    /// Length of what is solved, s.
+    pub(crate) time: f32,
 }
 
 /// Where the ball is in a tick, which decides what it meets in the plane.
@@ -100,7 +100,7 @@ impl PhysicsHooks for BallHooks<'_> {
         let touch = if self.squeeze.is_some() {
             Some(obstacle.nearest(center, radius))
         } else {
-            obstacle.touch(center, radius, self.tick)
+            obstacle.touch(center, radius, self.time)
         };
         if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
             let Some(touch) = touch else {

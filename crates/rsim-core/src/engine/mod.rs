@@ -94,8 +94,10 @@ pub(crate) struct Scratch {
     pipeline: PhysicsPipeline,
     ccd: CCDSolver,
     trial: quiet::Trial,
-    /// Contacts of robots in the last tick.
+    /// Contacts of robots in what was solved last.
     pub(crate) presses: Vec<Press>,
+    /// How robots would move after it if nobody touched them.
+    pub(crate) undisturbed: Vec<Undisturbed>,
     // A match has no joints and no soft bodies; the pipeline wants to see that for itself.
     joints: ImpulseJointSet,
     multibodies: MultibodyJointSet,
@@ -109,11 +111,20 @@ impl Scratch {
             ccd: CCDSolver::new(),
             trial: quiet::Trial::default(),
             presses: Vec::new(),
+            undisturbed: Vec::new(),
             joints: ImpulseJointSet::new(),
             multibodies: MultibodyJointSet::new(),
             soft_bodies: SoftBodySet::new(),
         }
     }
+}
+
+/// How a robot would move if nobody touched it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Undisturbed {
+    pub(crate) velocity: Vector,
+    /// rad/s.
+    pub(crate) spin: f32,
 }
 
 /// A body's state left the finite numbers.
@@ -169,6 +180,17 @@ impl Engine {
     /// Whether the ball was caught in the solver's last tick.
     pub(crate) fn was_caught(&self) -> bool {
         self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
+    }
+
+    /// How robots move after `time` if nobody touches them.
+    pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
+        undisturbed.clear();
+        undisturbed.extend((robot(0)..self.motions.len()).map(|body| {
+            let (motion, push) = (&self.motions[body], &self.pushes[body]);
+            let inverse = &self.inverses[body];
+            let velocity = motion.velocity + push.force * (inverse.mass * time);
+            Undisturbed { velocity, spin: motion.spin + push.torque * (inverse.inertia * time) }
+        }));
     }
 
     /// Force (N) on a body over its mass, during the next tick.
@@ -230,7 +252,8 @@ impl Engine {
         ball: &BallHooks,
         room: &Room,
     ) -> Result<(), NonFinite> {
-        let quiet = self.skips && self.clear && ball.squeeze.is_none();
+        self.parameters.dt = ball.time;
+        let quiet = self.skips && self.clear && ball.squeeze.is_none() && !self.was_caught();
         if quiet
             && self.try_coasting(
                 &mut scratch.trial,
