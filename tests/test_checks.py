@@ -55,7 +55,11 @@ def test_large_actions_are_clipped_and_doubles_are_cast() -> None:
         ({"controllers": {"blue_3": "ou"}}, ValueError, "unknown"),
         ({"controllers": {"blue": "chess"}}, ValueError, "unknown policy 'chess'.*'ou'"),
         ({"controllers": {"blue": 7}}, TypeError, r"controllers\['blue_0'\]: expected"),
+        ({"controllers": ["ou"]}, TypeError, r"controllers: expected a mapping.*, got \['ou'\]"),
+        ({"controllers": []}, TypeError, r"controllers: expected a mapping.*, got \[\]"),
+        ({"controllers": {7: "ou", "green": "ou"}}, ValueError, r"unknown \[7, 'green'\]"),
         ({"task": "Chess-v0"}, ValueError, "unknown task 'Chess-v0'"),
+        ({"task": 3}, TypeError, "task: expected a task or its name, got 3"),
     ],
 )
 def test_wrong_options_are_refused(

@@ -1,6 +1,7 @@
 """Balls that go on from elsewhere, and what a task may answer when it is asked."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ Answer = tuple[Array, Floats] | None
 def balls(*places: tuple[float, float]) -> Floats:
     """Balls at rest (k, ball column) at these places."""
     found = np.zeros((len(places), Frame.empty(1, 1, 1).ball.data.shape[1]), np.float32)
-    found[:, :2] = places
+    found[:, :2] = np.reshape(places, (-1, 2))
     return found
 
 
@@ -110,6 +111,7 @@ def test_drives_and_kickers_go_on() -> None:
         ((np.array([True]), balls((0, 0))), "whole numbers"),
         ((np.array([0.0]), balls((0, 0))), "whole numbers"),
         ((np.array([0]), balls((0, 0), (0, 0))), r"balls: expected shape \(1, 14\), got \(2, 14\)"),
+        (([], balls((0, 0))), r"balls: expected shape \(0, 14\), got \(1, 14\)"),
         ((np.array([0]), balls((np.nan, 0))), "balls: expected finite"),
         ((np.array([0]), balls((9, 9))), "world 0: ball is outside the field"),
         (np.array([0]), "expected worlds and balls, or None"),
@@ -122,10 +124,15 @@ def test_answers_that_mean_nothing_are_named(answer: Answer, message: str) -> No
         matches.step(zeros(matches))
 
 
-def test_nobody_moved_is_an_answer() -> None:
+NOBODY: list[Any] = [(np.zeros(0, np.intp), balls()), ([], balls()), ([], []), ((), np.zeros(0))]
+
+
+@pytest.mark.parametrize("nobody", NOBODY)
+def test_nobody_moved_is_an_answer(nobody: Answer) -> None:
+    """An empty list was taken for numbers that are not whole."""
     matches, answers = told()
     control = begun(Told(), 4)
-    answers.append((np.zeros(0, np.intp), balls((0, 0))[:0]))
+    answers.append(nobody)
     assert same(
         matches.step(zeros(matches)).observations, control.step(zeros(control)).observations
     )

@@ -50,6 +50,12 @@ from tests.one_match import SELF_PLAY, crowded, shot_at
             TypeError,
             r"a task that is made has its own, got \['ball_speed'\]",
         ),
+        (lambda: single_env(3), TypeError, "task: expected a task or its name, got 3"),  # type: ignore[arg-type]
+        (
+            lambda: single_env("VSS-v0", controllers=["ou"]),  # type: ignore[arg-type]
+            TypeError,
+            r"controllers: expected a mapping.*, got \['ou'\]",
+        ),
     ],
 )
 def test_wrong_options_are_named(

@@ -7,7 +7,7 @@ from numbers import Real
 import numpy as np
 
 from rsoccer import _core
-from rsoccer._core import SimConfig
+from rsoccer._core import RobotModel, SimConfig
 from rsoccer.frame import Array, Floats, Mask
 
 
@@ -41,6 +41,19 @@ def flag(name: str, value: object) -> bool:
     if not isinstance(value, bool | np.bool_):
         raise TypeError(f"{name}: expected True or False, got {value!r}")
     return bool(value)
+
+
+def preset(name: str, value: object, kind: type) -> None:
+    """A preset's name or what it stands for; the simulator says which names there are."""
+    if not isinstance(value, str | kind):
+        raise TypeError(f"{name}: expected a preset's name or a {kind.__name__}, got {value!r}")
+
+
+def robots(value: object) -> None:
+    """A robot of a preset or by numbers, or a list of them; None is the simulator's own."""
+    each = value if isinstance(value, list | tuple) else [] if value is None else [value]
+    for robot in each:
+        preset("robot", robot, RobotModel)
 
 
 def drive(config: SimConfig, kind: str, needed: str) -> None:
@@ -126,6 +139,8 @@ def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
     if not isinstance(found, tuple) or len(found) != 2:
         raise TypeError(f"reposition_ball: expected worlds and balls, or None, got {found!r}")
     worlds = np.asarray(found[0])
+    if worlds.shape == (0,):
+        worlds = worlds.astype(np.intp)  # an empty list becomes floats
     if worlds.ndim != 1 or worlds.dtype.kind not in "iu":
         raise TypeError(
             f"reposition_ball: expected whole numbers (k,) for worlds, got {worlds.dtype} "
@@ -137,7 +152,9 @@ def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
     mask[worlds] = True
     if np.count_nonzero(mask) != len(worlds):
         raise ValueError(f"reposition_ball: expected each world once, got {worlds.tolist()}")
-    balls = floats("reposition_ball: balls", found[1], (len(worlds), len(_core.BALL_COLUMNS)))
+    shape = (len(worlds), len(_core.BALL_COLUMNS))
+    balls = np.zeros(shape) if not len(worlds) and np.size(found[1]) == 0 else found[1]
+    balls = floats("reposition_ball: balls", balls, shape)
     return mask, balls[np.argsort(worlds)]
 
 

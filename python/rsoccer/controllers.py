@@ -112,9 +112,9 @@ def appoint(task: Task, controllers: Controllers | None, worlds: int) -> Drivers
 
 def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller]:
     """A driver for each robot by name: `all`, then a team, then a robot's own name wins."""
-    given = dict(controllers or {})
+    given = given_by_name(controllers)
     valid = ["all", *SIDES, *task.robots]
-    unknown = sorted(set(given) - set(valid))
+    unknown = sorted(set(given) - set(valid), key=str)
     if unknown:
         raise ValueError(f"controllers: unknown {unknown}; valid are {valid}")
     chosen: dict[str, Controller] = dict(task.default_controllers())
@@ -123,6 +123,18 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
         for key in ("all", team, name):
             chosen[name] = given.get(key, chosen[name])
     return {name: _checked(name, controller) for name, controller in chosen.items()}
+
+
+def given_by_name(controllers: Controllers | None) -> dict[str, Controller]:
+    """A copy of the drivers as they were given: nobody by default."""
+    if controllers is None:
+        return {}
+    if not isinstance(controllers, Mapping):
+        raise TypeError(
+            "controllers: expected a mapping from robots to policies, as in {'blue': 'ou'}, "
+            f"got {controllers!r}"
+        )
+    return dict(controllers)
 
 
 def task_for(*players: Controller | os.PathLike[str]) -> Task:

@@ -16,7 +16,7 @@ from rsoccer.controllers import Controllers, appoint
 from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.outcome import Outcome
 from rsoccer.play import Play
-from rsoccer.registry import make_task
+from rsoccer.registry import as_task
 from rsoccer.reposition import reposition_balls
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.saved import Saved
@@ -62,7 +62,7 @@ class Matches:
         """
         if autoreset not in AUTORESETS:
             raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
-        self.task = make_task(task) if isinstance(task, str) else task
+        self.task = as_task(task)
         self.worlds = checks.whole("worlds", worlds, 1)
         self.autoreset = autoreset
         self.drivers = appoint(self.task, controllers, worlds)

@@ -99,6 +99,15 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
     return task_class(**options)
 
 
+def as_task(task: object) -> Task:
+    """A task by its name, or itself; a TypeError for anything else."""
+    if isinstance(task, str):
+        return make_task(task)
+    if not isinstance(task, Task):
+        raise TypeError(f"task: expected a task or its name, got {task!r}")
+    return task
+
+
 def list_options(task_class: type[Task]) -> list[str]:
     """Names of the options that a task's class takes."""
     return list(inspect.signature(task_class).parameters)

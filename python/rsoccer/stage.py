@@ -13,11 +13,11 @@ from gymnasium.spaces import Space
 from numpy.typing import NDArray
 
 from rsoccer import checks, spaces
-from rsoccer.controllers import Controllers, resolve
+from rsoccer.controllers import Controllers, given_by_name, resolve
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Array, Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.outcome import Outcome
-from rsoccer.registry import make_task
+from rsoccer.registry import as_task, make_task
 from rsoccer.task import LEARN, Task
 
 if TYPE_CHECKING:
@@ -165,6 +165,7 @@ def chosen_task(task: Task | str, max_steps: int | None, options: Mapping[str, A
         return make_task(task, **options, **clock)
     if options:
         raise TypeError(f"options: a task that is made has its own, got {sorted(options)} besides")
+    task = as_task(task)
     return task if max_steps is None else timed(task, "max_steps", max_steps)
 
 
@@ -177,7 +178,7 @@ def timed(task: Task, name: str, limit: int) -> Task:
 
 def one_learner(task: Task, learner: str | None, controllers: Controllers | None) -> Controllers:
     """A driver for each robot, one of them the learner; or an error that says how to get there."""
-    given = dict(controllers or {})
+    given = given_by_name(controllers)
     if learner is not None:
         if learner not in task.robots:
             raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")

@@ -1,4 +1,6 @@
+import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -58,6 +60,16 @@ def test_a_policy_is_itself() -> None:
 def test_an_unknown_name_is_told_with_the_valid_ones(name: str) -> None:
     with pytest.raises(ValueError, match=r"unknown policy.*'chase', .*'ou', .*'uniform', .*'zero'"):
         policies.make(name, TASK)
+
+
+@pytest.mark.parametrize("wrong", [3, None, b"chase", ["chase"]])
+def test_what_is_no_policy_is_named(wrong: Any) -> None:  # noqa: ANN401
+    message = re.escape(f"policy: expected a policy, its name or its file, got {wrong!r}")
+    with pytest.raises(TypeError, match=message):
+        policies.make(wrong, TASK)
+    for ask in (policies.trained_on, policies.name_of):
+        with pytest.raises(TypeError, match=message):
+            ask(wrong)
 
 
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:

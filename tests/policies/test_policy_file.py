@@ -83,6 +83,10 @@ SPOILED: dict[str, tuple[Spoil, str]] = {
     "clip of 0": (lambda arrays, facts: facts.update(clip="0"), "'clip'.*'0'"),
     "clip no number": (lambda arrays, facts: facts.update(clip="ten"), "'clip'.*'ten'"),
     "half a repeat": (lambda arrays, facts: facts.update(action_repeat="1.5"), "'action_repeat'"),
+    "a repeat that overflowed in play": (
+        lambda arrays, facts: facts.update(action_repeat="1e300"),
+        "'action_repeat' should be at most 1000000, got '1e300'",
+    ),
     "wrong size": (lambda arrays, facts: facts.update(observation_size="6"), "'5'.*'6'"),
     "no layers": (
         lambda arrays, facts: [arrays.pop(name) for name in list(arrays) if "layers" in name],

@@ -101,6 +101,12 @@ def test_a_robot_without_a_policy_is_named(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_controllers_that_are_no_mapping_are_named(tmp_path: Path) -> None:
+    with pytest.raises(TypeError, match=r"controllers: expected a mapping.*, got \['ou'\]"):
+        record_match(tmp_path / "a.mp4", controllers=["ou"])  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("seconds", [0.0, -3.0, float("nan"), float("inf")])
 def test_a_senseless_length_is_refused(tmp_path: Path, seconds: float) -> None:
     with pytest.raises(ValueError, match="seconds: expected a positive number, got"):

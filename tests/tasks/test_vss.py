@@ -203,6 +203,9 @@ def test_weights_are_data() -> None:
         ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid.*'goal'"),
         ({"weights": {"goal": float("inf")}}, ValueError, "weights: expected a finite number"),
         ({"robot": "vss_9000rpm"}, ValueError, "vss_9000rpm"),
+        ({"robot": 3}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
+        ({"robot": [3] * 6}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
+        ({"field": 3}, TypeError, "field: expected a preset's name or a Field, got 3$"),
     ],
 )
 def test_options_that_make_no_task_are_refused(

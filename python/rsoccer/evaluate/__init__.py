@@ -19,9 +19,9 @@ from rsoccer.controllers import lineup, opponents_of, task_for
 from rsoccer.evaluate.episodes import Doubles, Episodes, Terms, play
 from rsoccer.evaluate.results import Evaluation, Interval, Results, estimated, results
 from rsoccer.evaluate.tables import table
-from rsoccer.policies import Player, make, name_of
+from rsoccer.policies import Player, check_player, make, name_of
 from rsoccer.policies.base import Policy
-from rsoccer.registry import make_task
+from rsoccer.registry import as_task
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
@@ -47,7 +47,10 @@ def evaluate(
     processor). `worlds` matches are played at once; another number plays the same starts, and a
     network's last bits may differ.
     """
-    task = _task(policy, task)
+    check_player("policy", policy)
+    if opponent is not None:
+        check_player("opponent", opponent)
+    task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
     each = _matches_of_a_side(task, matches)
     checks.whole("seed", seed, 0)
@@ -65,13 +68,6 @@ def evaluate(
     others = opponents_of(task) if opponent is None else [name_of(opponent)]
     names = (name_of(policy), " ".join(others) or "-")
     return _evaluation(task, names, seed, played, chance)
-
-
-def _task(policy: Player, task: str | Task | None) -> Task:
-    """The task by its name, itself, or what the policy was trained on."""
-    if task is None:
-        return task_for(policy)
-    return make_task(task) if isinstance(task, str) else task
 
 
 def _evaluation(

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
 __all__ = ["Policy", "Seen", "make", "name_of", "names", "names_with_skill"]
-__all__ += ["Player", "trained_on"]
+__all__ += ["Player", "check_player", "trained_on"]
 
 Player = str | os.PathLike[str] | Policy
 """A policy by name (`zero`, `ou`, ...), by the path of its file, or itself."""
@@ -57,13 +57,19 @@ def names_with_skill() -> list[str]:
     return sorted(_WITH_SKILL)
 
 
+def check_player(name: str, value: object) -> None:
+    """TypeError, which calls it `name`, unless it is a `Player`, known or not."""
+    if not isinstance(value, str | os.PathLike | Policy):
+        raise TypeError(f"{name}: expected a policy, its name or its file, got {value!r}")
+
+
 def make(policy: Player, task: Task) -> Policy:
     """A policy fit for the robots of `task`, from its name, its file, or itself.
 
     A file plays as it was trained; "policy.safetensors:mean" and ":sample" say how it shall.
     """
     if not isinstance(policy, Policy):
-        given = os.fspath(policy)
+        given = _text(policy)
         name, colon, skill = given.partition(":")
         if name not in _MAKERS:
             policy = _load(given)
@@ -77,13 +83,19 @@ def trained_on(policy: Player) -> str | None:
     """Name of the task that a policy was trained on; None for scripts and noise."""
     if isinstance(policy, Policy):
         return policy.task_name
-    given = os.fspath(policy)
+    given = _text(policy)
     return None if given.partition(":")[0] in _MAKERS else _load(given).task_name
 
 
 def name_of(policy: Player) -> str:
     """What to call a policy in tables: its name or file, or its class if it has neither."""
-    return type(policy).__name__ if isinstance(policy, Policy) else os.fspath(policy)
+    return type(policy).__name__ if isinstance(policy, Policy) else _text(policy)
+
+
+def _text(policy: str | os.PathLike[str]) -> str:
+    """A name, or the path of a file, as text."""
+    check_player("policy", policy)
+    return os.fspath(policy)
 
 
 def _with_skill(name: str, skill: str, task: Task) -> Policy:

@@ -14,6 +14,9 @@ from rsoccer.frame import Array, Floats
 FORMAT = "rsoccer-policy-2"
 """First thing a reader looks at; a new number means that old readers must refuse."""
 
+MOST_REPEAT = 1_000_000
+"""Control steps that an action may last, some seven hours of play."""
+
 INSTALL_HINT = "policy files need safetensors: pip install 'rsoccer[cli]'"
 
 
@@ -28,6 +31,11 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
     repeat = _read_number(metadata, "action_repeat", "1")
     if not repeat.is_integer():
         raise ValueError(f"metadata 'action_repeat' should be a whole number, got {repeat}")
+    if repeat > MOST_REPEAT:
+        raise ValueError(
+            f"metadata 'action_repeat' should be at most {MOST_REPEAT}, "
+            f"got {metadata['action_repeat']!r}"
+        )
     return np.float32(clip), int(repeat)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.controllers import Controllers, task_for
+from rsoccer.controllers import Controllers, given_by_name, task_for
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
 from rsoccer.render.image import Image, Renderer, default_width
@@ -55,7 +55,7 @@ def film_match(
     """The images that `record_match` writes, played while they are drawn, and images a second."""
     if not (math.isfinite(seconds) and seconds > 0):
         raise ValueError(f"seconds: expected a positive number, got {seconds}")
-    task = task_for(*(controllers or {}).values()) if task is None else task
+    task = task_for(*given_by_name(controllers).values()) if task is None else task
     matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
     if matches.agents:
         raise ValueError(

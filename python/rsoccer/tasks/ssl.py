@@ -14,7 +14,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, Simulator, Steering
+from rsoccer._core import BallModel, Field, SimConfig, Simulator, Steering
 from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
@@ -61,6 +61,10 @@ class Ssl(Soccer):
         weights = checks.weights(self.weights, self.WEIGHTS, self.PAPER_WEIGHTS)
         object.__setattr__(self, "weights", weights)
         checks.flag("discrete", self.discrete)
+        checks.preset("field", self.field, Field)
+        checks.robots(self.robot)
+        if self.ball is not None:
+            checks.preset("ball", self.ball, BallModel)
         checks.drive(self.config, "omni", "that is told its body's velocity")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")

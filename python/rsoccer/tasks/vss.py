@@ -9,7 +9,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import FASTEST, SimConfig
+from rsoccer._core import FASTEST, Field, SimConfig
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
@@ -62,6 +62,8 @@ class Vss(Soccer):
         checks.number("ball_speed", self.ball_speed, 0.0, FASTEST)
         checks.flag("discrete", self.discrete)
         object.__setattr__(self, "weights", checks.weights(self.weights, WEIGHTS, PAPER_WEIGHTS))
+        checks.preset("field", self.field, Field)
+        checks.robots(self.robot)
         checks.drive(self.config, "differential", "with two wheels")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
