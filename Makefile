@@ -71,7 +71,7 @@ physics: $(VENV)/built ## measure the physics again; write its page and draw its
 golden: $(VENV)/tools ## renew the hashes that guard the physics, once PHYSICS_VERSION is raised
 	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test all golden::
 
-soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in all tasks (some minutes)
+soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in each task (many minutes)
 	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/test_pressing.py --numprocesses auto
 
