@@ -103,7 +103,8 @@ impl Squeeze {
         let slack = if engine.was_caught() { HELD_SLACK } else { SLACK };
         let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
         let own = physique.ball.mass;
-        let speeds = sides.iter().map(|side| side.speed.abs());
+        let close = sides.iter().filter(|side| side.gap < physique.ball.radius);
+        let speeds = close.map(|side| side.speed.abs());
         let speed = speeds.fold(velocity.length(), f32::max);
         if let Some(velocity) = sides.jam(velocity, own, closes) {
             let mass = (CAUGHT_MASS * sides.lightest()).max(own);

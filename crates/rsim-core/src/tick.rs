@@ -18,8 +18,9 @@ pub(crate) struct Tick<'a> {
     pub(crate) commands: &'a [f32],
 }
 
-/// Speed from which a squeeze is solved in parts, m/s: of what closes on the ball, or of the ball.
-const FAST_SQUEEZE: f32 = 1.0;
+/// Speed from which a squeeze is solved in parts of the tick, m/s: of what is around the ball, or its
+/// own. It slides along outlines that turn, which one linear look at the contacts of a tick does not see.
+const FAST_SQUEEZE: f32 = 1.5;
 const SQUEEZE_PARTS: u8 = 4;
 
 impl Tick<'_> {
@@ -32,9 +33,12 @@ impl Tick<'_> {
         handling::handle_ball(state, self.physique, self.commands, self.columns(), length);
         self.drive_robots(state);
         let before = state.engine.motion(BALL).position.extend(state.ball.z);
-        let parts = self.parts(state);
+        let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
+        let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
+        let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
         for _ in 0..parts {
-            self.move_bodies(state, scratch, length / f32::from(parts))?;
+            let part = length / f32::from(parts);
+            self.move_bodies(state, scratch, part, squeeze.is_some())?;
         }
         self.feel_loads(state, &scratch.presses);
         let after = state.engine.motion(BALL).position.extend(state.ball.z);
@@ -42,27 +46,20 @@ impl Tick<'_> {
         Ok(())
     }
 
-    /// Parts that the tick is solved in. While a ball is squeezed fast it slides along outlines that
-    /// turn, which one linear look at the contacts of a tick does not see.
-    fn parts(&self, state: &State) -> u8 {
-        let velocity = state.engine.motion(BALL).velocity;
-        let squeeze = self.squeeze(state, velocity, self.rules.config.tick);
-        if squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE) { SQUEEZE_PARTS } else { 1 }
-    }
-
-    /// Lets everything move and meet for `length`.
+    /// Lets everything move and meet for `length`, in which the ball may be squeezed or cannot be.
     fn move_bodies(
         &self,
         state: &mut State,
         scratch: &mut Scratch,
         length: f32,
+        may_squeeze: bool,
     ) -> Result<(), NonFinite> {
         state.engine.list_undisturbed(length, &mut scratch.undisturbed);
         let before = state.engine.motion(BALL);
         if state.ball.is_down() {
-            self.roll(state, &before, scratch, length)?;
+            self.roll(state, &before, scratch, length, may_squeeze)?;
         } else {
-            self.fly(state, &before, scratch, length)?;
+            self.fly(state, &before, scratch, length, may_squeeze)?;
         }
         state.engine.list_presses(&mut scratch.presses);
         contacts::settle_robots(
@@ -87,13 +84,14 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
         length: f32,
+        may_squeeze: bool,
     ) -> Result<(), NonFinite> {
         let ball = &self.physique.ball;
         let start = Rolling { velocity: before.velocity, spin: state.ball.spin };
         let (way, end) = start.after(ball, length);
         let mean = way / length;
         state.engine.set_velocity(BALL, mean);
-        let squeeze = self.squeeze(state, mean, length);
+        let squeeze = if may_squeeze { self.squeeze(state, mean, length) } else { None };
         if let Some(squeeze) = &squeeze {
             state.engine.set_velocity(BALL, squeeze.velocity);
         }
@@ -126,8 +124,9 @@ impl Tick<'_> {
         before: &Motion,
         scratch: &mut Scratch,
         length: f32,
+        may_squeeze: bool,
     ) -> Result<(), NonFinite> {
-        let squeeze = self.squeeze(state, before.velocity, length);
+        let squeeze = if may_squeeze { self.squeeze(state, before.velocity, length) } else { None };
         let squeeze = squeeze.filter(|squeeze| squeeze.jammed);
         let level = if let Some(squeeze) = &squeeze {
             state.engine.set_velocity(BALL, squeeze.velocity);

@@ -215,6 +215,35 @@ fn robots_met_as_if_the_ball_between_them_were_not_there() {
     }
 }
 
+/// Depths of meetings with any heading, so that fronts aslant meet the ball too, m; the deepest last.
+fn depths_with_any_heading(speed: f32) -> Vec<f32> {
+    let mut depths: Vec<_> = (0..300)
+        .map(|nth| {
+            let draw = |part: u64| uniform(nth * 32 + part + 4096);
+            let meeting = Meeting {
+                tick: 0.005,
+                speeds: [speed; 2],
+                headings: [180.0 * draw(0), 180.0 * draw(1)],
+                gap: 0.09 + 0.04 * draw(2),
+                offset: 0.01 * draw(3),
+            };
+            meeting.outcome().depth
+        })
+        .collect();
+    depths.sort_by(f32::total_cmp);
+    depths
+}
+
+#[test]
+fn a_ball_that_slid_along_a_front_aslant_went_into_it() {
+    for speed in [1.0, 2.5, 3.7] {
+        let depths = depths_with_any_heading(speed);
+        let [most, all] = [depths[depths.len() * 98 / 100], depths[depths.len() - 1]];
+        assert!(most < 3e-3, "{speed} m/s: 98% within {most} m");
+        assert!(all < 6e-3, "{speed} m/s: the deepest {all} m");
+    }
+}
+
 #[test]
 fn robots_that_met_not_quite_in_line_went_into_the_ball() {
     for speed in [1.0, 2.5, 3.7] {
