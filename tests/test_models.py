@@ -26,7 +26,7 @@ TURNED = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
         (lambda: SimConfig(robot=[RobotModel("vss_440rpm")]), "each of 6 robots, got 1"),
         (lambda: MIXED.robot, "robots differ: use `robots`"),
         (lambda: SimConfig(n_blue=0, n_yellow=0).robot, "there are no robots"),
-        (lambda: Simulator(SimConfig(Field("vss_3v3", length=0.2))), "teams do not fit"),
+        (lambda: Simulator(SimConfig(Field("vss_3v3", length=0.1))), "teams do not fit"),
     ],
 )
 def test_what_cannot_be_is_refused_by_name(make: Callable[[], object], message: str) -> None:
