@@ -51,7 +51,7 @@ def checks() -> Checks:
             yield from _at_wall("vss_440rpm", speed, tick)
         for speed in (1.0, 2.5, 3.7):
             yield from _meeting(speed, tick)
-    for speed in (1.0, 2.5):
+    for speed in (1.0, 2.5, 3.7):
         yield from _meetings(speed)
     for robots in (1, 3, 4):
         yield from _pinned(robots)
