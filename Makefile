@@ -17,7 +17,7 @@ WHOLE := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 
 # Make's own flags are for make: cargo takes what it finds there for a jobserver that it may use.
 ifneq ($(MAKELEVEL),0)
-unexport MAKEFLAGS
+unexport MAKEFLAGS MFLAGS
 endif
 
 .PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python format docs physics golden soak coverage bench clean

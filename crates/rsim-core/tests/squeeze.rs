@@ -215,15 +215,16 @@ fn robots_met_as_if_the_ball_between_them_were_not_there() {
     }
 }
 
-/// Depths of meetings with any heading, so that fronts aslant meet the ball too, m; the deepest last.
-fn depths_with_any_heading(speed: f32) -> Vec<f32> {
+/// Depths of meetings with headings of so many degrees around zero, so that fronts meet the ball too, m;
+/// the deepest last.
+fn depths_with_headings(speed: f32, [first, second]: [f32; 2]) -> Vec<f32> {
     let mut depths: Vec<_> = (0..300)
         .map(|nth| {
             let draw = |part: u64| uniform(nth * 32 + part + 4096);
             let meeting = Meeting {
                 tick: 0.005,
                 speeds: [speed; 2],
-                headings: [180.0 * draw(0), 180.0 * draw(1)],
+                headings: [first * draw(0), second * draw(1)],
                 gap: 0.09 + 0.04 * draw(2),
                 offset: 0.01 * draw(3),
             };
@@ -237,11 +238,21 @@ fn depths_with_any_heading(speed: f32) -> Vec<f32> {
 #[test]
 fn a_ball_that_slid_along_a_front_aslant_went_into_it() {
     for speed in [1.0, 2.5, 3.7] {
-        let depths = depths_with_any_heading(speed);
+        let depths = depths_with_headings(speed, [180.0, 180.0]);
         let [most, all] = [depths[depths.len() * 98 / 100], depths[depths.len() - 1]];
         assert!(most < 3e-3, "{speed} m/s: 98% within {most} m");
         assert!(all < 6e-3, "{speed} m/s: the deepest {all} m");
     }
+}
+
+/// Known: at full speed a ball that slides out along a front aslant is now and then deeper in it than
+/// 3 mm, at most 6 mm. The engine takes outlines for straight within a part of a tick.
+#[test]
+#[should_panic(expected = "deeper than 3 mm")]
+fn a_ball_that_slides_along_a_front_aslant_at_full_speed_goes_into_it() {
+    let depths = depths_with_headings(3.7, [35.0, 180.0]);
+    let deep = depths.iter().filter(|depth| **depth > 3e-3).count();
+    assert!(deep == 0, "{deep} of {} are deeper than 3 mm", depths.len());
 }
 
 #[test]
