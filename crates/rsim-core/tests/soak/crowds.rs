@@ -124,7 +124,7 @@ fn a_flying_ball_in_every_corner_is_as_solid_as_on_the_floor() {
 #[test]
 fn parameters_at_the_ends_of_their_ranges_stay_sound() {
     for config in [SimConfig::vss(3, 3), SimConfig::ssl(4, 4)] {
-        play("own parameters", [0.3, 2.0, 12.0], [0.8, 4.0, 15.0], |episode| {
+        play("own parameters", [0.3, 2.0, 12.0], [0.8, 4.0, 25.0], |episode| {
             let mut scene = chase(config.clone(), [0.3 * draw(episode, 0), 0.3 * draw(episode, 1)]);
             let names = BALL_PARAMETERS.iter().chain(
                 ROBOT_PARAMETERS.iter().cycle().take(ROBOT_PARAMETERS.len() * config.n_robots()),
