@@ -151,16 +151,17 @@ pub(crate) fn settle_robots(
 /// Robots that lean on something, a bit each: what pressed on them in the last tick has not come off
 /// them in it.
 pub(crate) fn leaning(state: &State, presses: &[Press]) -> u64 {
-    let lasting = presses.iter().filter(|press| {
-        separation(state, press, |state, index| {
-            let motion = state.engine.motion(robot(index));
-            (motion.velocity, motion.spin)
-        }) < SEPARATING
-    });
+    let lasting = presses.iter().filter(|press| separation(state, press, as_it_moves) < SEPARATING);
     lasting.fold(0, |all, press| {
         let other = if let Partner::Robot(other) = press.with { 1 << other } else { 0 };
         all | 1 << press.robot | other
     })
+}
+
+/// Velocity (m/s) and turn rate (rad/s) of a robot now.
+fn as_it_moves(state: &State, index: usize) -> (Vector, f32) {
+    let motion = state.engine.motion(robot(index));
+    (motion.velocity, motion.spin)
 }
 
 /// Speed at which two come apart where they press, m/s, if they move and turn as `moves` says.
@@ -178,26 +179,18 @@ fn separation(state: &State, press: &Press, moves: impl Fn(&State, usize) -> (Ve
 fn rebound(state: &mut State, physique: &Physique, press: &Press, closing: f32) {
     let Press { robot: first, with, normal, point } = *press;
     let restitution = |index: usize| physique.robots[index].model.restitution;
-    let yields = |index: usize| {
-        let turn = (point - state.engine.motion(robot(index)).position).perp_dot(normal);
-        let body = &physique.robots[index];
-        body.inverse_mass + turn * turn * body.inverse_inertia
-    };
+    let arm = |index: usize| point - state.engine.motion(robot(index)).position;
+    let yields = |index: usize| physique.robots[index].yields(arm(index), normal);
     let (mean, per_impulse) = match with {
         Partner::Robot(other) => {
             (restitution(first).midpoint(restitution(other)), yields(first) + yields(other))
         }
         Partner::Wall(_) => (restitution(first).midpoint(WALL_RESTITUTION), yields(first)),
     };
-    let apart = separation(state, press, |state, index| {
-        let motion = state.engine.motion(robot(index));
-        (motion.velocity, motion.spin)
-    });
+    let apart = separation(state, press, as_it_moves);
     let impulse = normal * ((mean * closing - apart) / per_impulse).max(0.0);
-    let arm = |index: usize| point - state.engine.motion(robot(index)).position;
-    let (own_arm, other) =
-        (arm(first), if let Partner::Robot(other) = with { Some(other) } else { None });
-    if let Some(other) = other {
+    let own_arm = arm(first);
+    if let Partner::Robot(other) = with {
         let arm = arm(other);
         state.engine.hit(robot(other), impulse, arm);
     }

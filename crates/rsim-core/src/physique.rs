@@ -45,6 +45,12 @@ impl RobotBody {
         }
     }
 
+    /// Speed that a unit impulse along `normal`, at `arm` from the centre, gives that point, 1/kg.
+    pub(crate) fn yields(&self, arm: Vector, normal: Vector) -> f32 {
+        let turn = arm.perp_dot(normal);
+        self.inverse_mass + turn * turn * self.inverse_inertia
+    }
+
     /// The robot as what a ball meets at the point `at` of the field.
     pub(crate) fn at(&self, motion: &Motion, at: Vector, surface: Surface) -> Other {
         let arm = at - motion.position;

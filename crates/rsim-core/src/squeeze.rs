@@ -60,8 +60,7 @@ impl Side {
         let arm = center - motion.position - normal * nearest.distance;
         let velocity = motion.velocity + engine.acceleration(robot(index)) * tick;
         let speed = (velocity + arm.perp() * motion.spin).dot(normal);
-        let turn = arm.perp_dot(normal);
-        let mass = 1.0 / (body.inverse_mass + turn * turn * body.inverse_inertia);
+        let mass = 1.0 / body.yields(arm, normal);
         Self { normal, gap: nearest.distance - radius, speed, mass }
     }
 }

@@ -25,7 +25,7 @@ pub(super) struct Wheels {
     side_impulse: f32,
 }
 
-/// How the two tyres slip over the floor, m/s: velocity of the contact patches.
+/// Slip of the two tyres over the floor, m/s: velocity of the contact patches.
 #[derive(Debug, Clone, Copy)]
 struct Slip {
     /// Along the wheels, less the speed of the rims: left, right.
@@ -34,7 +34,7 @@ struct Slip {
     across: f32,
 }
 
-/// What the floor does to the tyres in a tick, N s.
+/// Friction of the floor on the tyres in a tick, N s.
 #[derive(Debug, Clone, Copy)]
 struct Friction {
     along: [f32; 2],
@@ -102,7 +102,7 @@ impl Wheels {
         [straight + turning, straight - turning]
     }
 
-    /// What stops all slip within the tick.
+    /// Friction that stops all slip within the tick.
     fn rolling(&self, limits: &Limits, slip: &Slip) -> Friction {
         let [left, right] = slip.along;
         let both = -limits.mass * (left + right) / 4.0;
@@ -122,7 +122,7 @@ impl Wheels {
         })
     }
 
-    /// What tyres give that slide, against their slip at the end of the tick: along the wheel and
+    /// Friction of tyres that slide, against their slip at the end of the tick: along the wheel and
     /// along the axle each by its own grip.
     ///
     /// With the magnitudes of the slips given, friction is linear in their components. Magnitudes are

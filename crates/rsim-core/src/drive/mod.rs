@@ -59,7 +59,7 @@ struct Demand {
     load: Vector,
     /// The same about the vertical axis, N m s.
     turning_load: f32,
-    /// What the wheels changed of the velocity in the last tick for their command's sake, m/s.
+    /// Change of velocity by the wheels in the last tick, as far as for their command's sake, m/s.
     last_change: Vector,
 }
 
@@ -83,7 +83,7 @@ pub(crate) struct Drive {
     load: Vector,
     /// Likewise about the vertical axis, N m s.
     turning_load: f32,
-    /// What the wheels changed of the velocity in the last tick for their command's sake, m/s.
+    /// Change of velocity by the wheels in the last tick, as far as for their command's sake, m/s.
     change: Vector,
     /// What the robot will do if nobody touches it.
     pub(crate) expected_velocity: Vector,

@@ -5,9 +5,9 @@ use rapier2d::math::{Rotation, Vector};
 use rapier2d::pipeline::ModifiableContacts;
 use rapier2d::prelude::*;
 
-use super::{Partner, partner};
+use super::{Partner, partner, turned};
 use crate::arena::Wall;
-use crate::outline::Placed;
+use crate::outline::{Nearest, Placed};
 use crate::physique::Physique;
 use crate::squeeze::Squeeze;
 
@@ -98,7 +98,7 @@ impl PhysicsHooks for BallHooks<'_> {
         };
         let radius = self.physique.ball.radius;
         let touch = if self.squeeze.is_some() {
-            Some(obstacle.nearest(center, radius))
+            Some(Touch::of(&obstacle.place.nearest(center), center, radius))
         } else {
             obstacle.touch(center, radius, self.time)
         };
@@ -133,14 +133,15 @@ impl BallHooks<'_> {
     }
 }
 
-impl Obstacle {
-    /// The point of the outline that is nearest, seen as touched by a ball that is just there.
-    fn nearest(&self, center: Vector, radius: f32) -> Touch {
-        let now = self.place.nearest(center);
-        let distance = now.distance - radius;
-        Touch { normal: now.normal, distance, center: center - now.normal * distance }
+impl Touch {
+    /// The point of an outline that is nearest, seen as touched by a ball that is just there.
+    fn of(nearest: &Nearest, center: Vector, radius: f32) -> Self {
+        let distance = nearest.distance - radius;
+        Self { normal: nearest.normal, distance, center: center - nearest.normal * distance }
     }
+}
 
+impl Obstacle {
     /// Where a ball at `center` touches within `time`, as both go on straight and the obstacle turns on.
     ///
     /// Each look leads to a time before which they cannot touch: the distance to a convex outline
@@ -149,7 +150,7 @@ impl Obstacle {
     fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
         let mut nearest = self.place.nearest(center);
         if nearest.distance - radius <= TOUCHING {
-            return Some(self.nearest(center, radius));
+            return Some(Touch::of(&nearest, center, radius));
         }
         let corner_speed = self.spin.abs() * self.place.outline.turning_radius();
         let (mut place, mut after) = (self.place, 0.0);
@@ -166,7 +167,8 @@ impl Obstacle {
             if after > time {
                 return None;
             }
-            place.heading = turned(self.place.heading, self.spin * after);
+            let Rotation { re, im } = self.place.heading;
+            place.heading = rotation(turned(Vector::new(re, im), self.spin * after));
             nearest = place.nearest(center + self.velocity * after);
         }
         let center = center + self.velocity * after;
@@ -175,13 +177,6 @@ impl Obstacle {
         let distance = (closing * after).max(0.0);
         Some(Touch { normal: nearest.normal, distance, center })
     }
-}
-
-/// A heading turned by an angle of a fraction of a radian.
-fn turned(heading: Rotation, angle: f32) -> Rotation {
-    let Rotation { re, im } = heading;
-    let turned = Vector::new(re - angle * im, im + angle * re).normalize();
-    rotation(turned)
 }
 
 /// The rotation of a heading.

@@ -326,3 +326,8 @@ impl Engine {
         self.clear = self.narrow_phase.contact_pairs().all(|pair| pressed(pair).is_none());
     }
 }
+
+/// A heading turned by an angle of a fraction of a radian, as the solver turns bodies.
+fn turned(heading: Vector, angle: f32) -> Vector {
+    Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x).normalize()
+}

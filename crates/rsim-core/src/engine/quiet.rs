@@ -7,7 +7,7 @@
 
 use rapier2d::math::Vector;
 
-use super::{BALL, Engine, Inverse, Motion, Push, robot, rotation};
+use super::{BALL, Engine, Inverse, Motion, Push, robot, rotation, turned};
 use crate::Field;
 use crate::arena::Wall;
 use crate::outline::{Outline, Placed};
@@ -252,10 +252,7 @@ fn coast(motions: &mut [Motion], pushes: &[Push], inverses: &[Inverse], length: 
             motion.velocity += faster;
             motion.spin += turns;
             motion.position += motion.velocity * length;
-            let angle = motion.spin * length;
-            let heading = motion.heading;
-            let turned = Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x);
-            motion.heading = turned.normalize();
+            motion.heading = turned(motion.heading, motion.spin * length);
         }
     }
 }
