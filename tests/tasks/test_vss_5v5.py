@@ -13,7 +13,8 @@ from rsoccer.policies.network import Network
 from rsoccer.pressing import Pressing
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.testing import check_task
-from rsoccer.train import Args, train
+from rsoccer.train import train
+from tests.train.one_update import one_update
 
 NAMES = [name for name in rsoccer.list_tasks() if name.startswith("VSS")]
 FIVE = VssSelfPlay(field="vss_5v5", n_blue=5, n_yellow=5)
@@ -74,20 +75,7 @@ def test_a_first_update_can_be_made_there(tmp_path: Path, monkeypatch: pytest.Mo
     for names in ("_TASKS", "_ALIASES"):
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
     registry.alias("FiveASide-v0", "VSSSelfPlay-v0", field="vss_5v5", n_blue=5, n_yellow=5)
-    args = Args(
-        "FiveASide-v0",
-        tmp_path,
-        samples=1,
-        threads=1,
-        progress=False,
-        alone=0.0,
-        worlds=3,
-        horizon=4,
-        hidden=(8,),
-        epochs=1,
-        minibatches=1,
-    )
-    policy = Network.load(train(args))
+    policy = Network.load(train(one_update("FiveASide-v0", tmp_path)))
     policy.check_fits(FIVE, FIVE.observation_size)
     matches = Matches(FIVE, 2, controllers={"blue": policy})
     matches.reset()

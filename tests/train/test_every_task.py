@@ -11,26 +11,14 @@ import rsoccer
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, train
 from rsoccer.train.log import Tally, read_progress
+from tests.train.one_update import one_update
 
 TASKS = rsoccer.list_tasks()  # before the short tasks of other tests here are known
 
 
 @pytest.mark.parametrize("name", TASKS)
 def test_a_first_update_can_be_made(name: str, tmp_path: Path) -> None:
-    args = Args(
-        name,
-        tmp_path,
-        samples=1,  # rounded up to one update
-        threads=1,
-        progress=False,
-        alone=0.0,
-        worlds=3,
-        horizon=4,
-        hidden=(8,),
-        epochs=1,
-        minibatches=1,
-    )
-    policy = Network.load(train(args))
+    policy = Network.load(train(one_update(name, tmp_path)))
     task = rsoccer.make_task(name)
     policy.check_fits(task, task.observation_size)
     with (tmp_path / "progress.csv").open(newline="") as file:

@@ -1,0 +1,22 @@
+"""The shortest run there is."""
+
+from pathlib import Path
+
+from rsoccer.train import Args
+
+
+def one_update(task: str, folder: Path) -> Args:
+    """Settings of a run of one update: four decisions in three matches, a tiny network."""
+    return Args(
+        task,
+        folder,
+        samples=1,  # rounded up to one update
+        threads=1,
+        progress=False,
+        alone=0.0,
+        worlds=3,
+        horizon=4,
+        hidden=(8,),
+        epochs=1,
+        minibatches=1,
+    )
