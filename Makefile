@@ -73,7 +73,7 @@ golden: $(VENV)/tools ## renew the hashes that guard the physics, once PHYSICS_V
 
 soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in each task (many minutes)
 	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
-	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/test_pressing.py --numprocesses auto
+	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/testing/test_pressure.py --numprocesses auto
 
 coverage: $(VENV)/built ## which lines the tests run, of Python and Rust (some minutes)
 	$(BIN)/python -m tools.measure_coverage

@@ -17,7 +17,7 @@ import rsoccer
 from benches.games import HELD
 from benches.measuring import SPEED, Measure, Quantity, Values, calls, repeated
 from rsoccer.frame import Array, Floats
-from rsoccer.train.clock import Clock, TimedSimulator
+from rsoccer.train.timing import Clock, TimedSimulator
 
 OUTSIDE: Final = Quantity("outside physics", "us a world-step")
 DRAWN: Final = 16  # different random actions, drawn ahead: drawing them is not what is measured

@@ -17,11 +17,13 @@ def training(task: str, worlds: int, threads: int) -> Measure:
     from rsoccer.train.trainer import Trainer
 
     # Nothing is written: the folder belongs to what `run` keeps.
-    args = Args(task, Path("nowhere"), worlds=worlds, threads=threads, alone=0.0, progress=False)
+    args = Args(
+        task, Path("nowhere"), worlds=worlds, threads=threads, solo_fraction=0.0, progress=False
+    )
     trainer = Trainer(args)
 
     def measure(seconds: float) -> Values:
-        torch.set_num_threads(args.learning_threads)
+        torch.set_num_threads(args.torch_threads)
         before, start, spent = trainer.samples, time.perf_counter(), 0.0
         while not spent or spent < seconds:
             trainer.learn(trainer.play(lambda: None), lambda: None)

@@ -35,15 +35,15 @@ class Reach(Task):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Where the ball is as the robot faces, and how it turns."""
-        me, offset = play.view.me, play.view.ball.position - play.view.me.position
-        ahead = (offset * me.heading).sum(axis=-1)
-        left = offset[..., 1] * me.heading[..., 0] - offset[..., 0] * me.heading[..., 1]
-        return {"ball_from_me": np.stack([ahead, left], axis=-1), "spin": me.spin / 10}
+        ego, offset = play.view.ego, play.view.ball.position - play.view.ego.position
+        ahead = (offset * ego.heading).sum(axis=-1)
+        left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
+        return {"ball_polar": np.stack([ahead, left], axis=-1), "spin": ego.spin / 10}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Metres gained on the ball, and 1 for getting there, which ends it."""
         before, now = (
-            np.linalg.norm(view.ball.position - view.me.position, axis=-1)
+            np.linalg.norm(view.ball.position - view.ego.position, axis=-1)
             for view in (play.last_view, play.view)
         )
         reached = now < 0.07

@@ -18,9 +18,9 @@ def main(samples: int = 1_500_000) -> None:
         task="VSSSelfPlay-v0",
         out=OUT,
         samples=samples,
-        latest=0.5,
-        past=0.3,
-        ou=0.2,
+        latest_fraction=0.5,
+        past_fraction=0.3,
+        ou_fraction=0.2,
         overwrite=True,  # without it a second run refuses to replace the first
     )
     policy = train(args)  # Ctrl-C saves; Args(..., resume=True) goes on from there

@@ -13,7 +13,7 @@ print(f"{matches.agents} see {observations.shape}")
 
 def drive(seen: Floats, steps: int) -> tuple[Floats, float]:
     """Each robot turns to the ball as it drives; what is seen then, and earned a step."""
-    left = matches.task.blocks["ball_from_me"].columns.start + 2
+    left = matches.task.blocks["ball_polar"].columns.start + 2
     earned = 0.0
     for _ in range(steps):
         turn = np.clip(seen[..., left], -1, 1)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from rsoccer import Matches, Simulator
 from rsoccer.frame import Array, Floats, Frame, Mask
-from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from tests.helpers import Crowd, pushing
@@ -91,10 +91,10 @@ class FragilePolicy(Policy):
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         return {"drawn": np.zeros((shape[0], 1), np.float32)}
 
-    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         memory["drawn"] += rng.uniform(0.0, 1.0, (1,))
         self._fuse.burn("policy")
-        return rng.uniform(-1.0, 1.0, seen.shape[1:])
+        return rng.uniform(-1.0, 1.0, inputs.action_shape[1:])
 
 
 class FragileSimulator:

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import rsoccer
+from rsoccer.envs.parallel import SoccerParallelEnv
 from rsoccer.frame import Floats, Frame
-from rsoccer.parallel import SoccerParallelEnv
 
 TASKS = rsoccer.list_tasks()
 VSS_TASKS = [name for name in TASKS if name.startswith("VSS")]

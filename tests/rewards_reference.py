@@ -21,46 +21,46 @@ def ball_to_goal(play: Play, config: SimConfig) -> Floats:
 
 
 def approach(play: Play, config: SimConfig) -> Floats:
-    """What each seer gained on the point behind the ball."""
+    """What each observer gained on the point behind the ball."""
     field, behind = config.field, np.float32(BEHIND)
     most_x = np.float32(field.half_length) - behind
     most_y = np.float32(field.half_width) - behind
 
     def way_to_go(view: View) -> Floats:
-        ball, me = view.ball.position, view.me.position
+        ball, ego = view.ball.position, view.ego.position
         x, y = np.float32(field.half_length) - ball[..., 0], -ball[..., 1]
         per = behind / np.maximum(length(x, y), behind)
         target_x = np.maximum(ball[..., 0] - x * per, -most_x)
         target_y = np.minimum(np.maximum(ball[..., 1] - y * per, -most_y), most_y)
-        return length(target_x - me[..., 0], target_y - me[..., 1])
+        return length(target_x - ego[..., 0], target_y - ego[..., 1])
 
     return way_to_go(play.last_view) - way_to_go(play.view)
 
 
 def to_mouth(play: Play, config: SimConfig) -> Floats:
-    """What the ball gained on where it would be in each seer's mouth."""
+    """What the ball gained on where it would be in each observer's mouth."""
     reach = np.float32(config.robot.front) + np.float32(config.ball.radius)
 
     def way_to_go(view: View) -> Floats:
-        me, ball = view.me, view.ball.position
-        at = me.position + me.heading * reach
+        ego, ball = view.ego, view.ball.position
+        at = ego.position + ego.heading * reach
         return length(ball[..., 0] - at[..., 0], ball[..., 1] - at[..., 1])
 
     return way_to_go(play.last_view) - way_to_go(play.view)
 
 
 def nearest(play: Play) -> Mask:
-    """Whether each seer was its team's nearest to the ball before the step."""
+    """Whether each observer was its team's nearest to the ball before the step."""
     frame: Frame = play.last_frame
     offset = frame.robots.position - frame.ball.position[:, None]
     distance = length(offset[..., 0], offset[..., 1])
     teams = np.split(distance, [frame.n_blue], axis=1)
     least = [np.broadcast_to(t.min(axis=1, keepdims=True), t.shape) for t in teams if t.size]
-    nearest: Mask = np.equal(distance, np.concatenate(least, axis=1))[:, play.seers]
+    nearest: Mask = np.equal(distance, np.concatenate(least, axis=1))[:, play.observers]
     return nearest
 
 
 def energy(play: Play) -> Floats:
-    """The mean magnitude of each seer's action, negative."""
-    mean: Floats = np.abs(play.actions[:, play.seers]).mean(axis=-1)
+    """The mean magnitude of each observer's action, negative."""
+    mean: Floats = np.abs(play.actions[:, play.observers]).mean(axis=-1)
     return -mean

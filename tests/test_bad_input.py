@@ -12,14 +12,14 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches, policies
-from rsoccer.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.envs.single import single_env
+from rsoccer.envs.vector import vector_env
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import list_options
-from rsoccer.single import single_env
-from rsoccer.vector import vector_env
-from tests.lone_learner import lone, plain
 from tests.one_match import TASKS, random_actions
+from tests.solo_learner import lone, plain
 
 CONFIGS = {name: rsoccer.make_task(name).config for name in TASKS}
 
@@ -61,11 +61,9 @@ def test_an_unknown_scenario_is_named(name: str, option: str) -> None:
                 make(**{option: wrong})
 
 
-@pytest.mark.parametrize(
-    ("name", "option"), with_option("n_blue", "n_yellow", "blue", "yellow", "foes")
-)
+@pytest.mark.parametrize(("name", "option"), with_option("n_blue", "n_yellow", "n_opponents"))
 def test_more_robots_than_there_may_be_are_refused(name: str, option: str) -> None:
-    team = "yellow" if option == "foes" else option.removeprefix("n_")
+    team = "yellow" if option == "n_opponents" else option.removeprefix("n_")
     for make in doors(name):
         with pytest.raises(ValueError, match=rf"({option}|n_{team})\D+at most \d+"):
             make(**{option: 99})
@@ -89,13 +87,13 @@ def network_of(name: str) -> Network:
         "mean": np.zeros(task.observation_size, np.float32),
         "std": np.ones(task.observation_size, np.float32),
     }
-    facts = {"format": FORMAT, "task": name, "activation": "tanh", "clip": "10"}
-    return Network(arrays, facts | {size: str(number) for size, number in sizes.items()})
+    metadata = {"format": FORMAT, "task": name, "activation": "tanh", "clip": "10"}
+    return Network(arrays, metadata | {size: str(number) for size, number in sizes.items()})
 
 
 @every_task
 def test_a_network_of_a_task_of_other_sizes_is_refused(name: str) -> None:
-    assert Matches(name, controllers={"blue_0": network_of(name)}).drivers.crews
+    assert Matches(name, controllers={"blue_0": network_of(name)}).assignment.groups
     other = "VSS-v0" if name.startswith("SSL") else "SSLGoToBall-v0"
     for make in (parallel_env, Matches):
         with pytest.raises(ValueError, match=rf"trained on '{other}' has .* but task '{name}'"):

@@ -4,7 +4,7 @@ import pytest
 from rsoccer import LEARN, Matches, Policy
 from rsoccer.controllers import Controllers
 from rsoccer.frame import Floats
-from rsoccer.policies.base import Memory, Seen
+from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
 from tests.helpers import Crowd, begun, same, zeros
@@ -18,10 +18,10 @@ class Mirror(Policy):
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         return {"asked": np.zeros(shape[0])}
 
-    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         memory["asked"] += 1
-        assert seen.view is not None
-        return seen.view.me.position * 5.0
+        assert inputs.view is not None
+        return inputs.view.ego.position * 5.0
 
 
 def test_anyone_can_drive_any_robot() -> None:
@@ -33,9 +33,9 @@ def test_anyone_can_drive_any_robot() -> None:
     }
     matches = Matches(VssSelfPlay(), 3, seed=2, controllers=controllers)
     assert matches.agents == ("yellow_1",)
-    assert matches.play.seers.tolist() == [3, 4, 5]
+    assert matches.play.observers.tolist() == [3, 4, 5]
     assert matches.reset().shape == (3, 1, matches.observation_size)
-    place = matches.play.view.me.position.copy()
+    place = matches.play.view.ego.position.copy()
     matches.step(np.full((3, 1, 2), 0.5, np.float32))
     actions = matches.play.actions
     assert not actions[:, :2].any()
@@ -70,8 +70,8 @@ def test_matches_without_learners_play_on() -> None:
 
 def test_a_policy_of_the_wrong_shape_is_named() -> None:
     class Short(Mirror):
-        def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
-            return np.zeros(seen.shape[:2], np.float32)
+        def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+            return np.zeros(inputs.action_shape[:2], np.float32)
 
     matches = begun(VssSelfPlay(), controllers={"blue": Short()})
     with pytest.raises(ValueError, match=r"Short: expected actions \(5, 3, 2\), got \(5, 3\)"):

@@ -183,8 +183,8 @@ def test_impossible_starts_name_world_and_robots() -> None:
     before = simulator.snapshot()
     robot = len(BALL_COLUMNS)
     onto, outside, heading = out[:2].copy(), out[:2].copy(), out[:2].copy()
-    mate = robot + len(ROBOT_COLUMNS)
-    onto[1, robot : robot + 2] = onto[1, mate : mate + 2] + 0.01
+    teammate = robot + len(ROBOT_COLUMNS)
+    onto[1, robot : robot + 2] = onto[1, teammate : teammate + 2] + 0.01
     outside[0, 0] = 5.0
     heading[1, robot + 2] = 0.3
     mask = np.array([True, False, True])

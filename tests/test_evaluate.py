@@ -10,10 +10,10 @@ import rsoccer
 from rsoccer import Matches
 from rsoccer.evaluate import Results, evaluate
 from rsoccer.frame import Floats
-from rsoccer.policies.base import Memory, Policy, Seen
-from rsoccer.policies.chase import Chase
+from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
+from rsoccer.policies.vss.chase import Chase
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
@@ -41,7 +41,7 @@ def a_network(seed: int = 0) -> Network:
 
 BETTER = [
     ("VSSSelfPlay-v0", "chase", 60, 0.72),
-    ("VSS-v0", "chase", 60, 0.3),  # one among mates that drift
+    ("VSS-v0", "chase", 60, 0.3),  # one among teammates that drift
     ("SSLSelfPlay-v0", "strike", 10, 0.72),
 ]
 
@@ -60,7 +60,7 @@ def test_a_better_policy_wins_from_either_side(
     assert 1.0 < result.decided_after < 20.0
     assert (result.policy, result.opponent, result.task) == (better, "zero", task)
     mirrored = evaluate("zero", better, matches=count, seed=1, task=task)
-    assert mirrored.high < 0.25 - share or task == "VSS-v0", "its own drifting mates may score"
+    assert mirrored.high < 0.25 - share or task == "VSS-v0", "its own drifting teammates may score"
 
 
 def test_counts_add_up() -> None:
@@ -167,8 +167,8 @@ class Spin(Policy):
 
     observes: Literal["nothing", "view", "observation"] = "nothing"
 
-    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
-        return np.tile(np.array([1.0, -1.0], np.float32), (*seen.shape[:2], 1))
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        return np.tile(np.array([1.0, -1.0], np.float32), (*inputs.action_shape[:2], 1))
 
 
 def test_policies_may_be_names_files_or_objects(tmp_path: Path) -> None:

@@ -12,9 +12,9 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Matches
-from rsoccer.controllers import lineup
 from rsoccer.evaluate import evaluate, table
 from rsoccer.frame import Floats, Mask
+from rsoccer.lineup import lineup
 from rsoccer.task import Play
 from rsoccer.tasks import SslGoToBall, VssSelfPlay
 from tests.policies.test_network_chance import fitting
@@ -74,15 +74,15 @@ def test_defenders_were_driven_away_by_ou(spy: type[Spy]) -> None:
     task = rsoccer.make_task("SSLStaticDefenders-v0", max_steps=2)
     assert evaluate("strike", matches=4, task=task).opponent == "hold"
     ((told, _),) = spy.seen
-    foes = [f"yellow_{i}" for i in range(6)]
-    assert told == {"blue_0": LEARN, **dict.fromkeys(foes, "hold")}
+    opponents = [f"yellow_{i}" for i in range(6)]
+    assert told == {"blue_0": LEARN, **dict.fromkeys(opponents, "hold")}
     assert evaluate("strike", "zero", matches=4, task=task).opponent == "zero"
     told = spy.seen[1][0]
-    assert {type(told[foe]).__name__ for foe in foes} == {"Zero"}
+    assert {type(told[opponent]).__name__ for opponent in opponents} == {"Zero"}
 
 
-def test_mates_who_do_not_learn_were_driven_by_the_policy(spy: type[Spy]) -> None:
-    task = rsoccer.make_task("VSS-v0", max_steps=2, mates="chase", opponent="uniform")
+def test_teammates_who_do_not_learn_were_driven_by_the_policy(spy: type[Spy]) -> None:
+    task = rsoccer.make_task("VSS-v0", max_steps=2, teammates="chase", opponent="uniform")
     assert evaluate("scripted", matches=2, task=task).opponent == "uniform"
     blue, yellow = (told for told, _ in spy.seen)
     ours, theirs = [LEARN, "chase", "chase"], ["uniform"] * 3

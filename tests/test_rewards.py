@@ -20,9 +20,9 @@ def still(n: int = 2, task: VssSelfPlay = TASK) -> Play:
     return matches.play
 
 
-def show(play: Play, seers: int = 6, task: VssSelfPlay = TASK) -> None:
+def show(play: Play, observers: int = 6, task: VssSelfPlay = TASK) -> None:
     """Fill the views again after a change of the frames."""
-    viewpoint = task.new_viewpoint(range(seers))
+    viewpoint = task.new_viewpoint(range(observers))
     viewpoint.fill(play.frame, play.view)
     viewpoint.fill(play.last_frame, play.last_view)
 
@@ -178,10 +178,10 @@ def test_wrong_arrays_are_refused_by_name() -> None:
     for behind in (0.0, -1.0, np.nan, np.inf):
         with pytest.raises(ValueError, match="behind must be metres above 0"):
             Potential.behind_ball(FIELD, behind)
-    for seer in (-1, 6):
-        with pytest.raises(ValueError, match=f"seers must be robots below 6, got {seer}"):
-            nearest(play.frame.rows, 3, np.array([0, seer]))
-        with pytest.raises(ValueError, match=f"seers must be robots below 6, got {seer}"):
-            efforts(play.actions, np.array([0, seer]))
-    with pytest.raises(TypeError, match="seers must be an array of int64"):
+    for observer in (-1, 6):
+        with pytest.raises(ValueError, match=f"observers must be robots below 6, got {observer}"):
+            nearest(play.frame.rows, 3, np.array([0, observer]))
+        with pytest.raises(ValueError, match=f"observers must be robots below 6, got {observer}"):
+            efforts(play.actions, np.array([0, observer]))
+    with pytest.raises(TypeError, match="observers must be an array of int64"):
         nearest(play.frame.rows, 3, np.array([0.0]))

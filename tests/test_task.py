@@ -18,7 +18,7 @@ class Shouting(VssSelfPlay):
         return super().observation_limits() | {"quiet": 0.5}
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        shape = (len(play.frame), len(play.seers), 2, 3)
+        shape = (len(play.frame), len(play.observers), 2, 3)
         loud = np.full(shape, 1e9, np.float32) * np.array([-1.0, 1.0, 0.0], np.float32)
         return {"quiet": loud[..., 0], "loud": loud}
 

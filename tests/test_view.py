@@ -16,8 +16,8 @@ def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
     return frame
 
 
-def seen(frame: Frame, seers: list[int], sides: tuple[str, ...] = ("blue", "yellow")) -> View:
-    viewpoint = Viewpoint(frame.n_blue, frame.n_yellow, seers, sides)
+def seen(frame: Frame, observers: list[int], sides: tuple[str, ...] = ("blue", "yellow")) -> View:
+    viewpoint = Viewpoint(frame.n_blue, frame.n_yellow, observers, sides)
     view = viewpoint.new_view(len(frame))
     viewpoint.fill(frame, view)
     return view
@@ -40,14 +40,14 @@ def turned(frame: Frame) -> Frame:
     return other
 
 
-def test_blue_sees_itself_then_mates_in_a_ring_then_foes() -> None:
+def test_blue_sees_itself_then_teammates_in_a_ring_then_opponents() -> None:
     frame = random_frame(4, 3, 3)
     view = seen(frame, [1])
     order = [1, 2, 0, 3, 4, 5]
     assert (view.robots.data[:, 0] == frame.robots.data[:, order]).all()
-    assert (view.me.data[:, 0] == frame.blue.data[:, 1]).all()
-    assert (view.mates.position[:, 0] == frame.blue.position[:, [2, 0]]).all()
-    assert (view.foes.spin[:, 0] == frame.yellow.spin).all()
+    assert (view.ego.data[:, 0] == frame.blue.data[:, 1]).all()
+    assert (view.teammates.position[:, 0] == frame.blue.position[:, [2, 0]]).all()
+    assert (view.opponents.spin[:, 0] == frame.yellow.spin).all()
     assert (view.ball.data[:, 0] == frame.ball.data).all()
 
 
@@ -71,7 +71,7 @@ def test_teams_of_different_size_leave_slots_empty() -> None:
     ]
     assert not view.robots.data[:, 0, 1:3].any()
     assert not view.robots.data[:, 1, 4:].any()
-    assert (view.foes.position[:, 1, 0] == -frame.blue.position[:, 0]).all()
+    assert (view.opponents.position[:, 1, 0] == -frame.blue.position[:, 0]).all()
 
 
 def test_only_the_sides_that_look_need_room() -> None:
@@ -82,11 +82,11 @@ def test_only_the_sides_that_look_need_room() -> None:
 
 
 @pytest.mark.parametrize("seats", [slice(1, 3), np.array([0, 2])])
-def test_select_shows_some_of_the_seers(seats: slice | np.ndarray) -> None:
+def test_select_shows_some_of_the_observers(seats: slice | np.ndarray) -> None:
     view = seen(random_frame(2, 3, 3), [0, 2, 4])
     part = view.select(seats)
-    assert (part.me.data == view.me.data[:, seats]).all()
-    assert (part.foes.data == view.foes.data[:, seats]).all()
+    assert (part.ego.data == view.ego.data[:, seats]).all()
+    assert (part.opponents.data == view.opponents.data[:, seats]).all()
     assert (part.present == view.present[seats]).all()
 
 

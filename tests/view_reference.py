@@ -7,16 +7,16 @@ from rsoccer.frame import Floats, Frame
 from rsoccer.view import SIDES, slots
 
 
-def seen(frame: Frame, seer: int, sides: tuple[str, ...] = SIDES) -> tuple[Floats, Floats]:
+def seen(frame: Frame, observer: int, sides: tuple[str, ...] = SIDES) -> tuple[Floats, Floats]:
     """Ball (n, ball column) and robots (n, slots, robot column) as one robot sees them."""
-    n_mates, n_foes = slots(frame.n_blue, frame.n_yellow, sides)
+    n_teammates, n_opponents = slots(frame.n_blue, frame.n_yellow, sides)
     teams = np.arange(frame.n_blue), frame.n_blue + np.arange(frame.n_yellow)
-    turned = seer >= frame.n_blue
-    mates, foes = teams[::-1] if turned else teams
-    mates = np.roll(mates, -int(np.flatnonzero(mates == seer)[0]))
-    robots = np.zeros((len(frame), 1 + n_mates + n_foes, len(ROBOT_COLUMNS)), np.float32)
-    robots[:, : len(mates)] = frame.robots.data[:, mates]
-    robots[:, 1 + n_mates : 1 + n_mates + len(foes)] = frame.robots.data[:, foes]
+    turned = observer >= frame.n_blue
+    teammates, opponents = teams[::-1] if turned else teams
+    teammates = np.roll(teammates, -int(np.flatnonzero(teammates == observer)[0]))
+    robots = np.zeros((len(frame), 1 + n_teammates + n_opponents, len(ROBOT_COLUMNS)), np.float32)
+    robots[:, : len(teammates)] = frame.robots.data[:, teammates]
+    robots[:, 1 + n_teammates : 1 + n_teammates + len(opponents)] = frame.robots.data[:, opponents]
     ball = frame.ball.data.copy()
     if turned:
         robots *= _signs(ROBOT_COLUMNS)

@@ -17,7 +17,7 @@ import rsoccer
 from benches.table import RESULTS, ROOT
 from rsoccer import policies
 from rsoccer.registry import list_options
-from rsoccer.tasks import old_names as old
+from rsoccer.tasks import legacy_names
 from tools.parts import filled, table
 from tools.speed import speed
 from tools.task_pictures import path_of
@@ -136,11 +136,11 @@ def options() -> str:
 
 def old_names() -> str:
     """rsoccer-gym's names of environments, and what they are here."""
-    rows = [(f"`{name}`", f"`{name}`", _doors(name)) for name in old.KEPT]
-    for name, (task, given) in old.ALIASES.items():
+    rows = [(f"`{name}`", f"`{name}`", _doors(name)) for name in legacy_names.KEPT]
+    for name, (task, given) in legacy_names.ALIASES.items():
         told = [f"`{option}={value!r}`" for option, value in given.items()]
         rows.append((f"`{name}`", ", ".join([f"`{task}`", *told]), _doors(name)))
-    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in old.GONE.items()]
+    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.GONE.items()]
     return table(("rsoccer-gym 1.4", "here", "through"), rows)
 
 

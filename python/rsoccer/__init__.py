@@ -10,17 +10,17 @@ robots are to learn.
 """
 
 from rsoccer._core import SimConfig, Simulator, build_info
+from rsoccer.envs.parallel import env, parallel_env
+from rsoccer.envs.single import single_env
+from rsoccer.envs.vector import vector_env
 from rsoccer.evaluate import evaluate
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
-from rsoccer.parallel import env, parallel_env
 from rsoccer.policies.base import Policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
-from rsoccer.single import single_env
 from rsoccer.task import LEARN, Play, Task
 from rsoccer.tasks import VssMulti, VssSelfPlay, VssSingle
-from rsoccer.vector import vector_env
 from rsoccer.view import View
 
 __all__ = [

@@ -158,29 +158,29 @@ def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
     return mask, balls[np.argsort(worlds)]
 
 
-def weights(
+def reward_weights(
     given: object, default: Mapping[str, float], paper: Mapping[str, float]
 ) -> dict[str, float]:
     """The default weights with those given in their place, or the paper's."""
     if isinstance(given, str):
         if given != "paper":
-            raise ValueError(f"weights: expected a mapping or 'paper', got {given!r}")
+            raise ValueError(f"reward_weights: expected a mapping or 'paper', got {given!r}")
         given = paper
     if not isinstance(given, Mapping):
-        raise TypeError(f"weights: expected a mapping or 'paper', got {given!r}")
+        raise TypeError(f"reward_weights: expected a mapping or 'paper', got {given!r}")
     unknown = sorted(set(given) - set(default), key=str)
     if unknown:
-        raise ValueError(f"weights: unknown {unknown}; valid are {list(default)}")
+        raise ValueError(f"reward_weights: unknown {unknown}; valid are {list(default)}")
     for name, weight in given.items():
         if isinstance(weight, bool) or not isinstance(weight, Real):
-            raise TypeError(f"weights: expected a number for {name!r}, got {weight!r}")
+            raise TypeError(f"reward_weights: expected a number for {name!r}, got {weight!r}")
         if not math.isfinite(weight):
-            raise ValueError(f"weights: expected a finite number for {name!r}, got {weight}")
+            raise ValueError(f"reward_weights: expected a finite number for {name!r}, got {weight}")
     return {**default, **given}
 
 
 def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
-    """A term of the reward, given as (n, seers) or (n, 1)."""
+    """A term of the reward, given as (n, observers) or (n, 1)."""
     if value.shape not in (shape, (shape[0], 1)):
         raise ValueError(
             f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "

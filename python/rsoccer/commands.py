@@ -12,9 +12,9 @@ from typing import Annotated
 from tyro.conf import Positional, arg, subcommand
 
 from rsoccer import policies, registry
-from rsoccer.controllers import lineup, opponents_of, task_for
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.files import write_atomically
+from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.task import Task
 from rsoccer.train import Args, train
 

@@ -11,7 +11,7 @@ from typing import Any
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.render.record import record_match
 from rsoccer.train import Args, train
-from rsoccer.train.curve import draw_curve
+from rsoccer.train.learning_curve import draw_curve
 
 TASK = "VSSSelfPlay-v0"
 SAMPLES = 1_600_000
@@ -32,7 +32,9 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
     stage("training", f"trained on {samples:,} decisions -> {policy}")
     untrained = out / "untrained.safetensors"
     opponents = ("zero", "uniform", "ou", str(untrained))
-    evaluations = [evaluate(policy, foe, matches=matches, seed=1, task=TASK) for foe in opponents]
+    evaluations = [
+        evaluate(policy, opponent, matches=matches, seed=1, task=TASK) for opponent in opponents
+    ]
     stage("evaluation", table(evaluations))
     curve = draw_curve(out, out / "curve.png")
     video = record_match(

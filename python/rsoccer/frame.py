@@ -176,8 +176,16 @@ class Frame:
         return frame
 
     def copy(self) -> "Frame":
-        """The same moment in memory of its own."""
+        """Return the same state in new memory."""
         return Frame(self.rows.copy(), self.n_blue, self.n_yellow)
+
+    def take(self, worlds: NDArray[np.intp]) -> "Frame":
+        """Return a copy of some worlds; `worlds` (k,) are their indices."""
+        return Frame(self.rows[worlds], self.n_blue, self.n_yellow)
+
+    def put(self, worlds: NDArray[np.intp], part: "Frame") -> None:
+        """Overwrite the worlds with indices `worlds` (k,) by those of `part`."""
+        self.rows[worlds] = part.rows
 
     def __reduce__(self) -> tuple[type["Frame"], tuple[Floats, int, int]]:
         # Pickled piece by piece, the names would become copies of the rows.

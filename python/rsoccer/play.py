@@ -1,6 +1,12 @@
-"""All that a task may look at, for n worlds: frames, views, and what led from one to the next."""
+"""State that a task may read, for n worlds: frames, views, actions and the task's own memory.
 
-from dataclasses import dataclass
+`Play` lists its fields once. Copying worlds, overwriting worlds and saving all follow from the
+list, so a new field takes part in each of them.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,62 +15,109 @@ from rsoccer.frame import Array, Floats, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.view import View, Viewpoint
 
+# How a field that is not plain per-world state takes part in copying and saving.
+DERIVED: Final = {"role": "derived"}  # copied, but not saved: computed anew from saved fields
+SHARED: Final = {"role": "shared"}  # the same for all worlds: neither copied nor saved
+STREAM: Final = {"role": "stream"}  # copied, and saved beside the other random streams
+
 
 @dataclass
 class Play:
-    """All that a task may look at, for n worlds."""
+    """State of n worlds that a task may read; only `memory` and `rng` are the task's to change."""
 
-    frame: Frame  # (n, ...) where the worlds are now
-    last_frame: Frame  # (n, ...) one step ago; equal to `frame` after a reset
-    view: View  # (n, seers, ...) `frame` as each seer has it
-    last_view: View  # (n, seers, ...) `last_frame` likewise
-    commands: Floats  # (n, robots, command) what the robots were last told
-    actions: Floats  # (n, robots, action) what their drivers last chose; 0 after a reset
-    rng: WorldRng  # (n,) one stream per world, the task's own
-    memory: dict[str, Array]  # (n, ...) the task's own, fresh after a reset
-    seers: NDArray[np.intp]  # (seers,) which robots look
-    steps: NDArray[np.int64]  # (n,) control steps since the episode started
+    frame: Frame
+    """(n, ...) current state."""
+    last_frame: Frame
+    """(n, ...) state one control step ago; equal to `frame` after a reset."""
+    view: View = field(metadata=DERIVED)
+    """(n, observers, ...) `frame` in the coordinates of each observer."""
+    last_view: View = field(metadata=DERIVED)
+    """(n, observers, ...) `last_frame` in the coordinates of each observer."""
+    commands: Floats
+    """(n, robots, command) last commands of the robots, SI units."""
+    actions: Floats
+    """(n, robots, action) last actions, in [-1, 1]; 0 after a reset."""
+    rng: WorldRng = field(metadata=STREAM)
+    """(n,) random streams of the task, one per world."""
+    memory: dict[str, Array]
+    """(n, ...) arrays of the task, fresh after a reset; see `Task.new_memory`."""
+    observers: NDArray[np.intp] = field(metadata=SHARED)
+    """(observers,) indices of the robots that have a view, in the order of a state row."""
+    steps: NDArray[np.int64]
+    """(n,) control steps since the episode began."""
 
     def advance(self) -> None:
-        """Swap the buffers: what is now becomes what was."""
+        """Swap the buffers: the current frame and view become the last ones."""
         self.frame, self.last_frame = self.last_frame, self.frame
         self.view, self.last_view = self.last_view, self.view
 
     def start(self, rows: Floats, viewpoint: Viewpoint) -> None:
-        """Be at `rows` (n, row), with nothing before: differences to the last frame are zero."""
+        """Begin episodes, with the last frame equal to the current one.
+
+        Args:
+            rows: (n, row) initial state rows.
+            viewpoint: fills the views.
+        """
         self.frame.rows[:] = rows
         self.last_frame.rows[:] = rows
+        self.fill_views(viewpoint)
+
+    def fill_views(self, viewpoint: Viewpoint) -> None:
+        """Compute both views from the frames."""
         viewpoint.fill(self.frame, self.view)
         viewpoint.fill(self.last_frame, self.last_view)
 
     def take(self, worlds: NDArray[np.intp]) -> "Play":
-        """A copy of some worlds."""
-        return Play(
-            frame=_taken(self.frame, worlds),
-            last_frame=_taken(self.last_frame, worlds),
-            view=self.view.take(worlds),
-            last_view=self.last_view.take(worlds),
-            commands=self.commands[worlds],
-            actions=self.actions[worlds],
-            rng=self.rng[worlds],
-            memory={name: array[worlds] for name, array in self.memory.items()},
-            seers=self.seers,
-            steps=self.steps[worlds],
-        )
+        """Return a copy of some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
+        values = {name: getattr(self, name) for name in _names("shared")}
+        values |= {name: _take(getattr(self, name), worlds) for name in _PER_WORLD}
+        return Play(**values)
 
     def put(self, worlds: NDArray[np.intp], part: "Play") -> None:
-        """Overwrite some worlds."""
-        self.frame.rows[worlds] = part.frame.rows
-        self.last_frame.rows[worlds] = part.last_frame.rows
-        self.view.put(worlds, part.view)
-        self.last_view.put(worlds, part.last_view)
-        self.commands[worlds] = part.commands
-        self.actions[worlds] = part.actions
-        self.rng.put(worlds, part.rng)
-        for name, array in part.memory.items():
-            self.memory[name][worlds] = array
-        self.steps[worlds] = part.steps
+        """Overwrite some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+            part: the state of k worlds, as `take` returns it.
+        """
+        for name in _PER_WORLD:
+            _put(getattr(self, name), worlds, getattr(part, name))
+
+    def arrays(self) -> dict[str, Array]:
+        """Return the arrays to save, by name; not copied. Random streams are saved by others."""
+        arrays: dict[str, Array] = {}
+        for name in _names("saved"):
+            value = getattr(self, name)
+            if isinstance(value, Mapping):
+                arrays |= {f"{name}.{key}": array for key, array in value.items()}
+            else:
+                arrays[name] = value.rows if isinstance(value, Frame) else value
+        return arrays
 
 
-def _taken(frame: Frame, worlds: NDArray[np.intp]) -> Frame:
-    return Frame(frame.rows[worlds], frame.n_blue, frame.n_yellow)
+def _names(*roles: str) -> tuple[str, ...]:
+    """Names of the fields with these roles; a field without metadata has the role "saved"."""
+    return tuple(f.name for f in fields(Play) if f.metadata.get("role", "saved") in roles)
+
+
+_PER_WORLD: Final = _names("saved", "derived", "stream")
+
+
+def _take(value: Any, worlds: NDArray[np.intp]) -> Any:  # noqa: ANN401  (a field's value)
+    if isinstance(value, Mapping):
+        return {key: array[worlds] for key, array in value.items()}
+    return value.take(worlds) if isinstance(value, Frame | View) else value[worlds]
+
+
+def _put(value: Any, worlds: NDArray[np.intp], part: Any) -> None:  # noqa: ANN401  (a field's value)
+    if isinstance(value, Mapping):
+        for key, array in part.items():
+            value[key][worlds] = array
+    elif isinstance(value, np.ndarray):
+        value[worlds] = part
+    else:
+        value.put(worlds, part)

@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
-from rsoccer import ids
+from rsoccer.envs import ids
 from rsoccer.task import Task
 
 

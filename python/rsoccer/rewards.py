@@ -19,7 +19,7 @@ BEHIND: Final = 0.08
 
 
 def goal(play: Play) -> Floats:
-    """+1 for a goal, -1 for one against, else 0; (n, seers)."""
+    """+1 for a goal, -1 for one against, else 0; (n, observers)."""
     return goals_at(play.view.ball)
 
 
@@ -34,13 +34,13 @@ def scored(play: Play) -> Mask:
 
 
 def gained(play: Play, potential: Potential) -> Floats:
-    """What each seer gained of a potential in the last step, (n, seers) metres."""
+    """What each observer gained of a potential in the last step, (n, observers) metres."""
     last, view = play.last_view, play.view
     return potential.gained(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
-    """Metres the ball came closer to the goal attacked and away from the own one, (n, seers).
+    """Metres the ball came closer to the goal attacked and away from the own one, (n, observers).
 
     The mean of the two, so what one side wins the other loses.
     """
@@ -48,7 +48,7 @@ def ball_to_goal(play: Play, field: Field) -> Floats:
 
 
 def approach(play: Play, field: Field) -> Floats:
-    """Metres that each seer came closer to where it can drive the ball at the goal, (n, seers).
+    """Metres that each observer came closer to where it can drive the ball at the goal, (n, observers).
 
     That is a point just behind the ball: who stands before the ball is drawn around it, and two
     of one team are not paid for pushing it from opposite sides.
@@ -57,7 +57,7 @@ def approach(play: Play, field: Field) -> Floats:
 
 
 def to_mouth(play: Play, config: SimConfig) -> Floats:
-    """Metres that the ball came closer to each seer's mouth, (n, seers).
+    """Metres that the ball came closer to each observer's mouth, (n, observers).
 
     Nothing is left to gain only for who faces the ball, so it draws a robot near and round to it.
     """
@@ -65,12 +65,12 @@ def to_mouth(play: Play, config: SimConfig) -> Floats:
 
 
 def nearest(play: Play) -> Mask:
-    """Whether each seer was its team's nearest to the ball before the step, (n, seers).
+    """Whether each observer was its team's nearest to the ball before the step, (n, observers).
 
     Who moved the ball, as a rule: paid for what the ball did, it learns from less noise than if
-    its mates were paid alike.
+    its teammates were paid alike.
     """
-    return _core.nearest(play.last_frame.rows, play.last_frame.n_blue, play.seers)
+    return _core.nearest(play.last_frame.rows, play.last_frame.n_blue, play.observers)
 
 
 def weighted(terms: dict[str, Floats], weights: Mapping[str, float] | str) -> dict[str, Floats]:
@@ -81,8 +81,8 @@ def weighted(terms: dict[str, Floats], weights: Mapping[str, float] | str) -> di
 
 
 def energy(play: Play) -> Floats:
-    """Effort of each seer: the mean magnitude of its action, negative; (n, seers)."""
-    effort = efforts(play.actions, play.seers)
+    """Effort of each observer: the mean magnitude of its action, negative; (n, observers)."""
+    effort = efforts(play.actions, play.observers)
     return np.negative(effort, out=effort)
 
 

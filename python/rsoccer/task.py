@@ -39,7 +39,7 @@ LEARN: Final = Learn.LEARN
 class Block(NamedTuple):
     """Where one named part of the observation lies in the flat one."""
 
-    shape: tuple[int, ...]  # of one seer's block
+    shape: tuple[int, ...]  # of one observer's block
     columns: slice  # of the flat observation
 
     @property
@@ -76,11 +76,11 @@ class Task(ABC):
 
     @abstractmethod
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """Named blocks, each (n, seers, ...): what each robot that looks is shown."""
+        """Named blocks, each (n, observers, ...): what each robot that looks is shown."""
 
     @abstractmethod
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Weighted terms, each (n, seers) or (n, 1), and whether each world's task ended (n,)."""
+        """Weighted terms, each (n, observers) or (n, 1), and whether each world's task ended (n,)."""
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """What a picture of one world shows on the floor: targets, gates, areas."""
@@ -184,19 +184,19 @@ class Task(ABC):
         return -self.observation_high
 
     def observe(self, play: Play) -> Floats:
-        """The blocks side by side within their limits, a new array (n, seers, o)."""
-        n, seers = len(play.frame), len(play.seers)
-        flat = np.empty((n, seers, len(self.observation_high)), np.float32)
-        if seers:
+        """The blocks side by side within their limits, a new array (n, observers, o)."""
+        n, observers = len(play.frame), len(play.observers)
+        flat = np.empty((n, observers, len(self.observation_high)), np.float32)
+        if observers:
             blocks = self.frame_to_observations(play).values()
-            sized = [b if b.ndim == 3 else b.reshape(n, seers, -1) for b in blocks]
+            sized = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks]
             np.concatenate(sized, axis=-1, out=flat, casting="same_kind")
             limit(flat, self.observation_high)
         return flat
 
-    def new_viewpoint(self, seers: Sequence[int]) -> Viewpoint:
-        """What shows frames to robots `seers`."""
-        return Viewpoint(self.n_blue, self.n_yellow, seers, self.sides)
+    def new_viewpoint(self, observers: Sequence[int]) -> Viewpoint:
+        """What shows frames to robots `observers`."""
+        return Viewpoint(self.n_blue, self.n_yellow, observers, self.sides)
 
     def new_play(self, n: int, viewpoint: Viewpoint, rng: WorldRng) -> Play:
         """Buffers for n worlds with fresh memory; the frames are yet to be filled."""
@@ -210,14 +210,14 @@ class Task(ABC):
             actions=np.zeros((n, robots, self.action_size), np.float32),
             rng=rng,
             memory=checks.memory("new_memory", self.new_memory(n), n),
-            seers=viewpoint.seers,
+            observers=viewpoint.observers,
             steps=np.zeros(n, np.int64),
         )
 
     def _trial(self) -> Play:
-        """One world, one seer, at a start: enough to read sizes off."""
-        seer = 0 if "blue" in self.sides and self.n_blue else self.n_blue
-        viewpoint = self.new_viewpoint([seer])
+        """One world, one observer, at a start: enough to read sizes off."""
+        observer = 0 if "blue" in self.sides and self.n_blue else self.n_blue
+        viewpoint = self.new_viewpoint([observer])
         play = self.new_play(1, viewpoint, WorldRng.seeded(0, 1))
         play.start(self.get_initial_positions_frame(play.rng).rows, viewpoint)
         return play

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from rsoccer.compat import robosim
-from rsoccer.compat.old_models import SSL_BALL, SSL_FIELDS, SSL_ROBOT, VSS_BALL, VSS_FIELDS
+from rsoccer.compat.legacy_models import SSL_BALL, SSL_FIELDS, SSL_ROBOT, VSS_BALL, VSS_FIELDS
 from rsoccer.compat.robosim import SSL, VSS
-from rsoccer.compat.room import DEPTH
+from rsoccer.compat.separation import DEPTH
 
 Builder = Callable[..., VSS | SSL]
 

@@ -3,7 +3,7 @@ import pickle
 import numpy as np
 import pytest
 
-from rsoccer.policies.base import Seen
+from rsoccer.policies.base import PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.rng import WorldRng
@@ -34,9 +34,9 @@ def parts(**extra: str) -> tuple[Arrays, Metadata]:
     return arrays, {**metadata, **extra}
 
 
-def seen(observations: np.ndarray) -> Seen:
+def seen(observations: np.ndarray) -> PolicyInput:
     n, robots = observations.shape[:2]
-    return Seen((n, robots, ACTION), None, observations.astype(np.float32))
+    return PolicyInput((n, robots, ACTION), None, observations.astype(np.float32))
 
 
 def observations(n: int = 4, robots: int = 3, seed: int = 1) -> np.ndarray:
@@ -115,6 +115,6 @@ def test_a_network_without_observations_says_so() -> None:
     network = Network(*parts())
     rng = WorldRng.seeded(0, 4)
     with pytest.raises(ValueError, match="needs observations"):
-        network.act(Seen((4, 3, ACTION), None, None), rng, {})
+        network.act(PolicyInput((4, 3, ACTION), None, None), rng, {})
     with pytest.raises(ValueError, match="of 5 numbers, got 6"):
         network.decide(np.zeros((4, 3, 6), np.float32))

@@ -23,8 +23,8 @@ def fitting(task: rsoccer.Task) -> Network:
         "action_std": np.full(task.action_size, 0.4, np.float32),
     }
     sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
-    facts = {"format": FORMAT, "task": task.name, "activation": "tanh"}
-    return Network(arrays, facts | {name: str(size) for name, size in sizes.items()})
+    metadata = {"format": FORMAT, "task": task.name, "activation": "tanh"}
+    return Network(arrays, metadata | {name: str(size) for name, size in sizes.items()})
 
 
 def with_spread(play: str | None = None, **extra: str) -> Network:

@@ -7,8 +7,8 @@ import pytest
 
 import rsoccer
 from rsoccer import policies
-from rsoccer.policies.base import Policy, Seen
-from rsoccer.policies.ou import OrnsteinUhlenbeck
+from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.policies.noise import OrnsteinUhlenbeck
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import same
@@ -21,7 +21,7 @@ def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> n
     shape = (n, robots, 2)
     rng = WorldRng.seeded(seed, n)
     memory = policy.new_memory(shape, rng)
-    seen = Seen(shape, None, None)
+    seen = PolicyInput(shape, None, None)
     return np.array([policy.act(seen, rng, memory) for _ in range(steps)])
 
 

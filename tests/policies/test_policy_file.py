@@ -64,59 +64,68 @@ def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.M
 
 
 SPOILED: dict[str, tuple[Spoil, str]] = {
-    "no format": (lambda arrays, facts: facts.pop("format"), "'format'.*rsoccer-policy-2.*None"),
+    "no format": (
+        lambda arrays, metadata: metadata.pop("format"),
+        "'format'.*rsoccer-policy-2.*None",
+    ),
     "format before the spread": (
-        lambda arrays, facts: facts.update(format="rsoccer-policy-1"),
+        lambda arrays, metadata: metadata.update(format="rsoccer-policy-1"),
         "'format' should be 'rsoccer-policy-2', got 'rsoccer-policy-1'",
     ),
     "spread of 0": (
-        lambda arrays, facts: arrays.update(action_std=np.zeros(ACTION, np.float32)),
+        lambda arrays, metadata: arrays.update(action_std=np.zeros(ACTION, np.float32)),
         "'action_std'.*above 0",
     ),
     "spread of another size": (
-        lambda arrays, facts: arrays.update(action_std=np.ones(3, np.float32)),
+        lambda arrays, metadata: arrays.update(action_std=np.ones(3, np.float32)),
         "'action_std' should be float32",
     ),
-    "other format": (lambda arrays, facts: facts.update(format="x"), "'format'.*'x'"),
-    "other activation": (lambda arrays, facts: facts.update(activation="relu"), "'relu'"),
-    "no task": (lambda arrays, facts: facts.pop("task"), "'task'"),
-    "clip of 0": (lambda arrays, facts: facts.update(clip="0"), "'clip'.*'0'"),
-    "clip no number": (lambda arrays, facts: facts.update(clip="ten"), "'clip'.*'ten'"),
-    "half a repeat": (lambda arrays, facts: facts.update(action_repeat="1.5"), "'action_repeat'"),
+    "other format": (lambda arrays, metadata: metadata.update(format="x"), "'format'.*'x'"),
+    "other activation": (lambda arrays, metadata: metadata.update(activation="relu"), "'relu'"),
+    "no task": (lambda arrays, metadata: metadata.pop("task"), "'task'"),
+    "clip of 0": (lambda arrays, metadata: metadata.update(clip="0"), "'clip'.*'0'"),
+    "clip no number": (lambda arrays, metadata: metadata.update(clip="ten"), "'clip'.*'ten'"),
+    "half a repeat": (
+        lambda arrays, metadata: metadata.update(action_repeat="1.5"),
+        "'action_repeat'",
+    ),
     "a repeat that overflowed in play": (
-        lambda arrays, facts: facts.update(action_repeat="1e300"),
+        lambda arrays, metadata: metadata.update(action_repeat="1e300"),
         "'action_repeat' should be at most 1000000, got '1e300'",
     ),
-    "wrong size": (lambda arrays, facts: facts.update(observation_size="6"), "'5'.*'6'"),
+    "wrong size": (lambda arrays, metadata: metadata.update(observation_size="6"), "'5'.*'6'"),
     "no layers": (
-        lambda arrays, facts: [arrays.pop(name) for name in list(arrays) if "layers" in name],
+        lambda arrays, metadata: [arrays.pop(name) for name in list(arrays) if "layers" in name],
         "layers.0.weight",
     ),
-    "missing bias": (lambda arrays, facts: arrays.pop("layers.1.bias"), "layers.1.bias"),
-    "missing mean": (lambda arrays, facts: arrays.pop("mean"), "mean"),
-    "unknown array": (lambda arrays, facts: arrays.update(extra=arrays["mean"]), "extra"),
+    "missing bias": (lambda arrays, metadata: arrays.pop("layers.1.bias"), "layers.1.bias"),
+    "missing mean": (lambda arrays, metadata: arrays.pop("mean"), "mean"),
+    "unknown array": (lambda arrays, metadata: arrays.update(extra=arrays["mean"]), "extra"),
     "gap in layers": (
-        lambda arrays, facts: arrays.update(
+        lambda arrays, metadata: arrays.update(
             {"layers.7.weight": arrays["mean"], "layers.7.bias": arrays["mean"]}
         ),
         "layers.7",
     ),
     "layers that do not meet": (
-        lambda arrays, facts: arrays.update(
+        lambda arrays, metadata: arrays.update(
             {"layers.1.weight": np.zeros((HIDDEN, 3), np.float32)},
         ),
         "layers.1.weight takes 3",
     ),
     "bias of another size": (
-        lambda arrays, facts: arrays.update({"layers.0.bias": np.zeros(3, np.float32)}),
+        lambda arrays, metadata: arrays.update({"layers.0.bias": np.zeros(3, np.float32)}),
         "layers.0.bias",
     ),
     "double precision": (
-        lambda arrays, facts: arrays.update(mean=np.zeros(OBSERVATION)),
+        lambda arrays, metadata: arrays.update(mean=np.zeros(OBSERVATION)),
         "'mean' should be float32",
     ),
-    "std of 0": (lambda arrays, facts: arrays["std"].fill(0.0), "'std'.*above 0"),
-    "NaN": (lambda arrays, facts: arrays["layers.1.weight"].fill(np.nan), "layers.1.weight.*NaN"),
+    "std of 0": (lambda arrays, metadata: arrays["std"].fill(0.0), "'std'.*above 0"),
+    "NaN": (
+        lambda arrays, metadata: arrays["layers.1.weight"].fill(np.nan),
+        "layers.1.weight.*NaN",
+    ),
 }
 
 

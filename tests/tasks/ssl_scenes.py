@@ -9,8 +9,8 @@ import numpy as np
 import rsoccer
 from rsoccer import LEARN, Matches, policies
 from rsoccer.frame import Floats, Frame
-from rsoccer.outcome import Outcome
-from rsoccer.policies.base import Seen
+from rsoccer.matches import Outcome
+from rsoccer.policies.base import PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -73,8 +73,8 @@ def play(task: Task, policy: str, worlds: int = 24, seed: int = 5) -> Episodes:
     got = Episodes(np.zeros(worlds, np.float32), {})
     playing = np.ones(worlds, np.bool_)
     for _ in range(task.max_steps):
-        view = matches.play.view.select(matches.drivers.learner_seats)
-        outcome = matches.step(driver.act(Seen(shape, view, None), rng, memory))
+        view = matches.play.view.select(matches.assignment.learner_indices)
+        outcome = matches.step(driver.act(PolicyInput(shape, view, None), rng, memory))
         got.returns += outcome.rewards[:, 0]
         for name, term in outcome.terms.items():
             got.paid[name] = got.paid.get(name, 0.0) + float(np.abs(term).sum())

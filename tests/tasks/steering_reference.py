@@ -14,7 +14,7 @@ def commands(task: Ssl, frame: Frame, actions: Floats) -> Floats:
     asked = actions * task.action_scales
     told = np.zeros((*actions.shape[:2], len(BODY)), np.float32)
     told[..., :3] = asked[..., :3]
-    if task.axes == "field":
+    if task.velocity_frame == "field":
         signs = np.repeat(np.array([1.0, -1.0], np.float32), task.team_sizes())
         heading = frame.robots.heading * signs[:, None]
         cos, sin = heading[..., 0], heading[..., 1]

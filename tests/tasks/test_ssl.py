@@ -10,7 +10,7 @@ from rsoccer import LEARN, Matches
 from rsoccer._core import Field, Steering
 from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
-from rsoccer.tasks.ssl import AXES, CHOICES, Ssl
+from rsoccer.tasks.ssl import CHOICES, VELOCITY_FRAMES, Ssl
 from tests.helpers import pushing
 from tests.tasks import steering_reference
 from tests.tasks.ssl_scenes import make, scene
@@ -21,10 +21,26 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"axes": "ball"}, ValueError, r"axes: expected one of \('field', 'robot'\), got 'ball'"),
-        ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid are"),
-        ({"weights": "old"}, ValueError, "weights: expected a mapping or 'paper', got 'old'"),
-        ({"weights": {"energy": float("nan")}}, ValueError, "weights: expected a finite number"),
+        (
+            {"velocity_frame": "ball"},
+            ValueError,
+            r"velocity_frame: expected one of \('field', 'robot'\), got 'ball'",
+        ),
+        (
+            {"reward_weights": {"style": 1.0}},
+            ValueError,
+            r"reward_weights: unknown \['style'\]; valid are",
+        ),
+        (
+            {"reward_weights": "old"},
+            ValueError,
+            "reward_weights: expected a mapping or 'paper', got 'old'",
+        ),
+        (
+            {"reward_weights": {"energy": float("nan")}},
+            ValueError,
+            "reward_weights: expected a finite number",
+        ),
         ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
         ({"robot": "vss_440rpm"}, ValueError, "robot: expected one that is told its body's veloc"),
         ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
@@ -34,8 +50,16 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
         ({"field": None}, TypeError, "field: expected a preset's name or a Field, got None$"),
         ({"robot": 3}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
         ({"ball": 3}, TypeError, "ball: expected a preset's name or a BallModel, got 3$"),
-        ({"weights": None}, TypeError, "weights: expected a mapping or 'paper', got None"),
-        ({"weights": {"energy": "3"}}, TypeError, "weights: expected a number for 'energy'"),
+        (
+            {"reward_weights": None},
+            TypeError,
+            "reward_weights: expected a mapping or 'paper', got None",
+        ),
+        (
+            {"reward_weights": {"energy": "3"}},
+            TypeError,
+            "reward_weights: expected a number for 'energy'",
+        ),
         ({"discrete": 1}, TypeError, "discrete: expected True or False, got 1"),
         ({"colour": 1}, ValueError, "unknown option colour"),
     ],
@@ -50,17 +74,17 @@ def test_options_that_make_no_task_are_refused(
 
 @pytest.mark.parametrize("name", NAMES)
 def test_weights_are_data_and_paper_is_a_set_of_them(name: str) -> None:
-    task, old = make(name), make(name, weights="paper")
+    task, old = make(name), make(name, reward_weights="paper")
     assert isinstance(task, Ssl)
     assert isinstance(old, Ssl)
-    assert task.weights == task.WEIGHTS
-    assert old.weights == old.PAPER_WEIGHTS
-    assert set(task.WEIGHTS) == set(task.PAPER_WEIGHTS)
+    assert task.reward_weights == task.REWARD_WEIGHTS
+    assert old.reward_weights == old.PAPER_REWARD_WEIGHTS
+    assert set(task.REWARD_WEIGHTS) == set(task.PAPER_REWARD_WEIGHTS)
     for each in (task, old):
         matches = Matches(each, 3)
         matches.reset()
         outcome = matches.step(pushing(np.random.default_rng(0), matches))
-        assert set(outcome.terms) == set(task.WEIGHTS)
+        assert set(outcome.terms) == set(task.REWARD_WEIGHTS)
 
 
 def moved(task: Ssl, action: list[float]) -> tuple[Floats, float]:
@@ -83,15 +107,15 @@ def test_velocities_are_along_the_fields_axes() -> None:
 
 def test_by_option_they_are_along_the_robots() -> None:
     by_field = moved(SslGoToBall(), [-0.1, 0.2, 0.0, -1.0, -1.0])
-    by_robot = moved(SslGoToBall(axes="robot"), [0.2, 0.1, 0.0, -1.0, -1.0])
+    by_robot = moved(SslGoToBall(velocity_frame="robot"), [0.2, 0.1, 0.0, -1.0, -1.0])
     assert by_robot[0] == pytest.approx(by_field[0], abs=1e-4)
     # While it turns the two part: one keeps its course over the field.
     assert moved(SslGoToBall(), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] == pytest.approx(0.0, abs=0.05)
-    assert moved(SslGoToBall(axes="robot"), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] > 0.1
+    assert moved(SslGoToBall(velocity_frame="robot"), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] > 0.1
 
 
 def test_commands_are_shares_of_what_the_robot_can() -> None:
-    task = SslGoToBall(axes="robot")
+    task = SslGoToBall(velocity_frame="robot")
     play = Matches(task, 1).play
     commands = task.get_commands(play, np.array([[[0.5, -1.0, 0.1, 0.5, 1.0]]], np.float32))
     assert commands[0, 0] == pytest.approx([1.85, -3.7, 1.0, 3.25, 0.0, 1.0])
@@ -99,10 +123,10 @@ def test_commands_are_shares_of_what_the_robot_can() -> None:
     assert not commands.any()
 
 
-@pytest.mark.parametrize("axes", AXES)
+@pytest.mark.parametrize("velocity_frame", VELOCITY_FRAMES)
 @pytest.mark.parametrize("worlds", [1, 5])
-def test_commands_are_what_the_reference_says(axes: str, worlds: int) -> None:
-    task = SslSelfPlay(blue=3, yellow=2, axes=axes)
+def test_commands_are_what_the_reference_says(velocity_frame: str, worlds: int) -> None:
+    task = SslSelfPlay(n_blue=3, n_yellow=2, velocity_frame=velocity_frame)
     matches = Matches(task, worlds)
     matches.reset(0)
     actions = np.random.default_rng(0).uniform(-1, 1, (worlds, 5, 5)).astype(np.float32)
@@ -131,7 +155,7 @@ def test_steering_refuses_what_does_not_fit() -> None:
 
 
 def test_for_yellow_the_game_is_turned_half_round() -> None:
-    task = SslSelfPlay(blue=1, yellow=1)
+    task = SslSelfPlay(n_blue=1, n_yellow=1)
     start = scene(task, ball=(0.0, 1.5), blue_0=(1.0, 0.0), yellow_0=(-1.0, 0.0, np.pi))
     matches = Matches(task, 1)
     matches.reset(rows=start.rows)
@@ -172,10 +196,10 @@ def test_the_mouth_is_shown_where_the_ball_is_seen() -> None:
     start = scene(task, ball=(0.593, 0.0), blue_0=(0.5, 0.0), yellow_0=(2.0, 0.0))
     matches = Matches(task, 1)
     shown = matches.reset(rows=start.rows)[0, 0]
-    me, foes = (shown[task.blocks[name].columns] for name in ("me", "foes"))
-    assert me[-1] == 1.0
-    assert foes[-1] == 0.0
-    assert me[:4] == pytest.approx([0.5 / 3.0, 0.0, 1.0, 0.0], abs=1e-6)
+    ego, opponents = (shown[task.blocks[name].columns] for name in ("ego", "opponents"))
+    assert ego[-1] == 1.0
+    assert opponents[-1] == 0.0
+    assert ego[:4] == pytest.approx([0.5 / 3.0, 0.0, 1.0, 0.0], abs=1e-6)
 
 
 def test_tasks_are_data() -> None:
@@ -189,7 +213,7 @@ def test_a_field_without_room_for_the_starts_is_refused_when_the_task_is_made() 
     small = Field("ssl_challenge", length=1.5, width=1.2)
     for name, options in (
         ("SSLDribbling-v0", {}),
-        ("SSLSelfPlay-v0", {"blue": 11, "yellow": 11}),
+        ("SSLSelfPlay-v0", {"n_blue": 11, "n_yellow": 11}),
         ("SSLContestedPossession-v0", {"scenario": 4}),
         ("SSLStaticDefenders-v0", {}),
     ):

@@ -9,7 +9,7 @@ TASK = SslContestedPossession()
 
 
 def bump(task: SslContestedPossession, speed: float) -> bool:
-    """Whether driving into the foe's back, speed in shares of the top, ends it."""
+    """Whether driving into the opponent's back, speed in shares of the top, ends it."""
     start = scene(task, ball=(1.593, 0.0), blue_0=(1.0, 0.0), yellow_0=(1.5, 0.0))
     outcome, matches = run(task, start, (speed, 0.0, 0.0, -1.0, -1.0), 80)
     gap = np.linalg.norm(matches.frame.blue.position - matches.frame.yellow.position)
@@ -36,7 +36,7 @@ def test_a_goal_ends_it_and_the_ball_lost_ends_it() -> None:
         assert (outcome.terms["failed"][0, 0] == -1.0) == (score == 0.0)
 
 
-def test_the_foe_starts_with_the_ball_and_keeps_it() -> None:
+def test_the_opponent_starts_with_the_ball_and_keeps_it() -> None:
     frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 300))
     gap = np.linalg.norm(frame.ball.position - frame.yellow.position[:, 0], axis=-1)
     assert gap == pytest.approx(float(TASK.reach), abs=1e-5)
@@ -51,7 +51,7 @@ def test_official_scenarios_are_the_published_ones_turned_half_round() -> None:
     frame = SslContestedPossession(scenario=2).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.yellow.position[0, 0] == pytest.approx([1.0, 1.25])
     assert frame.blue.position[0, 0] == pytest.approx([0.647, 1.604])
-    # The published balls lie 15 cm before the foes' centres; here they touch the mouth.
+    # The published balls lie 15 cm before the opponents' centres; here they touch the mouth.
     published = [(0.85, 0.0), (0.894, 1.356), (0.394, -1.606), (1.894, 1.306), (2.74, -1.4)]
     for scenario, ball in enumerate(published, start=1):
         task = SslContestedPossession(scenario=scenario)

@@ -94,7 +94,7 @@ def test_the_ball_out_of_the_field_ends_it() -> None:
 
 
 def test_it_starts_with_the_ball_on_the_dribbler() -> None:
-    for task, ball, foes in (
+    for task, ball, opponents in (
         (TASK, (-0.093, 0.0), [(-0.5, 0), (-1, 0), (-1.5, 0), (-2, 0)]),
         (
             SslDribbling(scenario="official"),
@@ -104,7 +104,7 @@ def test_it_starts_with_the_ball_on_the_dribbler() -> None:
     ):
         frame = course(task)
         assert frame.ball.position[0] == pytest.approx(ball, abs=1e-6)
-        assert frame.yellow.position[0] == pytest.approx(np.array(foes))
+        assert frame.yellow.position[0] == pytest.approx(np.array(opponents))
 
 
 def test_the_next_gate_is_shown() -> None:

@@ -43,7 +43,7 @@ def test_leaving_the_field_ends_it(place: tuple[float, float], way: tuple[float,
 
 
 def test_starts_are_anywhere_and_apart() -> None:
-    frame = SslGoToBall(foes=6).get_initial_positions_frame(WorldRng.seeded(0, 400))
+    frame = SslGoToBall(n_opponents=6).get_initial_positions_frame(WorldRng.seeded(0, 400))
     places = np.concatenate([frame.ball.position[:, None], frame.robots.position], axis=1)
     gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(8)
     assert gaps.min() >= 0.2 - 1e-6
@@ -56,12 +56,12 @@ def test_fetch_solves_it() -> None:
     assert play(task, "fetch").largest() == "reached"
 
 
-def test_foes_are_driven_round() -> None:
-    task = SslGoToBall(foes=6)
+def test_opponents_are_driven_round() -> None:
+    task = SslGoToBall(n_opponents=6)
     assert play(task, "fetch").metrics["reached"].mean() >= 0.95
 
 
-@pytest.mark.parametrize("foes", [-1, 7])
-def test_too_many_foes_are_refused(foes: int) -> None:
-    with pytest.raises(ValueError, match="foes: expected at"):
-        SslGoToBall(foes=foes)
+@pytest.mark.parametrize("n_opponents", [-1, 7])
+def test_too_many_opponents_are_refused(n_opponents: int) -> None:
+    with pytest.raises(ValueError, match="n_opponents: expected at"):
+        SslGoToBall(n_opponents=n_opponents)

@@ -9,9 +9,9 @@ from tests.tasks.ssl_scenes import DRIBBLE, KICK, expect_solved, run, scene
 TASK = SslPassEndurance()
 
 
-def towards(speed: float, mate: tuple[float, float] = (1.0, 0.0)) -> Frame:
+def towards(speed: float, teammate: tuple[float, float] = (1.0, 0.0)) -> Frame:
     """The ball on its way along the x axis, far from the passer."""
-    return scene(TASK, ball=(0.0, 0.0, speed, 0.0), blue_0=(-1.0, 0.0), blue_1=(*mate, np.pi))
+    return scene(TASK, ball=(0.0, 0.0, speed, 0.0), blue_0=(-1.0, 0.0), blue_1=(*teammate, np.pi))
 
 
 def test_a_pass_that_is_received_ends_it() -> None:

@@ -8,7 +8,7 @@ from rsoccer.tasks import SslSelfPlay
 from tests.tasks.ssl_scenes import STAND, play, run, scene
 
 TASK = SslSelfPlay()
-SOLO = SslSelfPlay(blue=1, yellow=1)
+SOLO = SslSelfPlay(n_blue=1, n_yellow=1)
 
 
 @pytest.mark.parametrize("way", [1.0, -1.0])
@@ -82,7 +82,7 @@ def test_other_worlds_go_on_while_a_ball_is_put_back() -> None:
 
 @pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (2, 3), (3, 0)])
 def test_sizes_are_options(blue: int, yellow: int) -> None:
-    task = SslSelfPlay(blue=blue, yellow=yellow)
+    task = SslSelfPlay(n_blue=blue, n_yellow=yellow)
     matches = Matches(task, 2)
     matches.reset()
     assert len(matches.agents) == blue + yellow
@@ -93,9 +93,9 @@ def test_sizes_are_options(blue: int, yellow: int) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"blue": 0}, "blue: expected at least 1"),
-        ({"yellow": -1}, "yellow: expected at least 0"),
-        ({"blue": 99}, "99|robots"),
+        ({"n_blue": 0}, "n_blue: expected at least 1"),
+        ({"n_yellow": -1}, "n_yellow: expected at least 0"),
+        ({"n_blue": 99}, "99|robots"),
         ({"field": "ssl_z"}, "ssl_z"),
     ],
 )
@@ -108,13 +108,13 @@ def test_sizes_and_fields_that_make_no_task_are_refused(
 
 def test_it_can_be_played_on_any_ssl_field() -> None:
     for field in ("ssl_a", "ssl_b"):
-        matches = Matches(SslSelfPlay(field=field, blue=6, yellow=6), 1)
+        matches = Matches(SslSelfPlay(field=field, n_blue=6, n_yellow=6), 1)
         matches.reset()
         assert matches.frame.robots.position.shape == (1, 12, 2)
 
 
 def test_a_goal_is_the_largest_part_of_what_a_match_pays() -> None:
-    got = play(SslSelfPlay(blue=1, yellow=1), "strike", worlds=10)
+    got = play(SslSelfPlay(n_blue=1, n_yellow=1), "strike", worlds=10)
     assert np.abs(got.metrics["goal_score"]).mean() > 0.6
     assert got.largest() == "goal"
 
@@ -140,7 +140,7 @@ def crowded(task: SslSelfPlay, robots: Floats, left_at: tuple[float, float]) -> 
 @pytest.mark.parametrize("around", ["line", "block"])
 def test_where_robots_take_the_whole_line_another_place_is_free(around: str) -> None:
     """With none free along the line, the first place was taken, in the middle of a robot."""
-    task = SslSelfPlay(blue=11, yellow=11)
+    task = SslSelfPlay(n_blue=11, n_yellow=11)
     if around == "line":
         robots = np.stack([np.linspace(-2.1, 2.1, 22), np.full(22, 1.8)], axis=-1)
     else:
@@ -159,7 +159,7 @@ def test_where_robots_take_the_whole_line_another_place_is_free(around: str) -> 
 
 
 def test_a_place_off_the_line_is_the_same_for_both_sides() -> None:
-    task, rng = SslSelfPlay(blue=11, yellow=11), np.random.default_rng(0)
+    task, rng = SslSelfPlay(n_blue=11, n_yellow=11), np.random.default_rng(0)
     off = 0
     for _ in range(100):
         x = np.linspace(-2.1, 2.1, 22) + rng.uniform(-0.03, 0.03, 22)
@@ -176,7 +176,7 @@ def test_a_place_off_the_line_is_the_same_for_both_sides() -> None:
 def test_no_robots_can_cover_all_places_of_a_field(field: str) -> None:
     config = SimConfig(field, 1, 0, robot="ssl_generic")
     most = config.field.max_robots
-    task = SslSelfPlay(field=field, blue=most, yellow=most)
+    task = SslSelfPlay(field=field, n_blue=most, n_yellow=most)
     places = task._lattice
     robots = np.random.default_rng(0).uniform(-0.1, 0.1, (1, 50, 2)).astype(np.float32)
     covered = [

@@ -64,7 +64,7 @@ def test_the_robot_where_it_must_not_be_ends_it(
     assert outcome.terms["failed"][0, 0] == -1.0
 
 
-def test_touching_a_foe_ends_it_however_softly() -> None:
+def test_touching_a_opponent_ends_it_however_softly() -> None:
     start = scene(TASK, ball=(1.5, 1.0), blue_0=(1.0, 0.0), yellow_0=(1.25, 0.0))
     outcome, matches = run(TASK, start, drive(0.05, 0.0))
     assert outcome.terminated[0]
@@ -107,18 +107,18 @@ def test_strike_solves_every_official_scenario(scenario: int) -> None:
     assert play(task, "strike", worlds=1).metrics["goal_score"][0] == 1.0
 
 
-@pytest.mark.parametrize("foes", [0, 2, 6])
-def test_foes_are_as_many_as_asked(foes: int) -> None:
-    task = SslStaticDefenders(foes=foes)
+@pytest.mark.parametrize("n_opponents", [0, 2, 6])
+def test_opponents_are_as_many_as_asked(n_opponents: int) -> None:
+    task = SslStaticDefenders(n_opponents=n_opponents)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 20))
-    assert frame.yellow.position.shape == (20, foes, 2)
-    assert SslStaticDefenders(foes=foes, scenario=1).n_yellow == 3
+    assert frame.yellow.position.shape == (20, n_opponents, 2)
+    assert SslStaticDefenders(n_opponents=n_opponents, scenario=1).n_yellow == 3
 
 
-@pytest.mark.parametrize("foes", [-1, 7])
-def test_too_many_foes_are_refused(foes: int) -> None:
-    with pytest.raises(ValueError, match="foes: expected at"):
-        SslStaticDefenders(foes=foes)
+@pytest.mark.parametrize("n_opponents", [-1, 7])
+def test_too_many_opponents_are_refused(n_opponents: int) -> None:
+    with pytest.raises(ValueError, match="n_opponents: expected at"):
+        SslStaticDefenders(n_opponents=n_opponents)
 
 
 @pytest.mark.parametrize("scenario", [0, 11])

@@ -10,7 +10,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
-from rsoccer.tasks.vss import WEIGHTS, Vss
+from rsoccer.tasks.vss import REWARD_WEIGHTS, Vss
 from tests.helpers import pushing
 
 NAMES = [name for name in rsoccer.list_tasks() if name.startswith("VSS")]
@@ -65,11 +65,11 @@ def test_full_power_drives_at_top_speed_straight_ahead() -> None:
     matches.reset(rows=frame.rows)
     for _ in range(30):
         matches.step(np.ones((1, 1, 2), np.float32))
-    me = matches.frame.blue
-    assert me.velocity[0, 0] == pytest.approx(
+    ego = matches.frame.blue
+    assert ego.velocity[0, 0] == pytest.approx(
         [task.config.robot.top_speed, 0.0], rel=0.02, abs=1e-4
     )
-    assert me.position[0, 0, 1] == pytest.approx(0.3, abs=1e-4)
+    assert ego.position[0, 0, 1] == pytest.approx(0.3, abs=1e-4)
 
 
 def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
@@ -82,11 +82,11 @@ def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
     flat = matches.reset(rows=frame.rows)[0, 0]
     blocks = {name: flat[block.columns] for name, block in matches.task.blocks.items()}
     # ahead is +y, so the goal at +x lies to the right; lengths count in half fields of 0.75 m
-    assert blocks["ball_from_me"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
-    assert blocks["goal_from_me"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
+    assert blocks["ball_polar"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
+    assert blocks["goal_polar"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
     assert blocks["ball"] == pytest.approx([0.25 / 0.75, 0.4, 0.0, 0.0], abs=1e-5)
-    assert blocks["me"] == pytest.approx([0.25 / 0.75, 0, 0, 1, 0, 0, 0], abs=1e-5)
-    assert blocks["foes"][:2] == pytest.approx([0.8, 0.4 / 0.75], abs=1e-5)
+    assert blocks["ego"] == pytest.approx([0.25 / 0.75, 0, 0, 1, 0, 0, 0], abs=1e-5)
+    assert blocks["opponents"][:2] == pytest.approx([0.8, 0.4 / 0.75], abs=1e-5)
 
 
 def test_the_action_taken_is_shown() -> None:
@@ -124,10 +124,10 @@ def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
         WorldRng.seeded(0, worlds),
         chase.new_memory((worlds, 3, 2), WorldRng.seeded(0, 1)),
     )
-    paid = dict.fromkeys(WEIGHTS, 0.0)
+    paid = dict.fromkeys(REWARD_WEIGHTS, 0.0)
     goals = 0
     for _ in range(task.max_steps):
-        seen = rsoccer.policies.Seen((worlds, 3, 2), matches.play.view, None)
+        seen = rsoccer.policies.PolicyInput((worlds, 3, 2), matches.play.view, None)
         outcome = matches.step(chase.act(seen, rng, memory))
         for term, value in outcome.terms.items():
             paid[term] += float(np.abs(value).sum())
@@ -165,8 +165,8 @@ def test_a_goal_of_either_side_ends_the_match_and_tells_the_score(name: str, way
 
 
 def test_weights_are_data() -> None:
-    task = VssSelfPlay(weights={"approach": 0.0})
-    assert task.weights == WEIGHTS | {"approach": 0.0}
+    task = VssSelfPlay(reward_weights={"approach": 0.0})
+    assert task.reward_weights == REWARD_WEIGHTS | {"approach": 0.0}
     matches = Matches(task, 2)
     matches.reset()
     outcome = matches.step(np.ones((2, 6, 2), np.float32))
@@ -187,10 +187,22 @@ def test_weights_are_data() -> None:
         ({"ball_speed": 30}, ValueError, "ball_speed: expected 0 to 20, got 30"),
         ({"ball_speed": "fast"}, TypeError, "ball_speed: expected a number, got 'fast'"),
         ({"ball_speed": None}, TypeError, "ball_speed: expected a number, got None"),
-        ({"weights": None}, TypeError, "weights: expected a mapping or 'paper', got None"),
-        ({"weights": ["goal"]}, TypeError, "weights: expected a mapping or 'paper'"),
-        ({"weights": {"goal": "3"}}, TypeError, "weights: expected a number for 'goal', got '3'"),
-        ({"weights": {1: 3.0, "style": 1}}, ValueError, r"weights: unknown \[1, 'style'\]"),
+        (
+            {"reward_weights": None},
+            TypeError,
+            "reward_weights: expected a mapping or 'paper', got None",
+        ),
+        ({"reward_weights": ["goal"]}, TypeError, "reward_weights: expected a mapping or 'paper'"),
+        (
+            {"reward_weights": {"goal": "3"}},
+            TypeError,
+            "reward_weights: expected a number for 'goal', got '3'",
+        ),
+        (
+            {"reward_weights": {1: 3.0, "style": 1}},
+            ValueError,
+            r"reward_weights: unknown \[1, 'style'\]",
+        ),
         ({"discrete": "no"}, TypeError, "discrete: expected True or False, got 'no'"),
         ({"robot": "ssl_generic"}, ValueError, "robot: expected one with two wheels"),
         ({"robot": ["vss_440rpm"] * 3 + ["vss_650rpm"] * 3}, ValueError, "robot: expected one mod"),
@@ -200,8 +212,16 @@ def test_weights_are_data() -> None:
             ValueError,
             "field: expected one of VSSS, like .vss_5v5.",
         ),
-        ({"weights": {"style": 1.0}}, ValueError, r"weights: unknown \['style'\]; valid.*'goal'"),
-        ({"weights": {"goal": float("inf")}}, ValueError, "weights: expected a finite number"),
+        (
+            {"reward_weights": {"style": 1.0}},
+            ValueError,
+            r"reward_weights: unknown \['style'\]; valid.*'goal'",
+        ),
+        (
+            {"reward_weights": {"goal": float("inf")}},
+            ValueError,
+            "reward_weights: expected a finite number",
+        ),
         ({"robot": "vss_9000rpm"}, ValueError, "vss_9000rpm"),
         ({"robot": 3}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
         ({"robot": [3] * 6}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),

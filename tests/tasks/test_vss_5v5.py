@@ -10,9 +10,9 @@ from rsoccer import Matches, registry
 from rsoccer._core import CROSSINGS
 from rsoccer.evaluate import evaluate
 from rsoccer.policies.network import Network
-from rsoccer.pressing import Pressing
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.testing import check_task
+from rsoccer.testing.pressure import Pressing
 from rsoccer.train import train
 from tests.train.one_update import one_update
 

@@ -13,10 +13,10 @@ def one_update(task: str, folder: Path) -> Args:
         samples=1,  # rounded up to one update
         threads=1,
         progress=False,
-        alone=0.0,
+        solo_fraction=0.0,
         worlds=3,
         horizon=4,
-        hidden=(8,),
-        epochs=1,
-        minibatches=1,
+        hidden_sizes=(8,),
+        n_epochs=1,
+        n_minibatches=1,
     )

@@ -38,7 +38,7 @@ class Forward(ShortSelfPlay):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """The mean of both wheels."""
         _, done = super().calculate_reward_and_done(play)
-        return {"forward": play.actions[:, play.seers].clip(-1, 1).mean(axis=2)}, done
+        return {"forward": play.actions[:, play.observers].clip(-1, 1).mean(axis=2)}, done
 
 
 def register_all() -> None:
@@ -49,19 +49,19 @@ def register_all() -> None:
 
 TINY = {
     "task": NAME,
-    "alone": 0.34,  # three updates
+    "solo_fraction": 0.34,  # three updates
     "worlds": 6,
     "horizon": 8,
     "samples": 6 * 3 * 8 * 6,
-    "hidden": (16,),
-    "epochs": 2,
-    "minibatches": 2,
+    "hidden_sizes": (16,),
+    "n_epochs": 2,
+    "n_minibatches": 2,
     "threads": 1,
-    "latest": 0.4,
-    "past": 0.4,
-    "ou": 0.2,
+    "latest_fraction": 0.4,
+    "past_fraction": 0.4,
+    "ou_fraction": 0.2,
     "pool_size": 2,
-    "pool_every": 1,
+    "pool_interval": 1,
     "progress": False,
 }
 """Settings of a run of six updates that takes about a second."""

@@ -16,21 +16,21 @@ BAD: list[tuple[str, Any]] = [
     ("threads", 0),
     ("horizon", 0),
     ("action_repeat", 0),
-    ("epochs", 0),
-    ("minibatches", 0),
+    ("n_epochs", 0),
+    ("n_minibatches", 0),
     ("seed", -1),
     ("learning_rate", 0.0),
     ("learning_rate", float("nan")),
     ("action_std", -0.5),
-    ("gradient_norm", float("inf")),
-    ("checkpoint_seconds", 0.0),
+    ("max_grad_norm", float("inf")),
+    ("checkpoint_interval", 0.0),
     ("gamma", 1.5),
     ("gae_lambda", -0.1),
-    ("entropy_weight", -1.0),
-    ("value_weight", float("nan")),
-    ("hidden", ()),
-    ("hidden", (64, 0)),
-    ("latest", 0.9),
+    ("entropy_coef", -1.0),
+    ("value_coef", float("nan")),
+    ("hidden_sizes", ()),
+    ("hidden_sizes", (64, 0)),
+    ("latest_fraction", 0.9),
     ("pool_size", 0),
 ]
 
@@ -47,7 +47,7 @@ def test_resume_and_overwrite_exclude_each_other() -> None:
 
 
 def test_settings_survive_json() -> None:
-    args = Args(out=Path("somewhere"), hidden=(32, 16))
+    args = Args(out=Path("somewhere"), hidden_sizes=(32, 16))
     saved = json.loads(json.dumps(args.to_json()))
     assert args.differences(saved) == []
     assert Args(**saved) == args

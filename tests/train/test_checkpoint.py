@@ -19,7 +19,7 @@ SAVED = Checkpoint(
         "adam.step": np.array(3.0, np.float32),
         "empty": np.zeros((0, 3), np.float32),
     },
-    facts={"samples": 12, "args": {"task": "x", "gamma": 0.995}},
+    info={"samples": 12, "args": {"task": "x", "gamma": 0.995}},
 )
 
 
@@ -27,7 +27,7 @@ def test_what_is_saved_comes_back(tmp_path: Path) -> None:
     path = tmp_path / "a.safetensors"
     checkpoint.save(path, SAVED)
     loaded = checkpoint.load(path)
-    assert loaded.facts == SAVED.facts
+    assert loaded.info == SAVED.info
     assert loaded.arrays.keys() == SAVED.arrays.keys()
     for name, array in SAVED.arrays.items():
         assert loaded.arrays[name].dtype == array.dtype
@@ -74,7 +74,7 @@ def test_foreign_files_are_refused(tmp_path: Path) -> None:
     save_file({"a": np.zeros(2)}, path, {"format": "rsoccer-policy-1"})
     with pytest.raises(ValueError, match="not a training checkpoint"):
         checkpoint.load(path)
-    save_file({"a": np.zeros(2)}, path, {"format": checkpoint.FORMAT, "facts": "{"})
+    save_file({"a": np.zeros(2)}, path, {"format": checkpoint.FORMAT, "info": "{"})
     with pytest.raises(ValueError, match="damaged or not a checkpoint"):
         checkpoint.load(path)
 

@@ -10,7 +10,7 @@ import pytest
 import rsoccer
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, train
-from rsoccer.train.log import Tally, read_progress
+from rsoccer.train.log import EpisodeStats, read_progress
 from tests.train.one_update import one_update
 
 TASKS = rsoccer.list_tasks()  # before the short tasks of other tests here are known
@@ -27,7 +27,7 @@ def test_a_first_update_can_be_made(name: str, tmp_path: Path) -> None:
     assert int(row["samples"]) == 3 * 4 * learners
     assert all(
         math.isfinite(float(row[key]))
-        for key in ("reward", "value_error", "divergence", "action_std")
+        for key in ("reward", "value_loss", "approx_kl", "action_std")
     )
 
 
@@ -40,8 +40,8 @@ def test_a_metric_named_seconds_was_written_over_the_runs_own(tmp_path: Path) ->
         progress=False,
         worlds=3,
         horizon=4,
-        hidden=(8,),
-        cut=0.0,
+        hidden_sizes=(8,),
+        random_truncation=0.0,
     )
     train(args)
     seconds = read_progress(tmp_path)["seconds"]
@@ -50,6 +50,6 @@ def test_a_metric_named_seconds_was_written_over_the_runs_own(tmp_path: Path) ->
     assert "episode/seconds" in read_progress(tmp_path)
     own = {name for name in read_progress(tmp_path) if "/" not in name}
     assert own >= {"seconds", "samples", "episodes", "reward", "time_physics"}
-    tally = Tally(("ou",))
-    tally.add(np.zeros(1, int), {name: np.full(1, 7.0) for name in own})
-    assert set(tally.take()) & own == {"episodes"}, "a metric takes a column of the run"
+    episode_stats = EpisodeStats(("ou",))
+    episode_stats.add(np.zeros(1, int), {name: np.full(1, 7.0) for name in own})
+    assert set(episode_stats.take()) & own == {"episodes"}, "a metric takes a column of the run"

@@ -9,16 +9,18 @@ import pytest
 
 from rsoccer.train import Args
 from rsoccer.train.args import SETTINGS_FILE
-from rsoccer.train.curve import draw_curve
-from rsoccer.train.log import Log, Tally, read_progress
+from rsoccer.train.learning_curve import draw_curve
+from rsoccer.train.log import EpisodeStats, Log, read_progress
 
 
 def test_ended_matches_are_counted_by_opponent() -> None:
-    tally = Tally(("ou", "latest"))
-    tally.add(np.array([0, 1]), {"goal_score": np.array([1.0, -1.0]), "time": np.array([2.0, 4.0])})
-    tally.add(np.array([], int), {"goal_score": np.array([]), "time": np.array([])})
-    tally.add(np.array([0]), {"goal_score": np.array([0.0]), "time": np.array([9.0])})
-    row = tally.take()
+    episode_stats = EpisodeStats(("ou", "latest"))
+    episode_stats.add(
+        np.array([0, 1]), {"goal_score": np.array([1.0, -1.0]), "time": np.array([2.0, 4.0])}
+    )
+    episode_stats.add(np.array([], int), {"goal_score": np.array([]), "time": np.array([])})
+    episode_stats.add(np.array([0]), {"goal_score": np.array([0.0]), "time": np.array([9.0])})
+    row = episode_stats.take()
     assert row == {
         "episodes": 3,
         "episode/goal_score": 0.0,
@@ -33,9 +35,9 @@ def test_ended_matches_are_counted_by_opponent() -> None:
 
 
 def test_where_no_match_ended_there_is_no_mean() -> None:
-    tally = Tally(("ou",))
-    tally.add(np.array([], int), {"goal_score": np.array([])})
-    row = tally.take()
+    episode_stats = EpisodeStats(("ou",))
+    episode_stats.add(np.array([], int), {"goal_score": np.array([])})
+    row = episode_stats.take()
     assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["goals_for"] == 0
 
 

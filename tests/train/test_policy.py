@@ -9,7 +9,7 @@ import torch
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
 from rsoccer.train import checkpoint, train
-from rsoccer.train.state import restore
+from rsoccer.train.run_state import restore
 from rsoccer.train.trainer import Trainer
 from tests.train.short_task import NAME
 from tests.train.test_trainer import run_until, tiny
@@ -31,7 +31,7 @@ def test_the_policy_file_plays_what_was_learned(whole: Path) -> None:
         .normal(size=(50, 3, trainer.matches.observation_size))
         .astype(np.float32)
     )
-    mean, std = trainer.seen.as_floats()
+    mean, std = trainer.obs_rms.as_floats()
     normal = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
     expected = trainer.model.actor(normal).detach().clamp(-1.0, 1.0).numpy()
     policy = Network.load(whole / "policy.safetensors")
@@ -55,8 +55,8 @@ def test_a_policy_file_said_nothing_of_repeat_and_spread(whole: Path) -> None:
 
 
 def test_a_policy_file_names_the_task_as_it_was_asked_for(tmp_path: Path) -> None:
-    name = "SSLGoToBallIR-v0"  # with six foes; the task's own name is without
-    policy = Network.load(train(tiny(tmp_path, task=name, samples=1, alone=0.0)))
+    name = "SSLGoToBallIR-v0"  # with six opponents; the task's own name is without
+    policy = Network.load(train(tiny(tmp_path, task=name, samples=1, solo_fraction=0.0)))
     assert policy.task_name == name
     task = make_task(policy.task_name)
     policy.check_fits(task, task.observation_size)

@@ -12,8 +12,8 @@ import torch
 
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, checkpoint, train
-from rsoccer.train.state import capture
-from rsoccer.train.stop import Stop, Stopped
+from rsoccer.train.run_state import capture
+from rsoccer.train.stop_signal import Stop, Stopped
 from rsoccer.train.trainer import Trainer
 from tests.train.short_task import FORWARD, NAME, TINY
 
@@ -28,7 +28,7 @@ def digest(folder: Path) -> str:
     total = hashlib.sha256()
     for name, array in sorted(saved.arrays.items()):
         total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
-    total.update(f"{saved.facts['samples']} {saved.facts['updates']}".encode())
+    total.update(f"{saved.info['samples']} {saved.info['updates']}".encode())
     return total.hexdigest()
 
 
@@ -112,7 +112,7 @@ def test_a_resumed_run_equals_the_uninterrupted_one(
 ) -> None:
     assert run_until(tiny(tmp_path), checks) == updates
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
-    assert saved.facts["updates"] == updates
+    assert saved.info["updates"] == updates
     assert digest(tmp_path) != digest(whole) or updates == 6
     train(tiny(tmp_path, resume=True))
     assert digest(tmp_path) == digest(whole)
@@ -131,7 +131,7 @@ def test_rows_after_the_checkpoint_are_dropped(whole: Path, tmp_path: Path) -> N
 
 
 def test_a_task_with_one_learning_side_trains_against_its_own_opponent(tmp_path: Path) -> None:
-    trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", alone=0))
+    trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", solo_fraction=0))
     assert trainer.pool is None
     assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
     train(tiny(tmp_path, task="VSSMulti-v0", samples=144))
@@ -145,7 +145,7 @@ def test_a_run_starts_with_a_lone_learner_and_goes_on_with_all(tmp_path: Path) -
     assert trainer.matches.worlds == args.worlds * 3, "as many learners as later"
     trainer.run(Stop(), 0)
     assert list(trainer.matches.agents) == ["blue_0", "blue_1", "blue_2"]
-    assert not trainer.alone
+    assert not trainer.is_solo
     shares = [row["episode_latest/goal_score"] for row in progress(tmp_path)]
     assert set(shares[:3]) == {"nan"}, "nobody but drifting robots at first"
 
@@ -155,9 +155,9 @@ def test_learning_raises_what_is_rewarded(tmp_path: Path) -> None:
         tmp_path,
         task=FORWARD,
         worlds=32,
-        epochs=8,
+        n_epochs=8,
         learning_rate=5e-3,
-        target_divergence=1.0,
+        target_kl=1.0,
         samples=25 * 32 * 3 * 8,
     )
     trainer, rewards = Trainer(args), []
@@ -200,7 +200,7 @@ def test_resuming_with_other_settings_is_refused(whole: Path) -> None:
         train(tiny(whole, resume=True, task="VSSMulti-v0"))
 
 
-@pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.chance"])
+@pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.generator"])
 def test_a_checkpoint_that_lacks_something_is_refused(
     missing: str, whole: Path, tmp_path: Path
 ) -> None:

@@ -9,8 +9,8 @@ import gymnasium
 import pytest
 
 import rsoccer
-from rsoccer.parallel import SoccerParallelEnv, parallel_env
-from rsoccer.vector import SoccerVectorEnv
+from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.envs.vector import SoccerVectorEnv
 from tests.one_match import TASKS
 
 wrappers = pytest.importorskip("ray.rllib.env.wrappers.pettingzoo_env")

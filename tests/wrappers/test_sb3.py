@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from tests.lone_learner import LONE
+from tests.solo_learner import LONE
 
 stable_baselines3 = pytest.importorskip("stable_baselines3")
 env_checker = pytest.importorskip("stable_baselines3.common.env_checker")

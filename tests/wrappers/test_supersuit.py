@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer.envs.parallel import parallel_env
 from rsoccer.frame import Floats
-from rsoccer.parallel import parallel_env
 from tests.one_match import TASKS
 
 supersuit = pytest.importorskip("supersuit")
@@ -70,7 +70,7 @@ def test_copies_of_a_match_follow_their_own_seeds() -> None:
     assert len(np.unique(last, axis=0)) == MATCHES * ROBOTS
 
 
-# From 3.12 on Python warns of forks in general; tests/test_fork.py shows ours to be safe.
+# From 3.12 on Python warns of forks in general; tests/matches/test_fork.py shows ours to be safe.
 @pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
 def test_copies_in_other_processes_play_the_same() -> None:
     envs = supersuit.concat_vec_envs_v1(robots(), 2, num_cpus=2)

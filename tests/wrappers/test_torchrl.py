@@ -6,8 +6,8 @@ import gymnasium
 import pytest
 
 import rsoccer
-from rsoccer.parallel import parallel_env
-from rsoccer.vector import SoccerVectorEnv
+from rsoccer.envs.parallel import parallel_env
+from rsoccer.envs.vector import SoccerVectorEnv
 from tests.one_match import TASKS
 
 pettingzoo_lib = pytest.importorskip("torchrl.envs.libs.pettingzoo")

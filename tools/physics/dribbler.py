@@ -53,8 +53,10 @@ BACK_SPIN = Line(TOPIC, "speed of the ball's rim after 1 s", "m/s", within(0.1),
 BENDS = Line(TOPIC, "held in a turn: change of velocity in a tick", "m/s", percent(5), "circle")
 RELEASE = Line(TOPIC, "off: the same in each of the next 3 ticks", "m/s", percent(5), "floor alone")
 LEAVES = Line(TOPIC, "off: in the mouth 1 s later", "", EXACT, "no hold")
-STEAL = Line(TOPIC, "a foe that dribbles and backs off takes the ball", "", EXACT, "can be taken")
-KNOCK = Line(TOPIC, "a foe that drives across: still in the mouth", "", EXACT, "can be taken")
+STEAL = Line(
+    TOPIC, "an opponent that dribbles and backs off takes the ball", "", EXACT, "can be taken"
+)
+KNOCK = Line(TOPIC, "an opponent that drives across: still in the mouth", "", EXACT, "can be taken")
 
 
 def checks() -> Checks:

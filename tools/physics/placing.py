@@ -17,7 +17,7 @@ AGAIN = Line(TOPIC, "largest difference when it is read twice", "", EXACT, "firs
 ON = Line(TOPIC, "a state of a match, placed again: largest difference", "", EXACT, PLACED)
 REPEATED = Line(TOPIC, "columns that differ when a match is played twice", "", EXACT, "first time")
 CRASH = Line(TOPIC, "closing speed of a crash", "m/s", percent(4), "sum of both commands")
-FOE = Line(TOPIC, "robots that touched a foe in it", "of 2", EXACT, "they are foes")
+OPPONENT = Line(TOPIC, "robots that touched an opponent in it", "of 2", EXACT, "they are opponents")
 LINE = Line(TOPIC, "lines told when the ball crosses them", "of 6", EXACT, "where it was aimed")
 LINE_AT = Line(TOPIC, "farthest off the place told", "mm", within(1), "straight line")
 TOLD_ONCE = Line(TOPIC, "steps in which they are told", "of 6", EXACT, "once each")
@@ -96,7 +96,7 @@ def _crash() -> Checks:
     scene.tell(1, v_x=1.0)
     robots = scene.play(1.5).robots
     yield CRASH("2 and 1 m/s, head on", 3.0, robots.crash_speed.max())
-    yield FOE("2 and 1 m/s, head on", 2, (robots.touched_foe == 1).any(axis=0).sum())
+    yield OPPONENT("2 and 1 m/s, head on", 2, (robots.touched_foe == 1).any(axis=0).sum())
 
 
 def _lines() -> Checks:

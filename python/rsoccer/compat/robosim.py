@@ -23,9 +23,9 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
-from rsoccer.compat import old_models
-from rsoccer.compat.room import make_room
-from rsoccer.compat.wheels import Wheels
+from rsoccer.compat import legacy_models
+from rsoccer.compat.separation import make_room
+from rsoccer.compat.wheel_kinematics import Wheels
 from rsoccer.entities import Doubles, degrees, headings
 from rsoccer.frame import Frame
 
@@ -161,9 +161,9 @@ class VSS(_World):
     `x, y, degrees, v_x, v_y, degrees/s`.
     """
 
-    _fields = old_models.VSS_FIELDS
-    _ball = old_models.VSS_BALL
-    _robot = old_models.VSS_ROBOT
+    _fields = legacy_models.VSS_FIELDS
+    _ball = legacy_models.VSS_BALL
+    _robot = legacy_models.VSS_ROBOT
     _action = "left and right wheel speed of each robot, blue first"
     _action_size = 2
 
@@ -171,7 +171,7 @@ class VSS(_World):
         return actions
 
     def _parameters(self, field: Field) -> dict[str, float]:
-        return old_models.vss_parameters(field)
+        return legacy_models.vss_parameters(field)
 
 
 class SSL(_World):
@@ -184,12 +184,12 @@ class SSL(_World):
     `infrared` and the four wheel speeds that were asked for.
     """
 
-    _fields = old_models.SSL_FIELDS
-    _ball = old_models.SSL_BALL
-    _robot = old_models.SSL_ROBOT
+    _fields = legacy_models.SSL_FIELDS
+    _ball = legacy_models.SSL_BALL
+    _robot = legacy_models.SSL_ROBOT
     _action = "by_wheels, four speeds, kick_v_x, kick_v_z and dribbler of each robot, blue first"
     _action_size = 8
-    _wheels: ClassVar = Wheels(old_models.SSL_ROBOT)
+    _wheels: ClassVar = Wheels(legacy_models.SSL_ROBOT)
 
     def reset(self, ball_pos: object, blue_robots_pos: object, yellow_robots_pos: object) -> None:
         """As in VSS; nothing has been asked of the wheels yet."""
@@ -207,7 +207,7 @@ class SSL(_World):
         return np.concatenate([super()._robot_states(), infrared, self._asked], axis=1)
 
     def _parameters(self, field: Field) -> dict[str, float]:
-        return old_models.ssl_parameters(field)
+        return legacy_models.ssl_parameters(field)
 
 
 def install(*, force: bool = False) -> ModuleType:

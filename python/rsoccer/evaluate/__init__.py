@@ -15,10 +15,10 @@ import os
 import numpy as np
 
 from rsoccer import checks
-from rsoccer.controllers import lineup, opponents_of, task_for
 from rsoccer.evaluate.episodes import Doubles, Episodes, Terms, play
 from rsoccer.evaluate.results import Evaluation, Interval, Results, estimated, results
 from rsoccer.evaluate.tables import table
+from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import Player, check_player, make, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.registry import as_task
@@ -56,13 +56,15 @@ def evaluate(
     checks.whole("seed", seed, 0)
     checks.whole("worlds", worlds, 1)
     threads = _processors() if threads is None else checks.whole("threads", threads, 1)
-    foe = opponent if opponent is None or isinstance(opponent, Policy) else make(opponent, task)
+    other: Policy | None = None
+    if opponent is not None:
+        other = make(opponent, task)
     driver = make(policy, task)
     played = []
     for number, side in enumerate(sides):
         start = np.random.SeedSequence((seed, number))
         base = int(start.generate_state(1, np.uint64)[0]) >> 1
-        terms = Terms(task, lineup(task, LEARN, foe, side), driver, worlds, threads)
+        terms = Terms(task, lineup(task, LEARN, other, side), driver, worlds, threads)
         played.append(play(terms, each, base))
     chance = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
     others = opponents_of(task) if opponent is None else [name_of(opponent)]

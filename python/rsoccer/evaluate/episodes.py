@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from rsoccer.controllers import Controller
 from rsoccer.frame import Floats
-from rsoccer.matches import Matches
-from rsoccer.outcome import Outcome
-from rsoccer.policies.base import Policy, Seen
+from rsoccer.matches import Matches, Outcome
+from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -108,7 +107,7 @@ class _Driver:
         """What the learners do, (n, agents, action), by what they see (n, agents, o)."""
         view, seen = None, None
         if self._policy.observes != "nothing":
-            view = self._matches.play.view.select(self._matches.drivers.learner_seats)
+            view = self._matches.play.view.select(self._matches.assignment.learner_indices)
         if self._policy.observes == "observation":
             seen = observations
-        return self._policy.act(Seen(self._shape, view, seen), self._rng, self._memory)
+        return self._policy.act(PolicyInput(self._shape, view, seen), self._rng, self._memory)

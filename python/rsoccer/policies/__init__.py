@@ -6,23 +6,21 @@ import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
-from rsoccer.policies.base import Policy, Seen
-from rsoccer.policies.chase import Chase
-from rsoccer.policies.fetch import Fetch
-from rsoccer.policies.hold import Hold, Receive
-from rsoccer.policies.ou import OrnsteinUhlenbeck
-from rsoccer.policies.passer import Passer
-from rsoccer.policies.scripted import Scripted
-from rsoccer.policies.strike import Strike
-from rsoccer.policies.uniform import Uniform
-from rsoccer.policies.weave import Weave
-from rsoccer.policies.zero import Zero
+from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.policies.noise import OrnsteinUhlenbeck, Uniform, Zero
+from rsoccer.policies.ssl.fetch import Fetch
+from rsoccer.policies.ssl.hold import Hold, Receive
+from rsoccer.policies.ssl.passer import Passer
+from rsoccer.policies.ssl.strike import Strike
+from rsoccer.policies.ssl.weave import Weave
+from rsoccer.policies.vss.chase import Chase
+from rsoccer.policies.vss.scripted import Scripted
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
-__all__ = ["Policy", "Seen", "make", "name_of", "names", "names_with_skill"]
+__all__ = ["Policy", "PolicyInput", "make", "name_of", "names", "names_with_skill"]
 __all__ += ["Player", "check_player", "trained_on"]
 
 Player = str | os.PathLike[str] | Policy

@@ -14,10 +14,10 @@ Memory = dict[str, Array]
 
 
 @dataclass
-class Seen:
+class PolicyInput:
     """What a policy is shown of the robots that it drives, in order."""
 
-    shape: tuple[int, int, int]  # (n, robots, action): the shape of the actions to return
+    action_shape: tuple[int, int, int]  # (n, robots, action): the shape of the actions to return
     view: View | None  # (n, robots, ...) unless it observes "nothing"
     observations: Floats | None  # (n, robots, o) if it observes "observation"
 
@@ -58,5 +58,5 @@ class Policy(ABC):
         return {}
 
     @abstractmethod
-    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """(n, robots, action) in [-1, 1]. Writes what it wants to remember into `memory`."""

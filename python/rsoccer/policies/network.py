@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rsoccer.frame import Array, Floats
 from rsoccer.policies import policy_file
-from rsoccer.policies.base import Memory, Policy, Seen
+from rsoccer.policies.base import Memory, Policy, PolicyInput
 
 if TYPE_CHECKING:
     from rsoccer.rng import WorldRng
@@ -84,17 +84,17 @@ class Network(Policy):
             return {}
         return {"held": np.zeros(shape, np.float32), "age": np.zeros(shape[0], np.int64)}
 
-    def act(self, seen: Seen, rng: WorldRng, memory: Memory) -> Floats:
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Action for each robot by its own observation, (n, robots, action)."""
-        if seen.observations is None:
+        if inputs.observations is None:
             raise ValueError("a network needs observations (n, robots, o), got none")
         if self.action_repeat == 1:
-            return self.choose(seen.observations, rng)
+            return self.choose(inputs.observations, rng)
         held, age = memory["held"], memory["age"]
         due = age == 0
         if due.any():
             streams = rng[due]
-            held[due] = self.choose(seen.observations[due], streams)
+            held[due] = self.choose(inputs.observations[due], streams)
             rng.put(due, streams)
         age[:] = (age + 1) % self.action_repeat
         return held.copy()

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.controllers import Controllers, given_by_name, task_for
+from rsoccer.controllers import Controllers, given_by_name
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
+from rsoccer.lineup import task_for
 from rsoccer.matches import Matches
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.markers import marked

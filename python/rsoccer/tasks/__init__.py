@@ -1,7 +1,7 @@
 """The tasks that come with the package, one file each; importing this registers them."""
 
 from rsoccer.registry import register
-from rsoccer.tasks import old_names
+from rsoccer.tasks import legacy_names
 from rsoccer.tasks.ssl_contested_possession import SslContestedPossession
 from rsoccer.tasks.ssl_dribbling import SslDribbling
 from rsoccer.tasks.ssl_go_to_ball import SslGoToBall
@@ -36,4 +36,4 @@ register("SSLDribbling-v0", SslDribbling)
 register("SSLPassEndurance-v0", SslPassEndurance)
 register("SSLPassEnduranceMulti-v0", SslPassEnduranceMulti)
 register("SSLSelfPlay-v0", SslSelfPlay)
-old_names.announce()
+legacy_names.announce()

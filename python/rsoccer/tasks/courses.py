@@ -12,7 +12,7 @@ from rsoccer.frame import Floats, Mask
 class Course:
     """Gates on one line of the field, to be crossed by the ball in order. Metres."""
 
-    foes: tuple[tuple[float, float], ...]  # where the robots stand that make the gates
+    opponents: tuple[tuple[float, float], ...]  # where the robots stand that make the gates
     start: tuple[float, float, float]  # x, y and heading (rad) of the one that dribbles
     bounds: tuple[
         tuple[float, float], tuple[float, float]
@@ -51,7 +51,7 @@ _DOWN, _UP = -1.0, 1.0
 
 # The paper's: four robots on the x axis, seven crossings, the last two gates by turns.
 PAPER: Final = Course(
-    foes=((-0.5, 0.0), (-1.0, 0.0), (-1.5, 0.0), (-2.0, 0.0)),
+    opponents=((-0.5, 0.0), (-1.0, 0.0), (-1.5, 0.0), (-2.0, 0.0)),
     start=(0.0, 0.0, np.pi),
     bounds=((-3.0, -1.0), (1.0, 1.0)),
     line=0.0,
@@ -69,7 +69,7 @@ PAPER: Final = Course(
 
 # The official one: five robots on x = -1.5, gates from the nearest on, the last one three times.
 OFFICIAL: Final = Course(
-    foes=((-1.5, 1.5), (-1.5, 0.9), (-1.5, 0.4), (-1.5, -0.2), (-1.5, -1.0)),
+    opponents=((-1.5, 1.5), (-1.5, 0.9), (-1.5, 0.4), (-1.5, -0.2), (-1.5, -1.0)),
     start=(-1.5, -1.9, np.pi / 2),
     bounds=((-3.0, -2.0), (0.0, 2.0)),
     line=-1.5,

@@ -13,7 +13,7 @@ from rsoccer.tasks.ssl import half_turned
 
 Pose = tuple[float, float, float]
 
-# Challenge 1: the ball, then the foes.
+# Challenge 1: the ball, then the opponents.
 _STATIC: Final[tuple[tuple[tuple[float, float], tuple[Pose, ...]], ...]] = (
     ((-0.2, -1.8), ((-2.9, 0, -0.785), (-2, -0.75, 0), (-2, -0.55, 0))),
     ((-0.9, 0), ((-2.9, 0.175, 0.785), (-2, -0.175, 0), (-1.5, 0, 0))),
@@ -84,7 +84,7 @@ _STATIC: Final[tuple[tuple[tuple[float, float], tuple[Pose, ...]], ...]] = (
     ),
 )
 
-# Challenge 2: the foe, whose mouth holds the ball, and the attacker.
+# Challenge 2: the opponent, whose mouth holds the ball, and the attacker.
 _CONTESTED: Final[tuple[tuple[Pose, Pose], ...]] = (
     ((-1, 0, 0), (-0.5, 0, np.pi)),
     ((-1, -1.25, -0.785), (-0.647, -1.604, 2.36)),
@@ -98,12 +98,12 @@ CONTESTED_SCENARIOS: Final = len(_CONTESTED)
 
 
 def static_defenders(scenario: int) -> tuple[Array, Array]:
-    """Ball (2,) and foes (k, 3) of scenario 1 to STATIC_SCENARIOS."""
-    ball, foes = _STATIC[scenario - 1]
-    return -np.asarray(ball), half_turned(np.asarray(foes))
+    """Ball (2,) and opponents (k, 3) of scenario 1 to STATIC_SCENARIOS."""
+    ball, opponents = _STATIC[scenario - 1]
+    return -np.asarray(ball), half_turned(np.asarray(opponents))
 
 
 def contested_possession(scenario: int) -> tuple[Array, Array]:
-    """Poses (3,) of the foe that holds the ball and of the attacker, 1 to CONTESTED_SCENARIOS."""
-    foe, attacker = _CONTESTED[scenario - 1]
-    return half_turned(np.asarray(foe)), half_turned(np.asarray(attacker))
+    """Poses (3,) of the opponent that holds the ball and of the attacker, 1 to CONTESTED_SCENARIOS."""
+    opponent, attacker = _CONTESTED[scenario - 1]
+    return half_turned(np.asarray(opponent)), half_turned(np.asarray(attacker))

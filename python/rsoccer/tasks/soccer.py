@@ -13,17 +13,28 @@ from rsoccer.view import slots
 
 LIMITS: Final = {
     "ball": 4.0,
-    "me": 2.0,
-    "mates": 2.0,
-    "foes": 2.0,
+    "ego": 2.0,
+    "teammates": 2.0,
+    "opponents": 2.0,
     "action": 1.0,
-    "ball_from_me": 3.0,
-    "goal_from_me": 3.0,
+    "ball_polar": 3.0,
+    "goal_polar": 3.0,
     "shot": 1.0,
-    "motion_from_me": 4.0,
-    "places_from_me": 3.0,
+    "body_velocities": 4.0,
+    "body_positions": 3.0,
 }
 """In half lengths of the field and top speeds of a robot; a ball that is hit has more."""
+
+
+_NEW: Final = {
+    "me": "ego",
+    "mates": "teammates",
+    "foes": "opponents",
+    "ball_from_me": "ball_polar",
+    "goal_from_me": "goal_polar",
+    "motion_from_me": "body_velocities",
+    "places_from_me": "body_positions",
+}
 
 
 class Soccer(Task):
@@ -38,18 +49,18 @@ class Soccer(Task):
         A robot has 7 numbers, and 8 where it has a break beam; there the ball has heights too.
         What each block holds is said by the core's `Sight`.
         """
-        flat = self._seen(play)
+        flat = self._features(play)
         blocks: dict[str, Floats] = {}
-        for name, columns, shape in self._seen_blocks:
+        for name, columns, shape in self._flat_blocks:
             block = flat[:, :, columns]
             blocks[name] = block if len(shape) == 1 else block.reshape(*flat.shape[:2], *shape)
         return blocks
 
     def observe(self, play: Play) -> Floats:
-        """The blocks side by side within their limits, a new array (n, seers, o)."""
+        """The blocks side by side within their limits, a new array (n, observers, o)."""
         if type(self).frame_to_observations is not Soccer.frame_to_observations:
             return super().observe(play)
-        flat = self._seen(play)  # nobody adds to them: they lie side by side already
+        flat = self._features(play)  # nobody adds to them: they lie side by side already
         limit(flat, self.observation_high)
         return flat
 
@@ -63,25 +74,26 @@ class Soccer(Task):
         return self.CHOICES if self.discrete else None
 
     @cached_property
-    def sight(self) -> Sight:
+    def ego_features(self) -> Sight:
         """What robots see, in half lengths of the field and a robot's top speeds."""
         config = self.config
         return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
 
     @cached_property
-    def _seen_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
-        """Name, place and shape of each part of what `_seen` shows."""
+    def _flat_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
+        """Name, place and shape of each part of what `_features` shows."""
         blocks, first = [], 0
-        for name, shape in (*self.sight.blocks, ("action", (self.action_size,))):
+        core = [(_NEW.get(name, name), shape) for name, shape in self.ego_features.blocks]
+        for name, shape in (*core, ("action", (self.action_size,))):
             blocks.append((name, slice(first, first + math.prod(shape)), shape))
             first += math.prod(shape)
         return tuple(blocks)
 
-    def _seen(self, play: Play) -> Floats:
-        """What each robot that looks sees, and what it did: (n, seers, numbers), a new array."""
+    def _features(self, play: Play) -> Floats:
+        """What each robot that looks sees, and what it did: (n, observers, numbers), a new array."""
         size = self.action_size
-        flat = self.sight.look(play.view.ball.data, play.view.robots.data, size)
-        flat[:, :, -size:] = play.actions[:, play.seers]
+        flat = self.ego_features.look(play.view.ball.data, play.view.robots.data, size)
+        flat[:, :, -size:] = play.actions[:, play.observers]
         return flat
 
     @cached_property

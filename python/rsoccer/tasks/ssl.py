@@ -22,7 +22,7 @@ from rsoccer.tasks.soccer import Soccer
 
 TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
 LEGAL_KICK: Final = 6.5  # m/s, SSL rules
-AXES: Final = ("field", "robot")
+VELOCITY_FRAMES: Final = ("field", "robot")
 STARTS: Final = 16  # that are tried on another field than a task's own
 
 # What agents that choose may do: stand, eight ways to drive, turn left and right, each with the
@@ -41,25 +41,33 @@ class Ssl(Soccer):
 
     field: str = "ssl_challenge"  # a field of the simulator
     max_steps: int = 1200  # 30 s
-    axes: str = "field"  # of the velocities: "field" or "robot"
-    weights: Mapping[str, float] | str = default(default_factory=dict)  # replace WEIGHTS; "paper"
+    velocity_frame: str = "field"  # of the velocities: "field" or "robot"
+    reward_weights: Mapping[str, float] | str = default(
+        default_factory=dict
+    )  # replace REWARD_WEIGHTS; "paper"
     robot: str = "ssl_generic"  # a robot model of the simulator
     ball: str = "ssl_tigers"  # a ball of the simulator
     discrete: bool = False  # whether agents choose one of CHOICES instead of five numbers
 
     action_size = 5
     CHOICES: ClassVar[Floats] = CHOICES
-    half_only: ClassVar[bool] = False  # whether play keeps to the foes' half, out of their area
-    WEIGHTS: ClassVar[Mapping[str, float]] = {}
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    half_only: ClassVar[bool] = (
+        False  # whether play keeps to the opponents' half, out of their area
+    )
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
         checks.whole("max_steps", self.max_steps, 1)
-        if self.axes not in AXES:
-            raise ValueError(f"axes: expected one of {AXES}, got {self.axes!r}")
-        weights = checks.weights(self.weights, self.WEIGHTS, self.PAPER_WEIGHTS)
-        object.__setattr__(self, "weights", weights)
+        if self.velocity_frame not in VELOCITY_FRAMES:
+            raise ValueError(
+                f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
+            )
+        weights = checks.reward_weights(
+            self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
+        )
+        object.__setattr__(self, "reward_weights", weights)
         checks.flag("discrete", self.discrete)
         checks.preset("field", self.field, Field)
         checks.robots(self.robot)
@@ -119,7 +127,7 @@ class Ssl(Soccer):
     @cached_property
     def _steering(self) -> Steering:
         """What actions ask for."""
-        return Steering(self.action_scales.tolist(), self.axes == "field", self.n_blue)
+        return Steering(self.action_scales.tolist(), self.velocity_frame == "field", self.n_blue)
 
 
 def ball_at_mouth(frame: Frame, robot: int, reach: np.float32) -> Floats:

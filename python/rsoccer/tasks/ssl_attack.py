@@ -1,4 +1,4 @@
-"""What both attacking challenges share: one robot shall score against foes in their half."""
+"""What both attacking challenges share: one robot shall score against opponents in their half."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,22 +18,22 @@ BACK: np.float32 = np.float32(0.2)
 
 @dataclass(frozen=True)
 class SslAttack(Ssl):
-    """blue_0 starts at the centre and attacks +x; it and the ball stay in the foes' half.
+    """blue_0 starts at the centre and attacks +x; it and the ball stay in the opponents' half.
 
-    A goal ends it, and so do: the ball out of that half, the robot out of it, in the foes' area,
-    or in contact with a foe.
+    A goal ends it, and so do: the ball out of that half, the robot out of it, in the opponents' area,
+    or in contact with an opponent.
     """
 
     half_only = True
     success = "goal_score"
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 1.0,
         "approach": 0.5,
         "failed": -1.0,
         "energy": 0.0005,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 5.0,
         "ball_to_goal": 1.11,  # the paper's scales: 0.9014 m and 5.0 m
         "approach": 0.2,
@@ -42,7 +42,7 @@ class SslAttack(Ssl):
     }
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, foes hold the ball if they have it and else stand."""
+        """blue_0 learns, opponents hold the ball if they have it and else stand."""
         return dict.fromkeys(self.robots, "hold") | {"blue_0": LEARN}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
@@ -56,7 +56,7 @@ class SslAttack(Ssl):
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), failed | rewards.scored(play)
+        return rewards.weighted(terms, self.reward_weights), failed | rewards.scored(play)
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """The half that ball and attacker have to stay in."""
@@ -72,14 +72,14 @@ class SslAttack(Ssl):
         return self.ball_left(frame) | self.robot_left(frame) | self.fouled(frame)
 
     def ball_left(self, frame: Frame) -> Mask:
-        """(n,) the ball has left the foes' half, other than through the goal."""
+        """(n,) the ball has left the opponents' half, other than through the goal."""
         ball, field = frame.ball.position, self.config.field
         aside = np.abs(ball[:, 1]) > np.float32(field.half_width)
         beyond = ball[:, 0] > np.float32(field.half_length)
         return np.logical_or(ball[:, 0] < 0.0, aside | beyond)
 
     def robot_left(self, frame: Frame) -> Mask:
-        """(n,) the attacker has left the half, or entered the foes' area."""
+        """(n,) the attacker has left the half, or entered the opponents' area."""
         at, field = frame.blue.position[:, 0], self.config.field
         aside, x = np.abs(at[:, 1]), at[:, 0]
         area_x = np.float32(field.half_length - field.goal_area_depth)
@@ -88,5 +88,5 @@ class SslAttack(Ssl):
         return np.logical_or(x < -BACK, outside | in_area)
 
     def fouled(self, frame: Frame) -> Mask:
-        """(n,) the attacker has touched a foe."""
+        """(n,) the attacker has touched an opponent."""
         return np.greater(frame.blue.touched_foe[:, 0], 0.5)

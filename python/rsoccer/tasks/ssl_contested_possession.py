@@ -12,13 +12,13 @@ from rsoccer.tasks.ssl import ball_at_mouth
 from rsoccer.tasks.ssl_attack import SslAttack
 
 CRASH: np.float32 = np.float32(0.5)
-"""m/s, closing speed from which contact with the foe ends it."""
-CLEAR = 0.5  # metres that the foe keeps from the attacker's start
+"""m/s, closing speed from which contact with the opponent ends it."""
+CLEAR = 0.5  # metres that the opponent keeps from the attacker's start
 
 
 @dataclass(frozen=True)
 class SslContestedPossession(SslAttack):
-    """A foe anywhere in its half holds the ball on its dribbler and stands.
+    """An opponent anywhere in its half holds the ball on its dribbler and stands.
 
     Winning a ball off a dribbler takes touch, so contact ends it only above 0.5 m/s;
     `strict_contact` is the paper's rule: any contact ends it. `scenario` is one of the five
@@ -40,11 +40,11 @@ class SslContestedPossession(SslAttack):
         return 1, 1
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """The ball in the foe's mouth; the attacker at the centre, or opposite by scenario."""
+        """The ball in the opponent's mouth; the attacker at the centre, or opposite by scenario."""
         frame = Frame.empty(len(rng), 1, 1)
         if self.scenario is not None:
-            foe, attacker = scenarios.contested_possession(self.scenario)
-            _pose(frame.yellow.position, frame.yellow.heading, foe)
+            opponent, attacker = scenarios.contested_possession(self.scenario)
+            _pose(frame.yellow.position, frame.yellow.heading, opponent)
             _pose(frame.blue.position, frame.blue.heading, attacker)
         else:
             frame.yellow.heading[:] = spawn.headings(rng, 1)
@@ -53,13 +53,13 @@ class SslContestedPossession(SslAttack):
         return frame
 
     def fouled(self, frame: Frame) -> Mask:
-        """(n,) the attacker has touched the foe, too hard unless `strict_contact`."""
+        """(n,) the attacker has touched the opponent, too hard unless `strict_contact`."""
         if self.strict_contact:
             return super().fouled(frame)
         return np.greater(frame.blue.crash_speed[:, 0], CRASH)
 
     def _places(self, rng: WorldRng) -> Floats:
-        """Where the foe stands, (n, 1, 2): so far inside that the ball is inside too."""
+        """Where the opponent stands, (n, 1, 2): so far inside that the ball is inside too."""
         field = self.config.field
         margin = float(self.reach) + 2.0 * self.config.ball.radius
         box = ((CLEAR, margin - field.half_width), (field.half_length, field.half_width - margin))

@@ -28,14 +28,14 @@ class SslDribbling(Ssl):
 
     success = "gates"
 
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "gate": 5.0,
         "progress": 1.0,
         "approach": 0.5,
         "failed": -2.0,
         "energy": 0.0002,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "gate": 1.0,
         "progress": 0.0,
         "approach": 0.0,
@@ -61,7 +61,7 @@ class SslDribbling(Ssl):
 
     def team_sizes(self) -> tuple[int, int]:
         """One among those that make the gates."""
-        return 1, len(self.course.foes)
+        return 1, len(self.course.opponents)
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """blue_0 learns, the others stand."""
@@ -77,7 +77,7 @@ class SslDribbling(Ssl):
         x, y, heading = self.course.start
         frame.blue.position[:] = [x, y]
         frame.blue.heading[:] = [np.cos(heading), np.sin(heading)]
-        frame.yellow.position[:] = self.course.foes
+        frame.yellow.position[:] = self.course.opponents
         frame.ball.position[:] = ball_at_mouth(frame, 0, self.reach)
         return frame
 
@@ -85,14 +85,14 @@ class SslDribbling(Ssl):
         """Also the next gate: its middle from the robot, its way, and how many are done."""
         gate = self._gate(play.memory["passed"])
         middle = self._points(gate)
-        to_gate = middle[:, None] - play.view.me.position  # (n, seers, 2)
-        cos, sin = play.view.me.heading[..., 0], play.view.me.heading[..., 1]
+        to_gate = middle[:, None] - play.view.ego.position  # (n, observers, 2)
+        cos, sin = play.view.ego.heading[..., 0], play.view.ego.heading[..., 1]
         x, y = to_gate[..., 0], to_gate[..., 1]
         per_metre = self.per_metre
         done = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
-        seers = np.ones_like(x)
+        observers = np.ones_like(x)
         parts = [(x * cos + y * sin) * per_metre, (y * cos - x * sin) * per_metre]
-        parts += [gate[:, 2:] * seers, done[:, None] * seers]
+        parts += [gate[:, 2:] * observers, done[:, None] * observers]
         return {**super().frame_to_observations(play), "gate": np.stack(parts, axis=-1)}
 
     def observation_limits(self) -> dict[str, float]:
@@ -116,7 +116,7 @@ class SslDribbling(Ssl):
             "energy": rewards.energy(play),
         }
         complete = passed >= len(self.course.gates)
-        return rewards.weighted(terms, self.weights), failed | complete
+        return rewards.weighted(terms, self.reward_weights), failed | complete
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """The gates, each once, as its next crossing has it; done when none is left."""

@@ -14,27 +14,27 @@ from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
 
 APART = 0.2  # metres between centres at the start
-MOST_FOES = 6
+MAX_OPPONENTS = 6
 
 
 @dataclass(frozen=True)
 class SslGoToBall(Ssl):
     """blue_0 is to cut its own beam with the ball, so it has to come from the right side.
 
-    The ball lies anywhere, and so do up to six foes that do not move. Leaving the field ends it.
+    The ball lies anywhere, and so do up to six opponents that do not move. Leaving the field ends it.
     """
 
-    foes: int = 0  # robots that stand in the way
+    n_opponents: int = 0  # robots that stand in the way
 
     success = "reached"
 
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "reached": 5.0,
         "approach": 1.0,
         "left_field": -2.0,
         "energy": 0.0005,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "reached": 1.0,
         "approach": 0.14,  # the paper's is by the field's diagonal
         "left_field": 0.0,
@@ -43,15 +43,15 @@ class SslGoToBall(Ssl):
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
-        checks.within("foes", self.foes, 0, MOST_FOES)
+        checks.within("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
         """One against those that stand."""
-        return 1, self.foes
+        return 1, self.n_opponents
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, foes stand."""
+        """blue_0 learns, opponents stand."""
         return dict.fromkeys(self.robots, "zero") | {"blue_0": LEARN}
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
@@ -68,7 +68,7 @@ class SslGoToBall(Ssl):
             "left_field": left[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), reached | left
+        return rewards.weighted(terms, self.reward_weights), reached | left
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """The ball as the target."""

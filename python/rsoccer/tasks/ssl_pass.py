@@ -24,7 +24,7 @@ class SslPass(Ssl):
     """blue_0 starts with the ball on its dribbler, blue_1 somewhere else."""
 
     sides = ("blue",)
-    WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
 
     def team_sizes(self) -> tuple[int, int]:
         """Two of one side."""
@@ -47,9 +47,11 @@ class SslPass(Ssl):
         """The way from the ball to who is to get it."""
         receiver = self.receiver(play, world)
         ball_x, ball_y = play.frame.ball.position[world].tolist()
-        mate_x, mate_y = play.frame.blue.position[world, receiver].tolist()
+        teammate_x, teammate_y = play.frame.blue.position[world, receiver].tolist()
         radius = 1.5 * self.config.robot.bounding_radius
-        return Way((ball_x, ball_y), (mate_x, mate_y)), Target((mate_x, mate_y), radius)
+        return Way((ball_x, ball_y), (teammate_x, teammate_y)), Target(
+            (teammate_x, teammate_y), radius
+        )
 
     def receiver(self, play: Play, world: int) -> int:
         """Which robot is to get the ball."""

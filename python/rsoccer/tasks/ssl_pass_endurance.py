@@ -20,15 +20,15 @@ class SslPassEndurance(SslPass):
 
     success = "received"
 
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "received": 5.0,
-        "ball_to_mate": 1.0,
+        "ball_to_teammate": 1.0,
         "failed": -1.0,
         "energy": 0.0005,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "received": 1.0,
-        "ball_to_mate": 1.11,  # the paper's scale: 0.9014 m
+        "ball_to_teammate": 1.11,  # the paper's scale: 0.9014 m
         "failed": -1.0,
         "energy": 0.0,
     }
@@ -42,7 +42,7 @@ class SslPassEndurance(SslPass):
         return {"kicked": np.zeros(n, np.bool_)}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """The pass received counts most; the ball nearer to the mate is paid."""
+        """The pass received counts most; the ball nearer to the teammate is paid."""
         distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
         kicked = play.memory["kicked"]
         kicked |= distance[:, 0] > self.reach + FREE
@@ -51,14 +51,14 @@ class SslPassEndurance(SslPass):
         failed = (missed | self.is_off_field(play.frame.ball.position)) & ~received
         terms = {
             "received": received[:, None].astype(np.float32),
-            "ball_to_mate": (last - distance)[:, 1:],
+            "ball_to_teammate": (last - distance)[:, 1:],
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), received | failed
+        return rewards.weighted(terms, self.reward_weights), received | failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`received`: 1 or 0; `inverse_distance`: per metre between ball and mate, the paper's."""
+        """`received`: 1 or 0; `inverse_distance`: per metre between ball and teammate, the paper's."""
         distance: Floats = np.maximum(self.to_ball(play.frame)[:, 1], self.reach)
         return {
             "received": self._received(play.frame).astype(np.float32),

@@ -22,16 +22,16 @@ class SslPassEnduranceMulti(SslPass):
     success = "passes"
     full_success = None
 
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "passes": 5.0,
-        "ball_to_mate": 0.5,
+        "ball_to_teammate": 0.5,
         "approach": 0.5,
         "failed": -1.0,
         "energy": 0.0005,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = {
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "passes": 10.0,
-        "ball_to_mate": 1.11,  # the paper's scale: 0.9014 m
+        "ball_to_teammate": 1.11,  # the paper's scale: 0.9014 m
         "approach": 0.0,
         "failed": -1.0,
         "energy": 0.0001,
@@ -47,15 +47,15 @@ class SslPassEnduranceMulti(SslPass):
         }
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Passes count most; a ball that nears the mate and a mate that nears it are paid."""
+        """Passes count most; a ball that nears the teammate and a teammate that nears it are paid."""
         worlds, memory = np.arange(len(play.frame)), play.memory
         begun = play.steps == 1  # where it may have been kicked at once
         memory["left_at"][begun] = play.last_frame.ball.position[begun]
-        mate = 1 - memory["holder"]
+        teammate = 1 - memory["holder"]
         distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
-        nearer = (last - distance)[worlds, mate]
-        waits = mate[:, None] == play.seers  # (n, seers) who does not have the ball
-        passed = self._passed(play.frame, memory, worlds, mate)
+        nearer = (last - distance)[worlds, teammate]
+        waits = teammate[:, None] == play.observers  # (n, observers) who does not have the ball
+        passed = self._passed(play.frame, memory, worlds, teammate)
         far = distance[worlds, memory["holder"]] > self.reach + FREE
         memory["on_its_way"] |= far
         receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
@@ -63,12 +63,12 @@ class SslPassEnduranceMulti(SslPass):
         failed = missed | self.is_off_field(play.frame.ball.position)
         terms = {
             "passes": passed[:, None].astype(np.float32),
-            "ball_to_mate": nearer[:, None],
+            "ball_to_teammate": nearer[:, None],
             "approach": rewards.to_mouth(play, self.config) * waits,
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), failed
+        return rewards.weighted(terms, self.reward_weights), failed
 
     def receiver(self, play: Play, world: int) -> int:
         """Who did not have the ball last."""
@@ -78,14 +78,16 @@ class SslPassEnduranceMulti(SslPass):
         """`passes`: how many counted."""
         return {"passes": play.memory["passes"].astype(np.float32)}
 
-    def _passed(self, frame: Frame, memory: dict[str, Array], worlds: Array, mate: Array) -> Mask:
-        """(n,) whether the mate has received a pass that counts; who holds the ball is noted."""
+    def _passed(
+        self, frame: Frame, memory: dict[str, Array], worlds: Array, teammate: Array
+    ) -> Mask:
+        """(n,) whether the teammate has received a pass that counts; who holds the ball is noted."""
         holds = frame.blue.infrared > 0.5  # (n, 2)
-        received = holds[worlds, mate]
+        received = holds[worlds, teammate]
         way = frame.ball.position - memory["left_at"]
         passed: Mask = received & memory["on_its_way"] & (length(way[:, 0], way[:, 1]) >= LONG)
         memory["passes"] += passed
-        memory["holder"][:] = np.where(received, mate, memory["holder"])
+        memory["holder"][:] = np.where(received, teammate, memory["holder"])
         held = holds.any(axis=1)
         memory["on_its_way"] &= ~held
         memory["left_at"][held] = frame.ball.position[held]

@@ -28,28 +28,30 @@ class SslSelfPlay(Ssl):
     robot is, or the nearest anywhere; everything else goes on.
     """
 
-    blue: int = 3
-    yellow: int = 3
+    n_blue: int = 3
+    n_yellow: int = 3
 
     success = "goal_score"
 
-    WEIGHTS: ClassVar[Mapping[str, float]] = {
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 2.0,
         "approach": 0.5,
         "energy": 0.0002,
     }
-    PAPER_WEIGHTS: ClassVar[Mapping[str, float]] = WEIGHTS  # the paper has no such task
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = (
+        REWARD_WEIGHTS  # the paper has no such task
+    )
 
     def __post_init__(self) -> None:
         """Refuse options that make no task, by name."""
-        checks.whole("blue", self.blue, 1)
-        checks.whole("yellow", self.yellow, 0)
+        checks.whole("n_blue", self.n_blue, 1)
+        checks.whole("n_yellow", self.n_yellow, 0)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
         """As the options say."""
-        return self.blue, self.yellow
+        return self.n_blue, self.n_yellow
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robots anywhere, apart; robots face anywhere."""
@@ -74,7 +76,7 @@ class SslSelfPlay(Ssl):
             "approach": rewards.to_mouth(play, self.config) * rewards.nearest(play),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), rewards.scored(play)
+        return rewards.weighted(terms, self.reward_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""

@@ -18,10 +18,15 @@ from rsoccer.view import SIDES
 
 # Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
 # robots that stand still, goals are the largest part of what an episode pays.
-WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
+REWARD_WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
 
 # The mix of the paper's time, in these terms: a goal is some 10% of what an episode pays there.
-PAPER_WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 64.0, "approach": 20.0, "energy": 0.0184}
+PAPER_REWARD_WEIGHTS: Final = {
+    "goal": 10.0,
+    "ball_to_goal": 64.0,
+    "approach": 20.0,
+    "energy": 0.0184,
+}
 
 # Left and right power: forward, back, turns on the spot and in arcs, stop.
 CHOICES: Final = np.array(
@@ -43,9 +48,9 @@ class Vss(Soccer):
     n_yellow: int = 3
     max_steps: int = 1200  # 30 s
     ball_speed: float = 0.0  # m/s, the most that the ball starts with
-    weights: Mapping[str, float] | str = default(
+    reward_weights: Mapping[str, float] | str = default(
         default_factory=dict
-    )  # in place of WEIGHTS; "paper"
+    )  # in place of REWARD_WEIGHTS; "paper"
     robot: str = "vss_440rpm"  # a robot model of the simulator
     discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
     field: str = "vss_3v3"  # or "vss_5v5", whatever the sizes of the teams
@@ -61,7 +66,11 @@ class Vss(Soccer):
         checks.whole("max_steps", self.max_steps, 1)
         checks.number("ball_speed", self.ball_speed, 0.0, FASTEST)
         checks.flag("discrete", self.discrete)
-        object.__setattr__(self, "weights", checks.weights(self.weights, WEIGHTS, PAPER_WEIGHTS))
+        object.__setattr__(
+            self,
+            "reward_weights",
+            checks.reward_weights(self.reward_weights, REWARD_WEIGHTS, PAPER_REWARD_WEIGHTS),
+        )
         checks.preset("field", self.field, Field)
         checks.robots(self.robot)
         checks.drive(self.config, "differential", "with two wheels")
@@ -97,7 +106,7 @@ class Vss(Soccer):
             "approach": rewards.approach(play, self.config.field),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.weights), rewards.scored(play)
+        return rewards.weighted(terms, self.reward_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""

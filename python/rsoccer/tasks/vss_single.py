@@ -8,13 +8,13 @@ from rsoccer.tasks.vss import Vss
 
 @dataclass(frozen=True)
 class VssSingle(Vss):
-    """blue_0 learns; its mates and its foes follow policies."""
+    """blue_0 learns; its teammates and its opponents follow policies."""
 
-    mates: str = "ou"  # a policy's name or file
+    teammates: str = "ou"  # a policy's name or file
     opponent: str = "ou"  # likewise
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, `mates` and `opponent` drive the others."""
-        blue = dict.fromkeys(self.robots[: self.n_blue], self.mates)
+        """blue_0 learns, `teammates` and `opponent` drive the others."""
+        blue = dict.fromkeys(self.robots[: self.n_blue], self.teammates)
         yellow = dict.fromkeys(self.robots[self.n_blue :], self.opponent)
         return {**blue, **yellow, "blue_0": LEARN}

@@ -29,13 +29,13 @@ class Checkpoint:
     """Everything that a run needs to go on as if it had never stopped."""
 
     arrays: Arrays
-    facts: dict[str, Any]
+    info: dict[str, Any]
 
 
 def save(path: Path, checkpoint: Checkpoint) -> None:
     """Write the checkpoint so that `path` holds either the old or the new one, whole."""
     arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
-    metadata = {"format": FORMAT, "facts": json.dumps(checkpoint.facts)}
+    metadata = {"format": FORMAT, "info": json.dumps(checkpoint.info)}
     write_atomically(path, safetensors_bytes(arrays, metadata))
 
 
@@ -50,7 +50,7 @@ def load(path: Path) -> Checkpoint:
             metadata = file.metadata() or {}
             _expect_format(path, metadata)
             arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
-        return Checkpoint(arrays, json.loads(metadata["facts"]))
+        return Checkpoint(arrays, json.loads(metadata["info"]))
     except (SafetensorError, KeyError, TypeError, json.JSONDecodeError) as error:
         raise ValueError(f"{path} is damaged or not a checkpoint: {error}") from error
 

@@ -22,7 +22,7 @@ EPISODE = "episode/"
 Row = dict[str, float]
 
 
-class Tally:
+class EpisodeStats:
     """Ended episodes since the last `take`, by kind of opponent."""
 
     def __init__(self, kinds: tuple[str, ...]) -> None:

@@ -38,7 +38,7 @@ class ActorCritic(nn.Module):
         values: Tensor = self.critic(observations)
         return values.squeeze(-1)
 
-    def log_density(self, mean: Tensor, actions: Tensor) -> Tensor:
+    def log_prob(self, mean: Tensor, actions: Tensor) -> Tensor:
         """Logarithm of the density of Gaussian actions (..., action), summed over them."""
         offset = (actions - mean) * (-self.log_std).exp()
         constant = mean.shape[-1] * 0.5 * math.log(2 * math.pi)

@@ -27,14 +27,14 @@ from rsoccer.registry import make_task
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
-from rsoccer.train.clock import Clock
-from rsoccer.train.lessons import Lessons
-from rsoccer.train.log import Log, Row, Tally
+from rsoccer.train.curriculum import Curriculum
+from rsoccer.train.log import EpisodeStats, Log, Row
 from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
-from rsoccer.train.pool import KINDS, kinds
-from rsoccer.train.running import Running
-from rsoccer.train.state import capture, restore
-from rsoccer.train.stop import Interrupted, Stop, Stopped
+from rsoccer.train.opponent_pool import KINDS, kinds
+from rsoccer.train.run_state import capture, restore
+from rsoccer.train.running_mean_std import RunningMeanStd
+from rsoccer.train.stop_signal import Interrupted, Stop, Stopped
+from rsoccer.train.timing import Clock
 
 POLICY_FILE = "policy.safetensors"
 UNTRAINED_FILE = "untrained.safetensors"
@@ -116,7 +116,7 @@ class Batch:
 
     observations: Tensor
     actions: Tensor
-    log_densities: Tensor
+    log_probs: Tensor
     advantages: Tensor
     returns: Tensor
 
@@ -129,33 +129,36 @@ class Trainer:
 
     def __init__(self, args: Args) -> None:
         """A fresh run; `state.restore` turns it into a saved one."""
-        torch.set_num_threads(args.learning_threads)
+        torch.set_num_threads(args.torch_threads)
         words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
         self.seeds = words.tolist()
         self.args, self.clock = args, Clock()
         self.task = make_task(args.task)
-        self.chance = torch.Generator().manual_seed(self.seeds[0])
-        self.lessons = Lessons(args, self.task, self.clock)
-        self.pool, self.alone = self.lessons.pool, self.lessons.starts_alone
-        opened = self.lessons.alone if self.alone else self.lessons.together
+        self.generator = torch.Generator().manual_seed(self.seeds[0])
+        self.curriculum = Curriculum(args, self.task, self.clock)
+        self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
+        opened = self.curriculum.solo if self.is_solo else self.curriculum.self_play
         self._enter(opened(self.seeds[1]))
         sizes = (self.matches.observation_size, self.task.action_size)
-        self.model = ActorCritic(*sizes, args.hidden, args.action_std, self.chance)
+        self.model = ActorCritic(*sizes, args.hidden_sizes, args.action_std, self.generator)
         self.optimiser = torch.optim.Adam(
             self.model.parameters(), lr=args.learning_rate, eps=1e-5, foreach=True
         )
-        self.seen, self.paid = Running(sizes[0]), Running(1, smallest_std=1e-6)
+        self.obs_rms, self.return_rms = (
+            RunningMeanStd(sizes[0]),
+            RunningMeanStd(1, smallest_std=1e-6),
+        )
         self.gamma = args.gamma**args.action_repeat
-        self.tally = Tally(KINDS)
+        self.episode_stats = EpisodeStats(KINDS)
         self.row: Row = {}
-        self.samples, self.updates, self.spent = 0, 0, 0.0
+        self.samples, self.updates, self.elapsed = 0, 0, 0.0
         if self.pool is not None:
             self.pool.latest = self.network()
 
-    def join(self) -> None:
+    def start_self_play(self) -> None:
         """Let all learners play, from where the lone one has come."""
-        self.alone = False
-        self._enter(self.lessons.together(self.seeds[2]))
+        self.is_solo = False
+        self._enter(self.curriculum.self_play(self.seeds[2]))
 
     def _enter(self, matches: Matches) -> None:
         """Begin to play these matches."""
@@ -173,24 +176,24 @@ class Trainer:
             check()
             raw.append(self.observations)
             steps.append(self._play_decision())
-        self.seen.update(np.concatenate(raw).reshape(-1, self.matches.observation_size))
+        self.obs_rms.update(np.concatenate(raw).reshape(-1, self.matches.observation_size))
         self.samples += self.args.horizon * self.returns.size
-        return self._weigh(*(torch.stack(parts) for parts in zip(*steps, strict=True)))
+        return self._make_batch(*(torch.stack(parts) for parts in zip(*steps, strict=True)))
 
     @torch.no_grad()
     def _play_decision(self) -> tuple[Tensor, ...]:
-        """One decision in every world, (worlds x agents, ...), in the order of `_weigh`."""
+        """One decision in every world, (worlds x agents, ...), in the order of `_make_batch`."""
         with self.clock.measure("acting"):
-            observations = self._normal(self.observations)
+            observations = self._normalise(self.observations)
             mean = self.model.actor(observations)
-            noise = torch.randn(mean.shape, generator=self.chance)
+            noise = torch.randn(mean.shape, generator=self.generator)
             actions = mean + noise * self.model.log_std.exp()
-            log_densities = self.model.log_density(mean, actions)
+            log_probs = self.model.log_prob(mean, actions)
         with self.clock.measure("matches"):
             shape = (*self.returns.shape, self.task.action_size)
             decision = decide(self.matches, actions.numpy().reshape(shape), self.args.action_repeat)
-            self._note(decision)
-            restarted = decision.ended | self._cut()
+            self._record(decision)
+            restarted = decision.ended | self._draw_truncations()
             self.returns[restarted] = 0.0
             self.observations = decision.observations
             if restarted.any():
@@ -199,46 +202,46 @@ class Trainer:
         return (
             observations,
             actions,
-            log_densities,
+            log_probs,
             torch.tensor(decision.rewards.reshape(-1)),
-            self._normal(decision.observations),
+            self._normalise(decision.observations),
             torch.tensor(np.repeat(decision.terminated, agents)),
             torch.tensor(np.repeat(restarted, agents)),
         )
 
-    def _cut(self) -> Mask:
+    def _draw_truncations(self) -> Mask:
         """Matches to end before their time, (n,); their value goes on, as at a time limit."""
-        drawn = torch.rand(len(self.returns), generator=self.chance)
-        return (drawn < self.args.cut).numpy()
+        drawn = torch.rand(len(self.returns), generator=self.generator)
+        return (drawn < self.args.random_truncation).numpy()
 
-    def _note(self, decision: Decision) -> None:
+    def _record(self, decision: Decision) -> None:
         """Keep count of rewards and of ended matches."""
         self.returns = self.returns * np.float32(self.gamma) + decision.rewards
-        self.paid.update(self.returns.reshape(-1, 1))
+        self.return_rms.update(self.returns.reshape(-1, 1))
         ended = decision.ended
-        foes = np.zeros(len(ended), int)
-        if self.pool is not None and not self.alone:
-            foes = kinds(self.pool.opponents)
+        opponents = np.zeros(len(ended), int)
+        if self.pool is not None and not self.is_solo:
+            opponents = kinds(self.pool.opponents)
         metrics = {name: values[ended] for name, values in decision.metrics.items()}
-        self.tally.add(foes[ended], metrics)
+        self.episode_stats.add(opponents[ended], metrics)
         for name, value in {**decision.terms, "reward": float(decision.rewards.mean())}.items():
             key = name if name == "reward" else f"reward_{name}"
             self.row[key] = self.row.get(key, 0.0) + value / self.args.horizon
 
-    def _weigh(self, *played: Tensor) -> Batch:
+    def _make_batch(self, *played: Tensor) -> Batch:
         """A batch to learn from, out of all decisions (decisions, robots, ...)."""
-        observations, actions, log_densities, rewards, nexts, terminated, ended = played
+        observations, actions, log_probs, rewards, nexts, terminated, ended = played
         with self.clock.measure("learning"), torch.no_grad():
             values, next_values = self.model.value(observations), self.model.value(nexts)
-            scaled = rewards / float(self.paid.std[0])
+            scaled = rewards / float(self.return_rms.std[0])
             chances = (terminated, ended, self.gamma, self.args.gae_lambda)
             better = advantages(scaled, values, next_values, *chances)
-            batch = (observations, actions, log_densities, better, better + values)
+            batch = (observations, actions, log_probs, better, better + values)
             return Batch(*(part.flatten(0, 1) for part in batch))
 
-    def _normal(self, observations: Floats) -> Tensor:
+    def _normalise(self, observations: Floats) -> Tensor:
         """Observations (..., o) as the networks take them, (robots, o)."""
-        mean, std = self.seen.as_floats()
+        mean, std = self.obs_rms.as_floats()
         flat = observations.reshape(-1, observations.shape[-1])
         return torch.tensor(np.clip((flat - mean) / std, -OBSERVATION_CLIP, OBSERVATION_CLIP))
 
@@ -250,59 +253,59 @@ class Trainer:
         rate = self.args.learning_rate * (1.0 - 0.9 * done)
         self.optimiser.param_groups[0]["lr"] = rate
         with self.clock.measure("learning"):
-            epochs, divergence = 0, 0.0
-            while epochs < self.args.epochs and divergence <= self.args.target_divergence:
-                divergence = self._learn_epoch(batch, check)
+            epochs, approx_kl = 0, 0.0
+            while epochs < self.args.n_epochs and approx_kl <= self.args.target_kl:
+                approx_kl = self._learn_epoch(batch, check)
                 epochs += 1
         self.updates += 1
         self.row.update(
-            divergence=divergence,
+            approx_kl=approx_kl,
             epochs=epochs,
             learning_rate=rate,
             action_std=float(self.model.log_std.detach().exp().mean()),
         )
-        self._meet_itself()
+        self._update_pool()
 
     def _learn_epoch(self, batch: Batch, check: Callable[[], None]) -> float:
         """One pass over the batch; the mean KL divergence from the policy that played."""
-        order = torch.randperm(len(batch.returns), generator=self.chance)
-        facts = []
-        for part in order.chunk(self.args.minibatches):
+        order = torch.randperm(len(batch.returns), generator=self.generator)
+        stats = []
+        for part in order.chunk(self.args.n_minibatches):
             check()
-            loss, facts_of_part = self._loss(batch, part)
+            loss, stats_of_part = self._loss(batch, part)
             self.optimiser.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]
-            nn.utils.clip_grad_norm_(self.model.parameters(), self.args.gradient_norm)
+            nn.utils.clip_grad_norm_(self.model.parameters(), self.args.max_grad_norm)
             self.optimiser.step()
-            facts.append(facts_of_part)
-        divergence, clipped, value_error = torch.stack(facts).mean(0).tolist()
-        self.row.update(clipped=clipped, value_error=value_error)
-        return float(divergence)
+            stats.append(stats_of_part)
+        approx_kl, clip_fraction, value_loss = torch.stack(stats).mean(0).tolist()
+        self.row.update(clip_fraction=clip_fraction, value_loss=value_loss)
+        return float(approx_kl)
 
     def _loss(self, batch: Batch, part: Tensor) -> tuple[Tensor, Tensor]:
-        """PPO's clipped loss on part of the batch; and divergence, share clipped, value error."""
+        """PPO's clipped loss on part of the batch; and approx_kl, share clip_fraction, value error."""
         args, observations = self.args, batch.observations[part]
         better = batch.advantages[part]
         better = (better - better.mean()) / (better.std() + 1e-8)
-        density = self.model.log_density(self.model.actor(observations), batch.actions[part])
-        change = density - batch.log_densities[part]
+        density = self.model.log_prob(self.model.actor(observations), batch.actions[part])
+        change = density - batch.log_probs[part]
         ratio = change.exp()
-        bounded = ratio.clamp(1 - args.clip, 1 + args.clip)
+        bounded = ratio.clamp(1 - args.clip_range, 1 + args.clip_range)
         policy_loss = -torch.minimum(ratio * better, bounded * better).mean()
-        value_error = (self.model.value(observations) - batch.returns[part]).square().mean()
-        loss = policy_loss + args.value_weight * value_error
-        loss = loss - args.entropy_weight * self.model.entropy()
+        value_loss = (self.model.value(observations) - batch.returns[part]).square().mean()
+        loss = policy_loss + args.value_coef * value_loss
+        loss = loss - args.entropy_coef * self.model.entropy()
         with torch.no_grad():
-            divergence = (ratio - 1 - change).mean()
-            clipped = ((ratio - 1).abs() > args.clip).float().mean()
-            return loss, torch.stack([divergence, clipped, value_error])
+            approx_kl = (ratio - 1 - change).mean()
+            clip_fraction = ((ratio - 1).abs() > args.clip_range).float().mean()
+            return loss, torch.stack([approx_kl, clip_fraction, value_loss])
 
-    def _meet_itself(self) -> None:
+    def _update_pool(self) -> None:
         """Let the pool play the policy that was just learned, and keep it now and then."""
         if self.pool is None:
             return
         self.pool.latest = self.network()
-        if self.updates % self.args.pool_every == 0:
+        if self.updates % self.args.pool_interval == 0:
             self.pool.freeze(self.pool.latest, self.updates)
 
     # -- Keeping --
@@ -310,7 +313,7 @@ class Trainer:
     def network(self) -> Network:
         """The present policy as it plays here, in NumPy."""
         name, repeat = self.args.task, self.args.action_repeat
-        return self.model.export(self.task, name, repeat, *self.seen.as_floats())
+        return self.model.export(self.task, name, repeat, *self.obs_rms.as_floats())
 
     def save(self, saved: Checkpoint) -> None:
         """Put a checkpoint, and the policy of the same moment, on disk."""
@@ -328,10 +331,10 @@ class Trainer:
             while self.samples < self.args.samples:
                 self.learn(self.play(stop.check), stop.check)
                 self._report(log)
-                if self.alone and self.samples >= self.args.alone * self.args.samples:
-                    self.join()
+                if self.is_solo and self.samples >= self.args.solo_fraction * self.args.samples:
+                    self.start_self_play()
                 saved = capture(self, log.size)
-                if time.monotonic() - saved_at > self.args.checkpoint_seconds:
+                if time.monotonic() - saved_at > self.args.checkpoint_interval:
                     self.save(saved)
                     saved_at = time.monotonic()
                 stop.check()
@@ -346,16 +349,16 @@ class Trainer:
     def _report(self, log: Log) -> None:
         """Log the update that just ended."""
         seconds, shares = self.clock.take()
-        self.spent += seconds
+        self.elapsed += seconds
         # The same columns whether or not a pool plays: a lone learner meets none.
         shares = {"physics": 0.0, "opponents": 0.0, **shares}
         shares["tasks"] = shares.pop("matches") - shares["physics"] - shares["opponents"]
         row = {
             "update": self.updates,
             "samples": self.samples,
-            "seconds": self.spent,
+            "seconds": self.elapsed,
             "samples_per_second": self.args.horizon * self.returns.size / seconds,
-            **self.tally.take(),
+            **self.episode_stats.take(),
             **self.row,
             **{f"time_{part}": share for part, share in sorted(shares.items())},
         }
@@ -371,7 +374,7 @@ def train(args: Args) -> Path:
         trainer.network().save(args.out / UNTRAINED_FILE)
     else:
         restore(trainer, saved)
-        log_size = saved.facts["log_size"]
+        log_size = saved.info["log_size"]
     with Stop() as stop:
         try:
             trainer.run(stop, log_size)
@@ -388,7 +391,7 @@ def _open_run(args: Args) -> Checkpoint | None:
     """Make sure that the run can be kept in `out`; the checkpoint to go on from, if any."""
     path = args.out / checkpoint.FILE_NAME
     saved = checkpoint.load(path) if args.resume else None
-    if saved is not None and (changed := args.differences(saved.facts["args"])):
+    if saved is not None and (changed := args.differences(saved.info["args"])):
         raise ValueError(f"{path} is of a run with other settings: {'; '.join(changed)}")
     checkpoint.prepare_folder(args.out)
     if path.exists() and not (args.resume or args.overwrite):

@@ -1,0 +1,85 @@
+"""Line-ups: which policy controls which robot when a policy is evaluated or watched."""
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+from rsoccer import policies
+from rsoccer.controllers import Controller
+from rsoccer.registry import make_task
+from rsoccer.task import LEARN, Learn, Task
+
+DEFAULT_TASK: Final = "VSSSelfPlay-v0"
+"""Task for policies that were not trained on one."""
+DEFAULT_OPPONENT: Final = "ou"
+"""Policy of the other team where both teams learn and no opponent is given."""
+
+
+def task_for(*players: Controller | os.PathLike[str]) -> Task:
+    """Return the task that the first trained policy was trained on.
+
+    Args:
+        players: policies, names or files; `LEARN` and scripts are skipped.
+
+    Returns:
+        A new task; `DEFAULT_TASK` if none of the policies was trained.
+    """
+    names = (policies.trained_on(player) for player in players if not isinstance(player, Learn))
+    return make_task(next(filter(None, names), DEFAULT_TASK))
+
+
+def lineup(
+    task: Task, policy: Controller, opponent: Controller | None = None, side: str | None = None
+) -> dict[str, Controller]:
+    """Return a controller for each robot when a policy replaces the task's learners.
+
+    Teammates that do not learn keep the task's default controllers. The other team keeps its own
+    too, unless an opponent is given; `DEFAULT_OPPONENT` replaces its learners.
+
+    Args:
+        task: the task that is played.
+        policy: controls the learners of the first learner's team.
+        opponent: controls all robots of the other team.
+        side: "blue" or "yellow": the team that `policy` plays for; by default the first
+            learner's. The controllers of the two teams are exchanged robot by robot.
+
+    Raises:
+        ValueError: a task without learners, or an opponent in a task with one team.
+    """
+    home, away = _teams(task)
+    own = [policy if default is LEARN else default for default in home.values()]
+    others: list[Controller] = [
+        DEFAULT_OPPONENT if default is LEARN else default for default in away.values()
+    ]
+    if opponent is not None:
+        if not others:
+            raise ValueError(f"opponent: {task.name} has one team only, so it has no opponent")
+        others = [opponent] * len(others)
+    if side is None or next(iter(home)).startswith(side):
+        return {**dict(zip(home, own, strict=True)), **dict(zip(away, others, strict=True))}
+    return {**_resized(home, others), **_resized(away, own)}
+
+
+def opponents_of(task: Task) -> list[str]:
+    """Return the names of the default policies of the team that the learners play against."""
+    defaults = _teams(task)[1].values()
+    names = (DEFAULT_OPPONENT if isinstance(default, Learn) else default for default in defaults)
+    return list(dict.fromkeys(names))
+
+
+def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
+    """Default controllers by robot: of the first learner's team, and of the other team."""
+    if not task.agents:
+        raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
+    side = task.agents[0].rsplit("_", 1)[0]
+    defaults = task.default_controllers()
+    home = {robot: defaults[robot] for robot in task.robots if robot.startswith(side)}
+    return home, {robot: defaults[robot] for robot in task.robots if robot not in home}
+
+
+def _resized(
+    robots: Mapping[str, object], controllers: Sequence[Controller]
+) -> dict[str, Controller]:
+    """Controllers of a team for the robots of the other; the last one repeats if it is larger."""
+    last = len(controllers) - 1
+    return {robot: controllers[min(i, last)] for i, robot in enumerate(robots)}

@@ -1,0 +1,6 @@
+"""The step loop: many matches of one task at once, as arrays."""
+
+from rsoccer.matches.loop import AUTORESETS, Matches
+from rsoccer.matches.outcome import Outcome
+
+__all__ = ["AUTORESETS", "Matches", "Outcome"]

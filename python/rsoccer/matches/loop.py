@@ -1,0 +1,326 @@
+"""The step loop: many matches of one task at once, as arrays.
+
+All environments, the evaluation, the trainer and the videos call `Matches`. A single match is a
+batch of one. All resets, of all worlds or of some, go through `Matches._begin`.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer import checks
+from rsoccer._core import Simulator
+from rsoccer.controllers import Controllers, assign
+from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.matches.consistency import Consistency
+from rsoccer.matches.match_state import MatchState
+from rsoccer.matches.outcome import Outcome
+from rsoccer.matches.paused import PausedWorlds
+from rsoccer.play import Play
+from rsoccer.registry import as_task
+from rsoccer.rng import Seeds, WorldRng, next_streams
+from rsoccer.simulator import Worlds
+from rsoccer.task import Task
+
+AUTORESETS: Final = ("same_step", "next_step", "disabled")
+
+Indices = NDArray[np.intp]
+Seed = int | Sequence[int | None] | None
+"""Seed of the first world, or one seed per world; None: random streams continue."""
+
+
+class Matches:
+    """n matches of a task, stepped together.
+
+    Input that is refused changes nothing. A failure later in a step (in a policy, in a method of
+    the task, or a world with non-finite numbers) leaves the matches inconsistent: some parts are
+    a step ahead of others. `step`, `state_dict` and resets of some worlds then raise a
+    RuntimeError that names the failure, until `reset` of all worlds or `load_state_dict`.
+
+    Attributes:
+        task: the task that is played.
+        worlds: number of matches, n.
+        autoreset: "same_step", "next_step" or "disabled".
+        assignment: controllers of all robots.
+        agents: names of the learners, in the order of the arrays.
+        action_size: numbers in one agent's action.
+        observation_size: numbers in one agent's observation, o.
+        observation_low: (o,) lower bounds.
+        observation_high: (o,) upper bounds.
+        play: state of all worlds, to be read only.
+
+    Example:
+        >>> import numpy as np
+        >>> import rsoccer
+        >>> matches = rsoccer.Matches("VSSSelfPlay-v0", worlds=4, seed=0)
+        >>> observations = matches.reset()
+        >>> actions = np.zeros((4, len(matches.agents), matches.action_size), np.float32)
+        >>> outcome = matches.step(actions)
+        >>> outcome.rewards.shape
+        (4, 6)
+    """
+
+    def __init__(
+        self,
+        task: Task | str,
+        worlds: int = 1,
+        seed: int = 0,
+        threads: int = 1,
+        *,
+        controllers: Controllers | None = None,
+        autoreset: str = "same_step",
+        simulator: Worlds | None = None,
+    ) -> None:
+        """Prepare matches; `reset` begins them.
+
+        Args:
+            task: a task or the name of a registered one.
+            worlds: number of matches, at least 1.
+            seed: seed of the first world, at least 0. World i has the random streams of a single
+                match that is seeded `seed + i`.
+            threads: threads for physics, at least 1. Results do not depend on their number.
+            controllers: `LEARN`, a policy, its name or its file, by robot ("blue_0"), team
+                ("blue") or "all"; the task's defaults apply elsewhere.
+            autoreset: reset of a match that ended: "same_step" (within the step that ends it),
+                "next_step" (the next step resets it, ignores its actions and pays no reward) or
+                "disabled" (it waits for `reset`).
+            simulator: moves the robots in place of `rsoccer.Simulator`.
+
+        Raises:
+            TypeError: an argument of the wrong type.
+            ValueError: an unknown task, controller or autoreset mode, or a number out of range.
+        """
+        if autoreset not in AUTORESETS:
+            raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
+        self.task = as_task(task)
+        self.worlds = checks.whole("worlds", worlds, 1)
+        self.autoreset = autoreset
+        self.assignment = assign(self.task, controllers, worlds)
+        self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
+        self.action_size = self.task.action_size
+        self.observation_size = self.task.observation_size
+        self.observation_low = self.task.observation_low
+        self.observation_high = self.task.observation_high
+        threads = checks.whole("threads", threads, 1)
+        if simulator is None:
+            simulator = Simulator(self.task.config, worlds, threads)
+        self._simulator = simulator
+        root = WorldRng.seeded(checks.whole("seed", seed, 0), worlds)
+        self._start = root.split("start")
+        self._viewpoint = self.task.new_viewpoint(self.assignment.observers.tolist())
+        self.play = self.task.new_play(worlds, self._viewpoint, root.split("task"))
+        for group in self.assignment.groups:
+            group.rng = root.split(group.name)
+        shape = (worlds, len(self.assignment.observers), self.observation_size)
+        self._observations = np.zeros(shape, np.float32)
+        self._done, self._begun = np.zeros((2, worlds), np.bool_)
+        self._step_calls = 0  # for error messages
+        self._consistency = Consistency()
+
+    @property
+    def frame(self) -> Frame:
+        """Current state of all worlds, to be read only, valid until the next step."""
+        return self.play.frame
+
+    @property
+    def done(self) -> Mask:
+        """(n,) matches that ended and wait for a reset; all False with "same_step"."""
+        return self._done.copy()
+
+    def reset(
+        self, seed: Seed = None, mask: Mask | None = None, rows: Floats | None = None
+    ) -> Floats:
+        """Begin new episodes.
+
+        Args:
+            seed: world i is seeded with `seed + i`, or with `seed[i]`; without a seed its random
+                streams continue.
+            mask: (n,) worlds to reset; all if None.
+            rows: (k, row) initial states of the k worlds of the mask, in place of the task's own.
+
+        Returns:
+            (n, agents, o) observations of all worlds, a new array.
+
+        Raises:
+            RuntimeError: a reset of some worlds while the matches are inconsistent.
+            TypeError: an argument of the wrong type. Nothing has changed.
+            ValueError: a wrong shape, a negative seed, or bodies that overlap or are outside.
+                Nothing has changed.
+        """
+        seeds = checks.seeds(seed, self.worlds)
+        worlds = np.flatnonzero(checks.mask(mask, self.worlds))
+        if len(worlds) < self.worlds:
+            self._consistency.check()
+        if rows is not None:
+            rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
+        if len(worlds):
+            self._begin(worlds, rows, seeds)
+        return self._of_learners(self._observations)
+
+    def step(self, actions: Floats) -> Outcome:
+        """Advance all matches by one control step.
+
+        Args:
+            actions: (n, agents, action) float, clipped to [-1, 1]. Integers from 0 for tasks with
+                an `action_table` are converted by the environments, not here.
+
+        Returns:
+            Observations, rewards and ends, all in new arrays.
+
+        Raises:
+            RuntimeError: a world was never reset, or the matches are inconsistent.
+            TypeError: actions of the wrong type. Nothing has changed.
+            ValueError: actions of the wrong shape, or not finite. Nothing has changed.
+        """
+        self._consistency.check()
+        actions = checks.actions(actions, (self.worlds, len(self.agents), self.action_size))
+        if np.count_nonzero(self._begun) < self.worlds:
+            raise RuntimeError("step before reset: some worlds have begun no episode")
+        self._step_calls += 1
+        try:
+            return self._step(actions)
+        except BaseException as error:  # an interrupt too
+            self._consistency.fail(f"step {self._step_calls}", error)
+            raise
+
+    def state_dict(self) -> dict[str, Array]:
+        """Return copies of all state by name; `load_state_dict` continues exactly from it.
+
+        Raises:
+            RuntimeError: the matches are inconsistent.
+            TypeError: a simulator that has no `snapshot`.
+        """
+        self._consistency.check()
+        return self._state().read()
+
+    def load_state_dict(self, state: Mapping[str, Array]) -> None:
+        """Continue from a state of matches with the same task, controllers and number of worlds.
+
+        Args:
+            state: what `state_dict` returned.
+
+        Raises:
+            TypeError: a simulator that has no `restore`.
+            ValueError: a state of other matches. Nothing has changed.
+        """
+        self._state().write(state)
+        self.play.fill_views(self._viewpoint)
+        self._consistency.repair()
+
+    def _step(self, actions: Floats) -> Outcome:
+        """Advance by one control step, with actions that have been checked."""
+        waiting = np.flatnonzero(self._done)
+        paused = None
+        if len(waiting):
+            groups = self.assignment.groups
+            paused = PausedWorlds(waiting, self.play, groups, self._observations)
+        self._simulate(actions, ~self._done if paused else None)
+        outcome = self._evaluate()
+        if paused:
+            paused.restore(self._observations, outcome)
+        self._autoreset(waiting, outcome)
+        return outcome
+
+    def _simulate(self, actions: Floats, active: Mask | None) -> None:
+        """Let all controllers act and move the robots in all worlds, or in the active ones."""
+        play, all_actions = self.play, actions
+        if self.assignment.groups:
+            all_actions = np.empty_like(play.actions)
+            all_actions[:, self.assignment.learners] = actions
+        for group in self.assignment.groups:
+            group.act(play, self._observations, all_actions)
+        commands = self.task.get_commands(play, all_actions)
+        play.commands = checks.commands(commands, play.commands.shape)
+        play.actions = all_actions
+        self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
+        play.advance()
+        self._reposition_balls(active)
+        self._viewpoint.fill(play.frame, play.view)
+        play.steps += 1
+
+    def _reposition_balls(self, active: Mask | None) -> None:
+        """Move balls as the task demands, and equal the last frame to the frame there.
+
+        So no reward term pays for the ball's way to its new position.
+        """
+        play = self.play
+        repositioned = self.task.reposition_ball(play.frame)
+        if repositioned is None:
+            return
+        mask, balls = checks.repositioned(repositioned, self.worlds)
+        if active is not None:
+            balls, mask = balls[active[mask]], mask & active
+        self._simulator.reposition_balls(mask, balls, out=play.frame.rows)
+        play.last_frame.rows[mask] = play.frame.rows[mask]
+        self._viewpoint.fill(play.last_frame, play.last_view)
+
+    def _evaluate(self) -> Outcome:
+        """Compute rewards, ends, metrics and observations, before anything is reset."""
+        task, play = self.task, self.play
+        named, terminated = task.calculate_reward_and_done(play)
+        terminated = checks.done(terminated, self.worlds)
+        shape = (self.worlds, len(play.observers))
+        terms = {
+            name: self._of_learners(checks.term(name, term, shape)) for name, term in named.items()
+        }
+        rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
+        for term in terms.values():
+            rewards += term
+        truncated = (play.steps >= task.max_steps) & ~terminated
+        metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}
+        self._observations = task.observe(play)
+        none = self._observations[:0]
+        return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
+
+    def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
+        """Reset matches as `autoreset` demands, and fill in the outcome's observations."""
+        ended = outcome.ended
+        if self.autoreset == "next_step" and len(waiting):
+            self._begin(waiting)
+        final = self._of_learners(self._observations)
+        outcome.observations = outcome.final_observations = final
+        self._done |= ended
+        if self.autoreset == "same_step" and np.count_nonzero(ended):
+            self._begin(np.flatnonzero(ended))
+            outcome.observations = self._of_learners(self._observations)
+
+    def _begin(
+        self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
+    ) -> None:
+        """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
+        start, *others = next_streams(self._state().streams, worlds, seeds)
+        if rows is None:
+            rows = self.task.get_initial_positions_frame(start).rows
+        part = self.task.new_play(len(worlds), self._viewpoint, others[0])
+        mask = np.zeros(self.worlds, np.bool_)
+        mask[worlds] = True
+        self._simulator.place(mask, rows, out=self.play.frame.rows)
+        try:
+            self._observe_start(worlds, part)
+            for group, rng in zip(self.assignment.groups, others[1:], strict=True):
+                group.restart(worlds, rng, self.action_size)
+        except BaseException as error:
+            self._consistency.fail("reset", error)
+            raise
+        self._start.put(worlds, start)
+        if len(worlds) == self.worlds:
+            self._consistency.repair()
+
+    def _observe_start(self, worlds: Indices, part: Play) -> None:
+        """Compute the first observations of worlds that the simulator has just placed."""
+        part.start(self.play.frame.rows[worlds], self._viewpoint)
+        self._observations[worlds] = self.task.observe(part)
+        self.play.put(worlds, part)
+        self._done[worlds] = False
+        self._begun[worlds] = True
+
+    def _state(self) -> MatchState:
+        """References to all state of the matches."""
+        own = {"observations": self._observations, "done": self._done, "begun": self._begun}
+        return MatchState.of(self._simulator, self.play, self.assignment.groups, self._start, own)
+
+    def _of_learners(self, values: Floats) -> Floats:
+        """Copy of the learners' part of values (n, observers, ...) of all observers."""
+        return np.array(values[:, self.assignment.learner_indices])

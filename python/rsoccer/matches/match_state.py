@@ -1,0 +1,77 @@
+"""The complete state of matches as named arrays, for saving and resuming."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from rsoccer import checks
+from rsoccer.controllers import PolicyGroup
+from rsoccer.frame import Array
+from rsoccer.play import Play
+from rsoccer.rng import WorldRng
+from rsoccer.simulator import Worlds, snapshots
+
+
+@dataclass
+class MatchState:
+    """References to all parts of the state of matches: simulator, arrays, random streams."""
+
+    simulator: Worlds
+    arrays: dict[str, Array]
+    streams: dict[str, WorldRng]
+
+    @classmethod
+    def of(
+        cls,
+        simulator: Worlds,
+        play: Play,
+        groups: Sequence[PolicyGroup],
+        start: WorldRng,
+        others: dict[str, Array],
+    ) -> "MatchState":
+        """Collect the state of some matches.
+
+        Args:
+            simulator: moves the robots.
+            play: frames, actions and the task's memory.
+            groups: policies with their memory and random streams.
+            start: random streams of initial positions.
+            others: further arrays by name.
+        """
+        arrays = play.arrays() | others
+        for group in groups:
+            arrays |= group.arrays()
+        streams = {"start": start, "task": play.rng} | {group.name: group.rng for group in groups}
+        return cls(simulator, arrays, streams)
+
+    def read(self) -> dict[str, Array]:
+        """Return copies of all arrays by name.
+
+        Raises:
+            TypeError: the simulator has no `snapshot`.
+        """
+        snapshot = np.frombuffer(snapshots(self.simulator).snapshot(), np.uint8)
+        arrays = {name: array.copy() for name, array in self.arrays.items()}
+        return {"simulator": snapshot.copy(), **arrays, **self._stream_arrays()}
+
+    def write(self, state: Mapping[str, Array]) -> None:
+        """Overwrite the matches with a state that `read` returned.
+
+        Args:
+            state: arrays by name.
+
+        Raises:
+            TypeError: the simulator has no `restore`.
+            ValueError: arrays that do not fit these matches. Nothing has changed.
+        """
+        simulator = snapshots(self.simulator)
+        checks.state(state, {"simulator": np.empty(0), **self.arrays, **self._stream_arrays()})
+        simulator.restore(state["simulator"].tobytes())
+        for name, array in self.arrays.items():
+            array[...] = state[name]
+        for name, rng in self.streams.items():
+            rng.put(np.arange(len(rng)), WorldRng.from_state(state[f"rng.{name}"]))
+
+    def _stream_arrays(self) -> dict[str, Array]:
+        return {f"rng.{name}": rng.state for name, rng in self.streams.items()}

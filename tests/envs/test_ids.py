@@ -1,0 +1,206 @@
+"""Tasks by their ids in the registries of Gymnasium and PettingZoo."""
+
+import subprocess
+import sys
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pettingzoo
+import pytest
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from pettingzoo import AECEnv
+
+import rsoccer
+from rsoccer import registry
+from rsoccer.envs.parallel import SoccerParallelEnv
+from rsoccer.envs.single import SoccerEnv
+from rsoccer.envs.vector import SoccerVectorEnv
+from rsoccer.task import LEARN, Learn
+from rsoccer.tasks import VssSelfPlay, VssSingle
+from tests.solo_learner import LONE, TASKS, plain
+
+N = 2
+needs_zoo_registry = pytest.mark.skipif(
+    not hasattr(pettingzoo, "register"), reason="PettingZoo before 1.27 has no registry"
+)
+
+
+@pytest.fixture(autouse=True)
+def as_before(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Names and ids that a test registers are gone after it."""
+    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    names = [name for name in ("parallel_registry", "aec_registry") if hasattr(pettingzoo, name)]
+    kept: list[dict[str, Any]] = [getattr(pettingzoo, name) for name in names]
+    kept.append(gymnasium.registry)
+    before = [dict(each) for each in kept]
+    yield
+    for each, entries in zip(kept, before, strict=True):
+        each.clear()
+        each.update(entries)
+
+
+def run(program: str) -> None:
+    """In a process of its own, where nothing is imported yet and warnings are errors."""
+    command = [sys.executable, "-W", "error", "-c", program]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+# -- Gymnasium --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_gymnasium_knows_the_tasks_with_one_learner(name: str) -> None:
+    assert (f"rsoccer/{name}" in gymnasium.registry) == (name in LONE)
+
+
+def test_an_id_may_name_the_package_to_import() -> None:
+    run("import gymnasium; gymnasium.make('rsoccer:rsoccer/VSS-v0').reset(seed=0)")
+
+
+def test_importing_registers_without_a_word() -> None:
+    run("import gymnasium, rsoccer; gymnasium.register_envs(rsoccer)")
+
+
+def test_options_reach_the_task() -> None:
+    env = gymnasium.make("rsoccer/VSS-v0", n_blue=1, max_steps=4, discrete=True)
+    assert isinstance(env.unwrapped, SoccerEnv)
+    assert (env.unwrapped.task.n_blue, env.unwrapped.task.max_steps) == (1, 4)
+    assert isinstance(env.action_space, gymnasium.spaces.Discrete)
+    with pytest.raises(ValueError, match="unknown option bal_speed"):
+        gymnasium.make("rsoccer/VSS-v0", bal_speed=1.0)
+
+
+def test_gymnasium_collects_pictures() -> None:
+    pytest.importorskip("pygame")
+    env = gymnasium.make("rsoccer/VSS-v0", render_mode="rgb_array_list")
+    env.reset(seed=0)
+    env.step(env.action_space.sample())
+    images: Any = env.render()
+    assert len(images) == 2
+
+
+@pytest.mark.parametrize("name", LONE)
+def test_every_way_to_many_leads_to_the_same_matches(name: str) -> None:
+    ident = f"rsoccer/{name}"
+    made = [
+        gymnasium.make_vec(ident, N, vectorization_mode=mode, max_steps=9)
+        for mode in (None, "vector_entry_point", "sync")
+    ]
+    assert [type(envs) for envs in made] == [SoccerVectorEnv, SoccerVectorEnv, SyncVectorEnv]
+    assert made[0].metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
+    assert made[0].spec is not None
+    assert made[0].spec.id == ident
+    assert (
+        plain(made[0].reset(seed=3)) == plain(made[1].reset(seed=3)) == plain(made[2].reset(seed=3))
+    )
+    rng = np.random.default_rng(0)
+    for _ in range(12):
+        actions = rng.uniform(-1.0, 1.0, made[0].action_space.shape or ()).astype(np.float32)
+        given = [plain(envs.step(actions)) for envs in made]
+        assert given[0] == given[1] == given[2]
+
+
+def test_the_clock_goes_by_gymnasiums_word_too() -> None:
+    for mode in ("sync", "vector_entry_point"):
+        envs = gymnasium.make_vec("rsoccer/VSS-v0", 1, mode, max_episode_steps=2)
+        envs.reset(seed=0)
+        ends = [envs.step(envs.action_space.sample())[3][0] for _ in range(2)]
+        assert ends == [False, True]
+
+
+@pytest.mark.parametrize("name", ["VSS-v0", "SSLDribbling-v0"])  # one of each league
+@pytest.mark.parametrize("context", ["fork", "spawn"])
+def test_workers_play_what_one_process_does(name: str, context: str) -> None:
+    """Like any program that spawns, a script needs `if __name__ == "__main__":` around this."""
+    with warnings.catch_warnings():
+        # From 3.12 on Python warns of forks in general; here they are safe: matches/test_fork.py.
+        warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
+        workers = gymnasium.make_vec(
+            f"rsoccer/{name}", N, "async", vector_kwargs={"context": context}, max_steps=9
+        )
+    envs = gymnasium.make_vec(f"rsoccer/{name}", N, max_steps=9, threads=2)
+    try:
+        assert plain(workers.reset(seed=3)) == plain(envs.reset(seed=3))
+        rng = np.random.default_rng(0)
+        for _ in range(12):
+            actions = rng.uniform(-1.0, 1.0, envs.action_space.shape or ()).astype(np.float32)
+            assert plain(workers.step(actions)) == plain(envs.step(actions))
+    finally:
+        workers.close()
+
+
+# -- PettingZoo -------------------------------------------------------------------------------
+
+
+@needs_zoo_registry
+@pytest.mark.parametrize("name", TASKS)
+def test_pettingzoo_makes_every_task(name: str) -> None:
+    match = pettingzoo.make("parallel", f"rsoccer/{name}", max_cycles=7)
+    assert isinstance(match, SoccerParallelEnv)
+    assert (match.task.name, match.max_cycles) == (name, 7)
+    turns = pettingzoo.make("aec", f"rsoccer/{name}", max_cycles=7)
+    assert isinstance(turns, AECEnv)
+    match.reset(seed=2)
+    turns.reset(seed=2)
+    agent = match.agents[0]
+    assert plain(turns.observe(agent)) == plain(match.reset(seed=2)[0][agent])
+
+
+def test_an_older_pettingzoo_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("register", "parallel_registry", "aec_registry"):
+        monkeypatch.delattr(pettingzoo, name, raising=False)
+
+    class Mine(VssSingle):
+        pass
+
+    rsoccer.register("Mine-v0", Mine)
+    assert "rsoccer/Mine-v0" in gymnasium.registry
+
+
+# -- Tasks of one's own -----------------------------------------------------------------------
+
+
+@needs_zoo_registry
+def test_a_new_task_gets_its_ids() -> None:
+    class Mine(VssSingle):
+        pass
+
+    class Together(VssSelfPlay):
+        pass
+
+    rsoccer.register("Mine-v3", Mine)
+    rsoccer.register("Mine-v3", Mine)  # as a module that is loaded twice does
+    rsoccer.register("Together-v0", Together)
+    env: Any = gymnasium.make("rsoccer/Mine-v3").unwrapped
+    assert type(env.task) is Mine
+    assert "rsoccer/Together-v0" not in gymnasium.registry
+    assert {"rsoccer/Mine-v3", "rsoccer/Together-v0"} <= pettingzoo.parallel_registry.keys()
+    assert {"rsoccer/Mine-v3", "rsoccer/Together-v0"} <= pettingzoo.aec_registry.keys()
+
+
+def test_a_task_that_nobody_can_make_without_options_has_no_id() -> None:
+    class Plain(VssSingle):
+        def __init__(self, speed: float) -> None:
+            super().__init__(ball_speed=speed)
+
+    rsoccer.register("Plain-v0", Plain)
+    assert "rsoccer/Plain-v0" not in gymnasium.registry
+    assert rsoccer.single_env("Plain-v0", speed=0.3).learner == "blue_0"
+
+
+@needs_zoo_registry
+def test_a_task_without_learners_has_no_id() -> None:
+    @dataclass(frozen=True)
+    class Show(VssSelfPlay):
+        def default_controllers(self) -> dict[str, str | Learn]:
+            return dict.fromkeys(self.robots, "chase")
+
+    assert LEARN not in Show().default_controllers().values()
+    rsoccer.register("Show-v0", Show)
+    assert "rsoccer/Show-v0" not in gymnasium.registry
+    assert "rsoccer/Show-v0" not in pettingzoo.parallel_registry

@@ -1,0 +1,192 @@
+"""Options and actions from outside: taken as told, or refused by name before anything moves."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+import rsoccer
+from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
+from rsoccer.frame import Floats
+from tests.one_match import SELF_PLAY, as_bytes, crowded, play_episode, random_actions, shot_at
+
+# -- Options ----------------------------------------------------------------------------------
+
+
+def test_controllers_take_robots_from_the_learners() -> None:
+    match = parallel_env(SELF_PLAY, controllers={"yellow": "zero", "blue_1": "chase"})
+    assert match.possible_agents == ["blue_0", "blue_2"]
+    observations, _ = match.reset(seed=0)
+    assert list(observations) == ["blue_0", "blue_2"]
+    with pytest.raises(ValueError, match="at least one robot must learn"):
+        parallel_env(SELF_PLAY, controllers={"all": "ou"})
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: parallel_env("VSS-v9"), "unknown task 'VSS-v9'.*VSSMulti-v0"),
+        (lambda: parallel_env(SELF_PLAY, bal_speed=1.0), "unknown option bal_speed.*ball_speed"),
+        (lambda: parallel_env(SELF_PLAY, max_cycles=0), "max_steps.*at least 1.*0"),
+        (lambda: parallel_env(SELF_PLAY, "ansi"), "render_mode.*rgb_array.*'ansi'"),
+        (lambda: parallel_env(SELF_PLAY, controllers={"red": "ou"}), "unknown.*red.*blue_0"),
+        (lambda: parallel_env(SELF_PLAY, controllers={"blue_0": "oo"}), "'oo'.*chase"),
+    ],
+)
+def test_wrong_options_are_named(make: Callable[[], object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_the_clock_can_be_set_without_touching_the_callers_task() -> None:
+    task = rsoccer.make_task(SELF_PLAY, max_steps=9)
+    match = SoccerParallelEnv(task)
+    match.max_cycles = 2
+    assert (match.max_cycles, task.max_steps) == (2, 9)
+    assert play_episode(match, 0)[-1]["steps"] == 2.0
+    with pytest.raises(ValueError, match="max_cycles: expected at least 1, got 0"):
+        match.max_cycles = 0
+
+
+def test_a_match_starts_from_a_given_frame() -> None:
+    match = parallel_env(SELF_PLAY)
+    match.reset(seed=0, options={"frame": shot_at(1), "unknown": object()})
+    assert np.array_equal(match._matches.frame.rows[0], shot_at(1))
+
+
+@pytest.mark.parametrize(
+    ("row", "error", "message"),
+    [
+        (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(80,\).*\(3,\)"),
+        ("left", TypeError, r"options\['frame'\].*float32"),
+        (np.full(80, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
+        (np.zeros(80, np.float32), ValueError, "blue_0.*unit vector"),
+        (crowded(), ValueError, "blue_0.*yellow_2"),
+    ],
+)
+def test_wrong_frames_are_refused_and_change_nothing(
+    row: object, error: type[Exception], message: str
+) -> None:
+    match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
+    rng = np.random.default_rng(0)
+    for each in (match, twin):
+        each.reset(seed=0)
+    with pytest.raises(error, match=message):
+        match.reset(seed=1, options={"frame": row})
+    actions = random_actions(match, rng)
+    assert as_bytes(match.step(actions)[0]) == as_bytes(twin.step(actions)[0])
+    assert as_bytes(match.reset()[0]) == as_bytes(twin.reset()[0])
+
+
+def test_options_of_another_kind_are_refused() -> None:
+    options: Any = ["frame"]
+    with pytest.raises(TypeError, match="options: expected a dictionary, got list"):
+        parallel_env(SELF_PLAY).reset(options=options)
+
+
+@pytest.mark.parametrize(("seed", "error"), [(-1, ValueError), (1.5, TypeError), ("a", TypeError)])
+def test_wrong_seeds_are_refused(seed: Any, error: type[Exception]) -> None:  # noqa: ANN401
+    with pytest.raises(error, match="seed: expected"):
+        parallel_env(SELF_PLAY).reset(seed=seed)
+
+
+# -- Actions ----------------------------------------------------------------------------------
+
+
+def test_stepping_out_of_turn_says_what_to_do() -> None:
+    match = parallel_env(SELF_PLAY, max_cycles=1)
+    actions = {agent: np.zeros(2, np.float32) for agent in match.possible_agents}
+    with pytest.raises(RuntimeError, match=r"step before reset: call reset\(\)"):
+        match.step(actions)
+    match.reset()
+    match.step(actions)
+    with pytest.raises(RuntimeError, match=r"after the end of the episode: call reset\(\)"):
+        match.step(actions)
+    match.reset()
+    match.step(actions)
+
+
+SIX = [f"{team}_{i}" for team in ("blue", "yellow") for i in range(3)]
+
+
+def actions_with(**changes: object) -> dict[str, Any]:
+    actions: dict[str, Any] = {agent: np.zeros(2, np.float32) for agent in SIX} | changes
+    return {agent: action for agent, action in actions.items() if action is not None}
+
+
+WRONG_ACTIONS = {
+    "missing": (actions_with(blue_1=None), ValueError, r"missing \['blue_1'\]"),
+    "empty": ({}, ValueError, "missing.*blue_0"),
+    "extra": (actions_with(red_0=np.zeros(2)), ValueError, r"unknown \['red_0'\]"),
+    "swapped": (actions_with(blue_1=None, red_0=np.zeros(2)), ValueError, "blue_1.*red_0"),
+    "too long": (actions_with(blue_2=np.zeros(3)), ValueError, r"'blue_2'.*\(2,\).*\(3,\)"),
+    "scalar": (actions_with(blue_2=np.float32(0)), ValueError, r"'blue_2'.*\(2,\).*\(\)"),
+    "one axis more": (
+        {agent: np.zeros((2, 1)) for agent in SIX},
+        ValueError,
+        r"'blue_0'.*\(2,\).*\(2, 1\)",
+    ),
+    "text": (actions_with(yellow_0="left"), TypeError, "'yellow_0'.*float32.*<U4"),
+    "texts": ({agent: np.array(["1", "0"]) for agent in SIX}, TypeError, "'blue_0'.*float32.*<U1"),
+    "integers": ({agent: np.zeros(2, int) for agent in SIX}, TypeError, "'blue_0'.*float32.*int"),
+    "complex": (actions_with(blue_0=np.zeros(2, complex)), TypeError, "'blue_0'.*complex"),
+    "none": ({**actions_with(), "blue_0": None}, TypeError, "'blue_0'.*object"),
+    "NaN": (
+        actions_with(yellow_2=np.array([0.0, np.nan])),
+        ValueError,
+        r"'yellow_2'.*finite.*nan at \(1,\)",
+    ),
+    "infinite": (actions_with(blue_0=np.array([-np.inf, 0.0])), ValueError, "'blue_0'.*-inf"),
+    "no dictionary": (np.zeros((6, 2), np.float32), TypeError, "dictionary.*ndarray"),
+    "nothing": (None, TypeError, "dictionary.*NoneType"),
+}
+
+
+@pytest.mark.parametrize(("actions", "error", "message"), WRONG_ACTIONS.values(), ids=WRONG_ACTIONS)
+def test_wrong_actions_name_the_agent_and_move_nothing(
+    actions: Any,  # noqa: ANN401
+    error: type[Exception],
+    message: str,
+) -> None:
+    match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
+    for each in (match, twin):
+        each.reset(seed=0)
+    with pytest.raises(error, match=message):
+        match.step(actions)
+    fine = random_actions(match, np.random.default_rng(0))
+    assert as_bytes(match.step(fine)[0]) == as_bytes(twin.step(fine)[0])
+
+
+@given(
+    action=arrays.arrays(
+        st.sampled_from(["f2", "f4", "f8", "i4", "c8", "U2", "?"]),
+        st.sampled_from([(2,), (1,), (3,), (), (2, 1), (0,)]),
+    )
+)
+@settings(deadline=None, max_examples=60)
+def test_any_action_is_either_taken_or_refused_by_name(action: Floats) -> None:
+    match = parallel_env(SELF_PLAY)
+    match.reset(seed=0)
+    before = match.state()
+    fine = action.shape == (2,) and action.dtype.kind == "f" and np.isfinite(action).all()
+    if fine:
+        observations = match.step(actions_with(blue_1=action))[0]
+        assert all(np.isfinite(observation).all() for observation in observations.values())
+        return
+    with pytest.raises((TypeError, ValueError), match="'blue_1'"):
+        match.step(actions_with(blue_1=action))
+    assert np.array_equal(match.state(), before)
+
+
+def test_actions_beyond_the_bounds_count_as_the_bound() -> None:
+    match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
+    for each in (match, twin):
+        each.reset(seed=0)
+    far = {agent: np.array([1e30, -7.0]) for agent in SIX}
+    near = {agent: np.array([1.0, -1.0], np.float32) for agent in SIX}
+    for _ in range(3):
+        assert as_bytes(match.step(far)[0]) == as_bytes(twin.step(near)[0])

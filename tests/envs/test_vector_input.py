@@ -1,0 +1,168 @@
+"""Options and actions for many matches: taken as told, or refused before anything moves."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer.envs.vector import vector_env
+from tests.one_match import SELF_PLAY, crowded, shot_at
+from tests.solo_learner import TASKS, lone, plain
+
+N = 3
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "message"),
+    [
+        (lambda: vector_env("VSS-v9", N), ValueError, "unknown task 'VSS-v9'"),
+        (lambda: vector_env("VSS-v0", N, bal_speed=1), ValueError, "unknown option bal_speed"),
+        (lambda: vector_env("VSS-v0", 0), ValueError, "expected at least 1, got 0"),
+        (lambda: vector_env("VSS-v0", N, threads=0), ValueError, "threads: .*at least 1"),
+        (lambda: vector_env("VSS-v0", N, "human"), ValueError, "render_mode.*'rgb_array'.*'human'"),
+        (
+            lambda: vector_env("VSS-v0", N, autoreset_mode="never"),
+            ValueError,
+            r"autoreset_mode: expected one of \['next_step', .*'never'",
+        ),
+        (lambda: vector_env(SELF_PLAY, N), ValueError, "learner='blue_0'"),
+        (lambda: vector_env(SELF_PLAY, N, learner="ego"), ValueError, "learner: expected (.*)'ego'"),
+        (lambda: vector_env("VSS-v0", N, max_steps=0), ValueError, "max_steps.*at least 1"),
+    ],
+)
+def test_wrong_options_are_named(
+    make: Callable[[], object], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        make()
+
+
+def test_matches_start_from_given_frames() -> None:
+    envs = vector_env("VSS-v0", N)
+    left, right = shot_at(-1), shot_at(1)
+    envs.reset(seed=0, options={"frame": right, "unknown": object()})
+    assert plain(envs._matches.frame.rows) == plain(np.stack([right] * N))
+    rows, mask = np.stack([left, right, left]), np.array([True, False, True])
+    envs.reset(options={"frame": rows, "reset_mask": mask})
+    assert plain(envs._matches.frame.rows) == plain(rows)
+    with pytest.raises(ValueError, match=r"options\['frame'\]: expected shape \(3, 80\)"):
+        envs.reset(options={"frame": rows[:2], "reset_mask": mask})
+
+
+@pytest.mark.parametrize(
+    ("reset", "error", "message"),
+    [
+        ({"options": {"frame": np.zeros(3, np.float32)}}, ValueError, r"\['frame'\].*\(3,\)"),
+        ({"options": {"frame": crowded()}}, ValueError, "blue_0.*yellow_2"),
+        (
+            {"seed": [4, None, 6], "options": {"frame": np.stack([shot_at(1)] * 2 + [crowded()])}},
+            ValueError,
+            "blue_0.*yellow_2",
+        ),
+        ({"options": ["frame"]}, TypeError, "options: expected a dictionary, got list"),
+        ({"options": {"reset_mask": [True] * N}}, ValueError, "bool array .*, got .*True"),
+        ({"options": {"reset_mask": np.ones(N)}}, ValueError, r"bool array \(3,\), got float64"),
+        ({"options": {"reset_mask": np.ones(2, bool)}}, ValueError, r"got bool \(2,\)"),
+        ({"options": {"reset_mask": np.zeros(N, bool)}}, ValueError, "at least one match"),
+        ({"seed": -1}, ValueError, "seed: expected at least 0, got -1"),
+        ({"seed": 1.5}, TypeError, "seed: expected a whole number"),
+        ({"seed": [1, 2]}, ValueError, "seed: expected a number or 3 of them, got 2"),
+        ({"seed": [1, 2, 0.5]}, TypeError, "seed: expected a whole number"),
+    ],
+)
+def test_a_refused_reset_changes_nothing(
+    reset: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    envs, twin = vector_env("VSS-v0", N), vector_env("VSS-v0", N)
+    for each in (envs, twin):
+        each.reset(seed=0)
+    with pytest.raises(error, match=message):
+        envs.reset(**{"seed": 1, **reset})
+    assert envs.np_random_seed == 0
+    actions = np.ones((N, 2), np.float32)
+    assert plain(envs.step(actions)) == plain(twin.step(actions))
+    assert plain(envs.reset()) == plain(twin.reset())
+
+
+WRONG_ACTIONS = {
+    "one match": (np.zeros(2, np.float32), ValueError, r"\(3, 2\), got \(2,\)"),
+    "too many": (np.zeros((4, 2), np.float32), ValueError, r"\(3, 2\), got \(4, 2\)"),
+    "integers": (np.zeros((N, 2), int), TypeError, "float32.*int"),
+    "NaN": (np.full((N, 2), np.nan), ValueError, "finite numbers, got nan"),
+}
+WRONG_CHOICES = {
+    "fractions": (np.zeros(N), TypeError, "expected whole numbers, got float64"),
+    "too high": (np.array([0, 9, 0]), ValueError, "expected 0 to 8, got 9"),
+    "one choice": (np.int64(3), ValueError, r"expected shape \(3,\), got \(\)"),
+}
+
+
+@pytest.mark.parametrize(
+    ("discrete", "actions", "error", "message"),
+    [(False, *wrong) for wrong in WRONG_ACTIONS.values()]
+    + [(True, *wrong) for wrong in WRONG_CHOICES.values()],
+    ids=[*WRONG_ACTIONS, *WRONG_CHOICES],
+)
+def test_wrong_actions_move_nothing(
+    discrete: bool,
+    actions: Any,  # noqa: ANN401
+    error: type[Exception],
+    message: str,
+) -> None:
+    envs, twin = (vector_env("VSS-v0", N, discrete=discrete) for _ in range(2))
+    for each in (envs, twin):
+        each.reset(seed=0)
+        each.action_space.seed(0)
+    with pytest.raises(error, match=message):
+        envs.step(actions)
+    given, expected = (each.step(each.action_space.sample()) for each in (envs, twin))
+    assert plain(given) == plain(expected)
+
+
+@pytest.mark.parametrize("mode", ["next_step", "same_step", "disabled"])
+def test_nothing_steps_before_reset(mode: str) -> None:
+    envs = vector_env("VSS-v0", N, autoreset_mode=mode)
+    still = np.zeros((N, 2), np.float32)
+    with pytest.raises(RuntimeError, match="step before reset"):
+        envs.step(still)
+    envs.reset(options={"reset_mask": np.array([True, False, True])})
+    with pytest.raises(RuntimeError, match="step before reset"):
+        envs.step(still)
+
+
+def test_where_nobody_resets_no_match_steps_after_its_end() -> None:
+    envs = vector_env("VSS-v0", N, autoreset_mode="disabled", max_steps=2)
+    still, late = np.zeros((N, 2), np.float32), np.array([False, True, False])
+    envs.reset(seed=0)
+    envs.step(still)
+    envs.reset(options={"reset_mask": late})
+    envs.step(still)
+    with pytest.raises(RuntimeError, match=r"after the end of the episode in worlds \[0, 2\]"):
+        envs.step(still)
+    envs.reset(options={"reset_mask": ~late})
+    assert envs.step(still)[3].tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_pictures_show_each_match(name: str) -> None:
+    pytest.importorskip("pygame")
+    envs = vector_env(name, 2, "rgb_array", **lone(name))
+    with pytest.raises(RuntimeError, match="render before reset"):
+        envs.render()
+    envs.reset(seed=0)
+    envs.step(np.array([[1.0], [-1.0]], np.float32).repeat(envs.task.action_size, axis=1))
+    images = envs.render()
+    assert images is not None
+    first, second = images
+    assert first.dtype == np.uint8
+    assert first.shape == second.shape
+    assert plain(first) != plain(second)
+
+
+def test_without_a_mode_nothing_is_drawn() -> None:
+    envs = vector_env("VSS-v0", N)
+    envs.reset()
+    with pytest.warns(UserWarning, match="rgb_array") as warned:
+        assert envs.render() is None
+    assert [each.filename for each in warned] == [__file__]

@@ -1,0 +1,90 @@
+"""Gymnasium's wrappers see in our matches what they see in its own loop over single envs."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
+from gymnasium.wrappers import vector as wrappers
+
+from rsoccer.envs.single import single_env
+from rsoccer.envs.vector import vector_env
+from tests.solo_learner import lone, plain
+
+N = 3
+NAMES = ["VSS-v0", "SSLPassEndurance-v0"]  # wrappers know no tasks: an early end and a late one
+MODES = list(AutoresetMode)
+
+Envs = VectorEnv[Any, Any, Any]
+Wrap = Callable[[Envs], Envs]
+
+
+def both(name: str, mode: AutoresetMode, wrap: Wrap) -> list[Envs]:
+    settings: dict[str, Any] = {"max_steps": 7, **lone(name)}
+    theirs = SyncVectorEnv([lambda: single_env(name, **settings)] * N, autoreset_mode=mode)
+    return [wrap(vector_env(name, N, autoreset_mode=mode, **settings)), wrap(theirs)]
+
+
+def rescaled(envs: Envs) -> Envs:
+    four = np.full(envs.single_action_space.shape or (), 4.0, np.float32)
+    return wrappers.RescaleAction(envs, -four, four)
+
+
+def played(envs: Envs, mode: AutoresetMode, high: float = 1.0) -> list[Any]:
+    """All that some episodes return but for the time they took; begins all anew at once."""
+    rng = np.random.default_rng(0)
+    transcript = [plain(envs.reset(seed=3))]
+    for _ in range(24):
+        actions = rng.uniform(-high, high, envs.action_space.shape or ())
+        *arrays, infos = envs.step(actions.astype(np.float32))
+        infos.get("episode", {}).pop("t", None)
+        transcript.append(plain([*arrays, infos]))
+        if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).any():
+            transcript.append(plain(envs.reset()))
+    return transcript
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
+@pytest.mark.parametrize(
+    ("wrap", "high"),
+    [
+        (wrappers.RecordEpisodeStatistics, 1.0),
+        (wrappers.NormalizeReward, 1.0),
+        (rescaled, 4.0),
+    ],
+    ids=["RecordEpisodeStatistics", "NormalizeReward", "RescaleAction"],
+)
+def test_wrappers_work_in_every_mode(
+    name: str, mode: AutoresetMode, wrap: Wrap, high: float
+) -> None:
+    ours, theirs = both(name, mode, wrap)
+    assert played(ours, mode, high) == played(theirs, mode, high)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_observations_can_be_normalized(name: str) -> None:
+    mode = AutoresetMode.NEXT_STEP  # the wrapper refuses the others
+    ours, theirs = both(name, mode, wrappers.NormalizeObservation)
+    assert played(ours, mode) == played(theirs, mode)
+
+
+def test_statistics_forget_only_the_matches_that_begin() -> None:
+    """Gymnasium's own loop takes the mask out of the options before its wrapper has read it."""
+    envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
+    envs.reset(seed=0)
+    actions = np.zeros((2, 2), np.float32)
+    for _ in range(3):
+        envs.step(actions)
+    envs.reset(options={"reset_mask": np.array([False, True])})
+    assert envs.episode_lengths.tolist() == [3, 0]
+
+
+def test_episodes_are_recorded_with_our_facts() -> None:
+    envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
+    envs.reset(seed=0)
+    for _ in range(9):
+        infos = envs.step(np.zeros((2, 2), np.float32))[4]
+    assert infos["episode"]["l"].tolist() == infos["steps"].tolist() == [9, 9]
+    assert infos["_goal_score"].all()

@@ -1,0 +1,204 @@
+"""The same seed, the same match, bit for bit: alone or in a batch, on any number of threads,
+after other matches, and from a saved state. All of it while robots push each other."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches
+from rsoccer.controllers import Controllers
+from rsoccer.frame import Floats, Mask
+from rsoccer.matches import Outcome
+from rsoccer.task import Play, Task
+from tests.helpers import Crowd, pushing, same, ssl_crowd, touches
+from tests.one_match import TASKS, VSS_TASKS
+
+WORLDS = 5
+STEPS = 130
+
+SCRIPTS = {
+    "SSLContestedPossession-v0": "strike",
+    "SSLDribbling-v0": "weave",
+    "SSLGoToBall-v0": "fetch",
+    "SSLPassEndurance-v0": "passer",
+    "SSLPassEnduranceMulti-v0": "passer",
+    "SSLSelfPlay-v0": "strike",
+    "SSLStaticDefenders-v0": "strike",
+}
+ALONE: list[tuple[str, Controllers | None]] = [(name, None) for name in TASKS]
+DRIVEN: list[tuple[str, Controllers | None]] = [
+    ("VSSMulti-v0", {"yellow": "ou", "blue_1": "uniform"}),
+    ("VSSSelfPlay-v0", {"yellow": "chase", "blue_2": "zero"}),
+    ("SSLSelfPlay-v0", {"all": "ou", "blue_0": "strike"}),
+    ("SSLDribbling-v0", {"all": "ou", "blue_0": "weave"}),
+    ("SSLGoToBall-v0", {"all": "ou", "blue_0": "fetch"}),
+    ("SSLPassEnduranceMulti-v0", {"all": "ou", "blue_0": "passer"}),
+]
+"""Every policy once: what it draws and remembers is its own in each task."""
+
+
+def test_every_task_and_every_script_is_among_the_cases() -> None:
+    assert {name for name, _ in ALONE} == set(TASKS) == {*VSS_TASKS, *SCRIPTS}
+    driven = {policy for _, given in DRIVEN for policy in (given or {}).values()}
+    assert driven >= {"chase", "ou", "uniform", "zero", *SCRIPTS.values()}
+
+
+each_task = pytest.mark.parametrize(("name", "controllers"), ALONE)
+everywhere = pytest.mark.parametrize(("name", "controllers"), ALONE + DRIVEN)
+# Threads share out the physics, the views, what robots see, and what rewards are made of.
+every_kind = pytest.mark.parametrize(
+    ("name", "controllers"),
+    [*DRIVEN[:3], ("SSLStaticDefenders-v0", None), ("SSLPassEnduranceMulti-v0", None)],
+)
+
+
+def crowded(
+    name: str,
+    controllers: Controllers | None,
+    worlds: int,
+    seed: int = 0,
+    threads: int = 1,
+    autoreset: str = "same_step",
+) -> Matches:
+    """Matches of a task of which every episode begins in a crowd round the ball."""
+    task_class = type(rsoccer.make_task(name))
+    options: dict[str, Any] = {"max_steps": 40}
+    if name in SCRIPTS:
+        options["velocity_frame"] = "robot"  # so that pushing forward is pushing towards the ball
+
+        def late(task: Task, play: Play) -> tuple[dict[str, Floats], Mask]:
+            """Nothing ends it as early as contact would."""
+            terms, done = task_class.calculate_reward_and_done(task, play)
+            return terms, done & (play.steps > 20)
+
+        changed = {"get_initial_positions_frame": ssl_crowd, "calculate_reward_and_done": late}
+    else:
+        changed = {"get_initial_positions_frame": Crowd.get_initial_positions_frame}
+    task = type("Crowded", (task_class,), changed)(**options)
+    return Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
+
+
+def facts(outcome: Outcome) -> dict[str, np.ndarray]:
+    arrays = {name: value for name, value in vars(outcome).items() if isinstance(value, np.ndarray)}
+    return arrays | outcome.terms | outcome.metrics
+
+
+def play_both(
+    ours: Matches, steps: int, compare: Callable[[np.ndarray, Outcome, int], None]
+) -> tuple[int, int]:
+    """Push on, comparing every step; the touches seen, and the episodes that ended."""
+    rng = np.random.default_rng(1)
+    touched = ended = 0
+    for step in range(steps):
+        actions = pushing(rng, ours)
+        outcome = ours.step(actions)
+        compare(actions, outcome, step)
+        touched += touches(ours.frame, ours.task.config)
+        ended += int(outcome.ended.sum())
+    return touched, ended
+
+
+def expect_equal(ours: Matches, theirs: list[Matches], steps: int = STEPS) -> None:
+    """What one does, the others do together, row by row."""
+
+    def compare(actions: np.ndarray, outcome: Outcome, step: int) -> None:
+        first, parts = 0, []
+        for other in theirs:
+            parts.append(facts(other.step(actions[first : first + other.worlds])))
+            first += other.worlds
+        for name, array in facts(outcome).items():
+            assert same(array, np.concatenate([part[name] for part in parts])), (name, step)
+        rows = np.concatenate([other.frame.rows for other in theirs])
+        assert same(ours.frame.rows, rows), step
+
+    touched, ended = play_both(ours, steps, compare)
+    fewest = 2 if ours.task.name in SCRIPTS else 10  # of SSL tasks some have but one robot
+    assert touched > ours.worlds * fewest, "without contacts the comparison would prove little"
+    assert ended >= ours.worlds, "without an end no restart was compared"
+
+
+@everywhere
+def test_row_i_of_a_batch_is_a_single_world(name: str, controllers: Controllers | None) -> None:
+    many = crowded(name, controllers, WORLDS, seed=7)
+    ones = [crowded(name, controllers, 1, seed=7 + i) for i in range(WORLDS)]
+    assert same(many.reset(), np.concatenate([one.reset() for one in ones]))
+    expect_equal(many, ones)
+
+
+@every_kind
+def test_threads_do_not_change_results(name: str, controllers: Controllers | None) -> None:
+    for threads in (2, 3):
+        ours = crowded(name, controllers, WORLDS, threads=1)
+        theirs = crowded(name, controllers, WORLDS, threads=threads)
+        assert same(ours.reset(), theirs.reset())
+        expect_equal(ours, [theirs])
+
+
+@each_task
+def test_after_other_matches_a_match_is_as_a_fresh_one(
+    name: str, controllers: Controllers | None
+) -> None:
+    used = crowded(name, controllers, WORLDS, seed=100)
+    used.reset()
+    touched, _ = play_both(used, 40, lambda actions, outcome, step: None)
+    assert touched > 0
+    fresh = crowded(name, controllers, WORLDS, seed=7)
+    assert same(used.reset(7), fresh.reset())
+    expect_equal(used, [fresh])
+
+
+@everywhere
+def test_restored_is_as_never_stopped(name: str, controllers: Controllers | None) -> None:
+    expect_restored(name, controllers, "same_step")
+
+
+@every_kind
+def test_restored_without_autoreset_is_as_never_stopped(
+    name: str, controllers: Controllers | None
+) -> None:
+    expect_restored(name, controllers, "disabled")
+
+
+def expect_restored(name: str, controllers: Controllers | None, autoreset: str) -> None:
+    ours = crowded(name, controllers, WORLDS, seed=7, autoreset=autoreset)
+    ours.reset()
+    for _ in range(60):
+        play_both(ours, 1, lambda actions, outcome, step: None)
+        if (in_touch := touches(ours.frame, ours.task.config)) > 0:
+            break
+        ours.reset(mask=ours.done)
+    assert in_touch > 0, "saved while in contact"
+    theirs = crowded(name, controllers, WORLDS, seed=55, autoreset=autoreset)
+    theirs.load_state_dict(ours.state_dict())
+    if autoreset == "same_step":
+        expect_equal(ours, [theirs])
+    rng = np.random.default_rng(3)
+    for _ in range(STEPS):
+        actions = pushing(rng, ours)
+        assert same(ours.step(actions).observations, theirs.step(actions).observations)
+        if ours.done.any():
+            assert same(ours.reset(mask=ours.done), theirs.reset(mask=theirs.done))
+    ends = ours.state_dict(), theirs.state_dict()
+    assert all(same(ends[0][key], ends[1][key]) for key in ends[0])
+
+
+def test_a_saved_state_does_not_change_with_the_matches() -> None:
+    matches = crowded("VSSSelfPlay-v0", None, 2)
+    matches.reset()
+    saved = matches.state_dict()
+    before = {name: array.copy() for name, array in saved.items()}
+    play_both(matches, 5, lambda actions, outcome, step: None)
+    assert all(same(saved[name], before[name]) for name in saved)
+    assert not same(matches.state_dict()["frame"], saved["frame"])
+
+
+def test_global_random_numbers_are_left_alone() -> None:
+    np.random.seed(0)  # noqa: NPY002
+    before = np.random.get_state()[1].copy()  # type: ignore[index]  # noqa: NPY002
+    matches = crowded("VSSMulti-v0", {"blue_0": "chase"}, 3)
+    matches.reset()
+    play_both(matches, 70, lambda actions, outcome, step: None)
+    assert (np.random.get_state()[1] == before).all()  # type: ignore[index]  # noqa: NPY002

@@ -1,0 +1,204 @@
+import pickle
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer import Matches
+from rsoccer.frame import Array, Floats, Mask
+from rsoccer.task import Play
+from rsoccer.tasks import VssSelfPlay
+from tests.helpers import Crowd, begun, pushing, same, zeros
+
+
+@dataclass(frozen=True)
+class Counting(VssSelfPlay):
+    """Ends when its own counter says so: world i after i + 2 steps; shows the counter."""
+
+    max_steps: int = 5
+
+    def new_memory(self, n: int) -> dict[str, Array]:
+        return {"count": np.zeros(n, np.int64)}
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        count = play.memory["count"].astype(np.float32)
+        return {"count": np.repeat(count, len(play.observers)).reshape(-1, len(play.observers), 1)}
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        play.memory["count"] += 1
+        one = np.ones((len(play.frame), 1), np.float32)
+        return {"time": one, "twice": 2 * one}, play.memory["count"] == 2 + np.arange(len(one))
+
+
+def test_same_step_begins_anew_at_once_and_keeps_the_last_observation() -> None:
+    matches = begun(Counting())
+    matches.step(zeros(matches))
+    outcome = matches.step(zeros(matches))
+    assert outcome.terminated.tolist() == [True] + [False] * 4
+    assert outcome.final_observations[:, 0, 0].tolist() == [2] * 5
+    assert outcome.observations[:, 0, 0].tolist() == [0, 2, 2, 2, 2]
+    assert matches.play.steps.tolist() == [0, 2, 2, 2, 2]
+    assert not matches.done.any()
+
+
+def test_the_clock_truncates_what_the_task_has_not_ended() -> None:
+    matches = begun(Counting())
+    for _ in range(5):
+        outcome = matches.step(zeros(matches))
+    # worlds 0 and 1 began anew, 3 ends by the task in its last step, 4 by the clock
+    assert outcome.terminated.tolist() == [False, False, False, True, False]
+    assert outcome.truncated.tolist() == [False, False, False, False, True]
+    assert outcome.ended.tolist() == [False, False, False, True, True]
+    assert outcome.final_observations[4, 0, 0] == 5
+
+
+def test_next_step_begins_anew_one_step_later() -> None:
+    matches = begun(Counting(), autoreset="next_step")
+    matches.step(zeros(matches))
+    outcome = matches.step(zeros(matches))
+    assert outcome.terminated[0]
+    assert outcome.observations[0, 0, 0] == 2
+    assert matches.done.tolist() == [True] + [False] * 4
+    outcome = matches.step(zeros(matches))
+    assert outcome.observations[:2, 0, 0].tolist() == [0, 3]
+    assert same(outcome.observations, outcome.final_observations)
+    assert outcome.rewards[:2, 0].tolist() == [0.0, 3.0]
+    assert outcome.terms["twice"][:2, 0].tolist() == [0.0, 2.0]
+    assert not outcome.ended[0]
+    assert matches.play.steps[0] == 0
+    assert matches.step(zeros(matches)).observations[0, 0, 0] == 1
+
+
+def test_disabled_waits_for_a_reset() -> None:
+    matches = begun(Counting(), autoreset="disabled")
+    for _ in range(2):
+        matches.step(zeros(matches))
+    rows, streams = matches.frame.rows.copy(), matches.play.rng.state
+    for _ in range(3):
+        outcome = matches.step(np.ones_like(zeros(matches)))
+    assert matches.done.tolist() == [True] * 5
+    assert not outcome.ended[0]
+    assert outcome.observations[0, 0, 0] == 2
+    assert outcome.rewards[0, 0] == 0.0
+    assert same(matches.frame.rows[0], rows[0])
+    assert matches.play.rng.state[0] == streams[0]
+    assert not same(matches.frame.rows[4], rows[4])
+    shown = matches.reset(mask=np.array([True, False, False, False, True]))
+    assert shown[:, 0, 0].tolist() == [0, 3, 4, 5, 0]
+    assert matches.done.tolist() == [False, True, True, True, False]
+
+
+def test_worlds_that_wait_draw_no_random_numbers() -> None:
+    options: dict[str, Any] = {"autoreset": "disabled", "controllers": {"yellow": "ou"}}
+    waits, goes = begun(Counting(), **options), begun(Counting(), **options)
+    for _ in range(2):
+        waits.step(zeros(waits))
+        goes.step(zeros(goes))
+    held = waits.state_dict()
+    assert held["rng.yellow_0"].tolist() == goes.state_dict()["rng.yellow_0"].tolist()
+    waits.step(zeros(waits))
+    after = waits.state_dict()
+    for name in ("rng.yellow_0", "yellow_0.walk", "rng.start", "rng.task", "frame", "steps"):
+        assert same(after[name][0], held[name][0]), name
+    for name in ("rng.yellow_0", "yellow_0.walk", "frame", "steps"):
+        assert not same(after[name][4], held[name][4]), name
+
+
+def test_rewards_are_the_sum_of_terms() -> None:
+    matches = begun(Crowd(reward_weights={"energy": 0.1}))
+    outcome = matches.step(np.ones_like(zeros(matches)))
+    assert sorted(outcome.terms) == ["approach", "ball_to_goal", "energy", "goal"]
+    assert outcome.terms["energy"] == pytest.approx(-0.1)
+    assert outcome.rewards == pytest.approx(sum(outcome.terms.values()))
+
+
+def test_what_an_outcome_holds_is_the_receivers_own() -> None:
+    matches, control = begun(Crowd()), begun(Crowd())
+    rng = np.random.default_rng(0)
+    for _ in range(60):
+        actions = pushing(rng, matches)
+        outcome, other = matches.step(actions), control.step(actions)
+        assert same(outcome.observations, other.observations)
+        arrays = [*vars(outcome).values(), *outcome.terms.values(), *outcome.metrics.values()]
+        for array in arrays:
+            if isinstance(array, np.ndarray):
+                array[...] = 1
+        assert other.observations.min() < 1, "arrays of one outcome share nothing with another's"
+    matches.reset(mask=np.zeros(5, np.bool_))[:] = 7.0
+    assert same(
+        matches.reset(mask=np.zeros(5, np.bool_)), control.reset(mask=np.zeros(5, np.bool_))
+    )
+
+
+def test_after_a_reset_the_last_frame_is_the_frame() -> None:
+    matches = begun(Crowd())
+    rng = np.random.default_rng(0)
+    for _ in range(7):
+        matches.step(pushing(rng, matches))
+    mask = np.array([True, False, True, False, False])
+    matches.reset(mask=mask)
+    play = matches.play
+    assert same(play.frame.rows[mask], play.last_frame.rows[mask])
+    assert same(play.view.robots.data[mask], play.last_view.robots.data[mask])
+    assert same(play.view.ball.data[mask], play.last_view.ball.data[mask])
+    assert not play.actions[mask].any()
+    assert not same(play.frame.rows[~mask], play.last_frame.rows[~mask])
+    assert play.actions[~mask].any()
+
+
+def test_a_reset_with_a_seed_is_a_new_pair_of_matches() -> None:
+    used = begun(Crowd(), seed=5)
+    rng = np.random.default_rng(0)
+    for _ in range(50):
+        used.step(pushing(rng, used))
+    assert same(used.reset(seed=11), Matches(Crowd(), 5, seed=11).reset())
+    first = used.reset()
+    assert not same(first, used.reset()), "without a seed the streams go on"
+
+
+def test_a_reset_of_nobody_changes_nothing() -> None:
+    matches = begun(Crowd())
+    before = matches.state_dict()
+    matches.reset(mask=np.zeros(5, np.bool_))
+    after = matches.state_dict()
+    assert all(same(after[name], before[name]) for name in before)
+
+
+def test_a_reset_can_start_from_given_rows() -> None:
+    matches = begun(VssSelfPlay())
+    rows = matches.frame.rows[[3, 4]].copy()
+    mask = np.array([False, True, True, False, False])
+    matches.reset(mask=mask, rows=rows)
+    assert np.allclose(matches.frame.rows[[1, 2]], rows, atol=1e-6)
+
+
+def test_step_before_reset_is_an_error() -> None:
+    matches = Matches(VssSelfPlay(), 2)
+    with pytest.raises(RuntimeError, match="step before reset"):
+        matches.step(zeros(matches))
+    matches.reset(mask=np.array([True, False]))
+    with pytest.raises(RuntimeError, match="step before reset"):
+        matches.step(zeros(matches))
+
+
+def test_matches_can_be_pickled_in_the_middle_of_a_match() -> None:
+    ours = begun(Crowd(), controllers={"yellow": "chase"})
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        ours.step(pushing(rng, ours))
+    theirs = pickle.loads(pickle.dumps(ours))
+    for _ in range(40):
+        actions = pushing(rng, ours)
+        assert same(ours.step(actions).observations, theirs.step(actions).observations)
+    assert same(ours.frame.rows, theirs.frame.rows)
+
+
+def test_sizes_and_bounds_are_the_tasks() -> None:
+    matches = Matches("VSSMulti-v0", 2)
+    assert matches.agents == ("blue_0", "blue_1", "blue_2")
+    assert matches.observation_size == matches.task.observation_size
+    assert matches.action_size == 2
+    outcome_low, outcome_high = matches.observation_low, matches.observation_high
+    shown = matches.reset()
+    assert ((outcome_low <= shown) & (shown <= outcome_high)).all()

@@ -1,0 +1,240 @@
+from typing import cast
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches, policies
+from rsoccer.controllers import Controllers
+from rsoccer.evaluate import Evaluation, Results, evaluate
+from rsoccer.frame import Frame
+from rsoccer.policies.base import PolicyInput
+from rsoccer.policies.vss.roles import KEEPER
+from rsoccer.policies.vss.scripted import Scripted
+from rsoccer.rng import WorldRng
+from rsoccer.tasks import SslSelfPlay, VssMulti, VssSelfPlay, VssSingle
+from tests.helpers import Crowd, same
+from tests.test_view import turned
+
+TASK = VssSelfPlay()
+
+
+def nobody(worlds: int) -> np.ndarray:
+    return np.zeros((worlds, 0, 2), np.float32)
+
+
+def score(policy: str, opponent: str, matches: int, task: VssSelfPlay = TASK) -> Evaluation:
+    return evaluate(policy, opponent, matches, seed=2, task=task, worlds=matches, threads=2)
+
+
+def wilson_low(wins: int, of: int) -> float:
+    """Lower end of the 95% interval of a share (Wilson, 1927)."""
+    z, share = 1.96, wins / of
+    spread = z * (share * (1 - share) / of + z**2 / (4 * of**2)) ** 0.5
+    return float((share + z**2 / (2 * of) - spread) / (1 + z**2 / of))
+
+
+# -- Strength ---------------------------------------------------------------------------------
+
+
+def test_it_beats_drifting_from_either_side() -> None:
+    """Nine in ten of the matches that are decided, and a goal score of 0.8."""
+    found = score("scripted", "ou", 100)
+    for part in (found, found.sides["blue"], found.sides["yellow"]):
+        assert part.wins / (part.wins + part.losses) >= 0.9
+        assert part.score >= 0.8
+    assert found.low > 0.8
+    assert wilson_low(found.wins, found.wins + found.losses) > 0.9
+
+
+def test_it_beats_chasers_from_either_side() -> None:
+    found = score("scripted", "chase", 80, VssSelfPlay(max_steps=600))
+    assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.3
+
+
+def test_it_scores_against_robots_that_stand_still_and_hardly_into_its_own_goal() -> None:
+    found = score("scripted", "zero", 160, VssSelfPlay(max_steps=800))
+    assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.8
+    assert found.losses <= 4
+
+
+@pytest.mark.parametrize(("better", "worse"), [("1", "0.5"), ("0.5", "0")])
+def test_more_skill_is_stronger(better: str, worse: str) -> None:
+    found = score(f"scripted:{better}", f"scripted:{worse}", 40, VssSelfPlay(max_steps=400))
+    assert found.low > 0.0
+
+
+@pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (5, 5), (2, 4)])
+def test_sides_of_any_size_play(blue: int, yellow: int) -> None:
+    task = VssSelfPlay(n_blue=blue, n_yellow=yellow, max_steps=400)
+    found: Results = score("scripted", "ou", 20, task).sides["blue"]
+    assert found.wins - found.losses >= 5
+
+
+# -- What it does -----------------------------------------------------------------------------
+
+
+def test_the_keeper_stays_home() -> None:
+    worlds = 60  # of few, one long scramble in a corner would be much
+    controllers = {"blue": "scripted", "yellow": "ou"}
+    matches = Matches(TASK, worlds, 4, 2, controllers=controllers, autoreset="disabled")
+    matches.reset()
+    out = []
+    for step in range(300):
+        matches.step(nobody(worlds))
+        keeper = matches.state_dict()["blue_0.roles"][:, 0] == KEEPER
+        assert (keeper.sum(axis=1) == 1).all()
+        if step >= 80:  # once it is there
+            playing = keeper & ~matches.done[:, None]
+            out.extend(matches.frame.blue.position[playing] + [TASK.config.field.half_length, 0.0])
+    away = np.array(out)
+    assert len(away) > 500, "few matches last"
+    assert np.quantile(away[:, 0], 0.95) < 0.2
+    assert np.quantile(np.abs(away[:, 1]), 0.95) < 0.3
+
+
+def test_seen_from_the_other_side_it_does_the_same() -> None:
+    rows = Crowd().get_initial_positions_frame(WorldRng.seeded(0, 8)).rows
+    actions = []
+    for start in (rows, turned(Frame(rows, 3, 3)).rows):
+        matches = Matches(TASK, 8, controllers={"all": "scripted"})
+        matches.reset(rows=start)
+        matches.step(nobody(8))
+        actions.append(matches.play.actions)
+    assert np.array_equal(actions[0][:, [3, 4, 5, 0, 1, 2]], actions[1])
+    assert np.abs(actions[0]).max() > 0.5
+
+
+@pytest.mark.parametrize("skill", [0.5, 1.0])
+def test_rows_do_not_depend_on_their_neighbours(skill: float) -> None:
+    worlds, policy = 4, Scripted(TASK, skill)
+    every: Controllers = {"all": policy}
+    many = Matches(TASK, worlds, 3, controllers=every)
+    ones = [Matches(TASK, 1, 3 + i, controllers=every) for i in range(worlds)]
+    for each in (many, *ones):
+        each.reset()
+    backed_off = 0
+    for _ in range(200):
+        many.step(nobody(worlds))
+        for one in ones:
+            one.step(nobody(1))
+        assert same(many.play.actions, np.concatenate([one.play.actions for one in ones]))
+        backed_off += int((many.state_dict()["blue_0.slow"] < 0).sum())
+    assert backed_off > 0, "no draws were compared"
+
+
+def test_the_same_seed_is_the_same_match() -> None:
+    rows = []
+    for _ in range(2):
+        matches = Matches(TASK, 5, 9, controllers={"all": "scripted:0.7"})
+        matches.reset()
+        for _ in range(150):
+            matches.step(nobody(5))
+        rows.append(matches.frame.rows.copy())
+    assert same(*rows)
+
+
+def test_a_robot_plays_its_part_whoever_drives_its_teammates() -> None:
+    """In the first step roles follow from the start alone, so each does what it does in a side."""
+    whole = Matches(TASK, 6, 3, controllers={"all": "scripted"})
+    mixed: Controllers = {"all": "ou", "blue_1": "scripted", "yellow_2": Scripted(TASK)}
+    some = Matches(TASK, 6, 3, controllers=mixed)
+    for matches in (whole, some):
+        matches.reset()
+        matches.step(nobody(6))
+    assert np.array_equal(whole.play.actions[:, [1, 5]], some.play.actions[:, [1, 5]])
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        VssSingle(teammates="scripted", opponent="scripted:0.3"),
+        VssMulti(n_blue=1, n_yellow=5, opponent="scripted"),
+        VssMulti(n_blue=3, n_yellow=1, opponent="scripted"),
+        VssMulti(n_blue=2, n_yellow=0),
+        VssSelfPlay(n_blue=1, n_yellow=0),
+        VssSelfPlay(robot="vss_650rpm"),
+    ],
+)
+def test_it_drives_in_every_task_of_two_wheels(task: VssSelfPlay) -> None:
+    controllers: Controllers = {f"blue_{task.n_blue - 1}": "scripted"}
+    matches = Matches(task, 3, controllers=controllers)
+    matches.reset()
+    for _ in range(60):
+        matches.step(np.zeros((3, len(matches.agents), 2), np.float32))
+    mine = matches.play.actions[:, task.n_blue - 1]
+    assert np.isfinite(mine).all()
+    assert np.abs(mine).max() > 0.0
+
+
+# -- Skill ------------------------------------------------------------------------------------
+
+
+def test_skill_limits_speed_and_how_often_it_looks() -> None:
+    changes = {}
+    for skill in (0.0, 0.5, 1.0):
+        matches = Matches(TASK, 4, 1, controllers={"blue": Scripted(TASK, skill), "yellow": "zero"})
+        matches.reset()
+        orders = []
+        for _ in range(48):
+            matches.step(nobody(4))
+            orders.append(matches.state_dict()["blue_0.orders"].copy())
+        changes[skill] = int((np.diff(orders, axis=0) != 0.0).any(axis=(1, 2, 3)).sum())
+        powers = np.abs(matches.play.actions[:, :3]).max()
+        assert powers <= 0.03 + 0.97 * skill + 1e-6
+        assert powers > 0.5 * skill
+    assert changes[0.0] < changes[0.5] < changes[1.0] == 47
+    assert changes[0.0] == 3, "every 0.3 s"
+
+
+def test_a_name_may_carry_a_skill() -> None:
+    actions = []
+    for policy in ("scripted:0.5", Scripted(TASK, 0.5), "scripted"):
+        matches = Matches(TASK, 4, 1, controllers={"all": policy})
+        matches.reset()
+        for _ in range(20):
+            matches.step(nobody(4))
+        actions.append(matches.play.actions.copy())
+    assert same(actions[0], actions[1])
+    assert not same(actions[0], actions[2])
+    assert "scripted" in policies.names()
+    assert policies.names_with_skill() == ["scripted"]
+
+
+@pytest.mark.parametrize("skill", ["2", "-0.1", "x", "", "nan", "0.5:1"])
+def test_a_skill_that_is_none_is_told(skill: str) -> None:
+    with pytest.raises(ValueError, match=f"scripted: expected a skill from 0 to 1, got '?{skill}"):
+        policies.make(f"scripted:{skill}", TASK)
+
+
+@pytest.mark.parametrize("name", ["zero:0.5", "chase:1", "ou:"])
+def test_others_have_no_skill(name: str) -> None:
+    first = name.split(":")[0]
+    message = f"'{first}' has no skill: expected '{first}', got '{name}'.*'scripted'"
+    with pytest.raises(ValueError, match=message):
+        policies.make(name, TASK)
+
+
+# -- Wrong input ------------------------------------------------------------------------------
+
+
+def test_it_drives_two_wheels_only() -> None:
+    with pytest.raises(ValueError, match="scripted drives two wheels"):
+        policies.make("scripted:0.5", SslSelfPlay())
+    with pytest.raises(ValueError, match="scripted drives two wheels"):
+        rsoccer.Matches("SSLSelfPlay-v0", controllers={"blue": "scripted"})
+
+
+@pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0"])
+def test_a_side_made_for_other_teams_is_refused(name: str) -> None:
+    other = Scripted(VssSelfPlay(n_blue=2))
+    with pytest.raises(ValueError, match=f"field, robots and teams of {name}, got a Scripted"):
+        Matches(name, controllers={"blue": other})
+    assert policies.make(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
+
+
+def test_it_needs_a_view() -> None:
+    scripted, rng = cast(Scripted, policies.make("scripted", TASK)), WorldRng.seeded(0, 1)
+    shape = (1, 1, 2)
+    with pytest.raises(ValueError, match="scripted needs a view"):
+        scripted.act(PolicyInput(shape, None, None), rng, scripted.new_memory(shape, rng))
