@@ -4,7 +4,7 @@ import numpy as np
 
 from rsoccer._core import SimConfig
 from rsoccer.frame import Floats, Frame, Mask, length
-from rsoccer.rewards import BEHIND
+from rsoccer.rewards import BEHIND_BALL_DISTANCE
 from rsoccer.task import Play
 from rsoccer.view import View
 
@@ -22,7 +22,7 @@ def ball_to_goal(play: Play, config: SimConfig) -> Floats:
 
 def approach(play: Play, config: SimConfig) -> Floats:
     """What each observer gained on the point behind the ball."""
-    field, behind = config.field, np.float32(BEHIND)
+    field, behind = config.field, np.float32(BEHIND_BALL_DISTANCE)
     most_x = np.float32(field.half_length) - behind
     most_y = np.float32(field.half_width) - behind
 

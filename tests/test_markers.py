@@ -3,7 +3,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.markers import Area, Gate, Target, Way
+from rsoccer.markers import Area, Gate, Segment, Target
 from rsoccer.render.markers import draw_markers, marked
 from rsoccer.tasks.courses import COURSES, Course
 
@@ -12,8 +12,8 @@ SHOWN = {
     "SSLStaticDefenders-v0": {Area},
     "SSLContestedPossession-v0": {Area},
     "SSLDribbling-v0": {Gate},
-    "SSLPassEndurance-v0": {Target, Way},
-    "SSLPassEnduranceMulti-v0": {Target, Way},
+    "SSLPassEndurance-v0": {Target, Segment},
+    "SSLPassEnduranceMulti-v0": {Target, Segment},
 }
 
 

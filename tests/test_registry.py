@@ -12,7 +12,7 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 @pytest.fixture(autouse=True)
 def as_before(monkeypatch: pytest.MonkeyPatch) -> None:
     """Names that a test registers are gone after it."""
-    for names in ("_TASKS", "_ALIASES", "_GONE"):
+    for names in ("_TASKS", "_ALIASES", "_RETIRED"):
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
 
 

@@ -38,7 +38,7 @@ def walk(term: str, steps: int = 60) -> tuple[Floats, Play, Play]:
         matches.step(pushing(rng, matches))
         play = matches.play
         total += (
-            rewards.approach(play, FIELD)
+            rewards.approach_behind_ball(play, FIELD)
             if term == "approach"
             else rewards.ball_to_goal(play, FIELD)
         )
@@ -51,13 +51,13 @@ def test_a_goal_is_good_for_who_attacks_that_side() -> None:
     show(play)
     assert rewards.goal(play).tolist() == [[1] * 3 + [-1] * 3, [-1] * 3 + [1] * 3, [0] * 6]
     assert rewards.scored(play).tolist() == [True, True, False]
-    assert rewards.goals_at(play.frame.ball).tolist() == [1.0, -1.0, 0.0]
+    assert rewards.goal_score(play.frame.ball).tolist() == [1.0, -1.0, 0.0]
 
 
 def test_right_after_a_reset_nothing_has_come_closer() -> None:
     play = still()
     assert not rewards.ball_to_goal(play, FIELD).any()
-    assert not rewards.approach(play, FIELD).any()
+    assert not rewards.approach_behind_ball(play, FIELD).any()
 
 
 def test_the_ball_pays_in_metres_along_the_axis() -> None:
@@ -92,14 +92,14 @@ def test_approach_pays_each_robot_for_its_own_way() -> None:
     play.frame.robots.position[:] = where - [0.05, 0.0]
     show(play)
     expected = [0.05, 0.05, -0.05, -0.05, -0.05, 0.05]
-    assert rewards.approach(play, FIELD)[0] == pytest.approx(expected, abs=1e-6)
+    assert rewards.approach_behind_ball(play, FIELD)[0] == pytest.approx(expected, abs=1e-6)
 
 
 def test_approach_pays_only_for_where_a_robot_ends_up() -> None:
     total, first, last = walk("approach")
     first.frame.rows[:], first.last_frame.rows[:] = last.frame.rows, first.frame.rows.copy()
     show(first)
-    assert total == pytest.approx(rewards.approach(first, FIELD), abs=1e-5)
+    assert total == pytest.approx(rewards.approach_behind_ball(first, FIELD), abs=1e-5)
     assert np.abs(total).max() > 0.05
 
 
@@ -110,7 +110,7 @@ def test_who_stands_before_the_ball_is_drawn_around_it() -> None:
     play.last_frame.robots.position[0, :2] = [0.06, 0.0], [0.06, 0.0]
     play.frame.robots.position[0, :2] = [0.06, 0.0], [0.0, 0.06]
     show(play)
-    straight, around = rewards.approach(play, FIELD)[0, :2]
+    straight, around = rewards.approach_behind_ball(play, FIELD)[0, :2]
     assert around > straight + 0.03
 
 
@@ -119,12 +119,12 @@ def test_one_robot_of_each_team_was_nearest() -> None:
     play.last_frame.ball.position[:] = 0.0
     where = np.array([[0.3, 0], [0.2, 0], [0.5, 0], [-0.1, 0], [-0.4, 0], [-0.5, 0]])
     play.last_frame.robots.position[:] = where
-    assert rewards.nearest(play)[0].tolist() == [False, True, False, True, False, False]
+    assert rewards.nearest_to_ball(play)[0].tolist() == [False, True, False, True, False, False]
 
 
 def test_the_nearest_with_nobody_on_the_other_side() -> None:
     play = still(20, VssSelfPlay(n_yellow=0))
-    assert rewards.nearest(play).sum(axis=1).tolist() == [1] * 20
+    assert rewards.nearest_to_ball(play).sum(axis=1).tolist() == [1] * 20
 
 
 def test_energy_is_the_mean_effort() -> None:
@@ -149,15 +149,15 @@ def test_terms_are_what_the_reference_says(name: str) -> None:
     play.view.ball.position[:] += rng.uniform(-0.1, 0.1, play.view.ball.position.shape)
     gains = {
         "ball_to_goal": rewards.ball_to_goal(play, config.field),
-        "approach": rewards.approach(play, config.field),
+        "approach": rewards.approach_behind_ball(play, config.field),
     }
     if config.robot.has_mouth:
-        gains["to_mouth"] = rewards.to_mouth(play, config)
+        gains["to_mouth"] = rewards.approach_mouth(play, config)
     for term, gained in gains.items():
         expected = getattr(rewards_reference, term)(play, config)
         np.testing.assert_allclose(gained, expected, atol=1e-6, err_msg=term)
         assert expected.all(), f"{term}: where nothing happened, nothing was compared"
-    assert np.array_equal(rewards.nearest(play), rewards_reference.nearest(play))
+    assert np.array_equal(rewards.nearest_to_ball(play), rewards_reference.nearest(play))
     np.testing.assert_allclose(rewards.energy(play), rewards_reference.energy(play), rtol=1e-6)
 
 
@@ -174,7 +174,7 @@ def test_wrong_arrays_are_refused_by_name() -> None:
         views = last.ball.data, last.robots.data, balls, view.robots.data
         potential.gained(*views)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="robot must be one with a mouth, got vss_440rpm"):
-        rewards.to_mouth(play, TASK.config)
+        rewards.approach_mouth(play, TASK.config)
     for behind in (0.0, -1.0, np.nan, np.inf):
         with pytest.raises(ValueError, match="behind must be metres above 0"):
             Potential.behind_ball(FIELD, behind)

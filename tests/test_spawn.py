@@ -13,7 +13,7 @@ RADII = [CONFIG.ball.radius] + [CONFIG.robot.bounding_radius] * 6
 
 def test_things_are_apart_and_clear_of_walls_and_corners() -> None:
     field = CONFIG.field
-    places = spawn.apart(WorldRng.seeded(0, 5000), field, RADII, 0.1).astype(np.float64)
+    places = spawn.positions(WorldRng.seeded(0, 5000), field, RADII, 0.1).astype(np.float64)
     gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(7)
     assert gaps.min() >= 0.1
     assert gaps[:, 1:, 1:].min() >= 2 * CONFIG.robot.bounding_radius
@@ -29,7 +29,7 @@ def test_things_are_apart_and_clear_of_walls_and_corners() -> None:
 
 
 def test_all_of_the_field_is_used() -> None:
-    places = spawn.apart(WorldRng.seeded(0, 2000), CONFIG.field, RADII, 0.1)
+    places = spawn.positions(WorldRng.seeded(0, 2000), CONFIG.field, RADII, 0.1)
     counts = np.histogram2d(places[:, 0, 0], places[:, 0, 1], bins=4)[0]
     assert counts.min() > 0.5 * counts.mean()
     assert abs(places.mean()) < 0.01
@@ -37,11 +37,11 @@ def test_all_of_the_field_is_used() -> None:
 
 def test_a_world_draws_from_its_own_stream_only() -> None:
     many = WorldRng.seeded(10, 300)
-    places = spawn.apart(many, CONFIG.field, RADII, 0.15)
+    places = spawn.positions(many, CONFIG.field, RADII, 0.15)
     redrawn = 0
     for i in range(300):
         one = WorldRng.seeded(10 + i, 1)
-        assert same(places[i : i + 1], spawn.apart(one, CONFIG.field, RADII, 0.15))
+        assert same(places[i : i + 1], spawn.positions(one, CONFIG.field, RADII, 0.15))
         assert one.state[0] == many.state[i]
         once = WorldRng.seeded(10 + i, 1)
         once.uniform(0.0, 1.0, (7, 2))
@@ -55,7 +55,7 @@ def test_the_simulator_accepts_every_start() -> None:
     simulator = Simulator(CONFIG, n)
     rows = np.zeros((n, CONFIG.row_size), np.float32)
     for _ in range(10):
-        places = spawn.apart(rng, CONFIG.field, RADII)
+        places = spawn.positions(rng, CONFIG.field, RADII)
         frame = Frame.empty(n, 3, 3)
         frame.ball.position[:] = places[:, 0]
         frame.robots.position[:] = places[:, 1:]
@@ -64,12 +64,12 @@ def test_the_simulator_accepts_every_start() -> None:
 
 
 def test_what_does_not_fit_is_an_error_not_an_endless_search() -> None:
-    with pytest.raises(ValueError, match=r"no room for 40 things.* 0.5 m apart.*1.5"):
-        spawn.apart(WorldRng.seeded(0, 3), CONFIG.field, [0.05] * 40, 0.5)
+    with pytest.raises(ValueError, match=r"no free positions for 40 discs.* 0.5 m apart.*1.5"):
+        spawn.positions(WorldRng.seeded(0, 3), CONFIG.field, [0.05] * 40, 0.5)
 
 
 def test_a_tight_start_is_found() -> None:
-    places = spawn.apart(WorldRng.seeded(0, 50), CONFIG.field, RADII, 0.3)
+    places = spawn.positions(WorldRng.seeded(0, 50), CONFIG.field, RADII, 0.3)
     gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(7)
     assert gaps.min() >= 0.3 - 1e-6
 
@@ -95,7 +95,7 @@ def test_robots_of_different_sizes_start_apart() -> None:
     big = RobotModel("ssl_generic", radius=0.2)
     config = SimConfig("ssl_challenge", 2, 1, robot=[big, "ssl_generic", big])
     n = 300
-    frame = spawn.anywhere(WorldRng.seeded(1, n), config, 0.0)
+    frame = spawn.random_frame(WorldRng.seeded(1, n), config, 0.0)
     rows = np.zeros((n, config.row_size), np.float32)
     Simulator(config, n).place(np.ones(n, np.bool_), frame.rows, rows)
     gaps = np.linalg.norm(frame.robots.position[:, 0] - frame.robots.position[:, 2], axis=-1)

@@ -10,7 +10,7 @@ from rsoccer import LEARN, Matches
 from rsoccer._core import Field, Steering
 from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
-from rsoccer.tasks.ssl import CHOICES, VELOCITY_FRAMES, Ssl
+from rsoccer.tasks.ssl import DISCRETE_ACTIONS, VELOCITY_FRAMES, Ssl
 from tests.helpers import pushing
 from tests.tasks import steering_reference
 from tests.tasks.ssl_scenes import make, scene
@@ -42,7 +42,7 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
             "reward_weights: expected a finite number",
         ),
         ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
-        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one that is told its body's veloc"),
+        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one with an omnidirectional"),
         ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
         ({"field": "ssl_z"}, ValueError, "ssl_z"),
         ({"field": "vss_5v5"}, ValueError, "field: expected one of the SSL|at most 5 on a vss_5v5"),
@@ -172,10 +172,10 @@ def test_agents_may_choose_from_a_table(name: str) -> None:
     match = rsoccer.parallel_env(name, discrete=True)
     match.reset(seed=0)
     for agent in match.agents:
-        assert match.action_space(agent).n == len(CHOICES)  # type: ignore[union-attr]
-    match.step({agent: np.array(len(CHOICES) - 1) for agent in match.agents})
+        assert match.action_space(agent).n == len(DISCRETE_ACTIONS)  # type: ignore[union-attr]
+    match.step({agent: np.array(len(DISCRETE_ACTIONS) - 1) for agent in match.agents})
     last = match._matches.play.actions[0, 0]
-    assert last.tolist() == CHOICES[-1].tolist()
+    assert last.tolist() == DISCRETE_ACTIONS[-1].tolist()
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -217,7 +217,9 @@ def test_a_field_without_room_for_the_starts_is_refused_when_the_task_is_made() 
         ("SSLContestedPossession-v0", {"scenario": 4}),
         ("SSLStaticDefenders-v0", {}),
     ):
-        with pytest.raises(ValueError, match="field: no room for this task on"):
+        with pytest.raises(
+            ValueError, match="field: no space for the initial state of this task on"
+        ):
             make(name, field=small, **options)
 
 

@@ -39,7 +39,7 @@ def test_a_goal_ends_it_and_the_ball_lost_ends_it() -> None:
 def test_the_opponent_starts_with_the_ball_and_keeps_it() -> None:
     frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 300))
     gap = np.linalg.norm(frame.ball.position - frame.yellow.position[:, 0], axis=-1)
-    assert gap == pytest.approx(float(TASK.reach), abs=1e-5)
+    assert gap == pytest.approx(float(TASK.mouth_offset), abs=1e-5)
     assert frame.ball.position[:, 0].min() > 0.0
     assert (np.abs(frame.ball.position) < [3.0, 2.0]).all()
     start = scene(TASK, ball=(1.593, 0.0), blue_0=(0.0, 0.0), yellow_0=(1.5, 0.0))

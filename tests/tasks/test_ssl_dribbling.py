@@ -36,9 +36,9 @@ def test_the_ball_through_the_first_gate_counts() -> None:
 
 
 def test_the_last_gate_ends_it() -> None:
-    first, last, way = TASK.course.gates[-1]
+    low, high, direction = TASK.course.gates[-1]
     matches = Matches(TASK, 1, autoreset="disabled")
-    matches.reset(rows=rolling((first + last) / 2, way).rows)
+    matches.reset(rows=rolling((low + high) / 2, direction).rows)
     matches.play.memory["passed"][:] = len(TASK.course.gates) - 1
     for _ in range(12):
         outcome = matches.step(np.array([[STAND]], np.float32))

@@ -20,7 +20,9 @@ def test_a_pass_that_is_received_ends_it() -> None:
     assert outcome.metrics["received"][0] == 1.0
     assert outcome.terms["received"][0, 0] == 5.0
     assert outcome.terms["failed"][0, 0] == 0.0
-    assert outcome.metrics["inverse_distance"][0] == pytest.approx(1.0 / float(TASK.reach), rel=0.1)
+    assert outcome.metrics["inverse_distance"][0] == pytest.approx(
+        1.0 / float(TASK.mouth_offset), rel=0.1
+    )
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ def passing(apart: float, speed: float = 2.5) -> Frame:
     """The ball just leaves the mouth of the first towards the second, facing it."""
     return scene(
         TASK,
-        ball=(-1.0 + float(TASK.reach), 0.0, speed, 0.0),
+        ball=(-1.0 + float(TASK.mouth_offset), 0.0, speed, 0.0),
         blue_0=(-1.0, 0.0),
         blue_1=(-1.0 + apart, 0.0, np.pi),
     )

@@ -177,9 +177,10 @@ def test_no_robots_can_cover_all_places_of_a_field(field: str) -> None:
     config = SimConfig(field, 1, 0, robot="ssl_generic")
     most = config.field.max_robots
     task = SslSelfPlay(field=field, n_blue=most, n_yellow=most)
-    places = task._lattice
+    places = task._grid
     robots = np.random.default_rng(0).uniform(-0.1, 0.1, (1, 50, 2)).astype(np.float32)
     covered = [
-        (~task._clear(places[None], robots[:, at : at + 1])).sum() for at in range(robots.shape[1])
+        (~task._is_free(places[None], robots[:, at : at + 1])).sum()
+        for at in range(robots.shape[1])
     ]
     assert max(covered) * 2 * most < len(places)

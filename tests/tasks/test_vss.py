@@ -204,7 +204,7 @@ def test_weights_are_data() -> None:
             r"reward_weights: unknown \[1, 'style'\]",
         ),
         ({"discrete": "no"}, TypeError, "discrete: expected True or False, got 'no'"),
-        ({"robot": "ssl_generic"}, ValueError, "robot: expected one with two wheels"),
+        ({"robot": "ssl_generic"}, ValueError, "robot: expected one with a differential drive"),
         ({"robot": ["vss_440rpm"] * 3 + ["vss_650rpm"] * 3}, ValueError, "robot: expected one mod"),
         ({"field": "vss_9v9"}, ValueError, "field must be one of.*vss_9v9"),
         (
