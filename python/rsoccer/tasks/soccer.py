@@ -53,28 +53,29 @@ class Soccer(Task):
     ball             (4,)       VSSS: position x, y; velocity x, y               L; V    4
     ..               (6,)       SSL: position x, y, z; velocity x, y, z          L; V    4
     ego              (r,)       own position x, y; cosine and sine of the        L; 1;   2
-    ..                          heading; velocity x, y; turn rate; SSL: also     V; W;
-    ..                          1 if the ball is in the break beam, else 0       1
+                                heading; velocity x, y; turn rate; SSL: also     V; W;
+                                1 if the ball is in the break beam, else 0       1
     teammates        (t, r)     the same of each teammate                        as ego  2
     opponents        (o, r)     the same of each opponent                        as ego  2
     ball_polar       (3,)       distance of the ball; cosine and sine of its     L; 1    3
-    ..                          bearing
+                                bearing
     goal_polar       (3,)       the same of the centre of the attacked goal      L; 1    3
     shot             (4,)       cosine and sine of the direction from ball to    1       1
-    ..                          goal; closeness c of the ball, exp(-d / 0.125 m)
-    ..                          at distance d; c times the cosine of the angle
-    ..                          between the directions to the ball and from
-    ..                          ball to goal
+                                goal; closeness of the ball, exp(-d / 0.125 m)
+                                at distance d; closeness times the cosine of
+                                the angle between the directions to the ball
+                                and from ball to goal
     body_velocities  (2, 2)     own velocity; velocity of the ball               V       4
     body_positions   (1 + t +   offset to the ball, to each teammate and to      L       3
-    ..               o, 2)      each opponent
+                     o, 2)      each opponent
     action           (a,)       last action of the robot; 0 after a reset        1       1
     ===============  =========  ===============================================  ======  =====
 
     Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
-    Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the teammates and opponents
-    of the largest team among `sides`. A slot without a robot is 0; in `body_positions` it shows
-    the centre of the field. Values are clipped to [-limit, limit].
+    Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
+    teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
+    it shows the centre of the field. Values are clipped to [-limit, limit]. `Task.blocks` gives the
+    columns of each block.
     """
 
     DISCRETE_ACTIONS: ClassVar[Floats]

@@ -43,11 +43,11 @@ class Ssl(Soccer):
     Index  Meaning                                     Value of 1                          Range
     =====  ==========================================  ==================================  =======
     0      velocity towards the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
-    ..     ahead if `velocity_frame` is "robot"
+           ahead if `velocity_frame` is "robot"
     1      velocity to the left of that                `config.robot.top_speed`, m/s       -1 to 1
     2      turn rate, counterclockwise                 10 rad/s                            -1 to 1
     3      kick speed; no kick up to 0                 6.5 m/s (SSL rules), or the         -1 to 1
-    ..                                                 robot's maximum if that is less
+                                                       robot's maximum if that is less
     4      dribbler: on above 0, off up to 0           full speed, for any value above 0   -1 to 1
     =====  ==========================================  ==================================  =======
 

@@ -31,9 +31,9 @@ class SslPassEnduranceMulti(SslPass):
     ================  ==============================================================  ========
     passes            1 for a pass that counts, to both robots                        passes
     ball_to_teammate  decrease of the distance between the ball and the receiver,     m
-    ..                to both robots
+                      to both robots
     approach          decrease of the distance between the ball and the receiver's    m
-    ..                mouth, to the receiver
+                      mouth, to the receiver
     failed            1 if the pass failed, to both robots                            episodes
     energy            negative mean magnitude of the action                           steps
     ================  ==============================================================  ========

@@ -43,9 +43,9 @@ class SslSelfPlay(Ssl):
     ============  ==================================================================  ========
     goal          1 for a goal of the robot's team, -1 for a goal against it          goals
     ball_to_goal  progress of the ball towards the attacked goal and away from the    m
-    ..            own goal, for each team's robot nearest to the ball
+                  own goal, for each team's robot nearest to the ball
     approach      decrease of the distance between the ball and the mouth, for the    m
-    ..            same robots
+                  same robots
     energy        negative mean magnitude of the action                               steps
     ============  ==================================================================  ========
 

@@ -65,7 +65,7 @@ class Vss(Soccer):
     ============  ==================================================================  ========
     goal          1 for a goal of the robot's team, -1 for a goal against it          goals
     ball_to_goal  progress of the ball towards the attacked goal and away from the    m
-    ..            own goal, for each team's robot nearest to the ball
+                  own goal, for each team's robot nearest to the ball
     approach      progress of the robot towards the point just behind the ball        m
     energy        negative mean magnitude of the action                               steps
     ============  ==================================================================  ========
