@@ -67,7 +67,7 @@ class Game:
 
     def start(self, rng: WorldRng) -> Frame:
         """Everything somewhere, at rest, nothing touching; (n)."""
-        return spawn.anywhere(rng, self.config, 0.0)
+        return spawn.random_frame(rng, self.config, 0.0)
 
     def touching(self, seen: Seen) -> float:
         """Share of the robots that are at another one or at the ball."""

@@ -24,7 +24,7 @@ class Reach(Task):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Ball and robot anywhere, at least 30 cm apart."""
         frame = Frame.empty(len(rng), 1, 0)
-        places = spawn.apart(rng, self.config.field, [0.03, 0.06], min_distance=0.3)
+        places = spawn.positions(rng, self.config.field, [0.03, 0.06], min_distance=0.3)
         frame.ball.position[:], frame.robots.position[:, 0] = places[:, 0], places[:, 1]
         frame.robots.heading[:] = spawn.headings(rng, 1)
         return frame

@@ -1,56 +1,56 @@
-"""Terms of rewards, in NumPy: what the core works out is checked against it."""
+"""Reference of the reward terms in NumPy, for comparison with the core."""
 
 import numpy as np
 
 from rsoccer._core import SimConfig
 from rsoccer.frame import Floats, Frame, Mask, length
-from rsoccer.rewards import BEHIND
+from rsoccer.rewards import BEHIND_BALL_DISTANCE
 from rsoccer.task import Play
 from rsoccer.view import View
 
 
 def ball_to_goal(play: Play, config: SimConfig) -> Floats:
-    """Half of what the ball gained on the goal attacked, and away from the own one."""
+    """Mean progress of the ball towards the attacked goal and away from the own goal."""
 
-    def advance(view: View) -> Floats:
+    def potential(view: View) -> Floats:
         x, y = view.ball.position[..., 0], view.ball.position[..., 1]
         goal_x = np.float32(config.field.half_length)
         return np.float32(0.5) * (length(goal_x + x, y) - length(goal_x - x, y))
 
-    return advance(play.view) - advance(play.last_view)
+    return potential(play.view) - potential(play.last_view)
 
 
-def approach(play: Play, config: SimConfig) -> Floats:
-    """What each observer gained on the point behind the ball."""
-    field, behind = config.field, np.float32(BEHIND)
-    most_x = np.float32(field.half_length) - behind
-    most_y = np.float32(field.half_width) - behind
+def approach_behind_ball(play: Play, config: SimConfig) -> Floats:
+    """Progress of each observer towards the point behind the ball."""
+    field, behind = config.field, np.float32(BEHIND_BALL_DISTANCE)
+    max_x = np.float32(field.half_length) - behind
+    max_y = np.float32(field.half_width) - behind
 
-    def way_to_go(view: View) -> Floats:
+    def distance(view: View) -> Floats:
         ball, ego = view.ball.position, view.ego.position
         x, y = np.float32(field.half_length) - ball[..., 0], -ball[..., 1]
-        per = behind / np.maximum(length(x, y), behind)
-        target_x = np.maximum(ball[..., 0] - x * per, -most_x)
-        target_y = np.minimum(np.maximum(ball[..., 1] - y * per, -most_y), most_y)
+        scale = behind / np.maximum(length(x, y), behind)
+        target_x = np.maximum(ball[..., 0] - x * scale, -max_x)
+        target_y = np.minimum(np.maximum(ball[..., 1] - y * scale, -max_y), max_y)
         return length(target_x - ego[..., 0], target_y - ego[..., 1])
 
-    return way_to_go(play.last_view) - way_to_go(play.view)
+    return distance(play.last_view) - distance(play.view)
 
 
-def to_mouth(play: Play, config: SimConfig) -> Floats:
-    """What the ball gained on where it would be in each observer's mouth."""
-    reach = np.float32(config.robot.front) + np.float32(config.ball.radius)
+def approach_mouth(play: Play, config: SimConfig) -> Floats:
+    """Decrease of the distance between the ball and each observer's mouth."""
+    mouth_offset = np.float32(config.robot.front) + np.float32(config.ball.radius)
 
-    def way_to_go(view: View) -> Floats:
+    def distance(view: View) -> Floats:
         ego, ball = view.ego, view.ball.position
-        at = ego.position + ego.heading * reach
-        return length(ball[..., 0] - at[..., 0], ball[..., 1] - at[..., 1])
+        mouth = ego.position + ego.heading * mouth_offset
+        return length(ball[..., 0] - mouth[..., 0], ball[..., 1] - mouth[..., 1])
 
-    return way_to_go(play.last_view) - way_to_go(play.view)
+    return distance(play.last_view) - distance(play.view)
 
 
-def nearest(play: Play) -> Mask:
-    """Whether each observer was its team's nearest to the ball before the step."""
+def nearest_to_ball(play: Play) -> Mask:
+    """Observers that were their team's nearest to the ball before the step."""
     frame: Frame = play.last_frame
     offset = frame.robots.position - frame.ball.position[:, None]
     distance = length(offset[..., 0], offset[..., 1])
@@ -61,6 +61,6 @@ def nearest(play: Play) -> Mask:
 
 
 def energy(play: Play) -> Floats:
-    """The mean magnitude of each observer's action, negative."""
+    """Negative mean magnitude of each observer's action."""
     mean: Floats = np.abs(play.actions[:, play.observers]).mean(axis=-1)
     return -mean

@@ -1,6 +1,6 @@
-"""Every task refuses what no task can take, by name, and nothing has changed then.
+"""Every task refuses invalid input by name, without a change of state.
 
-What exactly is said, and odder input, is in the tests of each door.
+Exact messages and rarer input are in the tests of each interface.
 """
 
 import contextlib
@@ -27,13 +27,13 @@ every_task = pytest.mark.parametrize("name", TASKS)
 
 
 def with_option(*options: str) -> list[tuple[str, str]]:
-    """Tasks that have one of these options, and which."""
+    """Tasks that have one of these options, with the option."""
     known = {name: list_options(type(rsoccer.make_task(name))) for name in TASKS}
     return [(name, option) for name in TASKS for option in options if option in known[name]]
 
 
-def doors(name: str) -> list[Callable[..., object]]:
-    """What makes a task by its name, one a door; all take its options."""
+def constructors(name: str) -> list[Callable[..., object]]:
+    """Functions that create a task by name with options, one per interface."""
     return [
         lambda **options: rsoccer.make_task(name, **options),
         lambda **options: parallel_env(name, **options),
@@ -48,23 +48,23 @@ def doors(name: str) -> list[Callable[..., object]]:
 
 @every_task
 def test_an_unknown_option_is_named_with_the_valid_ones(name: str) -> None:
-    for make in doors(name):
+    for make in constructors(name):
         with pytest.raises(ValueError, match=rf"{name}: unknown option referee; .*'max_steps'"):
             make(referee=True)
 
 
 @pytest.mark.parametrize(("name", "option"), with_option("scenario"))
 def test_an_unknown_scenario_is_named(name: str, option: str) -> None:
-    for make in doors(name):
+    for make in constructors(name):
         for wrong in (0, 99, "hard"):
             with pytest.raises((TypeError, ValueError), match="scenario: expected"):
                 make(**{option: wrong})
 
 
 @pytest.mark.parametrize(("name", "option"), with_option("n_blue", "n_yellow", "n_opponents"))
-def test_more_robots_than_there_may_be_are_refused(name: str, option: str) -> None:
+def test_too_many_robots_are_refused(name: str, option: str) -> None:
     team = "yellow" if option == "n_opponents" else option.removeprefix("n_")
-    for make in doors(name):
+    for make in constructors(name):
         with pytest.raises(ValueError, match=rf"({option}|n_{team})\D+at most \d+"):
             make(**{option: 99})
 
@@ -78,7 +78,7 @@ def test_a_policy_of_the_wrong_task_is_refused(name: str) -> None:
 
 
 def network_of(name: str) -> Network:
-    """A network with the sizes of a task, as if it had been trained on it."""
+    """Network with the sizes of a task, as after training."""
     task = rsoccer.make_task(name)
     sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
     arrays = {
@@ -104,25 +104,25 @@ def test_a_network_of_a_task_of_other_sizes_is_refused(name: str) -> None:
 
 
 def wrong_actions(match: SoccerParallelEnv) -> dict[str, Any]:
-    """What is no action of this match, by what is wrong with it."""
+    """Invalid actions of a match by the kind of mistake."""
     size = match.task.action_size
-    fine: dict[str, Any] = {agent: np.zeros(size, np.float32) for agent in match.agents}
+    valid: dict[str, Any] = {agent: np.zeros(size, np.float32) for agent in match.agents}
     last = match.agents[-1]
-    others = {agent: action for agent, action in fine.items() if agent != last}
+    others = {agent: action for agent, action in valid.items() if agent != last}
     return {
         "missing": others,
-        "unknown": {**fine, "red_0": fine[last]},
-        "too long": {**fine, last: np.zeros(size + 1, np.float32)},
-        "an axis more": {**fine, last: np.zeros((1, size), np.float32)},
-        "integers": {**fine, last: np.zeros(size, int)},
-        "NaN": {**fine, last: np.full(size, np.nan, np.float32)},
-        "infinite": {**fine, last: np.full(size, np.inf, np.float32)},
-        "nothing": None,
+        "unknown": {**valid, "red_0": valid[last]},
+        "too long": {**valid, last: np.zeros(size + 1, np.float32)},
+        "extra axis": {**valid, last: np.zeros((1, size), np.float32)},
+        "integers": {**valid, last: np.zeros(size, int)},
+        "NaN": {**valid, last: np.full(size, np.nan, np.float32)},
+        "infinite": {**valid, last: np.full(size, np.inf, np.float32)},
+        "None": None,
     }
 
 
 @every_task
-def test_wrong_actions_move_nothing(name: str) -> None:
+def test_wrong_actions_change_nothing(name: str) -> None:
     match, twin = parallel_env(name), parallel_env(name)
     match.reset(seed=0)
     twin.reset(seed=0)
@@ -137,7 +137,7 @@ def test_wrong_actions_move_nothing(name: str) -> None:
 
 @every_task
 @pytest.mark.parametrize("discrete", [False, True])
-def test_wrong_actions_of_one_learner_move_nothing(name: str, discrete: bool) -> None:
+def test_wrong_actions_of_one_learner_change_nothing(name: str, discrete: bool) -> None:
     task = rsoccer.make_task(name, discrete=discrete)
     wrong: list[Any] = [np.full(task.action_size, np.nan), np.zeros(task.action_size + 1), None]
     if task.action_table is not None:
@@ -153,12 +153,12 @@ def test_wrong_actions_of_one_learner_move_nothing(name: str, discrete: bool) ->
             given = action if not hasattr(envs, "num_envs") else np.array([action] * 2)
             with pytest.raises((TypeError, ValueError), match="actions"):
                 envs.step(given)
-        fine = envs.action_space.sample()
-        assert plain(envs.step(fine)) == plain(twin.step(fine))
+        valid = envs.action_space.sample()
+        assert plain(envs.step(valid)) == plain(twin.step(valid))
 
 
 @every_task
-def test_nobody_steps_a_match_that_has_not_begun_or_has_ended(name: str) -> None:
+def test_a_step_before_reset_or_after_the_end_is_refused(name: str) -> None:
     match, env = parallel_env(name, max_cycles=1), single_env(name, max_steps=1, **lone(name))
     envs = vector_env(name, 2, max_steps=1, autoreset_mode="disabled", **lone(name))
     still = np.zeros(match.task.action_size, np.float32)
@@ -184,12 +184,12 @@ def test_nobody_steps_a_match_that_has_not_begun_or_has_ended(name: str) -> None
 
 
 @every_task
-def test_a_reset_with_a_bad_value_changes_nothing_and_unknown_keys_are_ignored(name: str) -> None:
+def test_a_wrong_reset_changes_nothing_and_unknown_keys_are_ignored(name: str) -> None:
     size = rsoccer.make_task(name).config.row_size
     wrong: list[dict[str, Any]] = [
         {"options": {"frame": np.zeros(size - 1, np.float32)}},
         {"options": {"frame": np.full(size, np.nan, np.float32)}},
-        {"options": {"frame": np.zeros(size, np.float32)}},  # headings that are no unit vectors
+        {"options": {"frame": np.zeros(size, np.float32)}},  # headings are not unit vectors
         {"options": {"frame": "centre"}},
         {"options": [1]},
         {"seed": -1},
@@ -209,11 +209,11 @@ def test_a_reset_with_a_bad_value_changes_nothing_and_unknown_keys_are_ignored(n
             with pytest.raises((TypeError, ValueError), match=r"options|seed|unit vector"):
                 made.reset(**{"seed": 4, **arguments})
         assert np.array_equal(made._matches.frame.rows, twin._matches.frame.rows)
-        assert plain(made.reset()) == plain(twin.reset()), "its random streams have gone on"
+        assert plain(made.reset()) == plain(twin.reset()), "the random streams have advanced"
 
 
-def makers() -> list[tuple[str, str]]:
-    """Policies that know a field and teams, each with a task that it can play."""
+def task_policies() -> list[tuple[str, str]]:
+    """Policies that are bound to a field and teams, each with a task they can play."""
     found: dict[str, str] = {}
     for name in TASKS:
         task = rsoccer.make_task(name)
@@ -224,11 +224,11 @@ def makers() -> list[tuple[str, str]]:
     return sorted(found.items())
 
 
-def test_some_policies_know_their_task() -> None:
-    assert {"chase", "scripted", "fetch"} <= dict(makers()).keys()
+def test_some_policies_are_bound_to_a_task() -> None:
+    assert {"chase", "scripted", "fetch"} <= dict(task_policies()).keys()
 
 
-@pytest.mark.parametrize(("policy", "name"), makers())
+@pytest.mark.parametrize(("policy", "name"), task_policies())
 def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> None:
     made = policies.make(policy, rsoccer.make_task(name))
     others = [other for other in TASKS if rsoccer.make_task(other).config != CONFIGS[name]]
@@ -239,7 +239,7 @@ def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> N
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_network_of_a_task_that_shows_something_else_is_refused(name: str) -> None:
+def test_a_network_with_another_observation_layout_is_refused(name: str) -> None:
     task = rsoccer.make_task(name)
     zeros = np.zeros(task.observation_size, np.float32)
     arrays = {
@@ -264,4 +264,4 @@ def test_a_network_of_a_task_that_shows_something_else_is_refused(name: str) -> 
 def test_equal_sizes_do_not_make_equal_layouts() -> None:
     sizes = {make.observation_size: make.layout for make in map(rsoccer.make_task, TASKS)}
     layouts = {make.layout for make in map(rsoccer.make_task, TASKS)}
-    assert len(sizes) < len(layouts), "some tasks would be taken for each other by size"
+    assert len(sizes) < len(layouts), "sizes alone do not distinguish the tasks"

@@ -23,7 +23,7 @@ from tests.helpers import Crowd, begun, same, zeros
     ],
     ids=["axes", "worlds", "int", "nan", "inf", "text", "none"],
 )
-def test_wrong_actions_are_refused_before_anything_moves(
+def test_wrong_actions_are_refused_without_a_change(
     actions: object, error: type[Exception], message: str
 ) -> None:
     matches = begun(VssSelfPlay(), controllers={"yellow_2": LEARN})
@@ -34,12 +34,12 @@ def test_wrong_actions_are_refused_before_anything_moves(
     assert all(same(after[name], before[name]) for name in before)
 
 
-def test_large_actions_are_clipped_and_doubles_are_cast() -> None:
-    ours, theirs = begun(VssSelfPlay()), begun(VssSelfPlay())
-    ours.step(np.full((5, 6, 2), 1e300))
-    theirs.step(np.ones((5, 6, 2), np.float32))
-    assert same(ours.frame.rows, theirs.frame.rows)
-    assert (ours.play.actions == 1.0).all()
+def test_large_actions_are_clipped_and_float64_is_cast() -> None:
+    double, single = begun(VssSelfPlay()), begun(VssSelfPlay())
+    double.step(np.full((5, 6, 2), 1e300))
+    single.step(np.ones((5, 6, 2), np.float32))
+    assert same(double.frame.rows, single.frame.rows)
+    assert (double.play.actions == 1.0).all()
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_wrong_resets_are_refused(
         ({"done": np.zeros(5)}, r"expected bool \(5,\) for the end"),
     ],
 )
-def test_what_a_task_gets_wrong_is_named(fault: dict[str, Array], message: str) -> None:
+def test_wrong_results_of_a_task_are_named(fault: dict[str, Array], message: str) -> None:
     class Faulty(VssSelfPlay):
         def get_commands(self, play: Play, actions: Floats) -> Floats:
             return fault.get("get_commands", actions)
@@ -109,13 +109,13 @@ def test_what_a_task_gets_wrong_is_named(fault: dict[str, Array], message: str) 
         matches.step(zeros(matches))
 
 
-def test_a_state_of_other_matches_is_refused_and_changes_nothing() -> None:
+def test_a_state_of_other_matches_is_refused_without_a_change() -> None:
     matches = begun(Crowd(), controllers={"yellow": "ou"})
     before = matches.state_dict()
-    odd = dict(before)
-    odd["rng.green_0"] = odd.pop("rng.yellow_0")
+    renamed = dict(before)
+    renamed["rng.green_0"] = renamed.pop("rng.yellow_0")
     with pytest.raises(ValueError, match=r"state: missing or unknown \['rng.green_0'"):
-        matches.load_state_dict(odd)
+        matches.load_state_dict(renamed)
     with pytest.raises(ValueError, match=r"state: expected float32 \(5, 80\) for 'frame'"):
         matches.load_state_dict(before | {"frame": before["frame"][:3]})
     with pytest.raises(ValueError, match="snapshot"):
@@ -126,7 +126,7 @@ def test_a_state_of_other_matches_is_refused_and_changes_nothing() -> None:
     assert all(same(after[name], before[name]) for name in before)
 
 
-def test_rows_that_the_simulator_refuses_change_nothing() -> None:
+def test_rows_refused_by_the_simulator_change_nothing() -> None:
     matches = begun(VssSelfPlay())
     before = matches.state_dict()
     rows = np.repeat(matches.frame.rows[:1], 5, axis=0)

@@ -3,34 +3,34 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.markers import Area, Gate, Target, Way
+from rsoccer.markers import Area, Gate, Segment, Target
 from rsoccer.render.markers import draw_markers, marked
 from rsoccer.tasks.courses import COURSES, Course
 
-SHOWN = {
+MARKERS = {
     "SSLGoToBall-v0": {Target},
     "SSLStaticDefenders-v0": {Area},
     "SSLContestedPossession-v0": {Area},
     "SSLDribbling-v0": {Gate},
-    "SSLPassEndurance-v0": {Target, Way},
-    "SSLPassEnduranceMulti-v0": {Target, Way},
+    "SSLPassEndurance-v0": {Target, Segment},
+    "SSLPassEnduranceMulti-v0": {Target, Segment},
 }
 
 
 @pytest.mark.parametrize("name", rsoccer.list_tasks())
-def test_tasks_mark_what_their_play_is_about(name: str) -> None:
+def test_markers_of_each_task_are_drawn(name: str) -> None:
     matches = Matches(name, worlds=2)
     matches.reset()
     for world in range(2):
         markers = matches.task.markers(matches.play, world)
-        assert {type(marker) for marker in markers} == SHOWN.get(name, set())
+        assert {type(marker) for marker in markers} == MARKERS.get(name, set())
         shapes = marked(matches, world)
         assert shapes == draw_markers(matches.task.config.field, markers)
         assert bool(shapes) == bool(markers)
 
 
 @pytest.mark.parametrize(("passed", "done"), [(0, 0), (1, 1), (2, 2), (4, 2), (6, 3), (7, 4)])
-def test_gates_are_done_once_no_crossing_is_left(passed: int, done: int) -> None:
+def test_gates_are_done_when_no_crossing_is_left(passed: int, done: int) -> None:
     matches = Matches("SSLDribbling-v0")
     matches.reset()
     matches.play.memory["passed"][:] = passed
@@ -40,20 +40,20 @@ def test_gates_are_done_once_no_crossing_is_left(passed: int, done: int) -> None
 
 
 @pytest.mark.parametrize("course", COURSES.values(), ids=COURSES.keys())
-def test_a_gate_has_its_left_post_to_the_left_of_who_goes_through(course: Course) -> None:
+def test_the_left_post_is_on_the_left_of_the_crossing_direction(course: Course) -> None:
     scenario = next(name for name, known in COURSES.items() if known is course)
     matches = Matches(rsoccer.make_task("SSLDribbling-v0", scenario=scenario))
     matches.reset()
-    first_ways: dict[tuple[float, float], float] = {}
-    for first, last, way in course.gates:
-        first_ways.setdefault((first, last), way)
+    first_directions: dict[tuple[float, float], float] = {}
+    for low, high, direction in course.gates:
+        first_directions.setdefault((low, high), direction)
     markers = matches.task.markers(matches.play, 0)
-    assert len(markers) == len(first_ways)
+    assert len(markers) == len(first_directions)
     for gate in markers:
         assert isinstance(gate, Gate)
         along = 1 - course.crosses
         ends = sorted((gate.left[along], gate.right[along]))
         forward = np.zeros(2)
-        forward[course.crosses] = first_ways[ends[0], ends[1]]
+        forward[course.crosses] = first_directions[ends[0], ends[1]]
         left = np.array([-forward[1], forward[0]])
         assert np.subtract(gate.left, gate.right) @ left > 0

@@ -1,4 +1,4 @@
-"""Fields, robots and balls by numbers, and configurations of them: what they refuse and tell."""
+"""Custom fields, robots and balls, and their configurations: errors and representations."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ import pytest
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
 
 MIXED = SimConfig(robot=["vss_440rpm", "vss_650rpm"], n_blue=1, n_yellow=1)
-TURNED = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
+UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
 
 
 @pytest.mark.parametrize(
@@ -21,7 +21,7 @@ TURNED = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
             "must fit into .*goal_line_margin of 0.3 m, got 5",
         ),
         (lambda: RobotModel("ssl_generic", front=0.2), "front must not be beyond .*, got 0.2 m"),
-        (lambda: RobotModel.from_json(TURNED), r"in rising order.*, got \[160.0, 135.0"),
+        (lambda: RobotModel.from_json(UNORDERED_WHEELS), r"in rising order.*, got \[160.0, 135.0"),
         (lambda: Field.from_json("{}"), "text is not a Field: missing field `name`"),
         (lambda: SimConfig(robot=[RobotModel("vss_440rpm")]), "each of 6 robots, got 1"),
         (lambda: MIXED.robot, "robots differ: use `robots`"),
@@ -29,19 +29,19 @@ TURNED = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
         (lambda: Simulator(SimConfig(Field("vss_3v3", length=0.1))), "teams do not fit"),
     ],
 )
-def test_what_cannot_be_is_refused_by_name(make: Callable[[], object], message: str) -> None:
+def test_invalid_models_are_refused_by_name(make: Callable[[], object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         make()
 
 
-def test_numbers_that_a_robot_lacks_are_no_attributes_of_it() -> None:
+def test_a_robot_has_only_the_parameters_of_its_drive() -> None:
     vss = RobotModel("vss_440rpm")
     assert not hasattr(vss, "radius")
     assert not hasattr(vss, "wheel_angles")
     assert hasattr(RobotModel("ssl_generic"), "wheel_angles")
 
 
-def test_they_show_what_they_are() -> None:
+def test_representations() -> None:
     assert "ssl_generic" in repr(RobotModel("ssl_generic"))
     assert repr(SimConfig()).startswith('SimConfig("vss_3v3", 3, 3, robot="vss_440rpm", ')
     assert 'robot=["vss_440rpm", "vss_650rpm"]' in repr(MIXED)

@@ -10,21 +10,21 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 
 
 @pytest.fixture(autouse=True)
-def as_before(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Names that a test registers are gone after it."""
-    for names in ("_TASKS", "_ALIASES", "_GONE"):
+def restored_registry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Remove the names that a test registers."""
+    for names in ("_TASKS", "_ALIASES", "_RETIRED"):
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
 
 
 def test_every_task_of_the_package_is_registered() -> None:
-    """All but bases of others, whichever file of the folder they are in."""
+    """All task classes of the package's modules except base classes."""
     folder = Path(rsoccer.tasks.__file__).parent
     modules = [importlib.import_module(f"rsoccer.tasks.{p.stem}") for p in folder.glob("*.py")]
     found = {
-        thing
+        value
         for module in modules
-        for thing in vars(module).values()
-        if isinstance(thing, type) and issubclass(thing, Task) and thing is not Task
+        for value in vars(module).values()
+        if isinstance(value, type) and issubclass(value, Task) and value is not Task
     }
     bases = {base for task_class in found for base in task_class.__mro__[1:]}
     registered = {type(rsoccer.make_task(name)) for name in rsoccer.list_tasks()}
@@ -57,12 +57,12 @@ def test_a_new_task_gets_its_name() -> None:
     rsoccer.register("Mine-v3", Mine)
     assert "Mine-v3" in rsoccer.list_tasks()
     assert rsoccer.make_task("Mine-v3").name == "Mine-v3"
-    rsoccer.register("Mine-v3", Mine)  # as a module that is loaded twice does
+    rsoccer.register("Mine-v3", Mine)  # as a reloaded module does
     assert VssSelfPlay.name == "VSSSelfPlay-v0"
 
 
 def test_a_second_name_does_not_rename_the_tasks_of_the_first() -> None:
-    """Its tasks, and what they had saved, carried the second name from then on."""
+    """The second name once replaced the first in existing tasks and their files."""
 
     class Mine(VssSelfPlay):
         pass
@@ -83,14 +83,14 @@ def test_a_second_name_does_not_rename_the_tasks_of_the_first() -> None:
 
 
 @pytest.mark.parametrize("error", [TypeError, ValueError, KeyError])
-def test_what_making_a_task_raises_is_not_swallowed(error: type[Exception]) -> None:
-    """The task was registered, but silently had no id in any library."""
+def test_register_raises_errors_of_the_constructor(error: type[Exception]) -> None:
+    """The task was once registered, but silently without an id in any library."""
 
     class Mine(VssSelfPlay):
         def __init__(self) -> None:
-            raise error("a slip of its author")
+            raise error("a mistake of its author")
 
-    with pytest.raises(error, match="a slip of its author"):
+    with pytest.raises(error, match="a mistake of its author"):
         rsoccer.register("Mine-v0", Mine)
     assert "Mine-v0" not in rsoccer.list_tasks()
     assert Mine.name == VssSelfPlay.name
@@ -110,15 +110,15 @@ def test_a_name_belongs_to_one_task() -> None:
         rsoccer.register("VSSMulti-v0", VssSelfPlay)
 
 
-def test_a_task_may_have_other_names_with_options_of_their_own() -> None:
+def test_an_alias_has_options_of_its_own() -> None:
     registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)
-    registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)  # as a module loaded twice
+    registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)  # as a reloaded module does
     assert rsoccer.make_task("Duel-v0") == VssSelfPlay(n_blue=1, n_yellow=1)
     assert registry.list_aliases()["Duel-v0"] == ("VSSSelfPlay-v0", {"n_blue": 1, "n_yellow": 1})
     assert "Duel-v0" not in rsoccer.list_tasks()
 
 
-def test_another_name_may_have_further_names() -> None:
+def test_an_alias_may_refer_to_an_alias() -> None:
     registry.alias("Duel-v0", "VSSSelfPlay-v0", n_blue=1, n_yellow=1)
     registry.alias("ShortDuel-v0", "Duel-v0", max_steps=40)
     assert rsoccer.make_task("ShortDuel-v0") == VssSelfPlay(n_blue=1, n_yellow=1, max_steps=40)
@@ -136,7 +136,7 @@ def test_another_name_may_have_further_names() -> None:
         ("Duel-v0", "VSSSelfPlay-v0", {"n_blue": 0}, "n_blue: expected at least 1"),
     ],
 )
-def test_a_name_that_can_mean_nothing_is_refused(
+def test_invalid_aliases_are_refused(
     name: str, task: str, options: dict[str, int], message: str
 ) -> None:
     before = registry.list_aliases()
@@ -145,19 +145,19 @@ def test_a_name_that_can_mean_nothing_is_refused(
     assert registry.list_aliases() == before
 
 
-def test_a_task_cannot_take_a_name_that_stands_for_another() -> None:
+def test_a_task_cannot_take_the_name_of_an_alias() -> None:
     with pytest.raises(ValueError, match="'VSSMA-v0' is already taken, for VSSMulti-v0"):
         rsoccer.register("VSSMA-v0", VssSelfPlay)
 
 
-def test_who_asks_for_a_task_that_is_gone_is_told_what_to_do() -> None:
+def test_a_retired_name_suggests_a_replacement() -> None:
     registry.retire("Chess-v0", "take VSS-v0")
     with pytest.raises(ValueError, match="unknown task 'Chess-v0': take VSS-v0"):
         rsoccer.make_task("Chess-v0")
 
 
 @pytest.mark.parametrize("name", ["VSS-v0", "VSSMA-v0", "Chess"])
-def test_a_name_in_use_is_not_gone(name: str) -> None:
+def test_a_name_in_use_cannot_be_retired(name: str) -> None:
     with pytest.raises(ValueError, match="name: "):
         registry.retire(name, "take another")
 

@@ -11,16 +11,16 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 
 
 @dataclass(frozen=True)
-class Shouting(VssSelfPlay):
-    """Shows numbers beyond any limit."""
+class Unbounded(VssSelfPlay):
+    """Task with observations beyond all limits."""
 
     def observation_limits(self) -> dict[str, float]:
-        return super().observation_limits() | {"quiet": 0.5}
+        return super().observation_limits() | {"bounded": 0.5}
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         shape = (len(play.frame), len(play.observers), 2, 3)
-        loud = np.full(shape, 1e9, np.float32) * np.array([-1.0, 1.0, 0.0], np.float32)
-        return {"quiet": loud[..., 0], "loud": loud}
+        values = np.full(shape, 1e9, np.float32) * np.array([-1.0, 1.0, 0.0], np.float32)
+        return {"bounded": values[..., 0], "unbounded": values}
 
 
 def played(task: Task, worlds: int = 4) -> Play:
@@ -30,7 +30,7 @@ def played(task: Task, worlds: int = 4) -> Play:
     return matches.play
 
 
-def test_blocks_tell_where_things_are_in_the_flat_observation() -> None:
+def test_blocks_give_the_columns_of_the_flat_observation() -> None:
     task = VssSelfPlay()
     play = played(task)
     flat = task.observe(play)
@@ -45,7 +45,7 @@ def test_blocks_tell_where_things_are_in_the_flat_observation() -> None:
 
 
 def test_observations_stay_within_limits() -> None:
-    task = Shouting()
+    task = Unbounded()
     flat = task.observe(played(task))
     assert (flat[..., :2] == [-0.5, -0.5]).all()
     assert set(flat[..., 2:].ravel().tolist()) == {-DEFAULT_LIMIT, DEFAULT_LIMIT, 0.0}
@@ -54,13 +54,13 @@ def test_observations_stay_within_limits() -> None:
     assert task.observation_high.dtype == np.float32
 
 
-def test_memory_without_worlds_first_is_an_error() -> None:
-    class Forgetful(VssSelfPlay):
+def test_the_first_axis_of_memory_must_be_worlds() -> None:
+    class WrongMemory(VssSelfPlay):
         def new_memory(self, n: int) -> dict[str, Array]:
             return {"passes": np.zeros(3)}
 
     with pytest.raises(ValueError, match=r"new_memory: expected \(1, ...\) for 'passes'"):
-        Matches(Forgetful(), 5)  # its sizes are read off a single world
+        Matches(WrongMemory(), 5)  # with 1 world, for the sizes of the observation
 
 
 def test_agents_are_the_robots_that_learn() -> None:
@@ -70,7 +70,7 @@ def test_agents_are_the_robots_that_learn() -> None:
     assert task.default_controllers() == {"blue_0": LEARN, "blue_1": LEARN, "yellow_0": "ou"}
 
 
-def test_a_play_can_be_taken_apart_and_put_together() -> None:
+def test_worlds_of_a_play_can_be_copied_and_restored() -> None:
     play = played(VssSelfPlay(), 5)
     play.memory["count"] = np.arange(5)
     worlds = np.array([0, 3])
@@ -88,18 +88,18 @@ def test_a_play_can_be_taken_apart_and_put_together() -> None:
     assert play.memory["count"].tolist() == [0, -1, -1, 3, -1]
 
 
-def test_advance_swaps_now_and_before() -> None:
+def test_advance_swaps_the_current_and_the_last_frame() -> None:
     play = played(VssSelfPlay())
-    now, before = play.frame, play.last_frame
+    current, last = play.frame, play.last_frame
     play.advance()
-    assert play.frame is before
-    assert play.last_frame is now
+    assert play.frame is last
+    assert play.last_frame is current
 
 
-def test_a_task_that_lacks_a_method_cannot_be_made() -> None:
-    class Lazy(Task):
+def test_a_task_without_an_abstract_method_cannot_be_created() -> None:
+    class Incomplete(Task):
         def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
             return Frame.empty(len(rng), 1, 1)
 
     with pytest.raises(TypeError, match="abstract"):
-        Lazy()  # type: ignore[abstract]
+        Incomplete()  # type: ignore[abstract]

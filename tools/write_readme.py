@@ -140,7 +140,7 @@ def old_names() -> str:
     for name, (task, given) in legacy_names.ALIASES.items():
         told = [f"`{option}={value!r}`" for option, value in given.items()]
         rows.append((f"`{name}`", ", ".join([f"`{task}`", *told]), _doors(name)))
-    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.GONE.items()]
+    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.RETIRED.items()]
     return table(("rsoccer-gym 1.4", "here", "through"), rows)
 
 

@@ -1,4 +1,7 @@
-"""Checks of what comes from outside: each raises before anything has changed."""
+"""Validation of arguments: each function raises an error that names the argument.
+
+Validation happens before any state changes.
+"""
 
 import math
 from collections.abc import Mapping
@@ -11,90 +14,204 @@ from rsoccer._core import RobotModel, SimConfig
 from rsoccer.frame import Array, Floats, Mask
 
 
-def whole(name: str, value: object, least: int) -> int:
-    """An integer, at least `least`."""
+def integer(name: str, value: object, low: int) -> int:
+    """Validate an integer of at least `low`.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+        low: least valid value.
+
+    Returns:
+        The value as an int.
+
+    Raises:
+        TypeError: not an integer; bools are refused too.
+        ValueError: below `low`.
+    """
     if isinstance(value, bool) or not isinstance(value, int | np.integer):
         raise TypeError(f"{name}: expected a whole number, got {value!r}")
-    if value < least:
-        raise ValueError(f"{name}: expected at least {least}, got {value}")
+    if value < low:
+        raise ValueError(f"{name}: expected at least {low}, got {value}")
     return int(value)
 
 
-def within(name: str, value: object, least: int, most: int) -> int:
-    """An integer from `least` to `most`."""
-    if (number := whole(name, value, least)) > most:
-        raise ValueError(f"{name}: expected at most {most}, got {number}")
+def integer_in_range(name: str, value: object, low: int, high: int) -> int:
+    """Validate an integer from `low` to `high`, both included.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+        low: least valid value.
+        high: greatest valid value.
+
+    Returns:
+        The value as an int.
+
+    Raises:
+        TypeError: not an integer; bools are refused too.
+        ValueError: outside the range.
+    """
+    if (number := integer(name, value, low)) > high:
+        raise ValueError(f"{name}: expected at most {high}, got {number}")
     return number
 
 
-def number(name: str, value: object, least: float, most: float) -> float:
-    """A finite number from `least` to `most`."""
+def number_in_range(name: str, value: object, low: float, high: float) -> float:
+    """Validate a finite number from `low` to `high`, both included.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+        low: least valid value.
+        high: greatest valid value.
+
+    Returns:
+        The value as a float.
+
+    Raises:
+        TypeError: not a number; bools are refused too.
+        ValueError: outside the range, or NaN.
+    """
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name}: expected a number, got {value!r}")
-    if not least <= float(value) <= most:  # nor is NaN
-        raise ValueError(f"{name}: expected {least:g} to {most:g}, got {value}")
+    if not low <= float(value) <= high:  # refuses NaN too
+        raise ValueError(f"{name}: expected {low:g} to {high:g}, got {value}")
     return float(value)
 
 
-def flag(name: str, value: object) -> bool:
-    """True or False, and nothing else that counts as either."""
+def boolean(name: str, value: object) -> bool:
+    """Validate True or False; other values with a truth value are refused.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Returns:
+        The value as a bool.
+
+    Raises:
+        TypeError: neither True nor False.
+    """
     if not isinstance(value, bool | np.bool_):
         raise TypeError(f"{name}: expected True or False, got {value!r}")
     return bool(value)
 
 
 def preset(name: str, value: object, kind: type) -> None:
-    """A preset's name or what it stands for; the simulator says which names there are."""
+    """Validate the type of a preset's name or of a model; the simulator validates the name.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+        kind: class of the model, such as `RobotModel`.
+
+    Raises:
+        TypeError: neither text nor a `kind`.
+    """
     if not isinstance(value, str | kind):
         raise TypeError(f"{name}: expected a preset's name or a {kind.__name__}, got {value!r}")
 
 
-def robots(value: object) -> None:
-    """A robot of a preset or by numbers, or a list of them; None is the simulator's own."""
-    each = value if isinstance(value, list | tuple) else [] if value is None else [value]
-    for robot in each:
-        preset("robot", robot, RobotModel)
+def robot_models(value: object) -> None:
+    """Validate the types of the option `robot`.
+
+    Args:
+        value: one robot model or preset's name for all robots, or a list with one for each; None
+            for the simulator's default.
+
+    Raises:
+        TypeError: an entry is neither text nor a `RobotModel`.
+    """
+    models = value if isinstance(value, list | tuple) else [] if value is None else [value]
+    for model in models:
+        preset("robot", model, RobotModel)
 
 
-def drive(config: SimConfig, kind: str, needed: str) -> None:
-    """Robots of one model that has a drive of this kind; `needed` says it in words."""
+def drive(config: SimConfig, kind: str, description: str) -> None:
+    """Validate that all robots are of one model with a kind of drive.
+
+    Args:
+        config: configuration with the robots.
+        kind: "differential" or "omni".
+        description: the required drive in words, for the error.
+
+    Raises:
+        ValueError: robots of different models, or of another drive.
+    """
     names = sorted({robot.name for robot in config.robots})
     if len(names) > 1:
         raise ValueError(f"robot: expected one model for all, got {names}")
     if config.robot.drive != kind:
-        raise ValueError(f"robot: expected one {needed}, got {names[0]!r}")
+        raise ValueError(f"robot: expected one {description}, got {names[0]!r}")
 
 
 def seeds(value: object, n: int) -> list[int | None] | None:
-    """A seed for each of n worlds, None where its streams shall go on; None if all shall.
+    """Validate the seeds of n worlds.
 
-    A whole number is the first world's seed and the others' count up from it.
+    Args:
+        value: the seed of the first world, from which those of the others count up; or a sequence
+            of n seeds, of which None lets the random streams of its world continue; or None for
+            all worlds.
+        n: number of worlds.
+
+    Returns:
+        A seed or None for each world, or None for all.
+
+    Raises:
+        TypeError: a seed that is not an integer.
+        ValueError: a negative seed, or a sequence of another length.
     """
     if value is None:
         return None
     if not isinstance(value, list | tuple | np.ndarray):
-        first = whole("seed", value, 0)
+        first = integer("seed", value, 0)
         return list(range(first, first + n))
     if len(value) != n:
         raise ValueError(f"seed: expected a number or {n} of them, got {len(value)}")
-    return [None if seed is None else whole("seed", seed, 0) for seed in value]
+    return [None if seed is None else integer("seed", seed, 0) for seed in value]
 
 
 def floats(name: str, value: object, shape: tuple[int, ...]) -> Floats:
-    """A finite, C-contiguous float32 array of this shape; other floating types are cast."""
+    """Validate an array of finite floating-point numbers.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument; other floating-point types are cast to float32.
+        shape: required shape.
+
+    Returns:
+        A C-contiguous float32 array, the argument itself where it is one.
+
+    Raises:
+        TypeError: not an array of a floating-point type.
+        ValueError: another shape, NaN or infinity.
+    """
     array = np.asarray(value)
     if array.dtype.kind != "f":
         raise TypeError(f"{name}: expected float32, got {array.dtype}")
     if array.shape != shape:
         raise ValueError(f"{name}: expected shape {shape}, got {array.shape}")
     if not np.isfinite(array).all():
-        where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        raise ValueError(f"{name}: expected finite numbers, got {array[where]} at {where}")
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise ValueError(f"{name}: expected finite numbers, got {array[index]} at {index}")
     return np.ascontiguousarray(array, np.float32)
 
 
 def actions(value: object, shape: tuple[int, ...]) -> Floats:
-    """Actions (n, agents, action), clipped to [-1, 1]."""
+    """Validate actions and clip them to [-1, 1].
+
+    Args:
+        value: the argument.
+        shape: required shape (n, agents, action).
+
+    Returns:
+        Clipped float32 array.
+
+    Raises:
+        TypeError: not an array of a floating-point type.
+        ValueError: another shape, NaN or infinity.
+    """
     if (clipped := _core.clipped(value, shape)) is not None:
         return clipped
     array = np.asarray(value)
@@ -104,7 +221,18 @@ def actions(value: object, shape: tuple[int, ...]) -> Floats:
 
 
 def mask(value: object, n: int) -> Mask:
-    """A bool (n,); None is all."""
+    """Validate a mask of worlds.
+
+    Args:
+        value: the argument; None selects all worlds.
+        n: number of worlds.
+
+    Returns:
+        (n,) bool.
+
+    Raises:
+        ValueError: another shape or type.
+    """
     if value is None:
         return np.ones(n, np.bool_)
     array = np.asarray(value)
@@ -114,7 +242,19 @@ def mask(value: object, n: int) -> Mask:
 
 
 def memory(source: str, arrays: dict[str, Array], n: int) -> dict[str, Array]:
-    """Copies of arrays that are kept per world, each (n, ...)."""
+    """Validate arrays that are kept per world.
+
+    Args:
+        source: name of the method that returned them, for the error.
+        arrays: arrays by name.
+        n: number of worlds.
+
+    Returns:
+        Copies by name, each (n, ...).
+
+    Raises:
+        ValueError: the first axis of an array is not n.
+    """
     for name, array in arrays.items():
         if np.shape(array)[:1] != (n,):
             raise ValueError(
@@ -125,20 +265,40 @@ def memory(source: str, arrays: dict[str, Array], n: int) -> dict[str, Array]:
 
 
 def commands(value: Array, shape: tuple[int, ...]) -> Floats:
-    """What a task tells the robots (n, robots, command); the simulator checks the numbers."""
+    """Validate the shape of a task's commands; the simulator validates the numbers.
+
+    Args:
+        value: result of `Task.get_commands`.
+        shape: required shape (n, robots, command).
+
+    Returns:
+        A float32 copy.
+
+    Raises:
+        ValueError: another shape.
+    """
     if value.shape != shape:
         raise ValueError(f"get_commands: expected shape {shape}, got {value.shape}")
-    return np.array(value, np.float32, order="C")  # a copy: it is kept, and cleared at restarts
+    return np.array(value, np.float32, order="C")  # a copy, because `Play` keeps and clears it
 
 
-def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
-    """Of n worlds those whose balls a task moves, as a mask (n,), and their balls (k, columns).
+def repositioned(moves: object, n: int) -> tuple[Mask, Floats]:
+    """Validate the result of `Task.reposition_ball` other than None.
 
-    The task may name worlds in any order; the balls are in that of the mask.
+    Args:
+        moves: (k,) worlds in any order, and (k, ball column) their balls.
+        n: number of worlds.
+
+    Returns:
+        Mask (n,) of the worlds; and (k, ball column) their balls in the order of the mask.
+
+    Raises:
+        TypeError: not a pair, worlds that are not integers, or balls that are not floats.
+        ValueError: a world out of range or given twice, or balls of another shape or not finite.
     """
-    if not isinstance(found, tuple) or len(found) != 2:
-        raise TypeError(f"reposition_ball: expected worlds and balls, or None, got {found!r}")
-    worlds = np.asarray(found[0])
+    if not isinstance(moves, tuple) or len(moves) != 2:
+        raise TypeError(f"reposition_ball: expected worlds and balls, or None, got {moves!r}")
+    worlds = np.asarray(moves[0])
     if worlds.shape == (0,):
         worlds = worlds.astype(np.intp)  # an empty list becomes floats
     if worlds.ndim != 1 or worlds.dtype.kind not in "iu":
@@ -153,34 +313,59 @@ def repositioned(found: object, n: int) -> tuple[Mask, Floats]:
     if np.count_nonzero(mask) != len(worlds):
         raise ValueError(f"reposition_ball: expected each world once, got {worlds.tolist()}")
     shape = (len(worlds), len(_core.BALL_COLUMNS))
-    balls = np.zeros(shape) if not len(worlds) and np.size(found[1]) == 0 else found[1]
+    balls = np.zeros(shape) if not len(worlds) and np.size(moves[1]) == 0 else moves[1]
     balls = floats("reposition_ball: balls", balls, shape)
     return mask, balls[np.argsort(worlds)]
 
 
 def reward_weights(
-    given: object, default: Mapping[str, float], paper: Mapping[str, float]
+    value: object, default: Mapping[str, float], paper: Mapping[str, float]
 ) -> dict[str, float]:
-    """The default weights with those given in their place, or the paper's."""
-    if isinstance(given, str):
-        if given != "paper":
-            raise ValueError(f"reward_weights: expected a mapping or 'paper', got {given!r}")
-        given = paper
-    if not isinstance(given, Mapping):
-        raise TypeError(f"reward_weights: expected a mapping or 'paper', got {given!r}")
-    unknown = sorted(set(given) - set(default), key=str)
+    """Validate the option `reward_weights`.
+
+    Args:
+        value: weights by name that replace default ones, or "paper".
+        default: default weight of each reward term.
+        paper: weights of the preset "paper".
+
+    Returns:
+        Weight of each reward term by name.
+
+    Raises:
+        TypeError: neither a mapping nor "paper", or a weight that is not a number.
+        ValueError: other text, an unknown term, or a weight that is not finite.
+    """
+    if isinstance(value, str):
+        if value != "paper":
+            raise ValueError(f"reward_weights: expected a mapping or 'paper', got {value!r}")
+        value = paper
+    if not isinstance(value, Mapping):
+        raise TypeError(f"reward_weights: expected a mapping or 'paper', got {value!r}")
+    unknown = sorted(set(value) - set(default), key=str)
     if unknown:
         raise ValueError(f"reward_weights: unknown {unknown}; valid are {list(default)}")
-    for name, weight in given.items():
+    for name, weight in value.items():
         if isinstance(weight, bool) or not isinstance(weight, Real):
             raise TypeError(f"reward_weights: expected a number for {name!r}, got {weight!r}")
         if not math.isfinite(weight):
             raise ValueError(f"reward_weights: expected a finite number for {name!r}, got {weight}")
-    return {**default, **given}
+    return {**default, **value}
 
 
 def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
-    """A term of the reward, given as (n, observers) or (n, 1)."""
+    """Validate a reward term and broadcast it to all observers.
+
+    Args:
+        name: name of the term, for the error.
+        value: (n, observers) or (n, 1).
+        shape: (n, observers).
+
+    Returns:
+        (n, observers) float32, perhaps a read-only view.
+
+    Raises:
+        ValueError: another shape.
+    """
     if value.shape not in (shape, (shape[0], 1)):
         raise ValueError(
             f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "
@@ -191,7 +376,18 @@ def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
 
 
 def done(value: Mask, n: int) -> Mask:
-    """Whether the task ended each episode, (n,)."""
+    """Validate the terminations of a task.
+
+    Args:
+        value: the second result of `Task.calculate_reward_and_done`.
+        n: number of worlds.
+
+    Returns:
+        The value, (n,) bool.
+
+    Raises:
+        ValueError: another shape or type.
+    """
     if value.shape != (n,) or value.dtype != np.bool_:
         raise ValueError(
             f"calculate_reward_and_done: expected bool ({n},) for the end of episodes, "
@@ -200,15 +396,23 @@ def done(value: Mask, n: int) -> Mask:
     return value
 
 
-def state(given: Mapping[str, Array], expected: Mapping[str, Array]) -> None:
-    """A saved state with the same names, shapes and types."""
-    odd = sorted(set(given) ^ set(expected))
-    if odd:
-        raise ValueError(f"state: missing or unknown {odd}")
+def state(saved: Mapping[str, Array], expected: Mapping[str, Array]) -> None:
+    """Validate the names, shapes and types of a saved state.
+
+    Args:
+        saved: arrays of the saved state by name.
+        expected: arrays of the same names, shapes and types; of "simulator" only the name counts.
+
+    Raises:
+        ValueError: a missing or unknown name, or an array of another shape or type.
+    """
+    mismatched = sorted(set(saved) ^ set(expected))
+    if mismatched:
+        raise ValueError(f"state: missing or unknown {mismatched}")
     for name, array in expected.items():
-        got = given[name]
-        if name != "simulator" and (got.shape, got.dtype) != (array.shape, array.dtype):
+        found = saved[name]
+        if name != "simulator" and (found.shape, found.dtype) != (array.shape, array.dtype):
             raise ValueError(
                 f"state: expected {array.dtype} {array.shape} for {name!r}, "
-                f"got {got.dtype} {got.shape}"
+                f"got {found.dtype} {found.shape}"
             )

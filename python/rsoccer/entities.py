@@ -145,7 +145,7 @@ def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
     """The row (row,) that says the same; a robot is who its place in the dictionary says.
 
     What entities do not tell is as in `Frame.empty`: the ball's spin, for one, so that a ball that
-    moves slides before it rolls (`spawn.roll` gives it the spin of rolling).
+    moves slides before it rolls (`spawn.set_rolling_spin` gives it the spin of rolling).
     """
     robots = [
         *_listed("robots_blue", entities.robots_blue, n_blue),

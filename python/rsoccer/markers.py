@@ -1,41 +1,52 @@
-"""What a task would draw on the floor, as plain data: pictures show where the play is to go."""
+"""Floor markers of a task as plain data; `rsoccer.render.markers` draws them."""
 
 from dataclasses import dataclass
 
 Point = tuple[float, float]
+"""Position x, y on the field, m."""
 
 
 @dataclass(frozen=True)
 class Target:
-    """A place to be reached. Metres."""
+    """Circle around a target position."""
 
     center: Point
+    """Centre x, y, m."""
     radius: float
+    """Radius, m."""
 
 
 @dataclass(frozen=True)
 class Gate:
-    """A gap to go through, named as who goes through it sees its ends."""
+    """Gap between two posts, named from the direction of the crossing."""
 
     left: Point
+    """Left post x, y, m."""
     right: Point
+    """Right post x, y, m."""
     done: bool = False
+    """Whether no crossing of the gate is left."""
 
 
 @dataclass(frozen=True)
 class Area:
-    """A rectangle by its least and its greatest corner."""
+    """Axis-aligned rectangle."""
 
     low: Point
+    """Corner with the least x and y, m."""
     high: Point
+    """Corner with the greatest x and y, m."""
 
 
 @dataclass(frozen=True)
-class Way:
-    """A straight way from one place to another."""
+class Segment:
+    """Straight line segment, such as the path of a pass."""
 
     start: Point
+    """First end x, y, m."""
     end: Point
+    """Second end x, y, m."""
 
 
-Marker = Target | Gate | Area | Way
+Marker = Target | Gate | Area | Segment
+"""Any marker."""

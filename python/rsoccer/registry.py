@@ -1,4 +1,4 @@
-"""Tasks by name."""
+"""Registry of tasks by name, with aliases and names that were retired."""
 
 import inspect
 import re
@@ -10,28 +10,35 @@ from rsoccer.task import Task
 
 
 class Alias(NamedTuple):
-    """Another name's meaning: a registered task, with options."""
+    """Registered task and options that an alias stands for."""
 
     task: str
+    """Registered name of a task."""
     options: Mapping[str, Any]
+    """Options of the task; explicit options of `make_task` take precedence."""
 
 
 _TASKS: Final[dict[str, type[Task]]] = {}
 _ALIASES: Final[dict[str, Alias]] = {}
-_GONE: Final[dict[str, str]] = {}
+_RETIRED: Final[dict[str, str]] = {}
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 
 
 def register(name: str, task_class: type[Task]) -> None:
-    """Make a task known by `name`, such as "MyTask-v0", which its tasks then carry.
+    """Register a task class and set its `name`.
 
-    Gymnasium and PettingZoo know it as "rsoccer/MyTask-v0", the former where one robot learns;
-    neither does where an option has no default. `alias` gives a task a second name.
+    PettingZoo's and Gymnasium's registries get the id "rsoccer/<name>", Gymnasium's only where
+    exactly one robot learns. Neither gets it where an option has no default. Use `alias` for a
+    second name.
+
+    Args:
+        name: letters, digits and underscores with a version, such as "MyTask-v0".
+        task_class: a subclass of `Task`.
 
     Raises:
-        TypeError: what is no subclass of `Task`.
-        ValueError: a name without a version, or one that is taken, or a task that has a name.
-        Exception: whatever making the task raises, if all its options have defaults.
+        TypeError: `task_class` is not a subclass of `Task`.
+        ValueError: `name` has no version or is taken, or the class is registered already.
+        Exception: any error of creating the task, where all its options have defaults.
     """
     _check_name(name)
     if not (isinstance(task_class, type) and issubclass(task_class, Task)):
@@ -46,50 +53,82 @@ def register(name: str, task_class: type[Task]) -> None:
             f"task_class: {task_class.__qualname__} is known as {known!r} already; "
             f"registry.alias({name!r}, {known!r}) gives it another name"
         )
-    learners = None if _needs_options(task_class) else len(task_class().agents)
+    learners = None if _has_required_options(task_class) else len(task_class().agents)
     task_class.name = name
     _TASKS[name] = task_class
     ids.announce(name, learners)
 
 
 def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the task's own)
-    """Make a registered task with these options known by another name as well.
+    """Register another name for a task with preset options.
 
-    It has ids too, and takes the task's options; what it makes carries the task's own name.
+    The alias gets ids like a task. `Task.name` of the created task remains the task's own name.
+
+    Args:
+        name: the new name, with a version, such as "MyTask-v0".
+        task: a registered name or an alias.
+        **options: preset options of the task.
+
+    Raises:
+        ValueError: `name` has no version or is taken, or `make_task` refuses the task or options.
     """
     _check_name(name)
     if name in _TASKS or _ALIASES.get(name, (task, options)) != (task, options):
         raise ValueError(f"name: {name!r} is already taken")
-    learners = len(make_task(task, **options).agents)  # refuses what cannot be made
+    learners = len(make_task(task, **options).agents)  # raises for invalid options
     _ALIASES[name] = Alias(task, options)
     ids.announce(name, learners)
 
 
 def retire(name: str, hint: str) -> None:
-    """Tell those who ask for `name`, which no task has any more, what to do instead."""
+    """Register a hint for a name that no longer has a task; `make_task` raises with it.
+
+    Args:
+        name: the former name.
+        hint: replacement to suggest, as the rest of the error message.
+
+    Raises:
+        ValueError: `name` has no version or is in use.
+    """
     _check_name(name)
     if name in _TASKS or name in _ALIASES:
         raise ValueError(f"name: {name!r} is still in use")
-    _GONE[name] = hint
+    _RETIRED[name] = hint
 
 
 def list_tasks() -> list[str]:
-    """Names of all tasks, each once: without aliases."""
+    """Return the names of all registered tasks in alphabetical order, without aliases."""
     return sorted(_TASKS)
 
 
 def list_aliases() -> dict[str, Alias]:
-    """Other names, and the tasks and options that they stand for."""
+    """Return all aliases by name, in alphabetical order."""
     return dict(sorted(_ALIASES.items()))
 
 
 def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task has its own options)
-    """A task by its name; options are the fields of its class, or what it is made with."""
+    """Create a task by name.
+
+    Args:
+        name: a registered name or an alias.
+        **options: options of the task, the parameters of its class; see `list_options`.
+
+    Returns:
+        The task.
+
+    Raises:
+        ValueError: an unknown name or option, or an option's value that the task refuses.
+
+    Example:
+        >>> import rsoccer
+        >>> rsoccer.make_task("VSSMulti-v0", n_blue=2, opponent="chase").agents
+        ('blue_0', 'blue_1')
+    """
     if name in _ALIASES:
-        meant, preset = _ALIASES[name]
-        return make_task(meant, **{**preset, **options})
+        task, preset = _ALIASES[name]
+        return make_task(task, **{**preset, **options})
     if name not in _TASKS:
-        hint = _GONE.get(name, f"expected one of {list_tasks()}")
+        hint = _RETIRED.get(name, f"expected one of {list_tasks()}")
         raise ValueError(f"unknown task {name!r}: {hint}")
     task_class = _TASKS[name]
     valid = list_options(task_class)
@@ -100,7 +139,15 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
 
 
 def as_task(task: object) -> Task:
-    """A task by its name, or itself; a TypeError for anything else."""
+    """Return a task given as an instance or by name.
+
+    Args:
+        task: a task, a registered name or an alias.
+
+    Raises:
+        TypeError: anything else.
+        ValueError: an unknown name.
+    """
     if isinstance(task, str):
         return make_task(task)
     if not isinstance(task, Task):
@@ -109,12 +156,16 @@ def as_task(task: object) -> Task:
 
 
 def list_options(task_class: type[Task]) -> list[str]:
-    """Names of the options that a task's class takes."""
+    """Return the names of a task's options, in the order of its parameters.
+
+    Args:
+        task_class: the class of the task.
+    """
     return list(inspect.signature(task_class).parameters)
 
 
-def _needs_options(task_class: type[Task]) -> bool:
-    """Whether it cannot be made without saying something."""
+def _has_required_options(task_class: type[Task]) -> bool:
+    """Whether an option has no default."""
     variadic = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     parameters = inspect.signature(task_class).parameters.values()
     return any(p.default is p.empty and p.kind not in variadic for p in parameters)

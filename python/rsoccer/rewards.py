@@ -1,7 +1,7 @@
-"""Terms of a reward, unweighted: batched functions that tasks call.
+"""Reward terms, unweighted and batched over worlds and observers.
 
-Terms that guide are differences of a potential between two frames, so going back and forth pays
-nothing and no memory is needed.
+Shaping terms are differences of a potential between two consecutive views (potential-based
+shaping), so a cycle of states adds up to zero and no memory is needed.
 """
 
 from collections.abc import Mapping
@@ -14,77 +14,161 @@ from rsoccer._core import CROSSINGS, Field, Potential, SimConfig, efforts
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns, Floats, Mask
 from rsoccer.task import Play
 
-BEHIND: Final = 0.08
+BEHIND_BALL_DISTANCE: Final = 0.08
 """Metres: half a VSSS robot, a ball's radius and two centimetres to turn in."""
 
 
 def goal(play: Play) -> Floats:
-    """+1 for a goal, -1 for one against, else 0; (n, observers)."""
-    return goals_at(play.view.ball)
+    """Return +1 for a goal of the observer's team, -1 for one against it, else 0.
+
+    Args:
+        play: state of n worlds.
+
+    Returns:
+        (n, observers).
+    """
+    return goal_score(play.view.ball)
 
 
-def goals_at(ball: BallColumns) -> Floats:
-    """+1 where the ball went into the goal at +x, -1 where into the other one, else 0; (...)."""
-    return _GOALS[ball.crossed.astype(np.intp)]
+def goal_score(ball: BallColumns) -> Floats:
+    """Return +1 where the ball crossed the goal line at +x, -1 where the one at -x, else 0.
+
+    Args:
+        ball: balls (...) after a step.
+
+    Returns:
+        (...), of the same shape as `ball.crossed`.
+    """
+    return _GOAL_SCORES[ball.crossed.astype(np.intp)]
 
 
 def scored(play: Play) -> Mask:
-    """Whether either side has scored, (n,)."""
-    return np.not_equal(goals_at(play.frame.ball), 0.0)
+    """Return the worlds in which either team scored in the last step.
+
+    Args:
+        play: state of n worlds.
+
+    Returns:
+        (n,).
+    """
+    return np.not_equal(goal_score(play.frame.ball), 0.0)
 
 
-def gained(play: Play, potential: Potential) -> Floats:
-    """What each observer gained of a potential in the last step, (n, observers) metres."""
+def potential_difference(play: Play, potential: Potential) -> Floats:
+    """Return the increase of a potential in the last step.
+
+    Args:
+        play: state of n worlds.
+        potential: function of the view of an observer, m.
+
+    Returns:
+        (n, observers) metres.
+    """
     last, view = play.last_view, play.view
     return potential.gained(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
-    """Metres the ball came closer to the goal attacked and away from the own one, (n, observers).
+    """Return the progress of the ball towards the attacked goal and away from the own goal.
 
-    The mean of the two, so what one side wins the other loses.
+    The mean of both changes of distance, so it is zero-sum between the teams.
+
+    Args:
+        play: state of n worlds.
+        field: gives the positions of the goals.
+
+    Returns:
+        (n, observers) metres.
     """
-    return gained(play, Potential.ball_to_goal(field))
+    return potential_difference(play, Potential.ball_to_goal(field))
 
 
-def approach(play: Play, field: Field) -> Floats:
-    """Metres that each observer came closer to where it can drive the ball at the goal, (n, observers).
+def approach_behind_ball(play: Play, field: Field) -> Floats:
+    """Return the progress of each observer towards the point just behind the ball.
 
-    That is a point just behind the ball: who stands before the ball is drawn around it, and two
-    of one team are not paid for pushing it from opposite sides.
+    That point lies `BEHIND_BALL_DISTANCE` from the ball, opposite to the attacked goal. A robot in
+    front of the ball is rewarded for driving around it, and two robots of one team are not
+    rewarded for pushing the ball from opposite sides.
+
+    Args:
+        play: state of n worlds.
+        field: gives the position of the goal and the walls.
+
+    Returns:
+        (n, observers) metres.
     """
-    return gained(play, Potential.behind_ball(field, BEHIND))
+    return potential_difference(play, Potential.behind_ball(field, BEHIND_BALL_DISTANCE))
 
 
-def to_mouth(play: Play, config: SimConfig) -> Floats:
-    """Metres that the ball came closer to each observer's mouth, (n, observers).
+def approach_mouth(play: Play, config: SimConfig) -> Floats:
+    """Return the decrease of the distance between the ball and each observer's mouth.
 
-    Nothing is left to gain only for who faces the ball, so it draws a robot near and round to it.
+    The mouth is the dribbler's place at the front of an SSL robot. The potential is maximal only
+    with the ball directly in front, so it pulls the robot close and turns it to face the ball.
+
+    Args:
+        play: state of n worlds.
+        config: gives the robot and the ball.
+
+    Returns:
+        (n, observers) metres.
+
+    Raises:
+        ValueError: the robot has no mouth.
     """
-    return gained(play, Potential.at_mouth(config.robot, config.ball))
+    return potential_difference(play, Potential.at_mouth(config.robot, config.ball))
 
 
-def nearest(play: Play) -> Mask:
-    """Whether each observer was its team's nearest to the ball before the step, (n, observers).
+def nearest_to_ball(play: Play) -> Mask:
+    """Return the observers that were their team's nearest to the ball before the step.
 
-    Who moved the ball, as a rule: paid for what the ball did, it learns from less noise than if
-    its teammates were paid alike.
+    Usually the nearest robot moved the ball. If only that robot is rewarded for the ball's
+    motion, the reward of its teammates has less noise.
+
+    Args:
+        play: state of n worlds.
+
+    Returns:
+        (n, observers).
     """
     return _core.nearest(play.last_frame.rows, play.last_frame.n_blue, play.observers)
 
 
-def weighted(terms: dict[str, Floats], weights: Mapping[str, float] | str) -> dict[str, Floats]:
-    """Terms times their weights; a task's `weights` are numbers once it is made."""
+def energy(play: Play) -> Floats:
+    """Return the negative mean magnitude of each observer's action, a proxy of its energy.
+
+    Args:
+        play: state of n worlds.
+
+    Returns:
+        (n, observers) in [-1, 0].
+    """
+    effort = efforts(play.actions, play.observers)
+    return np.negative(effort, out=effort)
+
+
+def weighted_terms(
+    terms: dict[str, Floats], weights: Mapping[str, float] | str
+) -> dict[str, Floats]:
+    """Return reward terms times their weights.
+
+    Args:
+        terms: unweighted terms by name, each (n, observers) or (n, 1).
+        weights: weight of each term by name. The type of a task's option includes text; a task
+            replaces text by numbers when it is created.
+
+    Returns:
+        Weighted terms by name, in the order of `terms`.
+
+    Raises:
+        TypeError: `weights` is text.
+    """
     if isinstance(weights, str):
         raise TypeError(f"weights: expected numbers by name, got {weights!r}")
     return {name: term * np.float32(weights[name]) for name, term in terms.items()}
 
 
-def energy(play: Play) -> Floats:
-    """Effort of each observer: the mean magnitude of its action, negative; (n, observers)."""
-    effort = efforts(play.actions, play.observers)
-    return np.negative(effort, out=effort)
-
-
-# (crossings,) what a crossing is worth to who attacks the goal at +x
-_GOALS = np.array([(i == GOAL_RIGHT) - (i == GOAL_LEFT) for i in range(len(CROSSINGS))], np.float32)
+# (crossings,) score of each kind of crossing for the team that attacks +x.
+_GOAL_SCORES = np.array(
+    [(i == GOAL_RIGHT) - (i == GOAL_LEFT) for i in range(len(CROSSINGS))], np.float32
+)

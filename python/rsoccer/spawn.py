@@ -1,4 +1,8 @@
-"""Starts: where things are when an episode begins. Each world draws from its own stream only."""
+"""Random initial states: positions without overlap, headings and velocities.
+
+Each world draws from its own random stream only, so its start does not depend on the number of
+worlds.
+"""
 
 from collections.abc import Callable, Sequence
 from typing import Final
@@ -9,117 +13,179 @@ from rsoccer._core import BallModel, Field, SimConfig
 from rsoccer.frame import BallColumns, Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 
-TRIES: Final = 1000
 Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]
+"""Lower and upper corner (x, y) of a rectangle, m."""
 
-MARGIN: Final = 1e-3  # metres; what float32 and the simulator may see differently
+MAX_DRAWS: Final = 1000
+"""Draws per world before the search for positions fails."""
+MARGIN: Final = 1e-3
+"""Metres added to each radius, for differences in rounding between float32 and the simulator."""
 
 
-def anywhere(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame:
-    """Ball and robots at rest anywhere in the field, apart; robots face anywhere."""
+def random_frame(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame:
+    """Draw a frame with ball and robots at rest anywhere in the field, with random headings.
+
+    Args:
+        rng: (n,) random streams.
+        config: field, ball and robots.
+        min_distance: least distance between centres, m; robots and ball never overlap.
+
+    Returns:
+        A frame of n worlds.
+
+    Raises:
+        ValueError: no free positions were found.
+    """
     frame = Frame.empty(len(rng), config.n_blue, config.n_yellow)
     radii = [config.ball.radius, *(robot.bounding_radius for robot in config.robots)]
-    places = apart(rng, config.field, radii, min_distance)
-    frame.ball.position[:] = places[:, 0]
-    frame.robots.position[:] = places[:, 1:]
+    drawn = positions(rng, config.field, radii, min_distance)
+    frame.ball.position[:] = drawn[:, 0]
+    frame.robots.position[:] = drawn[:, 1:]
     frame.robots.heading[:] = headings(rng, config.n_robots)
     return frame
 
 
-def apart(rng: WorldRng, field: Field, radii: Sequence[float], min_distance: float = 0.0) -> Floats:
-    """Random places (n, things, 2) in the field for things of these radii, metres.
+def positions(
+    rng: WorldRng, field: Field, radii: Sequence[float], min_distance: float = 0.0
+) -> Floats:
+    """Draw positions of discs in the field that overlap neither each other nor the walls.
 
-    Centres are `min_distance` apart or more, nothing touches, and all keep clear of the walls
-    and of the blocks in the corners. What does not fit is drawn again, in that world only.
+    The blocks in the corners of a VSSS field count as walls. Rejection sampling: discs that do not
+    fit are drawn again, in their world only.
+
+    Args:
+        rng: (n,) random streams.
+        field: limits of the positions.
+        radii: radius of each disc, m.
+        min_distance: least distance between centres, m.
+
+    Returns:
+        (n, len(radii), 2) positions, m.
+
+    Raises:
+        ValueError: no free positions were found in `MAX_DRAWS` draws.
     """
     radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
     box = np.array([field.half_length, field.half_width], np.float32) - radius[:, None]
-    # A block's face is the line |x| + |y| = const at 45 degrees, hence the root of two.
-    reach = field.half_length + field.half_width - field.corner - np.float32(2**0.5) * radius
+    # The face of a corner block is the line |x| + |y| = const at 45 degrees, hence the root of 2.
+    diagonal = field.half_length + field.half_width - field.corner - np.float32(2**0.5) * radius
 
-    def cornered(places: Floats) -> Mask:
-        beyond: Mask = np.abs(places[..., 0]) + np.abs(places[..., 1]) > reach
+    def in_corner(drawn: Floats) -> Mask:
+        beyond: Mask = np.abs(drawn[..., 0]) + np.abs(drawn[..., 1]) > diagonal
         return beyond
 
-    where = f"in a field of {field.length} x {field.width} m"
-    return _scattered(rng, (-box, box), radii, min_distance, cornered, where)
+    region = f"in a field of {field.length} x {field.width} m"
+    return _rejection_sample(rng, (-box, box), radii, min_distance, in_corner, region)
 
 
-def inside(
+def positions_in_box(
     rng: WorldRng,
     box: Box,
     radii: Sequence[float],
     min_distance: float = 0.0,
     forbidden: Callable[[Floats], Mask] | None = None,
 ) -> Floats:
-    """Random places (n, things, 2) of things of these radii in a box, metres.
+    """Draw positions of discs with their centres in a rectangle, without overlap.
 
-    `box` is its least and its greatest corner; `forbidden` says of places (n, things, 2) which are
-    not allowed (n, things). Otherwise as `apart`.
+    Args:
+        rng: (n,) random streams.
+        box: lower and upper corner of the rectangle, m, for all discs (2,) or each (len(radii), 2).
+        radii: radius of each disc, m.
+        min_distance: least distance between centres, m.
+        forbidden: maps positions (n, len(radii), 2) to a mask (n, len(radii)) of those to reject;
+            None allows all.
+
+    Returns:
+        (n, len(radii), 2) positions, m.
+
+    Raises:
+        ValueError: no free positions were found in `MAX_DRAWS` draws.
     """
     shape = (len(radii), 2)
     corners = tuple(np.broadcast_to(np.asarray(corner, np.float32), shape) for corner in box)
-    none = forbidden or (lambda places: np.zeros(places.shape[:2], np.bool_))
-    where = f"between {tuple(box[0])} and {tuple(box[1])} m"
-    return _scattered(rng, (corners[0], corners[1]), radii, min_distance, none, where)
+    rejected = forbidden or (lambda drawn: np.zeros(drawn.shape[:2], np.bool_))
+    region = f"between {tuple(box[0])} and {tuple(box[1])} m"
+    return _rejection_sample(rng, (corners[0], corners[1]), radii, min_distance, rejected, region)
 
 
 def headings(rng: WorldRng, robots: int) -> Floats:
-    """Random directions (n, robots, 2): cosine and sine."""
+    """Draw uniform headings.
+
+    Args:
+        rng: (n,) random streams.
+        robots: number of robots in each world.
+
+    Returns:
+        (n, robots, 2) cosine and sine.
+    """
     angle = rng.uniform(-np.pi, np.pi, (robots,))
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-def velocities(rng: WorldRng, top_speed: float) -> Floats:
-    """Random velocities (n, 2), m/s: any direction, any speed up to `top_speed`."""
-    speed = rng.uniform(0.0, top_speed)
+def velocities(rng: WorldRng, max_speed: float) -> Floats:
+    """Draw velocities with uniform direction and uniform speed.
+
+    Args:
+        rng: (n,) random streams.
+        max_speed: upper bound of the speed, m/s.
+
+    Returns:
+        (n, 2) velocities, m/s.
+    """
+    speed = rng.uniform(0.0, max_speed)
     return speed[:, None] * headings(rng, 1)[:, 0]
 
 
-def roll(ball: BallColumns, model: BallModel) -> None:
-    """Give balls that move along the floor the spin of rolling; without it they slide first."""
+def set_rolling_spin(ball: BallColumns, model: BallModel) -> None:
+    """Set the spin of balls on the floor to rolling without slip; with no spin a ball slides first.
+
+    Args:
+        ball: balls (...), whose velocity is read and whose spin is overwritten.
+        model: gives the radius.
+    """
     per_metre = np.float32(1.0 / model.radius)
     ball.spin[..., 0] = -ball.velocity[..., 1] * per_metre
     ball.spin[..., 1] = ball.velocity[..., 0] * per_metre
 
 
-def _scattered(
+def _rejection_sample(
     rng: WorldRng,
     box: tuple[Floats, Floats],
     radii: Sequence[float],
     min_distance: float,
     forbidden: Callable[[Floats], Mask],
-    where: str,
+    region: str,
 ) -> Floats:
-    """Places (n, things, 2) in boxes (things, 2), drawn until nothing is misplaced."""
+    """Positions (n, discs, 2) in boxes (discs, 2), redrawn until none is rejected."""
     radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
-    gaps = np.maximum(radius[:, None] + radius, np.float32(min_distance))
-    gaps = np.tril(gaps, -1)  # of two that are too close, the later one is drawn again
-    places = _draw(rng, box)
-    for _ in range(TRIES):
-        bad = _too_close(places, gaps) | forbidden(places)
-        worlds = np.flatnonzero(bad.any(axis=1))
+    distances = np.maximum(radius[:, None] + radius, np.float32(min_distance))
+    distances = np.tril(distances, -1)  # of two discs that are too close, the later is redrawn
+    drawn = _uniform(rng, box)
+    for _ in range(MAX_DRAWS):
+        rejected = _too_close(drawn, distances) | forbidden(drawn)
+        worlds = np.flatnonzero(rejected.any(axis=1))
         if not len(worlds):
-            return places
-        part = rng[worlds]
-        places[worlds] = np.where(bad[worlds, :, None], _draw(part, box), places[worlds])
-        rng.put(worlds, part)
+            return drawn
+        streams = rng[worlds]
+        drawn[worlds] = np.where(rejected[worlds, :, None], _uniform(streams, box), drawn[worlds])
+        rng.put(worlds, streams)
     raise ValueError(
-        f"no room for {len(radii)} things of radii {list(radii)} m, {min_distance} m apart, {where}"
+        f"no free positions for {len(radii)} discs of radii {list(radii)} m, "
+        f"{min_distance} m apart, {region}"
     )
 
 
-def _draw(rng: WorldRng, box: tuple[Floats, Floats]) -> Floats:
+def _uniform(rng: WorldRng, box: tuple[Floats, Floats]) -> Floats:
     low, high = box
     middle, half = (low + high) * np.float32(0.5), (high - low) * np.float32(0.5)
     return middle + rng.uniform(-1.0, 1.0, low.shape) * half
 
 
-def _too_close(places: Floats, gaps: Floats) -> Mask:
-    """(n, things) which are too close to an earlier one."""
-    x, y = places[..., 0], places[..., 1]
-    across = x[:, :, None] - x[:, None, :]
-    along = y[:, :, None] - y[:, None, :]
-    close = np.less(across * across + along * along, gaps * gaps)
+def _too_close(drawn: Floats, distances: Floats) -> Mask:
+    """Mask (n, discs) of the discs that are too close to an earlier one."""
+    x, y = drawn[..., 0], drawn[..., 1]
+    d_x = x[:, :, None] - x[:, None, :]
+    d_y = y[:, :, None] - y[:, None, :]
+    close = np.less(d_x * d_x + d_y * d_y, distances * distances)
     too_close: Mask = close.any(axis=2)
     return too_close

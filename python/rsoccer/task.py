@@ -1,7 +1,8 @@
-"""A task: the four methods that a researcher writes, for all worlds at once.
+"""Base class of tasks: initial states, commands, observations, rewards and terminations.
 
-A task has no state. What two frames cannot tell goes into `play.memory`; options are the fields
-of a frozen dataclass. Who drives which robot is no business of a task: it names only defaults.
+A task is stateless and batched: every method handles all worlds at once. State that two
+consecutive frames do not contain goes into `play.memory`. Options are the fields of a frozen
+dataclass. A task names only default controllers; `Matches` assigns the actual ones.
 """
 
 import math
@@ -25,134 +26,220 @@ from rsoccer.view import SIDES, Viewpoint
 __all__ = ["DEFAULT_LIMIT", "LEARN", "Block", "Learn", "Play", "Task"]
 
 DEFAULT_LIMIT: Final = 10.0
+"""Bound of observation blocks without a bound of their own."""
 
 
 class Learn(Enum):
-    """Marks a robot whose actions come from outside."""
+    """Type of `LEARN`."""
 
     LEARN = "learn"
+    """Controller of a robot whose actions are passed to `Matches.step`."""
 
 
 LEARN: Final = Learn.LEARN
+"""Controller of a robot whose actions are passed to `Matches.step`."""
 
 
 class Block(NamedTuple):
-    """Where one named part of the observation lies in the flat one."""
+    """Shape and position of one named block of the observation."""
 
-    shape: tuple[int, ...]  # of one observer's block
-    columns: slice  # of the flat observation
+    shape: tuple[int, ...]
+    """Shape of the block of one observer."""
+    columns: slice
+    """Columns of the flat observation that hold the block."""
 
     @property
     def size(self) -> int:
-        """Numbers in it."""
+        """Number of columns."""
         return math.prod(self.shape)
 
 
 class Task(ABC):
-    """What a researcher writes. Every array is batched over `n` worlds; no state on self."""
+    """Base class of tasks, batched over `n` worlds.
+
+    A subclass defines `action_size`, `max_steps`, `config` and the four methods
+    `get_initial_positions_frame`, `get_commands`, `frame_to_observations` and
+    `calculate_reward_and_done`. `rsoccer.testing.check_task` tests it for common mistakes.
+
+    Example:
+        >>> from dataclasses import dataclass
+        >>> from rsoccer.rewards import energy
+        >>> from rsoccer.tasks import VssSelfPlay
+        >>> @dataclass(frozen=True)
+        ... class LazyVss(VssSelfPlay):
+        ...     def calculate_reward_and_done(self, play):
+        ...         terms, terminated = super().calculate_reward_and_done(play)
+        ...         return terms | {"lazy": energy(play)}, terminated
+    """
 
     name: str = "unnamed"
-    action_size: int  # numbers that drive one robot, each in [-1, 1]
-    max_steps: int  # the clock; ending by it is truncation, not `done`
-    sides: Sequence[str] = SIDES  # teams whose robots may look: views have room for these
-    success: ClassVar[str | None] = None  # the metric that says how well an episode went, if any
+    """Registered name, set by `register`."""
+    action_size: int
+    """Numbers in the action of one robot, each in [-1, 1]."""
+    max_steps: int
+    """Control steps after which an episode is truncated, at least 1."""
+    sides: Sequence[str] = SIDES
+    """Teams whose robots may observe. The views have slots for the largest of these teams."""
+    success: ClassVar[str | None] = None
+    """Metric that measures the success of an episode; None for the return."""
 
     @property
     @abstractmethod
     def config(self) -> SimConfig:
-        """Field, robots, ball and time step, for the simulator."""
+        """Configuration of the simulator: field, robots, ball and time step."""
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """Per-world facts that two frames cannot tell, as they are when an episode starts."""
+        """Create the task's own state at the start of an episode.
+
+        Args:
+            n: number of worlds.
+
+        Returns:
+            Arrays (n, ...) by name. `Play.memory` holds copies of them, which
+            `calculate_reward_and_done` updates in place; a reset renews them. Default: none.
+        """
         return {}
 
     @abstractmethod
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """A starting frame for each of `len(rng)` worlds."""
+        """Draw the initial state of episodes.
+
+        Args:
+            rng: (n,) random streams, one per world. World `i` must depend on stream `i` only.
+
+        Returns:
+            One frame of n worlds.
+        """
 
     @abstractmethod
     def get_commands(self, play: Play, actions: Floats) -> Floats:
-        """(n, robots, action) in [-1, 1] -> (n, robots, command) in SI units."""
+        """Convert actions to robot commands.
+
+        Args:
+            play: state of n worlds.
+            actions: (n, robots, action_size) in [-1, 1].
+
+        Returns:
+            (n, robots, command) in SI units, with the columns `config.command_columns`.
+        """
 
     @abstractmethod
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """Named blocks, each (n, observers, ...): what each robot that looks is shown."""
+        """Compute the observation of each observer as named blocks.
+
+        Args:
+            play: state of n worlds; `play.view` is in the coordinates of each observer.
+
+        Returns:
+            Blocks (n, observers, ...) by name. `observe` concatenates them in this order and
+            clips them to `observation_limits`.
+        """
 
     @abstractmethod
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Weighted terms, each (n, observers) or (n, 1), and whether each world's task ended (n,)."""
+        """Compute the reward terms of the last step and the terminations.
+
+        Args:
+            play: state of n worlds after the step.
+
+        Returns:
+            Weighted reward terms by name, each (n, observers) or (n, 1); and (n,) the episodes
+            that terminate. The reward is the sum of the terms. `max_steps` truncates episodes
+            separately.
+        """
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
-        """What a picture of one world shows on the floor: targets, gates, areas."""
+        """Return the floor markers for pictures of one world: targets, gates, areas.
+
+        Args:
+            play: state of n worlds.
+            world: index of the world, 0 to n - 1.
+        """
         return ()
 
     def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        """Worlds (k,) where the ball goes on from elsewhere, and balls (k, ball column); or None.
+        """Choose the balls to move after a step, such as a ball that left the field.
 
-        Asked after each step: for a ball that left the field and comes back. Position, velocity
-        and spin count, as `frame.ball.data` has them; worlds may be in any order. Robots go on as
-        they are. What was between is not to be rewarded, so there `last_frame` becomes equal to
-        `frame`.
+        Robots keep their state. Where a ball is moved, `last_frame` is set equal to `frame`, so
+        the jump of the ball is not rewarded.
+
+        Args:
+            frame: (n, ...) state after the step.
+
+        Returns:
+            (k,) indices of worlds, each at most once, in any order; and (k, ball column) the new
+            balls with the columns of `frame.ball.data`, of which position, velocity and spin are
+            used. None for no world, which is the default.
         """
         return None
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Facts of each world (n,) that count at the end of an episode."""
+        """Compute metrics of each episode; the values at its end are reported.
+
+        Args:
+            play: state of n worlds.
+
+        Returns:
+            Arrays (n,) by name. Default: none.
+        """
         return {}
 
     @property
     def full_success(self) -> float | None:
-        """Value of `success` with which all is reached; None where more is always better."""
+        """Value of the metric `success` at full success; None for a metric without a maximum."""
         return 1.0
 
     @property
     def two_sided(self) -> bool:
-        """Whether yellow can play blue's part, as it can where both teams learn.
+        """True where yellow can play blue's part, that is, where both teams learn.
 
-        Then a policy is evaluated from both sides, and `success` is +1, 0 or -1 as blue sees it.
+        Such a task is evaluated from both sides, with `success` +1, 0 or -1 for blue.
         """
         learning = {name.rsplit("_", 1)[0] for name in self.agents}
         return set(SIDES) <= learning.intersection(self.sides)
 
     @property
     def action_table(self) -> Floats | None:
-        """Actions (choices, action) that agents choose from; None where they give numbers."""
+        """(choices, action_size) actions of a discrete task; None for continuous actions."""
         return None
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """Who drives each robot if nobody says otherwise: `LEARN` or a policy's name."""
+        """Return the default controller of each robot by name: `LEARN` or a policy's name."""
         return dict.fromkeys(self.robots, LEARN)
 
     def observation_limits(self) -> dict[str, float]:
-        """Blocks and the largest magnitude they show; others are clipped to 10."""
+        """Return the bounds of observation blocks by name.
+
+        A block is clipped to [-bound, bound]. The bound of other blocks is `DEFAULT_LIMIT`.
+        """
         return {}
 
     @property
     def n_blue(self) -> int:
-        """Robots of the team that attacks +x."""
+        """Number of robots in team blue, which attacks +x."""
         return self.config.n_blue
 
     @property
     def n_yellow(self) -> int:
-        """Robots of the other team."""
+        """Number of robots in team yellow, which attacks -x."""
         return self.config.n_yellow
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Names of all robots, in the order of a row."""
+        """Names of all robots in the order of a state row: blue_0, ..., yellow_0, ..."""
         return robot_names(self.n_blue, self.n_yellow)
 
     @property
     def agents(self) -> tuple[str, ...]:
-        """Names of the robots that learn unless `Matches` is told otherwise."""
+        """Names of the robots that learn under the default controllers."""
         controllers = self.default_controllers()
         return tuple(name for name in self.robots if controllers[name] is LEARN)
 
     @cached_property
     def blocks(self) -> dict[str, Block]:
-        """Name, shape and place of each part of the flat observation, found by a trial."""
+        """Blocks of the flat observation by name, found by computing one observation."""
         blocks, first = {}, 0
-        for name, block in self.frame_to_observations(self._trial()).items():
+        for name, block in self.frame_to_observations(self._sample_play()).items():
             shape = block.shape[2:]
             blocks[name] = Block(shape, slice(first, first + math.prod(shape)))
             first += math.prod(shape)
@@ -160,18 +247,18 @@ class Task(ABC):
 
     @property
     def observation_size(self) -> int:
-        """Numbers in the flat observation."""
+        """Numbers in the flat observation of one robot."""
         return sum(block.size for block in self.blocks.values())
 
     @property
     def layout(self) -> str:
-        """The blocks and their shapes as text: what a network was made for."""
+        """Blocks of the observation and their shapes as text; networks save it."""
         sizes = {name: "x".join(map(str, block.shape)) for name, block in self.blocks.items()}
         return ", ".join(f"{name} {size}" for name, size in sizes.items())
 
     @cached_property
     def observation_high(self) -> Floats:
-        """(o,) largest value of each number; the least is its negative."""
+        """(observation_size,) upper bounds of the flat observation."""
         limits = self.observation_limits()
         high = np.empty(self.observation_size, np.float32)
         for name, block in self.blocks.items():
@@ -180,26 +267,49 @@ class Task(ABC):
 
     @cached_property
     def observation_low(self) -> Floats:
-        """(o,) least value of each number."""
+        """(observation_size,) lower bounds of the flat observation, the negative upper bounds."""
         return -self.observation_high
 
     def observe(self, play: Play) -> Floats:
-        """The blocks side by side within their limits, a new array (n, observers, o)."""
+        """Compute the flat observation of each observer, clipped to the bounds.
+
+        Args:
+            play: state of n worlds.
+
+        Returns:
+            A new array (n, observers, observation_size).
+        """
         n, observers = len(play.frame), len(play.observers)
         flat = np.empty((n, observers, len(self.observation_high)), np.float32)
         if observers:
             blocks = self.frame_to_observations(play).values()
-            sized = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks]
-            np.concatenate(sized, axis=-1, out=flat, casting="same_kind")
+            flat_blocks = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks]
+            np.concatenate(flat_blocks, axis=-1, out=flat, casting="same_kind")
             limit(flat, self.observation_high)
         return flat
 
     def new_viewpoint(self, observers: Sequence[int]) -> Viewpoint:
-        """What shows frames to robots `observers`."""
+        """Create the converter from frames to the views of some robots.
+
+        Args:
+            observers: indices of robots in the order of a state row.
+
+        Returns:
+            A viewpoint of these robots.
+        """
         return Viewpoint(self.n_blue, self.n_yellow, observers, self.sides)
 
     def new_play(self, n: int, viewpoint: Viewpoint, rng: WorldRng) -> Play:
-        """Buffers for n worlds with fresh memory; the frames are yet to be filled."""
+        """Create the state of n worlds, with new memory and empty frames.
+
+        Args:
+            n: number of worlds.
+            viewpoint: defines the observers.
+            rng: (n,) random streams of the task.
+
+        Returns:
+            State whose frames and views are still to be filled, by `Play.start`.
+        """
         robots = self.n_blue + self.n_yellow
         return Play(
             frame=Frame.empty(n, self.n_blue, self.n_yellow),
@@ -214,8 +324,8 @@ class Task(ABC):
             steps=np.zeros(n, np.int64),
         )
 
-    def _trial(self) -> Play:
-        """One world, one observer, at a start: enough to read sizes off."""
+    def _sample_play(self) -> Play:
+        """State of one world with one observer at an initial state, for reading sizes."""
         observer = 0 if "blue" in self.sides and self.n_blue else self.n_blue
         viewpoint = self.new_viewpoint([observer])
         play = self.new_play(1, viewpoint, WorldRng.seeded(0, 1))

@@ -1,4 +1,4 @@
-"""What tests of the SSL tasks share: scenes, and episodes of scripts."""
+"""Scenes and episodes of scripted policies for tests of the SSL tasks."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -20,9 +20,9 @@ KICK = (0.0, 0.0, 0.0, 1.0, -1.0)
 
 
 def scene(task: Task, **poses: Any) -> Frame:  # noqa: ANN401  (numbers, nested)
-    """One world: `ball` (x, y) or (x, y, v_x, v_y), and robots (x, y) or (x, y, angle) by name.
+    """Frame of one world: `ball` (x, y) or (x, y, v_x, v_y), robots (x, y) or (x, y, angle).
 
-    Robots that are not named stand far off in a row behind the own goal line of blue.
+    Robots without a pose stand in a column near blue's goal line.
     """
     frame = Frame.empty(1, task.n_blue, task.n_yellow)
     for i, name in enumerate(task.robots):
@@ -39,7 +39,7 @@ def scene(task: Task, **poses: Any) -> Frame:  # noqa: ANN401  (numbers, nested)
 def run(
     task: Task, start: Frame, action: Sequence[float] = STAND, steps: int = 100
 ) -> tuple[Outcome, Matches]:
-    """Play one scene, everyone who learns acting alike, until it ends or for `steps`."""
+    """Play a scene with one action for all learners, until the episode ends or for `steps`."""
     matches = Matches(task, 1, autoreset="disabled")
     matches.reset(rows=start.rows)
     actions = np.broadcast_to(np.array(action, np.float32), (1, len(matches.agents), 5)).copy()
@@ -52,53 +52,57 @@ def run(
 
 @dataclass
 class Episodes:
-    """What a policy got in some episodes, one a world."""
+    """Results of episodes, one per world."""
 
-    returns: Floats  # (n,) of the first agent
+    returns: Floats  # (n,) of agent 0
     metrics: dict[str, Floats]  # (n,) each, at the end
-    paid: dict[str, float] = field(default_factory=dict)  # sum of magnitudes, by term
+    term_totals: dict[str, float] = field(default_factory=dict)  # sum of magnitudes, by term
 
-    def largest(self) -> str:
-        """The term that paid most."""
-        return max(self.paid, key=lambda name: self.paid[name])
+    def largest_term(self) -> str:
+        """Reward term with the largest total."""
+        return max(self.term_totals, key=lambda name: self.term_totals[name])
 
 
 def play(task: Task, policy: str, worlds: int = 24, seed: int = 5) -> Episodes:
-    """Episodes in which `policy` drives all who would learn."""
+    """Episodes in which `policy` controls all learners."""
     matches = Matches(task, worlds, seed, 2, autoreset="disabled")
     matches.reset()
-    driver, shape = policies.make(policy, task), (worlds, len(matches.agents), 5)
+    controller, shape = policies.make(policy, task), (worlds, len(matches.agents), 5)
     rng = WorldRng.seeded(1, worlds)
-    memory = driver.new_memory(shape, rng)
-    got = Episodes(np.zeros(worlds, np.float32), {})
+    memory = controller.new_memory(shape, rng)
+    episodes = Episodes(np.zeros(worlds, np.float32), {})
     playing = np.ones(worlds, np.bool_)
     for _ in range(task.max_steps):
         view = matches.play.view.select(matches.assignment.learner_indices)
-        outcome = matches.step(driver.act(PolicyInput(shape, view, None), rng, memory))
-        got.returns += outcome.rewards[:, 0]
+        outcome = matches.step(controller.act(PolicyInput(shape, view, None), rng, memory))
+        episodes.returns += outcome.rewards[:, 0]
         for name, term in outcome.terms.items():
-            got.paid[name] = got.paid.get(name, 0.0) + float(np.abs(term).sum())
-        for name, fact in outcome.metrics.items():
-            got.metrics.setdefault(name, np.zeros(worlds, np.float32))[playing] = fact[playing]
+            episodes.term_totals[name] = episodes.term_totals.get(name, 0.0) + float(
+                np.abs(term).sum()
+            )
+        for name, metric in outcome.metrics.items():
+            episodes.metrics.setdefault(name, np.zeros(worlds, np.float32))[playing] = metric[
+                playing
+            ]
         playing &= ~outcome.ended
         if not playing.any():
             break
-    return got
+    return episodes
 
 
-def expect_solved(task: Task, solver: str, metric: str, least: float, worlds: int = 24) -> Episodes:
-    """The solver's episodes; it solves it, others do not and earn less, effort hardly counts."""
-    solved, idle, wild = (play(task, name, worlds) for name in (solver, "zero", "uniform"))
-    assert solved.metrics[metric].mean() >= least
-    for other in (idle, wild):
-        assert other.metrics[metric].mean() < 0.2 * least
+def expect_solved(task: Task, solver: str, metric: str, low: float, worlds: int = 24) -> Episodes:
+    """Check that `solver` alone solves the task, and that effort hardly counts; its episodes."""
+    solved, idle, uniform = (play(task, name, worlds) for name in (solver, "zero", "uniform"))
+    assert solved.metrics[metric].mean() >= low
+    for other in (idle, uniform):
+        assert other.metrics[metric].mean() < 0.2 * low
         assert solved.returns.mean() > other.returns.mean() + 2.0
-    assert solved.paid["energy"] < 0.02 * sum(solved.paid.values())
+    assert solved.term_totals["energy"] < 0.02 * sum(solved.term_totals.values())
     return solved
 
 
 def make(name: str, **options: Any) -> Task:  # noqa: ANN401
-    """A registered task."""
+    """Create a registered task."""
     return rsoccer.make_task(name, **options)
 
 

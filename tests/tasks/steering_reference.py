@@ -1,4 +1,4 @@
-"""What actions ask of robots of the SSL, in NumPy: what the core says is checked against it."""
+"""Reference of the commands of SSL robots in NumPy, for comparison with the core."""
 
 import numpy as np
 
@@ -11,15 +11,15 @@ BODY = COMMAND_COLUMNS["omni"]
 
 def commands(task: Ssl, frame: Frame, actions: Floats) -> Floats:
     """(n, robots, 6) for actions (n, robots, 5)."""
-    asked = actions * task.action_scales
-    told = np.zeros((*actions.shape[:2], len(BODY)), np.float32)
-    told[..., :3] = asked[..., :3]
+    scaled = actions * task.action_scales
+    commanded = np.zeros((*actions.shape[:2], len(BODY)), np.float32)
+    commanded[..., :3] = scaled[..., :3]
     if task.velocity_frame == "field":
         signs = np.repeat(np.array([1.0, -1.0], np.float32), task.team_sizes())
         heading = frame.robots.heading * signs[:, None]
         cos, sin = heading[..., 0], heading[..., 1]
-        x, y = asked[..., 0], asked[..., 1]
-        told[..., 0], told[..., 1] = x * cos + y * sin, y * cos - x * sin
-    told[..., BODY.index("kick_v_x")] = np.maximum(asked[..., 3], 0.0)
-    told[..., BODY.index("dribbler")] = actions[..., 4] > 0.0
-    return told
+        x, y = scaled[..., 0], scaled[..., 1]
+        commanded[..., 0], commanded[..., 1] = x * cos + y * sin, y * cos - x * sin
+    commanded[..., BODY.index("kick_v_x")] = np.maximum(scaled[..., 3], 0.0)
+    commanded[..., BODY.index("dribbler")] = actions[..., 4] > 0.0
+    return commanded

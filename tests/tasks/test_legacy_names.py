@@ -1,4 +1,4 @@
-"""The environments of rsoccer-gym 1.4 are found by the names that they had there."""
+"""Names of the environments of rsoccer-gym 1.4."""
 
 from typing import Any
 
@@ -34,50 +34,50 @@ RSOCCER_GYM = [
 
 
 def test_every_old_name_is_known() -> None:
-    told = [*legacy_names.KEPT, *legacy_names.ALIASES, *legacy_names.GONE]
-    assert sorted(told) == sorted(RSOCCER_GYM)
+    names = [*legacy_names.KEPT, *legacy_names.ALIASES, *legacy_names.RETIRED]
+    assert sorted(names) == sorted(RSOCCER_GYM)
     assert set(legacy_names.KEPT) <= set(rsoccer.list_tasks())
     assert set(legacy_names.ALIASES) == set(ALIASES)
     assert len(ALIASES) == 6
 
 
 @pytest.mark.parametrize("name", ALIASES)
-def test_an_old_name_is_a_task_with_options(name: str) -> None:
-    meant, options = ALIASES[name]
+def test_an_alias_is_a_task_with_options(name: str) -> None:
+    original, options = ALIASES[name]
     task = rsoccer.make_task(name)
-    assert task == rsoccer.make_task(meant, **options)
-    assert task.name == meant
+    assert task == rsoccer.make_task(original, **options)
+    assert task.name == original
     assert name not in rsoccer.list_tasks()
     check_task(task, worlds=3, steps=40)
 
 
 @pytest.mark.parametrize("name", ALIASES)
-def test_every_door_knows_the_old_names(name: str) -> None:
-    meant, task = ALIASES[name].task, rsoccer.make_task(name)
+def test_every_interface_knows_the_old_names(name: str) -> None:
+    original, task = ALIASES[name].task, rsoccer.make_task(name)
     assert begun(task, worlds=1).agents == task.agents == rsoccer.Matches(name).agents
     assert rsoccer.parallel_env(name, max_cycles=3).possible_agents == list(task.agents)
     assert (f"rsoccer/{name}" in gymnasium.registry) == (len(task.agents) == 1)
     if len(task.agents) == 1:
-        made: list[Any] = [
+        envs: list[Any] = [
             gymnasium.make(f"rsoccer/{name}", max_steps=3).unwrapped,
             gymnasium.make_vec(f"rsoccer/{name}", 2, max_steps=3).unwrapped,
         ]
-        for ours in made:
-            assert ours.task == rsoccer.make_task(name, max_steps=3)
+        for env in envs:
+            assert env.task == rsoccer.make_task(name, max_steps=3)
     if hasattr(pettingzoo, "make"):
-        assert pettingzoo.make("parallel", f"rsoccer/{name}").metadata["name"] == meant
+        assert pettingzoo.make("parallel", f"rsoccer/{name}").metadata["name"] == original
         assert pettingzoo.make("aec", f"rsoccer/{name}").possible_agents == list(task.agents)
 
 
-def test_options_given_win_over_those_of_the_name() -> None:
+def test_explicit_options_override_those_of_the_alias() -> None:
     task = rsoccer.make_task("SSLGoToBallIR-v0", n_opponents=2, velocity_frame="robot")
     assert isinstance(task, SslGoToBall)
     assert (task.n_opponents, task.velocity_frame) == (2, "robot")
-    with pytest.raises(ValueError, match=r"SSLGoToBall-v0: unknown option fose.*'n_opponents'"):
-        rsoccer.make_task("SSLGoToBallIR-v0", fose=2)
+    with pytest.raises(ValueError, match=r"SSLGoToBall-v0: unknown option opponent.*'n_opponents'"):
+        rsoccer.make_task("SSLGoToBallIR-v0", opponent=2)
 
 
-def test_what_they_were() -> None:
+def test_old_options_are_kept() -> None:
     assert isinstance(team := rsoccer.make_task("VSSMA-v0"), VssMulti)
     assert team.opponent == "ou"
     matches = begun(rsoccer.make_task("SSLGoToBallIR-v0"), worlds=2)
@@ -94,14 +94,14 @@ def test_shooting_without_opponents_can_be_solved() -> None:
     expect_solved(task, "strike", "goal_score", 0.95)
 
 
-@pytest.mark.parametrize("name", legacy_names.GONE)
-def test_those_that_are_not_here_say_what_to_do(name: str) -> None:
+@pytest.mark.parametrize("name", legacy_names.RETIRED)
+def test_retired_names_suggest_a_replacement(name: str) -> None:
     with pytest.raises(ValueError, match=f"unknown task '{name}'") as raised:
         rsoccer.parallel_env(name)
-    assert legacy_names.GONE[name] in str(raised.value)
+    assert legacy_names.RETIRED[name] in str(raised.value)
 
 
-def test_the_command_lists_them(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_lists_aliases(capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("tyro")
     assert cli.main(["list"]) == 0
     assert "SSLGoToBallIR-v0: SSLGoToBall-v0, n_opponents=6\n" in capsys.readouterr().out

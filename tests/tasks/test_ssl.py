@@ -1,4 +1,4 @@
-"""What all SSL tasks share: options, actions, observations."""
+"""Options, actions and observations of all SSL tasks."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from rsoccer import LEARN, Matches
 from rsoccer._core import Field, Steering
 from rsoccer.frame import Floats, Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
-from rsoccer.tasks.ssl import CHOICES, VELOCITY_FRAMES, Ssl
+from rsoccer.tasks.ssl import DISCRETE_ACTIONS, VELOCITY_FRAMES, Ssl
 from tests.helpers import pushing
 from tests.tasks import steering_reference
 from tests.tasks.ssl_scenes import make, scene
@@ -42,7 +42,7 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
             "reward_weights: expected a finite number",
         ),
         ({"max_steps": 0}, ValueError, "max_steps: expected at least 1"),
-        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one that is told its body's veloc"),
+        ({"robot": "vss_440rpm"}, ValueError, "robot: expected one with an omnidirectional"),
         ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
         ({"field": "ssl_z"}, ValueError, "ssl_z"),
         ({"field": "vss_5v5"}, ValueError, "field: expected one of the SSL|at most 5 on a vss_5v5"),
@@ -65,7 +65,7 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
     ],
 )
 @pytest.mark.parametrize("name", NAMES)
-def test_options_that_make_no_task_are_refused(
+def test_invalid_options_are_refused(
     name: str, options: dict[str, Any], error: type[Exception], message: str
 ) -> None:
     with pytest.raises(error, match=message):
@@ -73,14 +73,14 @@ def test_options_that_make_no_task_are_refused(
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_weights_are_data_and_paper_is_a_set_of_them(name: str) -> None:
-    task, old = make(name), make(name, reward_weights="paper")
+def test_reward_weights_are_data_and_paper_is_a_preset(name: str) -> None:
+    task, paper = make(name), make(name, reward_weights="paper")
     assert isinstance(task, Ssl)
-    assert isinstance(old, Ssl)
+    assert isinstance(paper, Ssl)
     assert task.reward_weights == task.REWARD_WEIGHTS
-    assert old.reward_weights == old.PAPER_REWARD_WEIGHTS
+    assert paper.reward_weights == paper.PAPER_REWARD_WEIGHTS
     assert set(task.REWARD_WEIGHTS) == set(task.PAPER_REWARD_WEIGHTS)
-    for each in (task, old):
+    for each in (task, paper):
         matches = Matches(each, 3)
         matches.reset()
         outcome = matches.step(pushing(np.random.default_rng(0), matches))
@@ -88,7 +88,7 @@ def test_weights_are_data_and_paper_is_a_set_of_them(name: str) -> None:
 
 
 def moved(task: Ssl, action: list[float]) -> tuple[Floats, float]:
-    """Where a robot at the centre facing +y gets within half a second, and how it turned."""
+    """Position and heading after half a second of a robot that starts at the centre facing +y."""
     matches = Matches(task, 1, autoreset="disabled")
     matches.reset(rows=scene(task, ball=(2.0, -1.5), blue_0=(0.0, 0.0, np.pi / 2)).rows)
     for _ in range(20):
@@ -97,7 +97,7 @@ def moved(task: Ssl, action: list[float]) -> tuple[Floats, float]:
     return matches.frame.blue.position[0, 0].copy(), float(np.arctan2(heading[1], heading[0]))
 
 
-def test_velocities_are_along_the_fields_axes() -> None:
+def test_velocities_are_along_the_axes_of_the_field() -> None:
     task = SslGoToBall()
     (x, y), angle = moved(task, [0.2, 0.0, 0.0, -1.0, -1.0])
     assert x > 0.2
@@ -105,16 +105,16 @@ def test_velocities_are_along_the_fields_axes() -> None:
     assert angle == pytest.approx(np.pi / 2, abs=0.01)
 
 
-def test_by_option_they_are_along_the_robots() -> None:
+def test_velocity_frame_robot_is_along_the_axes_of_the_body() -> None:
     by_field = moved(SslGoToBall(), [-0.1, 0.2, 0.0, -1.0, -1.0])
     by_robot = moved(SslGoToBall(velocity_frame="robot"), [0.2, 0.1, 0.0, -1.0, -1.0])
     assert by_robot[0] == pytest.approx(by_field[0], abs=1e-4)
-    # While it turns the two part: one keeps its course over the field.
+    # While the robot turns, only velocities in the field frame keep their direction.
     assert moved(SslGoToBall(), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] == pytest.approx(0.0, abs=0.05)
     assert moved(SslGoToBall(velocity_frame="robot"), [0.2, 0.0, 0.3, -1.0, -1.0])[0][1] > 0.1
 
 
-def test_commands_are_shares_of_what_the_robot_can() -> None:
+def test_commands_are_fractions_of_the_limits() -> None:
     task = SslGoToBall(velocity_frame="robot")
     play = Matches(task, 1).play
     commands = task.get_commands(play, np.array([[[0.5, -1.0, 0.1, 0.5, 1.0]]], np.float32))
@@ -125,18 +125,18 @@ def test_commands_are_shares_of_what_the_robot_can() -> None:
 
 @pytest.mark.parametrize("velocity_frame", VELOCITY_FRAMES)
 @pytest.mark.parametrize("worlds", [1, 5])
-def test_commands_are_what_the_reference_says(velocity_frame: str, worlds: int) -> None:
+def test_commands_equal_the_reference(velocity_frame: str, worlds: int) -> None:
     task = SslSelfPlay(n_blue=3, n_yellow=2, velocity_frame=velocity_frame)
     matches = Matches(task, worlds)
     matches.reset(0)
     actions = np.random.default_rng(0).uniform(-1, 1, (worlds, 5, 5)).astype(np.float32)
-    told = task.get_commands(matches.play, actions)
-    assert told.dtype == np.float32
+    commands = task.get_commands(matches.play, actions)
+    assert commands.dtype == np.float32
     expected = steering_reference.commands(task, matches.frame, actions)
-    np.testing.assert_allclose(told, expected, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(commands, expected, rtol=1e-6, atol=1e-6)
 
 
-def test_steering_refuses_what_does_not_fit() -> None:
+def test_steering_refuses_wrong_arrays() -> None:
     steering = Steering([1.0] * 5, True, 1)
     actions, rows = np.zeros((3, 2, 5), np.float32), Frame.empty(3, 1, 1).rows
     assert steering.commands(actions, rows).shape == (3, 2, 6)
@@ -154,7 +154,7 @@ def test_steering_refuses_what_does_not_fit() -> None:
         Steering([1.0], True, 1)
 
 
-def test_for_yellow_the_game_is_turned_half_round() -> None:
+def test_yellow_plays_in_coordinates_rotated_by_180_degrees() -> None:
     task = SslSelfPlay(n_blue=1, n_yellow=1)
     start = scene(task, ball=(0.0, 1.5), blue_0=(1.0, 0.0), yellow_0=(-1.0, 0.0, np.pi))
     matches = Matches(task, 1)
@@ -168,14 +168,14 @@ def test_for_yellow_the_game_is_turned_half_round() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_agents_may_choose_from_a_table(name: str) -> None:
+def test_discrete_agents_choose_from_a_table(name: str) -> None:
     match = rsoccer.parallel_env(name, discrete=True)
     match.reset(seed=0)
     for agent in match.agents:
-        assert match.action_space(agent).n == len(CHOICES)  # type: ignore[union-attr]
-    match.step({agent: np.array(len(CHOICES) - 1) for agent in match.agents})
+        assert match.action_space(agent).n == len(DISCRETE_ACTIONS)  # type: ignore[union-attr]
+    match.step({agent: np.array(len(DISCRETE_ACTIONS) - 1) for agent in match.agents})
     last = match._matches.play.actions[0, 0]
-    assert last.tolist() == CHOICES[-1].tolist()
+    assert last.tolist() == DISCRETE_ACTIONS[-1].tolist()
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -183,33 +183,33 @@ def test_observations_are_rarely_clipped(name: str) -> None:
     matches = Matches(name, 32, controllers={"blue_0": LEARN})
     matches.reset()
     rng = np.random.default_rng(0)
-    shown = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(80)])
+    observed = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(80)])
     high = matches.observation_high
     states = slice(0, matches.task.blocks["action"].columns.start)
-    assert (np.abs(shown) >= high - 1e-6)[..., states].mean() < 1e-3
-    assert 0.1 < shown.std() < 1.5
-    assert np.isfinite(shown).all()
+    assert (np.abs(observed) >= high - 1e-6)[..., states].mean() < 1e-3
+    assert 0.1 < observed.std() < 1.5
+    assert np.isfinite(observed).all()
 
 
-def test_the_mouth_is_shown_where_the_ball_is_seen() -> None:
+def test_the_break_beam_is_observed() -> None:
     task = SslContestedPossession()
     start = scene(task, ball=(0.593, 0.0), blue_0=(0.5, 0.0), yellow_0=(2.0, 0.0))
     matches = Matches(task, 1)
-    shown = matches.reset(rows=start.rows)[0, 0]
-    ego, opponents = (shown[task.blocks[name].columns] for name in ("ego", "opponents"))
+    observed = matches.reset(rows=start.rows)[0, 0]
+    ego, opponents = (observed[task.blocks[name].columns] for name in ("ego", "opponents"))
     assert ego[-1] == 1.0
     assert opponents[-1] == 0.0
     assert ego[:4] == pytest.approx([0.5 / 3.0, 0.0, 1.0, 0.0], abs=1e-6)
 
 
-def test_tasks_are_data() -> None:
+def test_tasks_are_immutable_values() -> None:
     assert SslStaticDefenders(scenario=3) == SslStaticDefenders(scenario=3)
     assert SslStaticDefenders(scenario=3) != SslStaticDefenders()
     with pytest.raises(AttributeError):
         SslStaticDefenders().scenario = 3  # type: ignore[misc]
 
 
-def test_a_field_without_room_for_the_starts_is_refused_when_the_task_is_made() -> None:
+def test_a_field_without_space_for_the_initial_state_is_refused() -> None:
     small = Field("ssl_challenge", length=1.5, width=1.2)
     for name, options in (
         ("SSLDribbling-v0", {}),
@@ -217,16 +217,18 @@ def test_a_field_without_room_for_the_starts_is_refused_when_the_task_is_made() 
         ("SSLContestedPossession-v0", {"scenario": 4}),
         ("SSLStaticDefenders-v0", {}),
     ):
-        with pytest.raises(ValueError, match="field: no room for this task on"):
+        with pytest.raises(
+            ValueError, match="field: no space for the initial state of this task on"
+        ):
             make(name, field=small, **options)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_on_every_field_of_the_ssl_matches_start(name: str) -> None:
+def test_matches_start_on_every_ssl_field(name: str) -> None:
     for field in ("ssl_a", "ssl_b", "ssl_challenge"):
         Matches(make(name, field=field), 8).reset()
 
 
-def test_whether_contact_is_strict_is_yes_or_no() -> None:
+def test_strict_contact_is_a_boolean() -> None:
     with pytest.raises(TypeError, match="strict_contact: expected True or False, got 'no'"):
         SslContestedPossession(strict_contact="no")  # type: ignore[arg-type]

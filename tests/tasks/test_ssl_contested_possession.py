@@ -8,8 +8,8 @@ from tests.tasks.ssl_scenes import expect_solved, play, run, scene
 TASK = SslContestedPossession()
 
 
-def bump(task: SslContestedPossession, speed: float) -> bool:
-    """Whether driving into the opponent's back, speed in shares of the top, ends it."""
+def terminates_on_contact(task: SslContestedPossession, speed: float) -> bool:
+    """Drive into the opponent's back at a fraction of the top speed; whether it terminates."""
     start = scene(task, ball=(1.593, 0.0), blue_0=(1.0, 0.0), yellow_0=(1.5, 0.0))
     outcome, matches = run(task, start, (speed, 0.0, 0.0, -1.0, -1.0), 80)
     gap = np.linalg.norm(matches.frame.blue.position - matches.frame.yellow.position)
@@ -21,13 +21,13 @@ def bump(task: SslContestedPossession, speed: float) -> bool:
     ("speed", "strict", "ends"),
     [(0.08, False, False), (0.4, False, True), (0.08, True, True), (0.4, True, True)],
 )
-def test_contact_ends_it_above_half_a_metre_per_second(
+def test_contact_above_half_a_metre_per_second_terminates(
     speed: float, strict: bool, ends: bool
 ) -> None:
-    assert bump(SslContestedPossession(strict_contact=strict), speed) == ends
+    assert terminates_on_contact(SslContestedPossession(strict_contact=strict), speed) == ends
 
 
-def test_a_goal_ends_it_and_the_ball_lost_ends_it() -> None:
+def test_a_goal_and_a_lost_ball_terminate() -> None:
     for ball, score in (((2.8, 0.1, 2.0, 0.0), 1.0), ((0.1, 1.0, -1.0, 0.0), 0.0)):
         start = scene(TASK, ball=ball, blue_0=(1.0, 0.0), yellow_0=(2.0, -1.5))
         outcome, _ = run(TASK, start)
@@ -39,7 +39,7 @@ def test_a_goal_ends_it_and_the_ball_lost_ends_it() -> None:
 def test_the_opponent_starts_with_the_ball_and_keeps_it() -> None:
     frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 300))
     gap = np.linalg.norm(frame.ball.position - frame.yellow.position[:, 0], axis=-1)
-    assert gap == pytest.approx(float(TASK.reach), abs=1e-5)
+    assert gap == pytest.approx(float(TASK.mouth_offset), abs=1e-5)
     assert frame.ball.position[:, 0].min() > 0.0
     assert (np.abs(frame.ball.position) < [3.0, 2.0]).all()
     start = scene(TASK, ball=(1.593, 0.0), blue_0=(0.0, 0.0), yellow_0=(1.5, 0.0))
@@ -47,24 +47,24 @@ def test_the_opponent_starts_with_the_ball_and_keeps_it() -> None:
     assert matches.frame.yellow.infrared[0, 0] == 1.0
 
 
-def test_official_scenarios_are_the_published_ones_turned_half_round() -> None:
+def test_official_scenarios_are_the_published_ones_rotated_by_180_degrees() -> None:
     frame = SslContestedPossession(scenario=2).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.yellow.position[0, 0] == pytest.approx([1.0, 1.25])
     assert frame.blue.position[0, 0] == pytest.approx([0.647, 1.604])
-    # The published balls lie 15 cm before the opponents' centres; here they touch the mouth.
+    # Published: ball 15 cm in front of the opponent's centre. Here it touches the mouth.
     published = [(0.85, 0.0), (0.894, 1.356), (0.394, -1.606), (1.894, 1.306), (2.74, -1.4)]
     for scenario, ball in enumerate(published, start=1):
         task = SslContestedPossession(scenario=scenario)
         frame = task.get_initial_positions_frame(WorldRng.seeded(0, 1))
         assert np.linalg.norm(frame.ball.position[0] - ball) == pytest.approx(0.057, abs=2e-3)
-        way = frame.ball.position - frame.blue.position[:, 0]
-        faces = (way * frame.blue.heading[:, 0]).sum() / np.linalg.norm(way)
-        assert faces > 0.999, f"scenario {scenario}: the attacker does not face the ball"
+        offset = frame.ball.position - frame.blue.position[:, 0]
+        cosine = (offset * frame.blue.heading[:, 0]).sum() / np.linalg.norm(offset)
+        assert cosine > 0.999, f"scenario {scenario}: the attacker does not face the ball"
 
 
-def test_strike_solves_it() -> None:
+def test_strike_solves_the_task() -> None:
     solved = expect_solved(TASK, "strike", "goal_score", 0.8)
-    assert solved.largest() == "goal"
+    assert solved.largest_term() == "goal"
 
 
 @pytest.mark.parametrize("scenario", range(1, 6))

@@ -10,13 +10,13 @@ from tests.tasks.ssl_scenes import STAND, play, run, scene
 TASK = SslDribbling()
 
 
-def course(task: SslDribbling) -> Frame:
+def initial_frame(task: SslDribbling) -> Frame:
     return task.get_initial_positions_frame(WorldRng.seeded(0, 1))
 
 
 def rolling(x: float, v_y: float) -> Frame:
-    """The paper's course, with the ball rolling over the line of gates at x."""
-    start = course(TASK)
+    """Course of the paper, with the ball rolling across the line of gates at x."""
+    start = initial_frame(TASK)
     start.ball.position[0] = [x, -0.15 * np.sign(v_y)]
     start.ball.velocity[0] = [0.0, v_y]
     return start
@@ -25,20 +25,20 @@ def rolling(x: float, v_y: float) -> Frame:
 def test_the_ball_through_the_first_gate_counts() -> None:
     matches = Matches(TASK, 1, autoreset="disabled")
     matches.reset(rows=rolling(-0.75, -1.0).rows)
-    paid = 0.0
+    gate_reward = 0.0
     for _ in range(12):
         outcome = matches.step(np.array([[STAND]], np.float32))
-        paid += float(outcome.terms["gate"][0, 0])
+        gate_reward += float(outcome.terms["gate"][0, 0])
         assert not outcome.ended[0]
     assert outcome.metrics["gates"][0] == 1.0
-    assert paid == 5.0
+    assert gate_reward == 5.0
     assert matches.frame.ball.position[0, 1] < 0.0
 
 
-def test_the_last_gate_ends_it() -> None:
-    first, last, way = TASK.course.gates[-1]
+def test_the_last_gate_terminates() -> None:
+    low, high, direction = TASK.course.gates[-1]
     matches = Matches(TASK, 1, autoreset="disabled")
-    matches.reset(rows=rolling((first + last) / 2, way).rows)
+    matches.reset(rows=rolling((low + high) / 2, direction).rows)
     matches.play.memory["passed"][:] = len(TASK.course.gates) - 1
     for _ in range(12):
         outcome = matches.step(np.array([[STAND]], np.float32))
@@ -49,7 +49,7 @@ def test_the_last_gate_ends_it() -> None:
     assert outcome.terms["failed"][0, 0] == 0.0
 
 
-def test_the_first_gate_the_wrong_way_ends_it() -> None:
+def test_the_first_gate_in_the_wrong_direction_terminates() -> None:
     outcome, _ = run(TASK, rolling(-0.75, 1.0))
     assert outcome.terminated[0]
     assert outcome.metrics["gates"][0] == 0.0
@@ -57,14 +57,14 @@ def test_the_first_gate_the_wrong_way_ends_it() -> None:
 
 
 @pytest.mark.parametrize(("x", "v_y"), [(-1.25, 1.0), (-1.25, -1.0), (-0.2, -1.0)])
-def test_another_gate_than_the_next_does_not_count(x: float, v_y: float) -> None:
+def test_only_the_next_gate_counts(x: float, v_y: float) -> None:
     outcome, _ = run(TASK, rolling(x, v_y), steps=12)
     assert not outcome.ended[0]
     assert outcome.metrics["gates"][0] == 0.0
 
 
 @pytest.mark.parametrize(
-    ("place", "way"),
+    ("position", "direction"),
     [
         ((0.9, 0.5), (1.0, 0.0)),
         ((0.5, 0.9), (0.0, 1.0)),
@@ -73,27 +73,27 @@ def test_another_gate_than_the_next_does_not_count(x: float, v_y: float) -> None
         ((-0.2, 0.0), (-1.0, 0.0)),  # into a robot
     ],
 )
-def test_out_of_bounds_or_into_a_robot_ends_it(
-    place: tuple[float, float], way: tuple[float, float]
+def test_out_of_bounds_or_into_a_robot_terminates(
+    position: tuple[float, float], direction: tuple[float, float]
 ) -> None:
-    start = course(TASK)
-    start.blue.position[0, 0] = place
+    start = initial_frame(TASK)
+    start.blue.position[0, 0] = position
     start.ball.position[0] = [-0.2, 0.6]
     assert not run(TASK, start, STAND, 1)[0].ended[0]
-    outcome, _ = run(TASK, start, (*way, 0.0, -1.0, -1.0), 20)
+    outcome, _ = run(TASK, start, (*direction, 0.0, -1.0, -1.0), 20)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0, 0] == -2.0
 
 
-def test_the_ball_out_of_the_field_ends_it() -> None:
-    start = course(TASK)
+def test_the_ball_off_the_field_terminates() -> None:
+    start = initial_frame(TASK)
     start.ball.position[0], start.ball.velocity[0] = [0.5, 1.9], [0.0, 1.5]
     outcome, _ = run(TASK, start)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0, 0] == -2.0
 
 
-def test_it_starts_with_the_ball_on_the_dribbler() -> None:
+def test_episodes_start_with_the_ball_on_the_dribbler() -> None:
     for task, ball, opponents in (
         (TASK, (-0.093, 0.0), [(-0.5, 0), (-1, 0), (-1.5, 0), (-2, 0)]),
         (
@@ -102,16 +102,16 @@ def test_it_starts_with_the_ball_on_the_dribbler() -> None:
             [(-1.5, 1.5), (-1.5, 0.9), (-1.5, 0.4), (-1.5, -0.2), (-1.5, -1.0)],
         ),
     ):
-        frame = course(task)
+        frame = initial_frame(task)
         assert frame.ball.position[0] == pytest.approx(ball, abs=1e-6)
         assert frame.yellow.position[0] == pytest.approx(np.array(opponents))
 
 
-def test_the_next_gate_is_shown() -> None:
+def test_the_next_gate_is_observed() -> None:
     matches = Matches(TASK, 1)
-    shown = matches.reset()[0, 0, matches.task.blocks["gate"].columns]
-    # It faces -x, so the gate's middle is 0.75 m ahead; it is crossed downwards; none is done.
-    assert shown == pytest.approx([0.25, 0.0, -1.0, 0.0], abs=1e-6)
+    observed = matches.reset()[0, 0, matches.task.blocks["gate"].columns]
+    # The robot faces -x, so the middle of the gate is 0.75 m ahead; direction -1; none crossed.
+    assert observed == pytest.approx([0.25, 0.0, -1.0, 0.0], abs=1e-6)
 
 
 @pytest.mark.parametrize(("scenario", "gates"), [("paper", 7), ("official", 6)])
@@ -119,12 +119,12 @@ def test_weave_crosses_all_gates(scenario: str, gates: int) -> None:
     task = SslDribbling(scenario=scenario)
     solved = play(task, "weave", worlds=1)
     assert solved.metrics["gates"][0] == gates
-    assert solved.largest() == "gate"
-    assert solved.paid["energy"] < 0.02 * solved.paid["gate"]
+    assert solved.largest_term() == "gate"
+    assert solved.term_totals["energy"] < 0.02 * solved.term_totals["gate"]
     for other in ("zero", "uniform"):
-        rest = play(SslDribbling(scenario=scenario, max_steps=600), other, worlds=8)
-        assert rest.metrics["gates"].max() == 0.0
-        assert rest.returns.max() < 0.2 * solved.returns[0]
+        unsolved = play(SslDribbling(scenario=scenario, max_steps=600), other, worlds=8)
+        assert unsolved.metrics["gates"].max() == 0.0
+        assert unsolved.returns.max() < 0.2 * solved.returns[0]
 
 
 def test_other_scenarios_are_refused() -> None:
@@ -132,6 +132,6 @@ def test_other_scenarios_are_refused() -> None:
         SslDribbling(scenario="hard")
 
 
-def test_a_robot_pushed_by_hand_is_no_part_of_the_scene() -> None:
+def test_a_scene_refuses_unknown_robots() -> None:
     with pytest.raises(AssertionError, match="no such robots"):
         scene(TASK, ball=(0.0, 0.0), yellow_9=(0.0, 1.0))

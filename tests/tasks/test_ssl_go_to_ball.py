@@ -6,7 +6,7 @@ from rsoccer.tasks import SslGoToBall
 from tests.tasks.ssl_scenes import expect_solved, play, run, scene
 
 
-def test_the_ball_in_the_mouth_ends_it() -> None:
+def test_the_ball_in_the_mouth_terminates() -> None:
     task = SslGoToBall()
     start = scene(task, ball=(0.5, 0.0), blue_0=(0.3, 0.0))
     outcome, matches = run(task, start, (0.1, 0.0, 0.0, -1.0, 1.0))
@@ -16,7 +16,7 @@ def test_the_ball_in_the_mouth_ends_it() -> None:
     assert outcome.metrics["seconds"][0] == pytest.approx(matches.play.steps[0] * 0.025)
 
 
-def test_from_behind_it_is_not_reached() -> None:
+def test_the_ball_behind_the_robot_is_not_reached() -> None:
     task = SslGoToBall(max_steps=60)
     start = scene(task, ball=(0.5, 0.0), blue_0=(0.3, 0.0, np.pi))
     outcome, _ = run(task, start, (0.1, 0.0, 0.0, -1.0, 1.0))
@@ -26,7 +26,7 @@ def test_from_behind_it_is_not_reached() -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "way"),
+    ("position", "direction"),
     [
         ((2.95, 0.8), (1.0, 0.0)),
         ((-2.95, 0.0), (-1.0, 0.0)),
@@ -34,29 +34,33 @@ def test_from_behind_it_is_not_reached() -> None:
         ((0.0, -1.95), (0.0, -1.0)),
     ],
 )
-def test_leaving_the_field_ends_it(place: tuple[float, float], way: tuple[float, float]) -> None:
+def test_leaving_the_field_terminates(
+    position: tuple[float, float], direction: tuple[float, float]
+) -> None:
     task = SslGoToBall()
-    outcome, _ = run(task, scene(task, ball=(0.5, 0.5), blue_0=place), (*way, 0.0, -1.0, -1.0))
+    outcome, _ = run(
+        task, scene(task, ball=(0.5, 0.5), blue_0=position), (*direction, 0.0, -1.0, -1.0)
+    )
     assert outcome.terminated[0]
     assert outcome.terms["left_field"][0, 0] == -2.0
     assert outcome.metrics["reached"][0] == 0.0
 
 
-def test_starts_are_anywhere_and_apart() -> None:
+def test_initial_positions_cover_the_field_without_overlap() -> None:
     frame = SslGoToBall(n_opponents=6).get_initial_positions_frame(WorldRng.seeded(0, 400))
-    places = np.concatenate([frame.ball.position[:, None], frame.robots.position], axis=1)
-    gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(8)
+    positions = np.concatenate([frame.ball.position[:, None], frame.robots.position], axis=1)
+    gaps = np.linalg.norm(positions[:, :, None] - positions[:, None], axis=-1) + np.eye(8)
     assert gaps.min() >= 0.2 - 1e-6
-    assert (np.abs(places).max(axis=(0, 1)) > [2.8, 1.8]).all()
+    assert (np.abs(positions).max(axis=(0, 1)) > [2.8, 1.8]).all()
 
 
-def test_fetch_solves_it() -> None:
+def test_fetch_solves_the_task() -> None:
     task = SslGoToBall()
     expect_solved(task, "fetch", "reached", 0.98)
-    assert play(task, "fetch").largest() == "reached"
+    assert play(task, "fetch").largest_term() == "reached"
 
 
-def test_opponents_are_driven_round() -> None:
+def test_fetch_avoids_opponents() -> None:
     task = SslGoToBall(n_opponents=6)
     assert play(task, "fetch").metrics["reached"].mean() >= 0.95
 

@@ -11,31 +11,33 @@ TASK = SslSelfPlay()
 SOLO = SslSelfPlay(n_blue=1, n_yellow=1)
 
 
-@pytest.mark.parametrize("way", [1.0, -1.0])
-def test_a_goal_of_either_side_ends_it(way: float) -> None:
-    outcome, _ = run(TASK, scene(TASK, ball=(2.8 * way, 0.1, 2.0 * way, 0.0)))
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_goal_of_either_team_terminates(side: float) -> None:
+    outcome, _ = run(TASK, scene(TASK, ball=(2.8 * side, 0.1, 2.0 * side, 0.0)))
     assert outcome.terminated[0]
-    assert outcome.metrics["goal_score"][0] == way
-    assert outcome.terms["goal"][0].tolist() == [10.0 * way] * 3 + [-10.0 * way] * 3
+    assert outcome.metrics["goal_score"][0] == side
+    assert outcome.terms["goal"][0].tolist() == [10.0 * side] * 3 + [-10.0 * side] * 3
 
 
-def gone(ball: tuple[float, ...], **robots: tuple[float, ...]) -> tuple[Matches, np.ndarray]:
-    """The ball rolls off the field and comes back; the matches then, and the rewards since."""
+def repositioned(
+    ball: tuple[float, ...], **robots: tuple[float, ...]
+) -> tuple[Matches, np.ndarray]:
+    """Let the ball leave the field; the matches after it is repositioned, and all rewards."""
     matches = Matches(SOLO, 1, autoreset="disabled")
     start = scene(SOLO, ball=ball, **{"blue_0": (0.0, 0.0), "yellow_0": (0.5, 0.0)} | robots)
     matches.reset(rows=start.rows)
     rewards = []
     for _ in range(20):
         outcome = matches.step(np.array([[STAND, STAND]], np.float32))
-        assert not outcome.ended[0], "leaving the field ends nothing"
+        assert not outcome.ended[0], "a ball off the field does not terminate"
         rewards.append(outcome.rewards[0])
         if not matches.frame.ball.velocity.any():
             return matches, np.array(rewards)
-    raise AssertionError("it was not put back")
+    raise AssertionError("the ball was not repositioned")
 
 
 @pytest.mark.parametrize(
-    ("ball", "back"),
+    ("ball", "expected"),
     [
         ((1.0, 1.95, 0.0, 2.0), (1.0, 1.8)),
         ((-1.0, -1.95, 0.0, -2.0), (-1.0, -1.8)),
@@ -44,21 +46,21 @@ def gone(ball: tuple[float, ...], **robots: tuple[float, ...]) -> tuple[Matches,
         ((2.9, 1.95, 2.0, 2.0), (2.8, 1.8)),  # by the corner
     ],
 )
-def test_a_ball_that_leaves_is_put_back_inside_the_line(
-    ball: tuple[float, ...], back: tuple[float, float]
+def test_a_ball_that_leaves_is_repositioned_inside_the_line(
+    ball: tuple[float, ...], expected: tuple[float, float]
 ) -> None:
-    matches, rewards = gone(ball)
-    assert matches.frame.ball.position[0] == pytest.approx(back, abs=0.02)
+    matches, rewards = repositioned(ball)
+    assert matches.frame.ball.position[0] == pytest.approx(expected, abs=0.02)
     assert matches.frame.ball.height[0] == 0.0
     assert matches.frame.ball.last_touch[0] == -1.0
-    # What was between is not rewarded: only what the ball did before it crossed the line.
+    # Only the motion up to the line is rewarded, not the jump back.
     assert np.abs(rewards[-1]).max() < 1e-3
     assert np.abs(rewards).max() < 0.2
 
 
-def test_where_a_robot_stands_the_next_free_place_is_taken() -> None:
+def test_an_occupied_position_is_replaced_by_the_next_free_one() -> None:
     for blocker, x in (((1.0, 1.8), 0.86), ((1.05, 1.8), 0.9), ((0.95, 1.8), 1.1)):
-        matches, _ = gone((1.0, 1.95, 0.0, 2.0), yellow_0=blocker)
+        matches, _ = repositioned((1.0, 1.95, 0.0, 2.0), yellow_0=blocker)
         found = matches.frame.ball.position[0]
         assert found[1] == pytest.approx(1.8)
         assert found[0] == pytest.approx(x, abs=0.03)
@@ -66,7 +68,7 @@ def test_where_a_robot_stands_the_next_free_place_is_taken() -> None:
         assert 0.09 + 0.0215 < gap < 0.2
 
 
-def test_other_worlds_go_on_while_a_ball_is_put_back() -> None:
+def test_repositioning_does_not_affect_other_worlds() -> None:
     matches = Matches(SOLO, 2, autoreset="disabled")
     robots = {"blue_0": (0.0, 0.0), "yellow_0": (0.5, 0.0)}
     frames = [
@@ -81,7 +83,7 @@ def test_other_worlds_go_on_while_a_ball_is_put_back() -> None:
 
 
 @pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (2, 3), (3, 0)])
-def test_sizes_are_options(blue: int, yellow: int) -> None:
+def test_team_sizes_are_options(blue: int, yellow: int) -> None:
     task = SslSelfPlay(n_blue=blue, n_yellow=yellow)
     matches = Matches(task, 2)
     matches.reset()
@@ -99,87 +101,87 @@ def test_sizes_are_options(blue: int, yellow: int) -> None:
         ({"field": "ssl_z"}, "ssl_z"),
     ],
 )
-def test_sizes_and_fields_that_make_no_task_are_refused(
+def test_invalid_team_sizes_and_fields_are_refused(
     options: dict[str, int | str], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
         SslSelfPlay(**options).config  # type: ignore[arg-type]  # noqa: B018
 
 
-def test_it_can_be_played_on_any_ssl_field() -> None:
+def test_matches_run_on_any_ssl_field() -> None:
     for field in ("ssl_a", "ssl_b"):
         matches = Matches(SslSelfPlay(field=field, n_blue=6, n_yellow=6), 1)
         matches.reset()
         assert matches.frame.robots.position.shape == (1, 12, 2)
 
 
-def test_a_goal_is_the_largest_part_of_what_a_match_pays() -> None:
-    got = play(SslSelfPlay(n_blue=1, n_yellow=1), "strike", worlds=10)
-    assert np.abs(got.metrics["goal_score"]).mean() > 0.6
-    assert got.largest() == "goal"
+def test_goals_are_the_largest_part_of_the_return() -> None:
+    episodes = play(SslSelfPlay(n_blue=1, n_yellow=1), "strike", worlds=10)
+    assert np.abs(episodes.metrics["goal_score"]).mean() > 0.6
+    assert episodes.largest_term() == "goal"
 
 
 def test_a_ball_is_repositioned_only_where_it_has_left() -> None:
     assert TASK.reposition_ball(Frame.empty(3, 3, 3)) is None
 
 
-def crowded(task: SslSelfPlay, robots: Floats, left_at: tuple[float, float]) -> Floats:
-    """Where the ball comes back that left over the touch line, among robots at (robots, 2)."""
+def repositioned_among(task: SslSelfPlay, robots: Floats, left_at: tuple[float, float]) -> Floats:
+    """New position (2,) of a ball that left over the touch line, with robots at (robots, 2)."""
     frame = Frame.empty(1, task.n_blue, task.n_yellow)
     frame.robots.position[:] = robots
     frame.ball.crossed[:] = CROSSINGS.index(
         "touch_line_left" if left_at[1] > 0 else "touch_line_right"
     )
     frame.ball.crossed_at[:] = left_at
-    answer = task.reposition_ball(frame)
-    assert answer is not None
-    place: Floats = answer[1][0, :2]
-    return place
+    moves = task.reposition_ball(frame)
+    assert moves is not None
+    position: Floats = moves[1][0, :2]
+    return position
 
 
-@pytest.mark.parametrize("around", ["line", "block"])
-def test_where_robots_take_the_whole_line_another_place_is_free(around: str) -> None:
-    """With none free along the line, the first place was taken, in the middle of a robot."""
+@pytest.mark.parametrize("robots_in", ["line", "block"])
+def test_a_position_off_the_line_is_free_where_robots_cover_the_line(robots_in: str) -> None:
+    """Without a free position on the line, the ball was once placed inside a robot."""
     task = SslSelfPlay(n_blue=11, n_yellow=11)
-    if around == "line":
+    if robots_in == "line":
         robots = np.stack([np.linspace(-2.1, 2.1, 22), np.full(22, 1.8)], axis=-1)
     else:
         x = np.concatenate([np.linspace(-1.6, 1.6, 14), np.linspace(-0.8, 0.8, 8)])
         robots = np.stack([x, np.where(np.arange(22) < 14, 1.8, 1.6)], axis=-1)
     robots = robots.astype(np.float32)
-    place = crowded(task, robots, (0.0, 2.0))
-    gaps = np.linalg.norm(robots - place, axis=1)
-    assert gaps.min() > 0.09 + 0.0215, "in the open"
-    assert np.abs(place[1]) < 1.79, "the line is full"
-    # No place of a fine net is much nearer and free too.
-    net = np.stack(np.meshgrid(np.arange(-2.8, 2.81, 0.02), np.arange(-1.8, 1.81, 0.02)), axis=-1)
-    away = np.linalg.norm(net - [0.0, 1.8], axis=-1)
-    clear = np.linalg.norm(net[..., None, :] - robots, axis=-1).min(axis=-1) > 0.09 + 2 * 0.0215
-    assert np.hypot(*(place - [0.0, 1.8])) < away[clear].min() + 0.08
+    position = repositioned_among(task, robots, (0.0, 2.0))
+    gaps = np.linalg.norm(robots - position, axis=1)
+    assert gaps.min() > 0.09 + 0.0215, "clear of robots"
+    assert np.abs(position[1]) < 1.79, "off the line"
+    # No position of a fine grid is free and much nearer.
+    grid = np.stack(np.meshgrid(np.arange(-2.8, 2.81, 0.02), np.arange(-1.8, 1.81, 0.02)), axis=-1)
+    distance = np.linalg.norm(grid - [0.0, 1.8], axis=-1)
+    clear = np.linalg.norm(grid[..., None, :] - robots, axis=-1).min(axis=-1) > 0.09 + 2 * 0.0215
+    assert np.hypot(*(position - [0.0, 1.8])) < distance[clear].min() + 0.08
 
 
-def test_a_place_off_the_line_is_the_same_for_both_sides() -> None:
+def test_a_position_off_the_line_is_symmetric_between_the_teams() -> None:
     task, rng = SslSelfPlay(n_blue=11, n_yellow=11), np.random.default_rng(0)
     off = 0
     for _ in range(100):
         x = np.linspace(-2.1, 2.1, 22) + rng.uniform(-0.03, 0.03, 22)
         robots = np.stack([x, 1.8 + rng.uniform(-0.02, 0.02, 22)], axis=-1).astype(np.float32)
         left_at = (float(np.float32(rng.uniform(-0.5, 0.5))), 2.0)
-        ours = crowded(task, robots, left_at)
-        theirs = crowded(task, -robots, (-left_at[0], -left_at[1]))
-        assert np.array_equal(ours, -theirs)
-        off += int(ours[1] < 1.79)
+        blue = repositioned_among(task, robots, left_at)
+        yellow = repositioned_among(task, -robots, (-left_at[0], -left_at[1]))
+        assert np.array_equal(blue, -yellow)
+        off += int(blue[1] < 1.79)
     assert off > 50
 
 
 @pytest.mark.parametrize("field", [name for name in Field.PRESETS if name.startswith("ssl")])
-def test_no_robots_can_cover_all_places_of_a_field(field: str) -> None:
+def test_robots_cannot_cover_the_whole_grid(field: str) -> None:
     config = SimConfig(field, 1, 0, robot="ssl_generic")
-    most = config.field.max_robots
-    task = SslSelfPlay(field=field, n_blue=most, n_yellow=most)
-    places = task._lattice
+    team_size = config.field.max_robots
+    task = SslSelfPlay(field=field, n_blue=team_size, n_yellow=team_size)
+    grid = task._grid
     robots = np.random.default_rng(0).uniform(-0.1, 0.1, (1, 50, 2)).astype(np.float32)
     covered = [
-        (~task._clear(places[None], robots[:, at : at + 1])).sum() for at in range(robots.shape[1])
+        (~task._is_free(grid[None], robots[:, i : i + 1])).sum() for i in range(robots.shape[1])
     ]
-    assert max(covered) * 2 * most < len(places)
+    assert max(covered) * 2 * team_size < len(grid)

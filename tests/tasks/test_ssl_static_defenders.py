@@ -8,7 +8,7 @@ from tests.tasks.ssl_scenes import STAND, expect_solved, play, run, scene
 
 TASK = SslStaticDefenders()
 
-# Both challenges end so.
+# Both attacking challenges have these terminations.
 attacks = pytest.mark.parametrize("task", [TASK, SslContestedPossession()])
 
 
@@ -17,7 +17,7 @@ def drive(x: float, y: float) -> tuple[float, ...]:
 
 
 @attacks
-def test_a_goal_ends_it(task: SslAttack) -> None:
+def test_a_goal_terminates(task: SslAttack) -> None:
     outcome, _ = run(task, scene(task, ball=(2.8, 0.1, 2.0, 0.0), blue_0=(1.0, 0.0)))
     assert outcome.terminated[0]
     assert outcome.metrics["goal_score"][0] == 1.0
@@ -28,14 +28,14 @@ def test_a_goal_ends_it(task: SslAttack) -> None:
 @pytest.mark.parametrize(
     "ball",
     [
-        (0.05, 1.0, -1.0, 0.0),  # over the middle line
+        (0.05, 1.0, -1.0, 0.0),  # over the centre line
         (1.0, 1.9, 0.0, 1.5),
         (1.0, -1.9, 0.0, -1.5),
         (2.9, 1.5, 1.5, 0.0),  # over the goal line
     ],
 )
 @attacks
-def test_the_ball_out_of_the_half_ends_it(task: SslAttack, ball: tuple[float, ...]) -> None:
+def test_the_ball_outside_the_half_terminates(task: SslAttack, ball: tuple[float, ...]) -> None:
     outcome, _ = run(task, scene(task, ball=ball, blue_0=(1.0, 0.0)))
     assert outcome.terminated[0]
     assert outcome.metrics["goal_score"][0] == 0.0
@@ -43,46 +43,46 @@ def test_the_ball_out_of_the_half_ends_it(task: SslAttack, ball: tuple[float, ..
 
 
 @pytest.mark.parametrize(
-    ("place", "way"),
+    ("position", "direction"),
     [
-        ((-0.1, 0.0), (-1.0, 0.0)),  # back over the middle line by more than 0.2 m
+        ((-0.1, 0.0), (-1.0, 0.0)),  # over the centre line by more than 0.2 m
         ((1.0, 1.9), (0.0, 1.0)),
         ((1.0, -1.9), (0.0, -1.0)),
         ((2.9, 1.5), (1.0, 0.0)),
-        ((2.1, 0.0), (1.0, 0.0)),  # into the area from before
-        ((2.5, -1.1), (0.0, 1.0)),  # and from beside
+        ((2.1, 0.0), (1.0, 0.0)),  # into the goal area from the front
+        ((2.5, -1.1), (0.0, 1.0)),  # and from the side
     ],
 )
 @attacks
-def test_the_robot_where_it_must_not_be_ends_it(
-    task: SslAttack, place: tuple[float, float], way: tuple[float, float]
+def test_the_attacker_outside_its_area_terminates(
+    task: SslAttack, position: tuple[float, float], direction: tuple[float, float]
 ) -> None:
-    start = scene(task, ball=(1.0, 0.5), blue_0=place)
+    start = scene(task, ball=(1.0, 0.5), blue_0=position)
     assert not run(task, start, STAND, 1)[0].ended[0]
-    outcome, _ = run(task, start, drive(*way), 20)
+    outcome, _ = run(task, start, drive(*direction), 20)
     assert outcome.terminated[0]
     assert outcome.terms["failed"][0, 0] == -1.0
 
 
-def test_touching_a_opponent_ends_it_however_softly() -> None:
+def test_a_soft_touch_of_an_opponent_terminates() -> None:
     start = scene(TASK, ball=(1.5, 1.0), blue_0=(1.0, 0.0), yellow_0=(1.25, 0.0))
     outcome, matches = run(TASK, start, drive(0.05, 0.0))
     assert outcome.terminated[0]
     assert matches.frame.blue.crash_speed[0, 0] < 0.3
 
 
-def test_starts_keep_to_the_half_and_off_the_area() -> None:
+def test_initial_positions_are_in_the_half_and_outside_the_goal_area() -> None:
     frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 500))
-    places = np.concatenate([frame.ball.position[:, None], frame.yellow.position], axis=1)
-    x, y = places[..., 0], np.abs(places[..., 1])
+    positions = np.concatenate([frame.ball.position[:, None], frame.yellow.position], axis=1)
+    x, y = positions[..., 0], np.abs(positions[..., 1])
     assert x.min() > 0.1
     assert not ((x > 2.2) & (y < 1.0)).any()
-    gaps = np.linalg.norm(places[:, :, None] - places[:, None], axis=-1) + np.eye(7)
+    gaps = np.linalg.norm(positions[:, :, None] - positions[:, None], axis=-1) + np.eye(7)
     assert gaps.min() >= 0.25 - 1e-6
     assert not frame.blue.position.any()
 
 
-def test_official_scenarios_are_the_published_ones_turned_half_round() -> None:
+def test_official_scenarios_are_the_published_ones_rotated_by_180_degrees() -> None:
     """Spot checks against the rules, which attack -x (millimetres there)."""
     frame = SslStaticDefenders(scenario=1).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.ball.position[0] == pytest.approx([0.2, 1.8])
@@ -96,9 +96,9 @@ def test_official_scenarios_are_the_published_ones_turned_half_round() -> None:
     assert counts == [3, 3, 4, 4, 5, 5, 5, 6, 6, 6]
 
 
-def test_strike_solves_it() -> None:
+def test_strike_solves_the_task() -> None:
     solved = expect_solved(TASK, "strike", "goal_score", 0.9)
-    assert solved.largest() == "goal"
+    assert solved.largest_term() == "goal"
 
 
 @pytest.mark.parametrize("scenario", range(1, 11))
@@ -108,7 +108,7 @@ def test_strike_solves_every_official_scenario(scenario: int) -> None:
 
 
 @pytest.mark.parametrize("n_opponents", [0, 2, 6])
-def test_opponents_are_as_many_as_asked(n_opponents: int) -> None:
+def test_the_number_of_opponents_is_an_option(n_opponents: int) -> None:
     task = SslStaticDefenders(n_opponents=n_opponents)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 20))
     assert frame.yellow.position.shape == (20, n_opponents, 2)

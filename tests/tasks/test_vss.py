@@ -31,7 +31,7 @@ def test_the_opponent_is_an_option() -> None:
         Matches(VssMulti(opponent="nobody"))
 
 
-def test_starts_are_random_and_as_described() -> None:
+def test_initial_states_are_random_without_overlap() -> None:
     task = VssSelfPlay(ball_speed=0.5)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 3000))
     robots, ball = frame.robots.position, frame.ball.position[:, None]
@@ -46,7 +46,7 @@ def test_starts_are_random_and_as_described() -> None:
     assert not still.ball.velocity.any()
 
 
-def test_commands_are_shares_of_the_top_wheel_speed() -> None:
+def test_commands_are_fractions_of_the_top_wheel_speed() -> None:
     for robot in ("vss_440rpm", "vss_650rpm"):
         task = VssSelfPlay(robot=robot)
         play = Matches(task, 1).play
@@ -72,7 +72,7 @@ def test_full_power_drives_at_top_speed_straight_ahead() -> None:
     assert ego.position[0, 0, 1] == pytest.approx(0.3, abs=1e-4)
 
 
-def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
+def test_observed_positions_of_ball_and_goal_are_true() -> None:
     frame = Frame.empty(1, 1, 1)
     frame.blue.position[:] = [[0.25, 0.0]]
     frame.blue.heading[:] = [[0.0, 1.0]]
@@ -81,7 +81,7 @@ def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
     matches = Matches(VssSelfPlay(n_blue=1, n_yellow=1), 1)
     flat = matches.reset(rows=frame.rows)[0, 0]
     blocks = {name: flat[block.columns] for name, block in matches.task.blocks.items()}
-    # ahead is +y, so the goal at +x lies to the right; lengths count in half fields of 0.75 m
+    # The robot faces +y, so the goal at +x is on its right. Lengths are in half fields, 0.75 m.
     assert blocks["ball_polar"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
     assert blocks["goal_polar"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
     assert blocks["ball"] == pytest.approx([0.25 / 0.75, 0.4, 0.0, 0.0], abs=1e-5)
@@ -89,7 +89,7 @@ def test_what_is_seen_of_ball_and_goal_is_where_they_are() -> None:
     assert blocks["opponents"][:2] == pytest.approx([0.8, 0.4 / 0.75], abs=1e-5)
 
 
-def test_the_action_taken_is_shown() -> None:
+def test_the_last_action_is_observed() -> None:
     matches = Matches(VssSelfPlay(), 2)
     columns = matches.task.blocks["action"].columns
     assert not matches.reset()[..., columns].any()
@@ -102,18 +102,20 @@ def test_observations_use_their_range_and_are_rarely_clipped(name: str) -> None:
     matches = Matches(name, 64, controllers={"blue": rsoccer.LEARN})
     matches.reset()
     rng = np.random.default_rng(0)
-    shown = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(100)])
+    observed = np.concatenate(
+        [matches.step(pushing(rng, matches)).observations for _ in range(100)]
+    )
     high = matches.observation_high
-    assert (np.abs(shown) >= high - 1e-6)[
+    assert (np.abs(observed) >= high - 1e-6)[
         ..., : matches.task.blocks["action"].columns.start
     ].mean() < 1e-3
-    assert np.abs(shown).max(axis=(0, 1)).min() > 0.2
-    assert 0.2 < shown.std() < 1.5
+    assert np.abs(observed).max(axis=(0, 1)).min() > 0.2
+    assert 0.2 < observed.std() < 1.5
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
-    """Measured where the script that plays best is at work on one side."""
+def test_goals_are_the_largest_part_of_the_return(name: str) -> None:
+    """Measured with the scripted policy `chase` against robots at rest."""
     worlds = 60
     task = rsoccer.make_task(name)
     learners: Controllers = {"all": rsoccer.LEARN, "yellow": "zero"}
@@ -124,17 +126,17 @@ def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
         WorldRng.seeded(0, worlds),
         chase.new_memory((worlds, 3, 2), WorldRng.seeded(0, 1)),
     )
-    paid = dict.fromkeys(REWARD_WEIGHTS, 0.0)
+    totals = dict.fromkeys(REWARD_WEIGHTS, 0.0)
     goals = 0
     for _ in range(task.max_steps):
-        seen = rsoccer.policies.PolicyInput((worlds, 3, 2), matches.play.view, None)
-        outcome = matches.step(chase.act(seen, rng, memory))
+        inputs = rsoccer.policies.PolicyInput((worlds, 3, 2), matches.play.view, None)
+        outcome = matches.step(chase.act(inputs, rng, memory))
         for term, value in outcome.terms.items():
-            paid[term] += float(np.abs(value).sum())
+            totals[term] += float(np.abs(value).sum())
         goals += int(outcome.terminated.sum())
         if matches.done.all():
             break
-    share = {term: part / sum(paid.values()) for term, part in paid.items()}
+    share = {term: total / sum(totals.values()) for term, total in totals.items()}
     assert goals > 0.8 * worlds
     assert share["goal"] == max(share.values()), share
     assert share["energy"] < 0.02, share
@@ -142,13 +144,13 @@ def test_a_goal_is_the_largest_part_of_what_an_episode_pays(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("way", [1.0, -1.0])
-def test_a_goal_of_either_side_ends_the_match_and_tells_the_score(name: str, way: float) -> None:
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_goal_of_either_team_terminates_and_sets_the_score(name: str, side: float) -> None:
     frame = Frame.empty(1, 3, 3)
     frame.blue.position[:] = [[-0.5, 0.45], [-0.4, 0.45], [-0.3, 0.45]]
     frame.yellow.position[:] = [[0.3, 0.45], [0.4, 0.45], [0.5, 0.45]]
-    frame.ball.position[:] = [[0.6 * way, 0.1]]
-    frame.ball.velocity[:] = [[1.2 * way, 0.0]]
+    frame.ball.position[:] = [[0.6 * side, 0.1]]
+    frame.ball.velocity[:] = [[1.2 * side, 0.0]]
     controllers: Controllers = {"all": rsoccer.LEARN}
     matches = Matches(name, 1, controllers=controllers, autoreset="disabled")
     matches.reset(rows=frame.rows)
@@ -159,12 +161,12 @@ def test_a_goal_of_either_side_ends_the_match_and_tells_the_score(name: str, way
         assert outcome.metrics["goal_score"][0] == 0.0
     assert outcome.terminated[0]
     assert not outcome.truncated[0]
-    assert outcome.metrics["goal_score"][0] == way
-    assert matches.frame.ball.crossed[0] == (GOAL_RIGHT if way > 0 else GOAL_LEFT)
-    assert outcome.terms["goal"][0].tolist() == [10.0 * way] * 3 + [-10.0 * way] * 3
+    assert outcome.metrics["goal_score"][0] == side
+    assert matches.frame.ball.crossed[0] == (GOAL_RIGHT if side > 0 else GOAL_LEFT)
+    assert outcome.terms["goal"][0].tolist() == [10.0 * side] * 3 + [-10.0 * side] * 3
 
 
-def test_weights_are_data() -> None:
+def test_reward_weights_are_options() -> None:
     task = VssSelfPlay(reward_weights={"approach": 0.0})
     assert task.reward_weights == REWARD_WEIGHTS | {"approach": 0.0}
     matches = Matches(task, 2)
@@ -204,7 +206,7 @@ def test_weights_are_data() -> None:
             r"reward_weights: unknown \[1, 'style'\]",
         ),
         ({"discrete": "no"}, TypeError, "discrete: expected True or False, got 'no'"),
-        ({"robot": "ssl_generic"}, ValueError, "robot: expected one with two wheels"),
+        ({"robot": "ssl_generic"}, ValueError, "robot: expected one with a differential drive"),
         ({"robot": ["vss_440rpm"] * 3 + ["vss_650rpm"] * 3}, ValueError, "robot: expected one mod"),
         ({"field": "vss_9v9"}, ValueError, "field must be one of.*vss_9v9"),
         (
@@ -228,15 +230,15 @@ def test_weights_are_data() -> None:
         ({"field": 3}, TypeError, "field: expected a preset's name or a Field, got 3$"),
     ],
 )
-def test_options_that_make_no_task_are_refused(
+def test_invalid_options_are_refused(
     options: dict[str, Any], error: type[Exception], message: str
 ) -> None:
     with pytest.raises(error, match=message):
         VssSelfPlay(**options)
 
 
-def test_a_ball_may_start_as_fast_as_a_match_can_start() -> None:
-    """At 30 m/s a match was refused at its first start, or at some later one."""
+def test_the_ball_may_start_at_the_fastest_speed_of_the_simulator() -> None:
+    """A task with 30 m/s was valid, and its matches failed at a later reset."""
     task = VssSelfPlay(ball_speed=FASTEST)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
     fastest = np.hypot(*frame.ball.velocity.T).max()
@@ -245,7 +247,7 @@ def test_a_ball_may_start_as_fast_as_a_match_can_start() -> None:
     Matches(task, 2000).reset(rows=frame.rows)
 
 
-def test_tasks_are_data() -> None:
+def test_tasks_are_immutable_values() -> None:
     assert VssSelfPlay(n_blue=2) == VssSelfPlay(n_blue=2)
     assert VssSelfPlay(n_blue=2) != VssSelfPlay(n_blue=1)
     with pytest.raises(AttributeError):

@@ -1,4 +1,4 @@
-"""VSSS on the field for five a side: tasks, scripts, the trainer."""
+"""VSSS with five robots per team: tasks, scripted policies and training."""
 
 from pathlib import Path
 
@@ -21,39 +21,41 @@ FIVE = VssSelfPlay(field="vss_5v5", n_blue=5, n_yellow=5)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_task_can_be_played_there(name: str) -> None:
+def test_every_task_runs_on_the_5v5_field(name: str) -> None:
     task = rsoccer.make_task(name, field="vss_5v5", n_blue=5, n_yellow=5)
     assert (task.config.field.name, task.config.field.length) == ("vss_5v5", 2.2)
     check_task(task, worlds=3, steps=60)
 
 
-def test_teams_of_three_are_the_default_there_too() -> None:
+def test_team_sizes_do_not_depend_on_the_field() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0", field="vss_5v5")
     assert (task.n_blue, task.n_yellow) == (3, 3)
     assert rsoccer.make_task("VSSSelfPlay-v0").config.field.name == "vss_3v3"
 
 
-def test_starts_use_the_whole_field_and_observations_their_range() -> None:
+def test_initial_states_cover_the_field_and_observations_their_range() -> None:
     matches = Matches(FIVE, 64)
-    shown = matches.reset()
+    observed = matches.reset()
     x, y = np.abs(matches.frame.robots.position).max(axis=(0, 1))
     assert 0.95 < x < 1.1
     assert 0.75 < y < 0.9
     pressing = Pressing(FIVE)
     for _ in range(100):
-        shown = matches.step(pressing.actions(matches)).observations
+        observed = matches.step(pressing.actions(matches)).observations
     high = matches.observation_high
-    assert (np.abs(shown) >= high - 1e-6)[..., : FIVE.blocks["action"].columns.start].mean() < 1e-3
+    assert (np.abs(observed) >= high - 1e-6)[
+        ..., : FIVE.blocks["action"].columns.start
+    ].mean() < 1e-3
 
 
 @pytest.mark.parametrize("policy", ["chase", "scripted", "scripted:0.5"])
-def test_scripts_score_there(policy: str) -> None:
+def test_scripted_policies_score_on_the_5v5_field(policy: str) -> None:
     found = evaluate(policy, "ou", 20, seed=2, task=FIVE, worlds=20)
     assert found.score > 0.5
     assert min(found.sides["blue"].wins, found.sides["yellow"].wins) > 4
 
 
-def test_goals_are_where_the_field_has_them() -> None:
+def test_goals_are_at_the_lines_of_the_field() -> None:
     matches = Matches(FIVE, 1, autoreset="disabled")
     matches.reset(seed=0)
     row = matches.frame.rows.copy()
@@ -71,7 +73,9 @@ def test_goals_are_where_the_field_has_them() -> None:
     assert matches.frame.ball.crossed_at[0, 0] == pytest.approx(1.1)
 
 
-def test_a_first_update_can_be_made_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_policy_can_be_trained_on_the_5v5_field(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     for names in ("_TASKS", "_ALIASES"):
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
     registry.alias("FiveASide-v0", "VSSSelfPlay-v0", field="vss_5v5", n_blue=5, n_yellow=5)

@@ -73,7 +73,7 @@ def test_what_is_driven_by_other_actions_is_pressed_by_pushes_that_last() -> Non
     @dataclass(frozen=True)
     class Forward(Crowd):
         action_size = 1
-        CHOICES = np.array([[1.0]], np.float32)
+        DISCRETE_ACTIONS = np.array([[1.0]], np.float32)
 
         def get_commands(self, play: Play, actions: Floats) -> Floats:
             return super().get_commands(play, np.repeat(actions, 2, axis=2))

@@ -64,16 +64,16 @@ class _World:
             TypeError: what should be a whole number is none.
         """
         kind, step = (
-            checks.whole("field_type", field_type, 0),
-            checks.whole("time_step_ms", time_step_ms, 1),
+            checks.integer("field_type", field_type, 0),
+            checks.integer("time_step_ms", time_step_ms, 1),
         )
         if kind >= len(self._fields):
             known = {number: field.name for number, field in enumerate(self._fields)}
             raise ValueError(f"field_type: expected one of {known}, got {kind}")
         self._config = SimConfig(
             self._fields[kind],
-            checks.whole("n_robots_blue", n_robots_blue, 0),
-            checks.whole("n_robots_yellow", n_robots_yellow, 0),
+            checks.integer("n_robots_blue", n_robots_blue, 0),
+            checks.integer("n_robots_yellow", n_robots_yellow, 0),
             robot=self._robot,
             ball=self._ball,
             time_step=step / 1000.0,

@@ -31,7 +31,7 @@ def chosen_task(task: Task | str, max_steps: int | None, options: Mapping[str, A
 def timed(task: Task, name: str, limit: int) -> Task:
     """A copy with another clock: the caller's own task keeps its own."""
     task = copy.copy(task)
-    object.__setattr__(task, "max_steps", checks.whole(name, limit, 1))
+    object.__setattr__(task, "max_steps", checks.integer(name, limit, 1))
     return task
 
 

@@ -95,7 +95,7 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
         whoever else may read them.
         """
         self._viewer.expect_open("reset")
-        seed = None if seed is None else checks.whole("seed", seed, 0)
+        seed = None if seed is None else checks.integer("seed", seed, 0)
         rows = starts(reset_options(options), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=rows)
         super().reset(seed=seed)

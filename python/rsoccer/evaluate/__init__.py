@@ -53,9 +53,9 @@ def evaluate(
     task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
     each = _matches_of_a_side(task, matches)
-    checks.whole("seed", seed, 0)
-    checks.whole("worlds", worlds, 1)
-    threads = _processors() if threads is None else checks.whole("threads", threads, 1)
+    checks.integer("seed", seed, 0)
+    checks.integer("worlds", worlds, 1)
+    threads = _processors() if threads is None else checks.integer("threads", threads, 1)
     other: Policy | None = None
     if opponent is not None:
         other = make(opponent, task)
@@ -107,8 +107,8 @@ def _matches_of_a_side(task: Task, matches: int) -> int:
     if task.two_sided and task.success is None:
         raise ValueError(f"task: {task.name} has two sides and must name its success, got None")
     if not task.two_sided:
-        return checks.whole("matches", matches, 1)
-    if checks.whole("matches", matches, 2) % 2:
+        return checks.integer("matches", matches, 1)
+    if checks.integer("matches", matches, 2) % 2:
         raise ValueError(
             f"matches: expected an even number, as {task.name} is played from both sides, "
             f"got {matches}"

@@ -95,7 +95,7 @@ class Matches:
         if autoreset not in AUTORESETS:
             raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
         self.task = as_task(task)
-        self.worlds = checks.whole("worlds", worlds, 1)
+        self.worlds = checks.integer("worlds", worlds, 1)
         self.autoreset = autoreset
         self.assignment = assign(self.task, controllers, worlds)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
@@ -103,11 +103,11 @@ class Matches:
         self.observation_size = self.task.observation_size
         self.observation_low = self.task.observation_low
         self.observation_high = self.task.observation_high
-        threads = checks.whole("threads", threads, 1)
+        threads = checks.integer("threads", threads, 1)
         if simulator is None:
             simulator = Simulator(self.task.config, worlds, threads)
         self._simulator = simulator
-        root = WorldRng.seeded(checks.whole("seed", seed, 0), worlds)
+        root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
         self._viewpoint = self.task.new_viewpoint(self.assignment.observers.tolist())
         self.play = self.task.new_play(worlds, self._viewpoint, root.split("task"))

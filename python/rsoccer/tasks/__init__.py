@@ -1,4 +1,4 @@
-"""The tasks that come with the package, one file each; importing this registers them."""
+"""Tasks of the package, one module each. Importing this package registers them."""
 
 from rsoccer.registry import register
 from rsoccer.tasks import legacy_names
@@ -36,4 +36,4 @@ register("SSLDribbling-v0", SslDribbling)
 register("SSLPassEndurance-v0", SslPassEndurance)
 register("SSLPassEnduranceMulti-v0", SslPassEnduranceMulti)
 register("SSLSelfPlay-v0", SslSelfPlay)
-legacy_names.announce()
+legacy_names.register_aliases()

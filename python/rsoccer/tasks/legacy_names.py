@@ -1,6 +1,7 @@
-"""The environments of rsoccer-gym 1.4, by the names that they had there.
+"""Names of the environments of rsoccer-gym 1.4, as aliases of the tasks here.
 
-An alias asks of the robots what its environment did; observations and rewards are this package's.
+An alias sets the same problem as the environment of that name. Observations and rewards are those
+of this package.
 """
 
 from typing import Any, Final
@@ -15,28 +16,28 @@ KEPT: Final = (
     "SSLContestedPossession-v0",
     "SSLPassEndurance-v0",
 )
-"""Names that the tasks here have too."""
+"""Names that tasks of this package have too."""
 ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "VSSMA-v0": ("VSSMulti-v0", {}),
-    # Its opponent was a network that the package did not come with; here, a script.
+    # Its opponent was a network that the package did not include; here it is a scripted policy.
     "VSSMAOpp-v0": ("VSSMulti-v0", {"opponent": "scripted:0.5"}),
-    # The same task on FIRASim, another simulator.
+    # The same task on another simulator, FIRASim.
     "VSSFIRA-v0": ("VSS-v0", {}),
     "SSLGoToBallIR-v0": ("SSLGoToBall-v0", {"n_opponents": 6}),
     "SSLGoToBallShoot-v0": ("SSLStaticDefenders-v0", {"n_opponents": 0, "max_steps": 2400}),
     "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v0", {}),
 }
-"""Tasks and options for the other names."""
-GONE: Final = {
+"""Tasks and options by alias."""
+RETIRED: Final = {
     "VSSGk-v0": "its attacker was a network that rsoccer-gym did not come with; a task of your own "
     "can pay a robot for keeping the goal against any policy",
 }
-"""Why there is none of this name, and what to take instead."""
+"""Reason and replacement by name, for names without a task."""
 
 
-def announce() -> None:
-    """Make the names known, once the tasks are."""
+def register_aliases() -> None:
+    """Register the aliases and retired names; the tasks must be registered before."""
     for name, (task, options) in ALIASES.items():
         alias(name, task, **options)
-    for name, hint in GONE.items():
+    for name, hint in RETIRED.items():
         retire(name, hint)

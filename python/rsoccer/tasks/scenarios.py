@@ -1,7 +1,7 @@
-"""Official scenarios of the SSL hardware challenges of 2021, turned to attack +x.
+"""Official initial states of the SSL hardware challenges of 2021.
 
-Poses are x, y (m), heading (rad). Facts of the rules (ssl-hardware-challenge-rules, `rules.adoc`
-and `scenarios-*`), which attack -x.
+The numbers are those of the rules (ssl-hardware-challenge-rules, `rules.adoc` and `scenarios-*`),
+where the attack goes to -x. The functions return them rotated by 180 degrees, to attack +x.
 """
 
 from typing import Final
@@ -9,11 +9,12 @@ from typing import Final
 import numpy as np
 
 from rsoccer.frame import Array
-from rsoccer.tasks.ssl import half_turned
+from rsoccer.tasks.ssl import rotated_180
 
 Pose = tuple[float, float, float]
+"""x, y, m, and heading, rad."""
 
-# Challenge 1: the ball, then the opponents.
+# Challenge 1: position of the ball, then poses of the opponents.
 _STATIC: Final[tuple[tuple[tuple[float, float], tuple[Pose, ...]], ...]] = (
     ((-0.2, -1.8), ((-2.9, 0, -0.785), (-2, -0.75, 0), (-2, -0.55, 0))),
     ((-0.9, 0), ((-2.9, 0.175, 0.785), (-2, -0.175, 0), (-1.5, 0, 0))),
@@ -84,7 +85,7 @@ _STATIC: Final[tuple[tuple[tuple[float, float], tuple[Pose, ...]], ...]] = (
     ),
 )
 
-# Challenge 2: the opponent, whose mouth holds the ball, and the attacker.
+# Challenge 2: poses of the opponent, which has the ball in its mouth, and of the attacker.
 _CONTESTED: Final[tuple[tuple[Pose, Pose], ...]] = (
     ((-1, 0, 0), (-0.5, 0, np.pi)),
     ((-1, -1.25, -0.785), (-0.647, -1.604, 2.36)),
@@ -93,17 +94,34 @@ _CONTESTED: Final[tuple[tuple[Pose, Pose], ...]] = (
     ((-2.74, 1.25, 1.57), (-2.74, 1.75, -1.57)),
 )
 
-STATIC_SCENARIOS: Final = len(_STATIC)
-CONTESTED_SCENARIOS: Final = len(_CONTESTED)
+N_STATIC_DEFENDERS: Final = len(_STATIC)
+"""Number of scenarios of challenge 1."""
+N_CONTESTED_POSSESSION: Final = len(_CONTESTED)
+"""Number of scenarios of challenge 2."""
 
 
 def static_defenders(scenario: int) -> tuple[Array, Array]:
-    """Ball (2,) and opponents (k, 3) of scenario 1 to STATIC_SCENARIOS."""
+    """Return an initial state of challenge 1.
+
+    Args:
+        scenario: number in the rules, 1 to `N_STATIC_DEFENDERS`.
+
+    Returns:
+        (2,) position of the ball, m; and (k, 3) poses of the opponents: x, y, m, and heading, rad.
+    """
     ball, opponents = _STATIC[scenario - 1]
-    return -np.asarray(ball), half_turned(np.asarray(opponents))
+    return -np.asarray(ball), rotated_180(np.asarray(opponents))
 
 
 def contested_possession(scenario: int) -> tuple[Array, Array]:
-    """Poses (3,) of the opponent that holds the ball and of the attacker, 1 to CONTESTED_SCENARIOS."""
+    """Return an initial state of challenge 2.
+
+    Args:
+        scenario: number in the rules, 1 to `N_CONTESTED_POSSESSION`.
+
+    Returns:
+        (3,) pose of the opponent with the ball and (3,) pose of the attacker: x, y, m, and
+        heading, rad.
+    """
     opponent, attacker = _CONTESTED[scenario - 1]
-    return half_turned(np.asarray(opponent)), half_turned(np.asarray(attacker))
+    return rotated_180(np.asarray(opponent)), rotated_180(np.asarray(attacker))

@@ -1,4 +1,4 @@
-"""What the tasks of both leagues share: what a robot sees, and the table of those that choose."""
+"""Base class of the tasks of both leagues: observation blocks and discrete actions."""
 
 import math
 from functools import cached_property
@@ -11,7 +11,7 @@ from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
 from rsoccer.view import slots
 
-LIMITS: Final = {
+OBSERVATION_LIMITS: Final = {
     "ball": 4.0,
     "ego": 2.0,
     "teammates": 2.0,
@@ -23,7 +23,7 @@ LIMITS: Final = {
     "body_velocities": 4.0,
     "body_positions": 3.0,
 }
-"""In half lengths of the field and top speeds of a robot; a ball that is hit has more."""
+"""Bounds of the observation blocks, in their units; a struck ball is faster than a robot."""
 
 
 _NEW: Final = {
@@ -38,17 +38,53 @@ _NEW: Final = {
 
 
 class Soccer(Task):
-    """A task with a ball and two goals."""
+    """Base class of tasks with a ball and two goals.
 
-    CHOICES: ClassVar[Floats]  # (choices, action) what agents that choose may do
-    discrete: bool  # an option of all: whether they choose one of these instead of numbers
+    Each robot observes the full state, without noise, in the coordinates of its team: origin at
+    the centre of the field, +x towards the attacked goal, +y to the left of that. Blocks from
+    `ball_polar` to `body_positions` repeat it in the coordinates of the robot's body: origin at
+    its centre, first axis ahead, second axis to its left.
+
+    Blocks of the flat observation, in this order:
+
+    ===============  =========  ===============================================  ======  =====
+    Block            Shape      Meaning                                          Unit    Limit
+    ===============  =========  ===============================================  ======  =====
+    ball             (4,)       VSSS: position x, y; velocity x, y               L; V    4
+    ..               (6,)       SSL: position x, y, z; velocity x, y, z          L; V    4
+    ego              (r,)       own position x, y; cosine and sine of the        L; 1;   2
+                                heading; velocity x, y; turn rate; SSL: also     V; W;
+                                1 if the ball is in the break beam, else 0       1
+    teammates        (t, r)     the same of each teammate                        as ego  2
+    opponents        (o, r)     the same of each opponent                        as ego  2
+    ball_polar       (3,)       distance of the ball; cosine and sine of its     L; 1    3
+                                bearing
+    goal_polar       (3,)       the same of the centre of the attacked goal      L; 1    3
+    shot             (4,)       cosine and sine of the direction from ball to    1       1
+                                goal; closeness of the ball, exp(-d / 0.125 m)
+                                at distance d; closeness times the cosine of
+                                the angle between the directions to the ball
+                                and from ball to goal
+    body_velocities  (2, 2)     own velocity; velocity of the ball               V       4
+    body_positions   (1 + t +   offset to the ball, to each teammate and to      L       3
+                     o, 2)      each opponent
+    action           (a,)       last action of the robot; 0 after a reset        1       1
+    ===============  =========  ===============================================  ======  =====
+
+    Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
+    Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
+    teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
+    it shows the centre of the field. Values are clipped to [-limit, limit]. `Task.blocks` gives the
+    columns of each block.
+    """
+
+    DISCRETE_ACTIONS: ClassVar[Floats]
+    """(choices, action_size) actions that agents choose from with the option `discrete`."""
+    discrete: bool
+    """Option of each task. True: agents choose from `DISCRETE_ACTIONS`."""
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """The whole game in the robot's view, and ball and goal from where it stands and faces.
-
-        A robot has 7 numbers, and 8 where it has a break beam; there the ball has heights too.
-        What each block holds is said by the core's `Sight`.
-        """
+        """Compute the blocks of the class's table, each (n, observers, ...)."""
         flat = self._features(play)
         blocks: dict[str, Floats] = {}
         for name, columns, shape in self._flat_blocks:
@@ -57,31 +93,36 @@ class Soccer(Task):
         return blocks
 
     def observe(self, play: Play) -> Floats:
-        """The blocks side by side within their limits, a new array (n, observers, o)."""
+        """Compute the flat observation, (n, observers, observation_size), a new array."""
         if type(self).frame_to_observations is not Soccer.frame_to_observations:
             return super().observe(play)
-        flat = self._features(play)  # nobody adds to them: they lie side by side already
+        flat = self._features(play)  # no subclass adds blocks: the columns are in order already
         limit(flat, self.observation_high)
         return flat
 
     def observation_limits(self) -> dict[str, float]:
-        """LIMITS."""
-        return dict(LIMITS)
+        """Return a copy of `OBSERVATION_LIMITS`."""
+        return dict(OBSERVATION_LIMITS)
 
     @property
     def action_table(self) -> Floats | None:
-        """CHOICES, if agents choose."""
-        return self.CHOICES if self.discrete else None
+        """`DISCRETE_ACTIONS` with the option `discrete`, else None."""
+        return self.DISCRETE_ACTIONS if self.discrete else None
 
     @cached_property
     def ego_features(self) -> Sight:
-        """What robots see, in half lengths of the field and a robot's top speeds."""
+        """Encoder of the observation, in half field lengths and the robot's top speeds."""
         config = self.config
         return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
 
     @cached_property
+    def position_scale(self) -> np.float32:
+        """Scale of positions in observations, per metre: the inverse of half the field's length."""
+        return np.float32(1.0 / self.config.field.half_length)
+
+    @cached_property
     def _flat_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
-        """Name, place and shape of each part of what `_features` shows."""
+        """Name, columns and shape of each block in the result of `_features`."""
         blocks, first = [], 0
         core = [(_NEW.get(name, name), shape) for name, shape in self.ego_features.blocks]
         for name, shape in (*core, ("action", (self.action_size,))):
@@ -90,13 +131,8 @@ class Soccer(Task):
         return tuple(blocks)
 
     def _features(self, play: Play) -> Floats:
-        """What each robot that looks sees, and what it did: (n, observers, numbers), a new array."""
+        """Unclipped flat observation (n, observers, columns), a new array."""
         size = self.action_size
         flat = self.ego_features.look(play.view.ball.data, play.view.robots.data, size)
         flat[:, :, -size:] = play.actions[:, play.observers]
         return flat
-
-    @cached_property
-    def per_metre(self) -> np.float32:
-        """Scale of places in observations."""
-        return np.float32(1.0 / self.config.field.half_length)

@@ -1,13 +1,8 @@
-"""What all SSL tasks share: the field of the hardware challenges, and actions.
-
-An action is five numbers in [-1, 1]: velocity along the axes of the field as the robot's side sees
-it (or of the robot, by option), turn rate, kick (none below 0, up to the legal limit) and dribbler
-(off below 0).
-"""
+"""Base class of the SSL tasks: options, field, actions and poses."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from dataclasses import field as default
+from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
@@ -20,46 +15,80 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
-TURN: Final = 10.0  # rad/s, the fastest that an action asks for: rSoccer's own limit
-LEGAL_KICK: Final = 6.5  # m/s, SSL rules
+MAX_TURN_RATE: Final = 10.0
+"""Turn rate of a full deflection, rad/s: the limit of rsoccer-gym."""
+MAX_LEGAL_KICK_SPEED: Final = 6.5
+"""Speed limit of a kick, m/s: SSL rules."""
 VELOCITY_FRAMES: Final = ("field", "robot")
-STARTS: Final = 16  # that are tried on another field than a task's own
+"""Values of the option `velocity_frame`."""
+TRIAL_STARTS: Final = 16
+"""Initial states that are tried on a field other than the task's default."""
 
-# What agents that choose may do: stand, eight ways to drive, turn left and right, each with the
-# dribbler running; kick, standing; in the order of an action's numbers.
-_WAYS = [(x, y, 0.0) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)]
-CHOICES: Final = np.array(
-    [(*way, -1.0, 1.0) for way in [*_WAYS, (0.0, 0.0, 0.5), (0.0, 0.0, -0.5)]]
+_DIRECTIONS = [(x, y, 0.0) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0)]
+DISCRETE_ACTIONS: Final = np.array(
+    [(*motion, -1.0, 1.0) for motion in [*_DIRECTIONS, (0.0, 0.0, 0.5), (0.0, 0.0, -0.5)]]
     + [(0.0, 0.0, 0.0, 1.0, -1.0)],
     np.float32,
 )
+"""(12, 5) eight directions and stop, turn left, turn right, all with dribbler; kick at rest."""
 
 
 @dataclass(frozen=True)
 class Ssl(Soccer):
-    """A task on an SSL field; subclasses say what is to be done."""
+    """Base class of the SSL tasks; subclasses define goal, initial state, rewards and end.
 
-    field: str = "ssl_challenge"  # a field of the simulator
-    max_steps: int = 1200  # 30 s
-    velocity_frame: str = "field"  # of the velocities: "field" or "robot"
-    reward_weights: Mapping[str, float] | str = default(
-        default_factory=dict
-    )  # replace REWARD_WEIGHTS; "paper"
-    robot: str = "ssl_generic"  # a robot model of the simulator
-    ball: str = "ssl_tigers"  # a ball of the simulator
-    discrete: bool = False  # whether agents choose one of CHOICES instead of five numbers
+    Action of a robot:
+
+    =====  ==========================================  ==================================  =======
+    Index  Meaning                                     Value of 1                          Range
+    =====  ==========================================  ==================================  =======
+    0      velocity towards the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
+           ahead if `velocity_frame` is "robot"
+    1      velocity to the left of that                `config.robot.top_speed`, m/s       -1 to 1
+    2      turn rate, counterclockwise                 10 rad/s                            -1 to 1
+    3      kick speed; no kick up to 0                 6.5 m/s (SSL rules), or the         -1 to 1
+                                                       robot's maximum if that is less
+    4      dribbler: on above 0, off up to 0           full speed, for any value above 0   -1 to 1
+    =====  ==========================================  ==================================  =======
+
+    Source: the SSL hardware challenges of 2021 (field and challenges) and Martins et al., "rSoccer:
+    A Framework for Studying Reinforcement Learning in Small and Very Small Size Robot Soccer"
+    (2021; choice of tasks).
+
+    Raises:
+        TypeError: an option of a wrong type.
+        ValueError: an option outside its range, or a field without space for the initial state.
+    """
+
+    field: str = "ssl_challenge"
+    """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m) or a `Field`."""
+    max_steps: int = 1200
+    """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
+    velocity_frame: str = "field"
+    """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
+    reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
+    """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
+    robot: str = "ssl_generic"
+    """Robot model with an omnidirectional drive: a preset's name or a `RobotModel`."""
+    ball: str = "ssl_tigers"
+    """Ball model: a preset's name or a `BallModel`."""
+    discrete: bool = False
+    """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
 
     action_size = 5
-    CHOICES: ClassVar[Floats] = CHOICES
-    half_only: ClassVar[bool] = (
-        False  # whether play keeps to the opponents' half, out of their area
-    )
+    """Velocity x and y, turn rate, kick speed, dribbler."""
+    DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
+    """(12, 5) actions."""
+    half_only: ClassVar[bool] = False
+    """True: blue_0 must stay in the opponents' half and out of their goal area."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    """Weights of the rSoccer paper (2021) in these terms: `reward_weights` "paper"."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
-        checks.whole("max_steps", self.max_steps, 1)
+        """Validate the options."""
+        checks.integer("max_steps", self.max_steps, 1)
         if self.velocity_frame not in VELOCITY_FRAMES:
             raise ValueError(
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
@@ -68,77 +97,103 @@ class Ssl(Soccer):
             self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
         )
         object.__setattr__(self, "reward_weights", weights)
-        checks.flag("discrete", self.discrete)
+        checks.boolean("discrete", self.discrete)
         checks.preset("field", self.field, Field)
-        checks.robots(self.robot)
+        checks.robot_models(self.robot)
         if self.ball is not None:
             checks.preset("ball", self.ball, BallModel)
-        checks.drive(self.config, "omni", "that is told its body's velocity")
+        checks.drive(self.config, "omni", "with an omnidirectional drive")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")
         if self.field != type(self).field:
-            self._check_room()
-
-    def _check_room(self) -> None:
-        """ValueError unless a match can start on a field that is not the task's own."""
-        rng = WorldRng.seeded(0, STARTS)
-        try:
-            rows = self.get_initial_positions_frame(rng).rows
-            Simulator(self.config, STARTS).place(np.ones(STARTS, np.bool_), rows, rows.copy())
-        except ValueError as error:
-            raise ValueError(f"field: no room for this task on {self.field!r}: {error}") from error
+            self._check_starts()
 
     def team_sizes(self) -> tuple[int, int]:
-        """Robots of blue and of yellow."""
+        """Return the numbers of blue and of yellow robots."""
         return 1, 0
 
     @cached_property
     def config(self) -> SimConfig:
-        """25 ms steps; the field, robots and ball that the options name."""
+        """Configuration with the field, robots and ball of the options and 25 ms steps."""
         n_blue, n_yellow = self.team_sizes()
         return SimConfig(self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball)
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
-        """Velocity in the robot's frame (m/s), turn rate (rad/s), kick (m/s), dribbler."""
+        """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""
         return self._steering.commands(actions, play.frame.rows)
 
-    def is_off_field(self, places: Floats) -> Mask:
-        """(n,) whether places (n, 2) are beyond the field's lines."""
-        beyond = np.abs(places) > self._corner
+    def is_off_field(self, positions: Floats) -> Mask:
+        """Return the positions that are beyond the lines of the field.
+
+        Args:
+            positions: (n, 2) metres.
+
+        Returns:
+            (n,).
+        """
+        beyond = np.abs(positions) > self._half_size
         return np.logical_or(beyond[:, 0], beyond[:, 1])
 
     @cached_property
-    def reach(self) -> np.float32:
-        """Metres from a robot's centre to that of a ball at its front."""
+    def mouth_offset(self) -> np.float32:
+        """Distance from a robot's centre to the centre of a ball in its mouth, m."""
         return np.float32(self.config.robot.front + self.config.ball.radius)
 
     @cached_property
     def action_scales(self) -> Floats:
-        """(5,) what a 1 in an action asks for: m/s, m/s, rad/s, m/s of a kick, dribbler on."""
+        """(5,) values of a full deflection: m/s, m/s, rad/s, m/s of a kick, 1 for the dribbler."""
         robot = self.config.robot
-        kick = min(robot.max_kick, LEGAL_KICK)
-        return np.array([robot.top_speed, robot.top_speed, TURN, kick, 1.0], np.float32)
+        kick = min(robot.max_kick, MAX_LEGAL_KICK_SPEED)
+        return np.array([robot.top_speed, robot.top_speed, MAX_TURN_RATE, kick, 1.0], np.float32)
 
     @cached_property
-    def _corner(self) -> Floats:
-        """(2,) where two lines of the field meet, metres."""
+    def _half_size(self) -> Floats:
+        """(2,) half length and half width of the field, m."""
         return np.array([self.config.field.half_length, self.config.field.half_width], np.float32)
 
     @cached_property
     def _steering(self) -> Steering:
-        """What actions ask for."""
+        """Converter from actions to commands."""
         return Steering(self.action_scales.tolist(), self.velocity_frame == "field", self.n_blue)
 
+    def _check_starts(self) -> None:
+        """Raise ValueError unless matches can start on a field other than the default."""
+        rng = WorldRng.seeded(0, TRIAL_STARTS)
+        try:
+            rows = self.get_initial_positions_frame(rng).rows
+            simulator = Simulator(self.config, TRIAL_STARTS)
+            simulator.place(np.ones(TRIAL_STARTS, np.bool_), rows, rows.copy())
+        except ValueError as error:
+            raise ValueError(
+                f"field: no space for the initial state of this task on {self.field!r}: {error}"
+            ) from error
 
-def ball_at_mouth(frame: Frame, robot: int, reach: np.float32) -> Floats:
-    """Where a ball in the mouth of `robot` is, (n, 2) metres."""
+
+def ball_at_mouth(frame: Frame, robot: int, mouth_offset: np.float32) -> Floats:
+    """Compute the position of a ball in the mouth of a robot.
+
+    Args:
+        frame: state of n worlds.
+        robot: index of the robot in the order of a state row.
+        mouth_offset: distance from the robot's centre to the ball's, m.
+
+    Returns:
+        (n, 2) metres.
+    """
     robots = frame.robots
-    at: Floats = robots.position[:, robot] + robots.heading[:, robot] * reach
-    return at
+    position: Floats = robots.position[:, robot] + robots.heading[:, robot] * mouth_offset
+    return position
 
 
-def half_turned(poses: Array) -> Array:
-    """Poses (..., 3) of x, y and heading for the other goal: the field turned half round."""
-    turned = np.asarray(poses, np.float64) * [-1.0, -1.0, 1.0]
-    turned[..., 2] += np.pi
-    return turned
+def rotated_180(poses: Array) -> Array:
+    """Rotate poses by 180 degrees about the centre of the field.
+
+    Args:
+        poses: (..., 3) x and y, m; heading, rad.
+
+    Returns:
+        (..., 3) float64 poses of a team that attacks the other goal.
+    """
+    rotated = np.asarray(poses, np.float64) * [-1.0, -1.0, 1.0]
+    rotated[..., 2] += np.pi
+    return rotated

@@ -1,8 +1,8 @@
-"""What both attacking challenges share: one robot shall score against opponents in their half."""
+"""Base class of hardware challenges 1 and 2: one robot attacks opponents in their half."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -12,20 +12,41 @@ from rsoccer.markers import Area, Marker
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
 
-BACK: np.float32 = np.float32(0.2)
-"""Metres behind the middle line that the attacker may go."""
+CENTRE_LINE_TOLERANCE: Final = np.float32(0.2)
+"""Distance that the attacker may go behind the centre line, m."""
 
 
 @dataclass(frozen=True)
 class SslAttack(Ssl):
-    """blue_0 starts at the centre and attacks +x; it and the ball stay in the opponents' half.
+    """Base class of the tasks in which blue_0 attacks +x in the opponents' half.
 
-    A goal ends it, and so do: the ball out of that half, the robot out of it, in the opponents' area,
-    or in contact with an opponent.
+    Goal of the task: score without leaving the opponents' half, entering their goal area or
+    touching an opponent.
+
+    Reward terms, unweighted:
+
+    ============  ==================================================================  ========
+    Term          Meaning                                                             Unit
+    ============  ==================================================================  ========
+    goal          1 for a goal, -1 for one against                                    goals
+    ball_to_goal  progress of the ball towards the attacked goal and away from the    m
+                  own goal
+    approach      decrease of the distance between the ball and the mouth             m
+    failed        1 if the episode terminates without a goal, else 0                  episodes
+    energy        negative mean magnitude of the action                               steps
+    ============  ==================================================================  ========
+
+    Termination: a goal; the ball leaves the opponents' half other than into the goal; the attacker
+    leaves it by more than 0.2 m over the centre line or over any other line, enters the goal area,
+    or touches an opponent. Truncation: after `max_steps`.
+
+    Metric: `goal_score`, 1 for a goal, -1 for one against, else 0.
     """
 
     half_only = True
+    """The attacker must stay in the opponents' half and out of their goal area."""
     success = "goal_score"
+    """Metric that measures the success of an episode."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 1.0,
@@ -33,6 +54,7 @@ class SslAttack(Ssl):
         "failed": -1.0,
         "energy": 0.0005,
     }
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 5.0,
         "ball_to_goal": 1.11,  # the paper's scales: 0.9014 m and 5.0 m
@@ -40,53 +62,54 @@ class SslAttack(Ssl):
         "failed": 0.0,
         "energy": 0.0001,
     }
+    """Weights of the rSoccer paper (2021) in these terms."""
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, opponents hold the ball if they have it and else stand."""
+        """Return `LEARN` for blue_0 and "hold" for opponents: at rest with the dribbler on."""
         return dict.fromkeys(self.robots, "hold") | {"blue_0": LEARN}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """The goal counts most; bringing the ball nearer to it is paid, and so is getting it."""
+        """Compute the reward terms of the class's table; a goal or a failure terminates."""
         goal = rewards.goal(play)
-        failed = self.failed(play.frame) & (rewards.goals_at(play.frame.ball) <= 0.0)
+        failed = self._failed(play.frame) & (rewards.goal_score(play.frame.ball) <= 0.0)
         terms = {
             "goal": goal,
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field),
-            "approach": rewards.to_mouth(play, self.config),
+            "approach": rewards.approach_mouth(play, self.config),
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.reward_weights), failed | rewards.scored(play)
+        return rewards.weighted_terms(terms, self.reward_weights), failed | rewards.scored(play)
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
-        """The half that ball and attacker have to stay in."""
+        """Return the opponents' half as an area."""
         field = self.config.field
         return (Area((0.0, -field.half_width), (field.half_length, field.half_width)),)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`goal_score`: 1 for a goal, -1 for one against, else 0."""
-        return {"goal_score": rewards.goals_at(play.frame.ball)}
+        """Compute `goal_score`, (n,): 1 for a goal, -1 for one against, else 0."""
+        return {"goal_score": rewards.goal_score(play.frame.ball)}
 
-    def failed(self, frame: Frame) -> Mask:
-        """(n,) whether ball or robot is where it must not be, or the contact is one too many."""
-        return self.ball_left(frame) | self.robot_left(frame) | self.fouled(frame)
+    def _failed(self, frame: Frame) -> Mask:
+        """(n,) whether ball or attacker left its area or the attacker committed a foul."""
+        return self._ball_left(frame) | self._attacker_left(frame) | self._has_fouled(frame)
 
-    def ball_left(self, frame: Frame) -> Mask:
-        """(n,) the ball has left the opponents' half, other than through the goal."""
+    def _ball_left(self, frame: Frame) -> Mask:
+        """(n,) whether the ball is outside the opponents' half; the inside of the goal counts."""
         ball, field = frame.ball.position, self.config.field
-        aside = np.abs(ball[:, 1]) > np.float32(field.half_width)
-        beyond = ball[:, 0] > np.float32(field.half_length)
-        return np.logical_or(ball[:, 0] < 0.0, aside | beyond)
+        over_touch_line = np.abs(ball[:, 1]) > np.float32(field.half_width)
+        over_goal_line = ball[:, 0] > np.float32(field.half_length)
+        return np.logical_or(ball[:, 0] < 0.0, over_touch_line | over_goal_line)
 
-    def robot_left(self, frame: Frame) -> Mask:
-        """(n,) the attacker has left the half, or entered the opponents' area."""
-        at, field = frame.blue.position[:, 0], self.config.field
-        aside, x = np.abs(at[:, 1]), at[:, 0]
+    def _attacker_left(self, frame: Frame) -> Mask:
+        """(n,) whether the attacker is outside the opponents' half or in their goal area."""
+        position, field = frame.blue.position[:, 0], self.config.field
+        x, abs_y = position[:, 0], np.abs(position[:, 1])
         area_x = np.float32(field.half_length - field.goal_area_depth)
-        in_area = (x > area_x) & (aside < np.float32(field.goal_area_width / 2))
-        outside = (aside > np.float32(field.half_width)) | (x > np.float32(field.half_length))
-        return np.logical_or(x < -BACK, outside | in_area)
+        in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2))
+        outside = (abs_y > np.float32(field.half_width)) | (x > np.float32(field.half_length))
+        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | in_area)
 
-    def fouled(self, frame: Frame) -> Mask:
-        """(n,) the attacker has touched an opponent."""
+    def _has_fouled(self, frame: Frame) -> Mask:
+        """(n,) whether the attacker touched an opponent in the last step."""
         return np.greater(frame.blue.touched_foe[:, 0], 0.5)

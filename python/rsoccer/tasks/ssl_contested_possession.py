@@ -1,6 +1,7 @@
-"""`SSLContestedPossession-v0`: win the ball off a robot that holds it. Hardware challenge 2."""
+"""`SSLContestedPossession-v0`: take the ball from an opponent. Hardware challenge 2."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -11,69 +12,80 @@ from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl import ball_at_mouth
 from rsoccer.tasks.ssl_attack import SslAttack
 
-CRASH: np.float32 = np.float32(0.5)
-"""m/s, closing speed from which contact with the opponent ends it."""
-CLEAR = 0.5  # metres that the opponent keeps from the attacker's start
+FOUL_SPEED: Final = np.float32(0.5)
+"""Closing speed above which contact with the opponent is a foul, m/s."""
+MIN_OPPONENT_X: Final = 0.5
+"""Least x of the opponent in random initial states, m; the attacker starts at 0."""
 
 
 @dataclass(frozen=True)
 class SslContestedPossession(SslAttack):
-    """An opponent anywhere in its half holds the ball on its dribbler and stands.
+    """SSL attack in which blue_0 must take the ball from the dribbler of an opponent at rest.
 
-    Winning a ball off a dribbler takes touch, so contact ends it only above 0.5 m/s;
-    `strict_contact` is the paper's rule: any contact ends it. `scenario` is one of the five
-    official ones.
+    Goal of the task, reward terms, termination and metrics are those of `SslAttack`, except that
+    contact with the opponent terminates only above a closing speed of 0.5 m/s, because taking a
+    ball from a dribbler needs contact.
+
+    Initial state: blue_0 at the centre, facing the goal; an opponent at a random position in its
+    half, outside its goal area, with a random heading and the ball in its mouth. With `scenario`,
+    the poses of an official scenario. The opponent keeps its position with the dribbler on.
+
+    Source: SSL hardware challenges 2021, challenge 2, and the rSoccer paper (2021).
     """
 
     scenario: int | None = None
+    """Official scenario, 1 to 5; None for random initial states."""
     strict_contact: bool = False
+    """True: any contact with the opponent terminates, the rule of the rSoccer paper."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
+        """Validate the options."""
         if self.scenario is not None:
-            checks.within("scenario", self.scenario, 1, scenarios.CONTESTED_SCENARIOS)
-        checks.flag("strict_contact", self.strict_contact)
+            checks.integer_in_range("scenario", self.scenario, 1, scenarios.N_CONTESTED_POSSESSION)
+        checks.boolean("strict_contact", self.strict_contact)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
-        """One against one."""
+        """Return one attacker and one opponent."""
         return 1, 1
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """The ball in the opponent's mouth; the attacker at the centre, or opposite by scenario."""
+        """Place the attacker and the opponent, at random or by scenario, and the ball."""
         frame = Frame.empty(len(rng), 1, 1)
         if self.scenario is not None:
             opponent, attacker = scenarios.contested_possession(self.scenario)
-            _pose(frame.yellow.position, frame.yellow.heading, opponent)
-            _pose(frame.blue.position, frame.blue.heading, attacker)
+            _set_pose(frame.yellow.position, frame.yellow.heading, opponent)
+            _set_pose(frame.blue.position, frame.blue.heading, attacker)
         else:
             frame.yellow.heading[:] = spawn.headings(rng, 1)
-            frame.yellow.position[:] = self._places(rng)
-        frame.ball.position[:] = ball_at_mouth(frame, 1, self.reach)
+            frame.yellow.position[:] = self._opponent_positions(rng)
+        frame.ball.position[:] = ball_at_mouth(frame, 1, self.mouth_offset)
         return frame
 
-    def fouled(self, frame: Frame) -> Mask:
-        """(n,) the attacker has touched the opponent, too hard unless `strict_contact`."""
+    def _has_fouled(self, frame: Frame) -> Mask:
+        """(n,) whether the attacker hit the opponent too hard, or at all if `strict_contact`."""
         if self.strict_contact:
-            return super().fouled(frame)
-        return np.greater(frame.blue.crash_speed[:, 0], CRASH)
+            return super()._has_fouled(frame)
+        return np.greater(frame.blue.crash_speed[:, 0], FOUL_SPEED)
 
-    def _places(self, rng: WorldRng) -> Floats:
-        """Where the opponent stands, (n, 1, 2): so far inside that the ball is inside too."""
+    def _opponent_positions(self, rng: WorldRng) -> Floats:
+        """Random positions (n, 1, 2) with enough margin that the ball is inside too."""
         field = self.config.field
-        margin = float(self.reach) + 2.0 * self.config.ball.radius
-        box = ((CLEAR, margin - field.half_width), (field.half_length, field.half_width - margin))
+        margin = float(self.mouth_offset) + 2.0 * self.config.ball.radius
+        low = (MIN_OPPONENT_X, margin - field.half_width)
+        high = (field.half_length, field.half_width - margin)
 
-        def forbidden(places: Floats) -> Mask:
-            x, y = places[..., 0], np.abs(places[..., 1])
+        def forbidden(positions: Floats) -> Mask:
+            x, abs_y = positions[..., 0], np.abs(positions[..., 1])
             area_x = np.float32(field.half_length - field.goal_area_depth - margin)
-            in_area = (x > area_x) & (y < np.float32(field.goal_area_width / 2 + margin))
+            in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2 + margin))
             return np.logical_or(in_area, x > np.float32(field.half_length - margin))
 
-        return spawn.inside(rng, box, [self.config.robot.bounding_radius], 0.0, forbidden)
+        radii = [self.config.robot.bounding_radius]
+        return spawn.positions_in_box(rng, (low, high), radii, 0.0, forbidden)
 
 
-def _pose(position: Floats, heading: Floats, pose: Array) -> None:
+def _set_pose(position: Floats, heading: Floats, pose: Array) -> None:
     """Write one pose (3,) into positions and headings (n, 1, 2)."""
     position[:] = pose[:2]
     heading[:] = [np.cos(pose[2]), np.sin(pose[2])]

@@ -1,4 +1,4 @@
-"""`SSLDribbling-v0`: the ball through gates between robots that stand. Hardware challenge 3."""
+"""`SSLDribbling-v0`: dribble the ball through gates between robots. Hardware challenge 3."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,16 +17,44 @@ from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 
 @dataclass(frozen=True)
 class SslDribbling(Ssl):
-    """blue_0 starts with the ball on its dribbler; all gates crossed ends it.
+    """SSL slalom in which blue_0 dribbles the ball through the gates between robots at rest.
 
-    So do: a robot touched, the dribbler out of its bounds, the ball out of the field, and a gate
-    crossed the wrong way. `scenario` is "paper" (seven crossings) or "official" (six).
+    Goal of the task: cross all gates of the course in order, each in its direction.
+
+    Initial state: fixed by the course, with the ball in the mouth of blue_0.
+
+    The observation has one block more than `Soccer`, "gate" (4,), limit 3: offset from the robot to
+    the middle of the next gate, ahead and left, in half field lengths; direction of the crossing,
+    +1 or -1; fraction of the crossings made.
+
+    Reward terms, unweighted:
+
+    ============  ==================================================================  =========
+    Term          Meaning                                                             Unit
+    ============  ==================================================================  =========
+    gate          1 if the ball crossed the next gate in its direction                crossings
+    progress      decrease of the ball's distance to the next gate                    m
+    approach      decrease of the distance between the ball and the mouth             m
+    failed        1 if the episode terminates with gates left, else 0                 episodes
+    energy        negative mean magnitude of the action                               steps
+    ============  ==================================================================  =========
+
+    Termination: all gates crossed; the next gate crossed in the wrong direction; a robot touched;
+    blue_0 outside the bounds of the course; the ball off the field. Truncation: after `max_steps`.
+
+    Metric: `gates`, the number of crossings.
+
+    Source: SSL hardware challenges 2021, challenge 3 ("official"), and the rSoccer paper, 2021
+    ("paper").
     """
 
-    max_steps: int = 4800  # 120 s
+    max_steps: int = 4800
+    """Control steps of 25 ms until truncation, at least 1; 4800 are 120 s."""
     scenario: str = "paper"
+    """Course: "paper" (seven crossings) or "official" (six)."""
 
     success = "gates"
+    """Metric that measures the success of an episode."""
 
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "gate": 5.0,
@@ -35,6 +63,7 @@ class SslDribbling(Ssl):
         "failed": -2.0,
         "energy": 0.0002,
     }
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "gate": 1.0,
         "progress": 0.0,
@@ -42,123 +71,124 @@ class SslDribbling(Ssl):
         "failed": 0.0,
         "energy": 0.0,
     }
+    """Weights of the rSoccer paper (2021) in these terms."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
+        """Validate the options."""
         if self.scenario not in COURSES:
             raise ValueError(f"scenario: expected one of {list(COURSES)}, got {self.scenario!r}")
         super().__post_init__()
 
     @property
     def course(self) -> Course:
-        """Robots and gates."""
+        """Robots and gates of the scenario."""
         return COURSES[self.scenario]
 
     @property
     def full_success(self) -> float:
-        """All gates."""
+        """Number of crossings of the course."""
         return float(len(self.course.gates))
 
     def team_sizes(self) -> tuple[int, int]:
-        """One among those that make the gates."""
+        """Return one dribbling robot and the number of robots that form the gates."""
         return 1, len(self.course.opponents)
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, the others stand."""
+        """Return `LEARN` for blue_0 and "zero" for the others."""
         return dict.fromkeys(self.robots, "zero") | {"blue_0": LEARN}
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """`passed`: gates crossed so far."""
+        """Create `passed`, (n,) the number of gates crossed."""
         return {"passed": np.zeros(n, np.int64)}
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Everything where the course has it, the ball at the dribbler."""
+        """Place the robots by the course and the ball in the mouth of blue_0."""
         frame = Frame.empty(len(rng), *self.team_sizes())
         x, y, heading = self.course.start
         frame.blue.position[:] = [x, y]
         frame.blue.heading[:] = [np.cos(heading), np.sin(heading)]
         frame.yellow.position[:] = self.course.opponents
-        frame.ball.position[:] = ball_at_mouth(frame, 0, self.reach)
+        frame.ball.position[:] = ball_at_mouth(frame, 0, self.mouth_offset)
         return frame
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """Also the next gate: its middle from the robot, its way, and how many are done."""
-        gate = self._gate(play.memory["passed"])
-        middle = self._points(gate)
-        to_gate = middle[:, None] - play.view.ego.position  # (n, observers, 2)
+        """Compute the blocks of `Soccer` and the block "gate" (n, observers, 4)."""
+        gate = self._next_gate(play.memory["passed"])
+        offset = self._gate_middle(gate)[:, None] - play.view.ego.position  # (n, observers, 2)
         cos, sin = play.view.ego.heading[..., 0], play.view.ego.heading[..., 1]
-        x, y = to_gate[..., 0], to_gate[..., 1]
-        per_metre = self.per_metre
-        done = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
-        observers = np.ones_like(x)
-        parts = [(x * cos + y * sin) * per_metre, (y * cos - x * sin) * per_metre]
-        parts += [gate[:, 2:] * observers, done[:, None] * observers]
-        return {**super().frame_to_observations(play), "gate": np.stack(parts, axis=-1)}
+        x, y = offset[..., 0], offset[..., 1]
+        scale = self.position_scale
+        fraction = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
+        ones = np.ones_like(x)  # (n, observers)
+        columns = [(x * cos + y * sin) * scale, (y * cos - x * sin) * scale]
+        columns += [gate[:, 2:] * ones, fraction[:, None] * ones]
+        return {**super().frame_to_observations(play), "gate": np.stack(columns, axis=-1)}
 
     def observation_limits(self) -> dict[str, float]:
-        """The next gate in half lengths of the field."""
+        """Return the bounds of `Soccer` and of the block "gate"."""
         return {**super().observation_limits(), "gate": 3.0}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Gates count most; bringing the ball nearer to the next one is paid, keeping it too."""
+        """Compute the reward terms of the class's table; the last gate or a failure terminates."""
         passed = play.memory["passed"]
-        gate = self._gate(passed)
+        gate = self._next_gate(passed)
         before, now = play.last_frame.ball.position, play.frame.ball.position
-        right, wrong = self.course.crossed(gate, before, now)
-        failed = wrong | self._failed(play.frame)
-        passed += right & ~failed
-        progress = self.course.way_to_go(gate, before) - self.course.way_to_go(gate, now)
+        forward, backward = self.course.crossed(gate, before, now)
+        failed = backward | self._failed(play.frame)
+        passed += forward & ~failed
+        progress = self.course.gate_distance(gate, before) - self.course.gate_distance(gate, now)
         terms = {
-            "gate": (right & ~failed)[:, None].astype(np.float32),
+            "gate": (forward & ~failed)[:, None].astype(np.float32),
             "progress": progress[:, None],
-            "approach": rewards.to_mouth(play, self.config),
+            "approach": rewards.approach_mouth(play, self.config),
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
         complete = passed >= len(self.course.gates)
-        return rewards.weighted(terms, self.reward_weights), failed | complete
+        return rewards.weighted_terms(terms, self.reward_weights), failed | complete
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
-        """The gates, each once, as its next crossing has it; done when none is left."""
+        """Return each gate once, in the direction of its next crossing, done after its last."""
         passed = int(play.memory["passed"][world])
-        # From the last crossing back: what stays of each gate is its first crossing that is left.
+        # In reverse order, so that a gate keeps its first crossing of those left.
         gates = {
-            (first, last): self._marker(first, last, way, place < passed)
-            for place, (first, last, way) in reversed(list(enumerate(self.course.gates)))
-            if place >= passed
+            (low, high): self._marker(low, high, direction, index < passed)
+            for index, (low, high, direction) in reversed(list(enumerate(self.course.gates)))
+            if index >= passed
         }
-        for first, last, way in self.course.gates[:passed]:
-            gates.setdefault((first, last), self._marker(first, last, way, True))
+        for low, high, direction in self.course.gates[:passed]:
+            gates.setdefault((low, high), self._marker(low, high, direction, True))
         return tuple(gates.values())
 
-    def _marker(self, first: float, last: float, way: float, done: bool) -> Gate:
-        """A gate of the course; who crosses x upward has greater y to the left, y: lesser x."""
-        if self.course.crosses == 0:
-            low, high = (self.course.line, first), (self.course.line, last)
-            return Gate(high, low, done) if way > 0 else Gate(low, high, done)
-        low, high = (first, self.course.line), (last, self.course.line)
-        return Gate(low, high, done) if way > 0 else Gate(high, low, done)
-
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`gates`: how many were crossed."""
+        """Compute `gates`, (n,) the number of crossings."""
         return {"gates": play.memory["passed"].astype(np.float32)}
 
-    def _gate(self, passed: Array) -> Floats:
-        """(n, 3) the gate to cross next; the last one once all are."""
+    def _marker(self, low: float, high: float, direction: float, done: bool) -> Gate:
+        """Marker of a gate. Towards +x the left post has the greater y, towards +y the lesser x."""
+        if self.course.crosses == 0:
+            lower, upper = (self.course.line, low), (self.course.line, high)
+            return Gate(upper, lower, done) if direction > 0 else Gate(lower, upper, done)
+        lower, upper = (low, self.course.line), (high, self.course.line)
+        return Gate(lower, upper, done) if direction > 0 else Gate(upper, lower, done)
+
+    def _next_gate(self, passed: Array) -> Floats:
+        """(n, 3) rows of the next gates; of the last gate after all crossings."""
         table = self.course.table
         gate: Floats = table[np.minimum(passed, len(table) - 1)]
         return gate
 
-    def _points(self, gate: Floats) -> Floats:
-        """(n, 2) middles of gates."""
-        points = np.full((len(gate), 2), self.course.line, np.float32)
-        points[:, 1 - self.course.crosses] = np.float32(0.5) * (gate[:, 0] + gate[:, 1])
-        return points
+    def _gate_middle(self, gate: Floats) -> Floats:
+        """(n, 2) middles of gates, m."""
+        middle = np.full((len(gate), 2), self.course.line, np.float32)
+        middle[:, 1 - self.course.crosses] = np.float32(0.5) * (gate[:, 0] + gate[:, 1])
+        return middle
 
     def _failed(self, frame: Frame) -> Mask:
+        """(n,) whether blue_0 left its bounds or touched a robot, or the ball left the field."""
         (x_min, y_min), (x_max, y_max) = np.array(self.course.bounds, np.float32)
         x, y = frame.blue.position[:, 0].T
         outside = (x < x_min) | (x > x_max) | (y < y_min) | (y > y_max)
-        out = self.is_off_field(frame.ball.position)
-        failed: Mask = outside | out | (frame.blue.touched_foe[:, 0] > 0.5)
+        ball_out = self.is_off_field(frame.ball.position)
+        failed: Mask = outside | ball_out | (frame.blue.touched_foe[:, 0] > 0.5)
         return failed

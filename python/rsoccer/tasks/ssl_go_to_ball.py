@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -13,20 +13,45 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
 
-APART = 0.2  # metres between centres at the start
-MAX_OPPONENTS = 6
+MIN_START_DISTANCE: Final = 0.2
+"""Least distance between centres in the initial state, m."""
+MAX_OPPONENTS: Final = 6
 
 
 @dataclass(frozen=True)
 class SslGoToBall(Ssl):
-    """blue_0 is to cut its own beam with the ball, so it has to come from the right side.
+    """SSL task in which blue_0 drives to the ball and brings it into its break beam.
 
-    The ball lies anywhere, and so do up to six opponents that do not move. Leaving the field ends it.
+    Goal of the task: bring the ball into the break beam of blue_0's mouth, so blue_0 has to
+    approach facing the ball.
+
+    Initial state: ball and robots at uniform random positions, at rest, with random headings. The
+    opponents do not move.
+
+    Reward terms, unweighted:
+
+    ============  ==================================================================  ========
+    Term          Meaning                                                             Unit
+    ============  ==================================================================  ========
+    reached       1 if the ball is in the break beam, else 0                          episodes
+    approach      decrease of the distance between the ball and the mouth             m
+    left_field    1 if blue_0 is off the field, else 0                                episodes
+    energy        negative mean magnitude of the action                               steps
+    ============  ==================================================================  ========
+
+    Termination: the ball in the break beam; blue_0 off the field. Truncation: after `max_steps`.
+
+    Metrics: `reached`, 1 or 0; `seconds`, duration of the episode.
+
+    Source: the rSoccer paper (2021); there is no official challenge. rsoccer-gym's variant
+    with the break beam and six opponents is the alias `SSLGoToBallIR-v0`.
     """
 
-    n_opponents: int = 0  # robots that stand in the way
+    n_opponents: int = 0
+    """Opponents at rest as obstacles, 0 to 6."""
 
     success = "reached"
+    """Metric that measures the success of an episode."""
 
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "reached": 5.0,
@@ -34,53 +59,56 @@ class SslGoToBall(Ssl):
         "left_field": -2.0,
         "energy": 0.0005,
     }
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "reached": 1.0,
-        "approach": 0.14,  # the paper's is by the field's diagonal
+        "approach": 0.14,  # the paper divides by the field's diagonal
         "left_field": 0.0,
         "energy": 0.0001,
     }
+    """Weights of the rSoccer paper (2021) in these terms."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
-        checks.within("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
+        """Validate the options."""
+        checks.integer_in_range("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
-        """One against those that stand."""
+        """Return one robot and the number of opponents of the option."""
         return 1, self.n_opponents
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, opponents stand."""
+        """Return `LEARN` for blue_0 and "zero" for opponents."""
         return dict.fromkeys(self.robots, "zero") | {"blue_0": LEARN}
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Ball and robots anywhere, apart, facing anywhere."""
-        return spawn.anywhere(rng, self.config, APART)
+        """Draw random positions and headings."""
+        return spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """The ball in the mouth counts most; coming nearer to that is paid, leaving costs."""
+        """Compute the reward terms of the class's table; ball reached or field left terminates."""
         reached = self._reached(play.frame)
         left = self.is_off_field(play.frame.blue.position[:, 0])
         terms = {
             "reached": reached[:, None].astype(np.float32),
-            "approach": rewards.to_mouth(play, self.config),
+            "approach": rewards.approach_mouth(play, self.config),
             "left_field": left[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.reward_weights), reached | left
+        return rewards.weighted_terms(terms, self.reward_weights), reached | left
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
-        """The ball as the target."""
+        """Return the ball as a target."""
         x, y = play.frame.ball.position[world].tolist()
         return (Target((x, y), 3.0 * self.config.ball.radius),)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`reached`: 1 if blue_0 has the ball, else 0; `seconds` that it took."""
+        """Compute `reached`, 1 or 0, and `seconds` since the start; each (n,)."""
         return {
             "reached": self._reached(play.frame).astype(np.float32),
             "seconds": play.steps.astype(np.float32) * np.float32(self.config.time_step),
         }
 
     def _reached(self, frame: Frame) -> Mask:
+        """(n,) whether the ball is in the break beam of blue_0."""
         return np.greater(frame.blue.infrared[:, 0], 0.5)

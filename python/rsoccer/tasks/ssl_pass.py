@@ -1,71 +1,78 @@
-"""What both passing tasks share: two robots of one side, and when a pass has failed."""
+"""Base class of the passing tasks: two robots of one team, and the test for a missed pass."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import Final
 
 import numpy as np
 
 from rsoccer import spawn
 from rsoccer.frame import Floats, Frame, Mask, length
-from rsoccer.markers import Marker, Target, Way
+from rsoccer.markers import Marker, Segment, Target
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 
-APART: Final = 1.6  # metres between the two at the start: more than a pass must be long
-SLOW: Final = np.float32(0.1)  # m/s below which the ball has stopped
-FLIES: Final = np.float32(0.3)  # m/s from which its direction says where it will get
-FREE: Final = np.float32(0.15)  # metres from the passer's mouth at which the ball is on its way
+MIN_START_DISTANCE: Final = 1.6
+"""Least distance between the robots in the initial state, m: above the least length of a pass."""
+STOPPED_SPEED: Final = np.float32(0.1)
+"""Speed of the ball below which it counts as stopped, m/s."""
+MOVING_SPEED: Final = np.float32(0.3)
+"""Speed of the ball above which its direction decides whether a pass misses, m/s."""
+RELEASE_DISTANCE: Final = np.float32(0.15)
+"""Distance from the passer's mouth beyond which the ball counts as passed, m."""
 
 
 @dataclass(frozen=True)
 class SslPass(Ssl):
-    """blue_0 starts with the ball on its dribbler, blue_1 somewhere else."""
+    """Base class of the SSL tasks in which blue_0 and blue_1 pass the ball; no opponents.
+
+    Initial state: both robots at random positions at least 1.6 m apart, with random headings, the
+    ball in the mouth of blue_0.
+    """
 
     sides = ("blue",)
-    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    """Only blue robots observe."""
 
     def team_sizes(self) -> tuple[int, int]:
-        """Two of one side."""
+        """Return two blue robots and no yellow ones."""
         return 2, 0
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Robots anywhere, apart, facing anywhere; the ball in the mouth of the first."""
+        """Draw random positions and headings, and place the ball in the mouth of blue_0."""
         frame = Frame.empty(len(rng), 2, 0)
         field, config = self.config.field, self.config
-        # So far inside that the ball before the robot is inside too.
-        room = float(self.reach) + 2.0 * config.ball.radius
-        far = np.array([field.half_length - room, field.half_width - room], np.float32)
+        # With this margin the ball in front of the robot is inside too.
+        margin = float(self.mouth_offset) + 2.0 * config.ball.radius
+        corner = np.array([field.half_length - margin, field.half_width - margin], np.float32)
         radii = [config.robot.bounding_radius] * 2
-        frame.blue.position[:] = spawn.inside(rng, (-far, far), radii, APART)
+        frame.blue.position[:] = spawn.positions_in_box(
+            rng, (-corner, corner), radii, MIN_START_DISTANCE
+        )
         frame.blue.heading[:] = spawn.headings(rng, 2)
-        frame.ball.position[:] = ball_at_mouth(frame, 0, self.reach)
+        frame.ball.position[:] = ball_at_mouth(frame, 0, self.mouth_offset)
         return frame
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
-        """The way from the ball to who is to get it."""
-        receiver = self.receiver(play, world)
+        """Return the segment from the ball to the receiver, and the receiver as a target."""
+        receiver = self._receiver(play, world)
         ball_x, ball_y = play.frame.ball.position[world].tolist()
-        teammate_x, teammate_y = play.frame.blue.position[world, receiver].tolist()
+        x, y = play.frame.blue.position[world, receiver].tolist()
         radius = 1.5 * self.config.robot.bounding_radius
-        return Way((ball_x, ball_y), (teammate_x, teammate_y)), Target(
-            (teammate_x, teammate_y), radius
-        )
+        return Segment((ball_x, ball_y), (x, y)), Target((x, y), radius)
 
-    def receiver(self, play: Play, world: int) -> int:
-        """Which robot is to get the ball."""
+    def _receiver(self, play: Play, world: int) -> int:
+        """Index of the robot that is to receive the ball."""
         return 1
 
-    def to_ball(self, frame: Frame) -> Floats:
-        """Metres from each robot to the ball, (n, 2)."""
+    def _ball_distances(self, frame: Frame) -> Floats:
+        """(n, 2) distances from each robot to the ball, m."""
         offset = frame.ball.position[:, None] - frame.blue.position
         return length(offset[..., 0], offset[..., 1])
 
-    def missed(self, frame: Frame, receiver: Floats) -> Mask:
-        """(n,) whether a ball on its way will not reach the receiver at (n, 2)."""
+    def _has_missed(self, frame: Frame, receiver: Floats) -> Mask:
+        """(n,) whether a passed ball stopped or moves away from the receiver at (n, 2)."""
         ball = frame.ball
         speed = length(ball.velocity[:, 0], ball.velocity[:, 1])
-        way = receiver - ball.position
-        towards = way[:, 0] * ball.velocity[:, 0] + way[:, 1] * ball.velocity[:, 1]
-        return np.logical_or(speed < SLOW, (towards < 0.0) & (speed > FLIES))
+        offset = receiver - ball.position
+        towards = offset[:, 0] * ball.velocity[:, 0] + offset[:, 1] * ball.velocity[:, 1]
+        return np.logical_or(speed < STOPPED_SPEED, (towards < 0.0) & (speed > MOVING_SPEED))

@@ -1,4 +1,4 @@
-"""`SSLPassEndurance-v0`: one pass to a robot that waits for it. Hardware challenge 4, single."""
+"""`SSLPassEndurance-v0`: one pass to a waiting teammate. Hardware challenge 4, single robot."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,16 +9,42 @@ import numpy as np
 from rsoccer import rewards
 from rsoccer.frame import Array, Floats, Frame, Mask
 from rsoccer.task import LEARN, Learn, Play
-from rsoccer.tasks.ssl_pass import FREE, SslPass
+from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
 
 
 @dataclass(frozen=True)
 class SslPassEndurance(SslPass):
-    """blue_0 passes, blue_1 turns to the ball and takes it. One pass, received or failed."""
+    """SSL task in which blue_0 passes once to blue_1, which turns to the ball and receives it.
 
-    max_steps: int = 120  # 3 s
+    Goal of the task: bring the ball into the break beam of blue_1's mouth.
+
+    Initial state: that of `SslPass`.
+
+    Reward terms, unweighted:
+
+    ================  ==============================================================  ========
+    Term              Meaning                                                         Unit
+    ================  ==============================================================  ========
+    received          1 if the ball is in the break beam of blue_1, else 0            episodes
+    ball_to_teammate  decrease of the distance between the ball and blue_1            m
+    failed            1 if the pass failed, else 0                                    episodes
+    energy            negative mean magnitude of the action                           steps
+    ================  ==============================================================  ========
+
+    Termination: pass received; pass failed, that is, the passed ball stopped or moves away from
+    blue_1, or the ball is off the field. Truncation: after `max_steps`.
+
+    Metrics: `received`, 1 or 0; `inverse_distance`, 1/m, of the distance between ball and blue_1,
+    the paper's.
+
+    Source: SSL hardware challenges 2021, challenge 4, and the rSoccer paper (2021).
+    """
+
+    max_steps: int = 120
+    """Control steps of 25 ms until truncation, at least 1; 120 are 3 s."""
 
     success = "received"
+    """Metric that measures the success of an episode."""
 
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "received": 5.0,
@@ -26,44 +52,48 @@ class SslPassEndurance(SslPass):
         "failed": -1.0,
         "energy": 0.0005,
     }
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "received": 1.0,
         "ball_to_teammate": 1.11,  # the paper's scale: 0.9014 m
         "failed": -1.0,
         "energy": 0.0,
     }
+    """Weights of the rSoccer paper (2021) in these terms."""
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, blue_1 receives."""
+        """Return `LEARN` for blue_0 and "receive" for blue_1."""
         return {"blue_0": LEARN, "blue_1": "receive"}
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """`kicked`: whether the ball has left the passer's mouth."""
+        """Create `kicked`, (n,) whether the ball has left the passer's mouth."""
         return {"kicked": np.zeros(n, np.bool_)}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """The pass received counts most; the ball nearer to the teammate is paid."""
-        distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
+        """Compute the reward terms of the class's table; pass received or failed terminates."""
+        distance = self._ball_distances(play.frame)
+        last_distance = self._ball_distances(play.last_frame)
         kicked = play.memory["kicked"]
-        kicked |= distance[:, 0] > self.reach + FREE
+        kicked |= distance[:, 0] > self.mouth_offset + RELEASE_DISTANCE
         received = self._received(play.frame)
-        missed = kicked & self.missed(play.frame, play.frame.blue.position[:, 1])
+        missed = kicked & self._has_missed(play.frame, play.frame.blue.position[:, 1])
         failed = (missed | self.is_off_field(play.frame.ball.position)) & ~received
         terms = {
             "received": received[:, None].astype(np.float32),
-            "ball_to_teammate": (last - distance)[:, 1:],
+            "ball_to_teammate": (last_distance - distance)[:, 1:],
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.reward_weights), received | failed
+        return rewards.weighted_terms(terms, self.reward_weights), received | failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`received`: 1 or 0; `inverse_distance`: per metre between ball and teammate, the paper's."""
-        distance: Floats = np.maximum(self.to_ball(play.frame)[:, 1], self.reach)
+        """Compute `received`, 1 or 0, and `inverse_distance`, 1/m; each (n,)."""
+        distance: Floats = np.maximum(self._ball_distances(play.frame)[:, 1], self.mouth_offset)
         return {
             "received": self._received(play.frame).astype(np.float32),
             "inverse_distance": (1.0 / distance).astype(np.float32),
         }
 
     def _received(self, frame: Frame) -> Mask:
+        """(n,) whether the ball is in the break beam of blue_1."""
         return np.greater(frame.blue.infrared[:, 1], 0.5)

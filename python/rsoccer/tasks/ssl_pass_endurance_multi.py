@@ -1,4 +1,4 @@
-"""`SSLPassEnduranceMulti-v0`: two learners pass to and fro. Hardware challenge 4, multi."""
+"""`SSLPassEnduranceMulti-v0`: two learners pass to each other. Hardware challenge 4."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,18 +9,47 @@ import numpy as np
 from rsoccer import rewards
 from rsoccer.frame import Array, Floats, Frame, Mask, length
 from rsoccer.task import Play
-from rsoccer.tasks.ssl_pass import FREE, SslPass
+from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
 
-LONG: Final = np.float32(1.5)
-"""Metres between kick and reception from which a pass counts: neighbours farm nothing."""
+MIN_PASS_LENGTH: Final = np.float32(1.5)
+"""Least distance from kick to reception that counts, m: robots side by side earn nothing."""
 
 
 @dataclass(frozen=True)
 class SslPassEnduranceMulti(SslPass):
-    """Both robots learn; as many passes as they can in 30 s. One that does not arrive ends it."""
+    """SSL task in which blue_0 and blue_1 both learn to pass to each other, for up to 30 s.
+
+    Goal of the task: as many passes as possible, each at least 1.5 m long and received in the break
+    beam of the other robot's mouth.
+
+    Initial state: that of `SslPass`.
+
+    Reward terms, unweighted:
+
+    ================  ==============================================================  ========
+    Term              Meaning                                                         Unit
+    ================  ==============================================================  ========
+    passes            1 for a pass that counts, to both robots                        passes
+    ball_to_teammate  decrease of the distance between the ball and the receiver,     m
+                      to both robots
+    approach          decrease of the distance between the ball and the receiver's    m
+                      mouth, to the receiver
+    failed            1 if the pass failed, to both robots                            episodes
+    energy            negative mean magnitude of the action                           steps
+    ================  ==============================================================  ========
+
+    Termination: a pass failed, that is, the passed ball stopped or moves away from the receiver,
+    or the ball is off the field. Truncation: after `max_steps`.
+
+    Metric: `passes`, the number of passes that counted.
+
+    Source: SSL hardware challenges 2021, challenge 4, and the rSoccer paper (2021).
+    """
 
     success = "passes"
+    """Metric that measures the success of an episode."""
     full_success = None
+    """There is no greatest number of passes."""
 
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "passes": 5.0,
@@ -29,6 +58,7 @@ class SslPassEnduranceMulti(SslPass):
         "failed": -1.0,
         "energy": 0.0005,
     }
+    """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "passes": 10.0,
         "ball_to_teammate": 1.11,  # the paper's scale: 0.9014 m
@@ -36,9 +66,15 @@ class SslPassEnduranceMulti(SslPass):
         "failed": -1.0,
         "energy": 0.0001,
     }
+    """Weights of the rSoccer paper (2021) in these terms."""
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """Who had the ball last, where it was then, whether it is on its way, passes so far."""
+        """Create the state of the current pass and the number of passes.
+
+        `holder` (n,) is the index of the last robot with the ball, `left_at` (n, 2) the ball's
+        position then, m, `on_its_way` (n,) whether the ball is passed, `passes` (n,) the number of
+        passes that counted.
+        """
         return {
             "holder": np.zeros(n, np.int64),
             "left_at": np.zeros((n, 2), np.float32),
@@ -47,48 +83,51 @@ class SslPassEnduranceMulti(SslPass):
         }
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Passes count most; a ball that nears the teammate and a teammate that nears it are paid."""
+        """Compute the reward terms of the class's table; a failed pass terminates."""
         worlds, memory = np.arange(len(play.frame)), play.memory
-        begun = play.steps == 1  # where it may have been kicked at once
-        memory["left_at"][begun] = play.last_frame.ball.position[begun]
-        teammate = 1 - memory["holder"]
-        distance, last = self.to_ball(play.frame), self.to_ball(play.last_frame)
-        nearer = (last - distance)[worlds, teammate]
-        waits = teammate[:, None] == play.observers  # (n, observers) who does not have the ball
-        passed = self._passed(play.frame, memory, worlds, teammate)
-        far = distance[worlds, memory["holder"]] > self.reach + FREE
-        memory["on_its_way"] |= far
-        receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
-        missed = memory["on_its_way"] & self.missed(play.frame, receiver)
+        first_step = play.steps == 1  # the robot may have kicked in this step
+        memory["left_at"][first_step] = play.last_frame.ball.position[first_step]
+        receiver = 1 - memory["holder"]
+        distance = self._ball_distances(play.frame)
+        last_distance = self._ball_distances(play.last_frame)
+        progress = (last_distance - distance)[worlds, receiver]
+        is_receiver = receiver[:, None] == play.observers  # (n, observers)
+        passed = self._update_passes(play.frame, memory, worlds, receiver)
+        # From here on the holder may be the former receiver.
+        released = distance[worlds, memory["holder"]] > self.mouth_offset + RELEASE_DISTANCE
+        memory["on_its_way"] |= released
+        next_receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
+        missed = memory["on_its_way"] & self._has_missed(play.frame, next_receiver)
         failed = missed | self.is_off_field(play.frame.ball.position)
         terms = {
             "passes": passed[:, None].astype(np.float32),
-            "ball_to_teammate": nearer[:, None],
-            "approach": rewards.to_mouth(play, self.config) * waits,
+            "ball_to_teammate": progress[:, None],
+            "approach": rewards.approach_mouth(play, self.config) * is_receiver,
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.reward_weights), failed
-
-    def receiver(self, play: Play, world: int) -> int:
-        """Who did not have the ball last."""
-        return 1 - int(play.memory["holder"][world])
+        return rewards.weighted_terms(terms, self.reward_weights), failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`passes`: how many counted."""
+        """Compute `passes`, (n,) the number of passes that counted."""
         return {"passes": play.memory["passes"].astype(np.float32)}
 
-    def _passed(
-        self, frame: Frame, memory: dict[str, Array], worlds: Array, teammate: Array
+    def _receiver(self, play: Play, world: int) -> int:
+        """Index of the robot other than the last holder."""
+        return 1 - int(play.memory["holder"][world])
+
+    def _update_passes(
+        self, frame: Frame, memory: dict[str, Array], worlds: Array, receiver: Array
     ) -> Mask:
-        """(n,) whether the teammate has received a pass that counts; who holds the ball is noted."""
-        holds = frame.blue.infrared > 0.5  # (n, 2)
-        received = holds[worlds, teammate]
-        way = frame.ball.position - memory["left_at"]
-        passed: Mask = received & memory["on_its_way"] & (length(way[:, 0], way[:, 1]) >= LONG)
+        """(n,) whether the receiver got a pass that counts; updates `memory`."""
+        in_mouth = frame.blue.infrared > 0.5  # (n, 2)
+        received = in_mouth[worlds, receiver]
+        flight = frame.ball.position - memory["left_at"]
+        long_enough = length(flight[:, 0], flight[:, 1]) >= MIN_PASS_LENGTH
+        passed: Mask = received & memory["on_its_way"] & long_enough
         memory["passes"] += passed
-        memory["holder"][:] = np.where(received, teammate, memory["holder"])
-        held = holds.any(axis=1)
+        memory["holder"][:] = np.where(received, receiver, memory["holder"])
+        held = in_mouth.any(axis=1)
         memory["on_its_way"] &= ~held
         memory["left_at"][held] = frame.ball.position[held]
         return passed

@@ -1,6 +1,7 @@
-"""`SSLStaticDefenders-v0`: score past robots that do not move. Hardware challenge 1."""
+"""`SSLStaticDefenders-v0`: score past opponents at rest. Hardware challenge 1."""
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -10,37 +11,49 @@ from rsoccer.rng import WorldRng
 from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl_attack import SslAttack
 
-APART = 0.25  # metres between centres at the start
-CLEAR = 0.3  # metres that the opponents keep from the attacker's start
-MAX_OPPONENTS = 6
+MIN_START_DISTANCE: Final = 0.25
+"""Least distance between centres in the initial state, m."""
+ATTACKER_CLEARANCE: Final = 0.3
+"""Least distance from the attacker's initial position to ball and opponents, m."""
+BALL_START_X: Final = 0.15
+"""Least x of ball and opponents in the initial state, m."""
+MAX_OPPONENTS: Final = 6
 
 
 @dataclass(frozen=True)
 class SslStaticDefenders(SslAttack):
-    """Six opponents and the ball lie anywhere in the opponents' half, outside the area.
+    """SSL attack by blue_0 against up to six opponents that do not move.
 
-    `scenario` is one of the ten official ones instead, with opponents of its own, one perhaps in the
-    goal.
+    Goal of the task, reward terms, termination and metrics are those of `SslAttack`.
+
+    Initial state: blue_0 at the centre, facing the goal; the ball and the opponents at random
+    positions in the opponents' half, outside their goal area, opponents with random headings. With
+    `scenario`, the ball and the opponents of an official scenario, one of them perhaps in the goal
+    area. The opponents keep their positions with the dribbler on.
+
+    Source: SSL hardware challenges 2021, challenge 1, and the rSoccer paper (2021).
     """
 
     scenario: int | None = None
+    """Official scenario, 1 to 10; None for random initial states."""
     n_opponents: int = MAX_OPPONENTS
+    """Opponents in random initial states, 0 to 6; a scenario has its own number."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
-        checks.within("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
+        """Validate the options."""
+        checks.integer_in_range("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
         if self.scenario is not None:
-            checks.within("scenario", self.scenario, 1, scenarios.STATIC_SCENARIOS)
+            checks.integer_in_range("scenario", self.scenario, 1, scenarios.N_STATIC_DEFENDERS)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
-        """One against six, or against those of the scenario."""
+        """Return one attacker and the number of opponents of the option or the scenario."""
         if self.scenario is None:
             return 1, self.n_opponents
         return 1, len(scenarios.static_defenders(self.scenario)[1])
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """The attacker at the centre, facing the goal; the rest at random or by scenario."""
+        """Place the attacker at the centre; ball and opponents at random or by scenario."""
         frame = Frame.empty(len(rng), *self.team_sizes())
         if self.scenario is not None:
             ball, opponents = scenarios.static_defenders(self.scenario)
@@ -50,21 +63,24 @@ class SslStaticDefenders(SslAttack):
             frame.yellow.heading[..., 1] = np.sin(opponents[:, 2])
             return frame
         field, radius = self.config.field, self.config.robot.bounding_radius
-        box = ((0.15, -field.half_width + radius), (field.half_length, field.half_width - radius))
+        low = (BALL_START_X, -field.half_width + radius)
+        high = (field.half_length, field.half_width - radius)
         radii = [self.config.ball.radius] + [radius] * self.n_opponents
-        places = spawn.inside(rng, box, radii, APART, self._forbidden)
-        frame.ball.position[:] = places[:, 0]
-        frame.yellow.position[:] = places[:, 1:]
+        positions = spawn.positions_in_box(
+            rng, (low, high), radii, MIN_START_DISTANCE, self._forbidden
+        )
+        frame.ball.position[:] = positions[:, 0]
+        frame.yellow.position[:] = positions[:, 1:]
         frame.yellow.heading[:] = spawn.headings(rng, self.n_opponents)
         return frame
 
-    def _forbidden(self, places: Floats) -> Mask:
-        """(n, things) in or at the area before the goal, beyond the line, or on the attacker."""
+    def _forbidden(self, positions: Floats) -> Mask:
+        """(n, discs) whether a robot would touch the goal area, the goal line or the attacker."""
         field, radius = self.config.field, np.float32(self.config.robot.bounding_radius)
-        x, y = places[..., 0], np.abs(places[..., 1])
+        x, abs_y = positions[..., 0], np.abs(positions[..., 1])
         area_x = np.float32(field.half_length - field.goal_area_depth) - radius
-        in_area = (x > area_x) & (y < np.float32(field.goal_area_width / 2) + radius)
+        in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2) + radius)
         beyond = x > np.float32(field.half_length) - radius
-        near = np.less(x * x + y * y, np.float32(CLEAR * CLEAR))
-        forbidden: Mask = in_area | beyond | near
+        at_attacker = np.less(x * x + abs_y * abs_y, np.float32(ATTACKER_CLEARANCE**2))
+        forbidden: Mask = in_area | beyond | at_attacker
         return forbidden

@@ -1,8 +1,8 @@
-"""What all VSSS tasks share: starts, wheels, rewards and the score."""
+"""Base class of the VSSS tasks: options, initial state, wheel commands, rewards and metrics."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from dataclasses import field as default
+from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
@@ -16,98 +16,147 @@ from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 from rsoccer.view import SIDES
 
-# Per goal, per metre, per metre, per step at full power. Where the `chase` script plays against
-# robots that stand still, goals are the largest part of what an episode pays.
 REWARD_WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
+"""Default weights: per goal, per metre, per metre, per step at full power.
 
-# The mix of the paper's time, in these terms: a goal is some 10% of what an episode pays there.
+With the policy `chase` against robots at rest, goals are the largest part of the return.
+"""
+
 PAPER_REWARD_WEIGHTS: Final = {
     "goal": 10.0,
     "ball_to_goal": 64.0,
     "approach": 20.0,
     "energy": 0.0184,
 }
+"""Weights of the rSoccer paper (2021) in these terms; goals are some 10% of the return there."""
 
-# Left and right power: forward, back, turns on the spot and in arcs, stop.
-CHOICES: Final = np.array(
+DISCRETE_ACTIONS: Final = np.array(
     [[1, 1], [-1, -1], [-1, 1], [1, -1], [0.5, 1], [1, 0.5], [-0.5, -1], [-1, -0.5], [0, 0]],
     np.float32,
 )
+"""(9, 2) left and right wheel: forward, back, turns on the spot, arcs forward and back, stop."""
 
-APART: Final = 0.1  # metres between centres at the start
+MIN_START_DISTANCE: Final = 0.1
+"""Least distance between centres in the initial state, m."""
 
 
 @dataclass(frozen=True)
 class Vss(Soccer):
-    """VSSS, by default on the field for three a side; subclasses say who plays.
+    """Base class of the VSSS tasks; subclasses define which robots learn.
 
-    A match starts with everything at random places and ends with a goal of either side.
+    Goal of the task: score in the goal at +x (blue) or -x (yellow).
+
+    Initial state: ball and robots at uniform random positions without overlap, robots with random
+    headings and at rest, the ball at rest or with up to `ball_speed`.
+
+    Action of a robot:
+
+    =====  ============================  =====================================  =======
+    Index  Meaning                       Value of 1                             Range
+    =====  ============================  =====================================  =======
+    0      speed of the left wheel       `config.robot.max_wheel_speed`, rad/s  -1 to 1
+    1      speed of the right wheel      `config.robot.max_wheel_speed`, rad/s  -1 to 1
+    =====  ============================  =====================================  =======
+
+    Reward terms, unweighted:
+
+    ============  ==================================================================  ========
+    Term          Meaning                                                             Unit
+    ============  ==================================================================  ========
+    goal          1 for a goal of the robot's team, -1 for a goal against it          goals
+    ball_to_goal  progress of the ball towards the attacked goal and away from the    m
+                  own goal, for each team's robot nearest to the ball
+    approach      progress of the robot towards the point just behind the ball        m
+    energy        negative mean magnitude of the action                               steps
+    ============  ==================================================================  ========
+
+    Termination: a goal of either team. Truncation: after `max_steps`.
+
+    Metric: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0.
+
+    Source: rules of the IEEE VSSS league for field, robots and ball; the idea of the task is from
+    Martins et al., "rSoccer: A Framework for Studying Reinforcement Learning in Small and Very
+    Small Size Robot Soccer" (2021).
+
+    Raises:
+        TypeError: an option of a wrong type.
+        ValueError: an option outside its range.
     """
 
     n_blue: int = 3
+    """Robots of team blue, 1 to 5."""
     n_yellow: int = 3
-    max_steps: int = 1200  # 30 s
-    ball_speed: float = 0.0  # m/s, the most that the ball starts with
-    reward_weights: Mapping[str, float] | str = default(
-        default_factory=dict
-    )  # in place of REWARD_WEIGHTS; "paper"
-    robot: str = "vss_440rpm"  # a robot model of the simulator
-    discrete: bool = False  # whether agents choose one of CHOICES instead of two powers
-    field: str = "vss_3v3"  # or "vss_5v5", whatever the sizes of the teams
+    """Robots of team yellow, 0 to 5."""
+    max_steps: int = 1200
+    """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
+    ball_speed: float = 0.0
+    """Upper bound of the ball's uniform initial speed, m/s, 0 to 20."""
+    reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
+    """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
+    robot: str = "vss_440rpm"
+    """Robot model with a differential drive: a preset's name or a `RobotModel`."""
+    discrete: bool = False
+    """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
+    field: str = "vss_3v3"
+    """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
 
-    action_size = 2  # left and right wheel, of their top speed
-    CHOICES: ClassVar[Floats] = CHOICES
+    action_size = 2
+    """Left and right wheel."""
+    DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
+    """(9, 2) left and right wheel."""
     success = "goal_score"
+    """Metric that measures the success of an episode."""
 
     def __post_init__(self) -> None:
-        """Refuse options that make no task, by name."""
-        checks.whole("n_blue", self.n_blue, 1)
-        checks.whole("n_yellow", self.n_yellow, 0)
-        checks.whole("max_steps", self.max_steps, 1)
-        checks.number("ball_speed", self.ball_speed, 0.0, FASTEST)
-        checks.flag("discrete", self.discrete)
+        """Validate the options."""
+        checks.integer("n_blue", self.n_blue, 1)
+        checks.integer("n_yellow", self.n_yellow, 0)
+        checks.integer("max_steps", self.max_steps, 1)
+        checks.number_in_range("ball_speed", self.ball_speed, 0.0, FASTEST)
+        checks.boolean("discrete", self.discrete)
         object.__setattr__(
             self,
             "reward_weights",
             checks.reward_weights(self.reward_weights, REWARD_WEIGHTS, PAPER_REWARD_WEIGHTS),
         )
         checks.preset("field", self.field, Field)
-        checks.robots(self.robot)
-        checks.drive(self.config, "differential", "with two wheels")
+        checks.robot_models(self.robot)
+        checks.drive(self.config, "differential", "with a differential drive")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
 
     @property
     def two_sided(self) -> bool:
-        """Both teams play, whoever drives them."""
+        """True where both teams have robots, whether they learn or not."""
         return self.n_yellow > 0 and set(SIDES) <= set(self.sides)
 
     @cached_property
     def config(self) -> SimConfig:
-        """The field of 1.50 x 1.30 m or the one that the option names, golf ball, 25 ms steps."""
+        """Configuration with the field and robots of the options, a golf ball and 25 ms steps."""
         return SimConfig(self.field, self.n_blue, self.n_yellow, robot=self.robot)
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Ball and robots anywhere, apart; robots face anywhere."""
-        frame = spawn.anywhere(rng, self.config, APART)
+        """Draw random positions and headings, and a rolling ball where `ball_speed` is above 0."""
+        frame = spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
         frame.ball.velocity[:] = spawn.velocities(rng, self.ball_speed)
-        spawn.roll(frame.ball, self.config.ball)
+        spawn.set_rolling_spin(frame.ball, self.config.ball)
         return frame
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
-        """Wheel speeds, rad/s."""
+        """Convert actions to wheel speeds (n, robots, 2), rad/s."""
         return actions * np.float32(self.config.robot.max_wheel_speed)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """A goal counts most. All are drawn behind the ball; who is at it is paid for moving it."""
+        """Compute the reward terms of the class's table; a goal terminates."""
+        nearest = rewards.nearest_to_ball(play)
         terms = {
             "goal": rewards.goal(play),
-            "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * rewards.nearest(play),
-            "approach": rewards.approach(play, self.config.field),
+            "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * nearest,
+            "approach": rewards.approach_behind_ball(play, self.config.field),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted(terms, self.reward_weights), rewards.scored(play)
+        return rewards.weighted_terms(terms, self.reward_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """`goal_score`: +1 if blue has scored, -1 if yellow has, else 0."""
-        return {"goal_score": rewards.goals_at(play.frame.ball)}
+        """Compute `goal_score`, (n,): 1 if blue scored, -1 if yellow scored, else 0."""
+        return {"goal_score": rewards.goal_score(play.frame.ball)}

@@ -1,4 +1,4 @@
-"""`VSSMulti-v0`: a team of learners against a team that does not learn."""
+"""`VSSMulti-v0`: a team of learners against a team that follows a policy."""
 
 from dataclasses import dataclass
 
@@ -9,11 +9,17 @@ from rsoccer.tasks.vss import Vss
 
 @dataclass(frozen=True)
 class VssMulti(Vss):
-    """Blue learns, each robot for itself; yellow follows a policy. The paper's multi-agent task."""
+    """VSSS match in which every blue robot is an independent learner; yellow follows a policy.
 
-    opponent: str = "ou"  # a policy's name or file
+    Goal of the task, initial state, reward terms, termination and metrics are those of `Vss`.
+
+    Source: the multi-agent task of the rSoccer paper (2021).
+    """
+
+    opponent: str = "ou"
+    """Policy of the yellow robots: a policy's name or the path of a policy file."""
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """Blue learns; `opponent` drives yellow."""
+        """Return `LEARN` for blue robots and the policy `opponent` for yellow ones."""
         blue = dict.fromkeys(robot_names(self.n_blue, 0), LEARN)
         return blue | dict.fromkeys(robot_names(0, self.n_yellow), self.opponent)

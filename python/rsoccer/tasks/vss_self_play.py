@@ -7,4 +7,8 @@ from rsoccer.tasks.vss import Vss
 
 @dataclass(frozen=True)
 class VssSelfPlay(Vss):
-    """All robots learn; seen from its own side, the game is the same for each of them."""
+    """VSSS match in which all robots of both teams learn.
+
+    Each robot observes the game from its own side, so one policy can control both teams. Goal of
+    the task, initial state, reward terms, termination and metrics are those of `Vss`.
+    """

@@ -1,4 +1,4 @@
-"""`VSS-v0`: one learner among robots that do not learn. The paper's single-agent task."""
+"""`VSS-v0`: a single learner with teammates and opponents that follow policies."""
 
 from dataclasses import dataclass
 
@@ -8,13 +8,21 @@ from rsoccer.tasks.vss import Vss
 
 @dataclass(frozen=True)
 class VssSingle(Vss):
-    """blue_0 learns; its teammates and its opponents follow policies."""
+    """VSSS match in which blue_0 learns; its teammates and its opponents follow policies.
 
-    teammates: str = "ou"  # a policy's name or file
-    opponent: str = "ou"  # likewise
+    Goal of the task, initial state, reward terms, termination and metrics are those of `Vss`.
+
+    Source: the single-agent task of the rSoccer paper (2021), whose other robots follow
+    Ornstein-Uhlenbeck noise, here the policy "ou".
+    """
+
+    teammates: str = "ou"
+    """Policy of the other blue robots: a policy's name or the path of a policy file."""
+    opponent: str = "ou"
+    """Policy of the yellow robots: a policy's name or the path of a policy file."""
 
     def default_controllers(self) -> dict[str, str | Learn]:
-        """blue_0 learns, `teammates` and `opponent` drive the others."""
+        """Return `LEARN` for blue_0 and the policies of the options for the others."""
         blue = dict.fromkeys(self.robots[: self.n_blue], self.teammates)
         yellow = dict.fromkeys(self.robots[self.n_blue :], self.opponent)
         return {**blue, **yellow, "blue_0": LEARN}

@@ -33,7 +33,7 @@ def test_the_ball_rolls_to_where_it_says() -> None:
     frame.robots.position[..., 1] = -0.55
     frame.ball.velocity[:] = rng.uniform(-0.6, 0.6, (30, 2)).astype(np.float32)
     frame.ball.velocity[:, 1] = np.abs(frame.ball.velocity[:, 1])
-    spawn.roll(frame.ball, TASK.config.ball)
+    spawn.set_rolling_spin(frame.ball, TASK.config.ball)
     matches = Matches(TASK, 30, controllers={"all": "zero"})
     matches.reset(rows=frame.rows)
     start = matches.frame.copy()
