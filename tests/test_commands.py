@@ -9,7 +9,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
-from tests.policies.test_network_chance import fitting
+from tests.policies.networks import network_for
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -124,7 +124,17 @@ def test_train_hands_over_what_it_was_told(
         return args.out / "policy.safetensors"
 
     monkeypatch.setattr(commands, "train", note)
-    given = ["train", "--out", "there", "--samples", "5", "--hidden-sizes", "8", "9", "--no-progress"]
+    given = [
+        "train",
+        "--out",
+        "there",
+        "--samples",
+        "5",
+        "--hidden-sizes",
+        "8",
+        "9",
+        "--no-progress",
+    ]
     assert cli.main([*given, "--seed", "3"]) == 0
     (args,) = told
     assert (args.out, args.samples, args.hidden) == (Path("there"), 5, (8, 9))
@@ -180,7 +190,7 @@ def test_watch_and_evaluate_asked_for_the_task_that_the_file_names(
     filmed: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "policy.safetensors"
-    fitting(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
+    network_for(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
     assert cli.main(["watch", f"{file}:mean", "--video", "never.mp4"]) == 0
     ((task, controllers, names),) = filmed
     assert task == "SSLPassEndurance-v0"
