@@ -124,17 +124,7 @@ def test_train_hands_over_what_it_was_told(
         return args.out / "policy.safetensors"
 
     monkeypatch.setattr(commands, "train", note)
-    given = [
-        "train",
-        "--out",
-        "there",
-        "--samples",
-        "5",
-        "--hidden-sizes",
-        "8",
-        "9",
-        "--no-progress",
-    ]
+    given = ["train", "--out", "there", "--samples", "5", "--hidden-sizes", "8", "9", "--no-progress"]
     assert cli.main([*given, "--seed", "3"]) == 0
     (args,) = told
     assert (args.out, args.samples, args.hidden) == (Path("there"), 5, (8, 9))

@@ -11,15 +11,15 @@ XY = tuple[Floats, Floats]
 """x and y of points (m) or vectors, one array each, usually (n, robots)."""
 
 TINY: Final = np.float32(1e-6)
-"""Lower bound of divisors, m."""
+"""Lower bound of divisors: m or m²."""
 
 
 def reciprocal(lengths: Floats, minimum: np.float32 = TINY) -> Floats:
     """Return 1 / max(lengths, minimum), which is finite for a length of 0.
 
     Args:
-        lengths: (...) lengths, m, at least 0.
-        minimum: lower bound of the divisor, m, above 0.
+        lengths: (...) lengths or squared lengths, at least 0.
+        minimum: lower bound of the divisor, above 0.
     """
     result: Floats = np.divide(np.float32(1.0), np.maximum(lengths, minimum))
     return result

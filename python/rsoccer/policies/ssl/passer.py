@@ -45,7 +45,7 @@ class Passer(Policy):
         super().__init__(task)
         self._control = RobotControl(require_ssl("passer", task))
         if task.n_blue < 2:
-            raise ValueError(f"passer needs a teammate, and in {task.name} it has none")
+            raise ValueError(f"task: passer needs a teammate, got {task.name}")
         self._region = Region.of_field(task.config.field, LINE_MARGIN)
         ball = task.config.ball
         share = ball.rolling_share**2

@@ -48,7 +48,7 @@ class Weave(Policy):
         super().__init__(task)
         self._control = RobotControl(require_ssl("weave", task))
         if not isinstance(task, SslDribbling):
-            raise ValueError(f"weave needs gates, and {task.name} has none")
+            raise ValueError(f"task: weave needs gates, got {task.name}")
         course = task.course
         self._course = course
         self._heading = np.float32(np.cos(course.start[2])), np.float32(np.sin(course.start[2]))
