@@ -219,7 +219,7 @@ def task_policies() -> list[tuple[str, str]]:
         task = rsoccer.make_task(name)
         for policy in policies.names():
             with contextlib.suppress(ValueError):
-                if policies.make(policy, task).knows_task:
+                if policies.make(policy, task)._built_for is not None:
                     found.setdefault(policy, name)
     return sorted(found.items())
 

@@ -9,7 +9,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
-from tests.policies.test_network_chance import fitting
+from tests.policies.networks import network_for
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -180,7 +180,7 @@ def test_watch_and_evaluate_asked_for_the_task_that_the_file_names(
     filmed: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "policy.safetensors"
-    fitting(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
+    network_for(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
     assert cli.main(["watch", f"{file}:mean", "--video", "never.mp4"]) == 0
     ((task, controllers, names),) = filmed
     assert task == "SSLPassEndurance-v0"

@@ -17,7 +17,7 @@ from rsoccer.frame import Floats, Mask
 from rsoccer.lineup import lineup
 from rsoccer.task import Play
 from rsoccer.tasks import SslGoToBall, VssSelfPlay
-from tests.policies.test_network_chance import fitting
+from tests.policies.networks import network_for
 
 module = sys.modules["rsoccer.evaluate.episodes"]
 
@@ -152,7 +152,7 @@ def test_two_sides_need_a_success() -> None:
 
 def test_a_seed_fixes_what_a_network_draws(tmp_path: Path) -> None:
     task = rsoccer.make_task("SSLGoToBall-v0", max_steps=200)
-    fitting(task).save(tmp_path / "policy.safetensors")
+    network_for(task).save(tmp_path / "policy.safetensors")
     drawn, again, mean = (
         evaluate(f"{tmp_path}/policy.safetensors{how}", matches=10, task=task, threads=threads)
         for how, threads in (("", 2), (":sample", 1), (":mean", 2))
@@ -165,8 +165,8 @@ def test_a_seed_fixes_what_a_network_draws(tmp_path: Path) -> None:
 
 def test_the_task_that_a_policy_was_trained_on_was_not_played(tmp_path: Path) -> None:
     task = rsoccer.make_task("SSLGoToBall-v0")
-    fitting(task).save(tmp_path / "policy.safetensors")
-    for policy in (tmp_path / "policy.safetensors", fitting(task)):
+    network_for(task).save(tmp_path / "policy.safetensors")
+    for policy in (tmp_path / "policy.safetensors", network_for(task)):
         assert evaluate(policy, matches=2).task == "SSLGoToBall-v0"
     assert evaluate("chase", matches=2).task == "VSSSelfPlay-v0"
 
@@ -174,7 +174,7 @@ def test_the_task_that_a_policy_was_trained_on_was_not_played(tmp_path: Path) ->
 @pytest.mark.parametrize("name", rsoccer.list_tasks())
 def test_each_task_names_its_success(name: str, tmp_path: Path) -> None:
     task = rsoccer.make_task(name, max_steps=2)
-    fitting(task).save(tmp_path / "policy.safetensors")
+    network_for(task).save(tmp_path / "policy.safetensors")
     result = evaluate(tmp_path / "policy.safetensors", matches=2, task=task)
     assert result.metric == task.success
     assert set(result.sides) == ({"blue", "yellow"} if task.two_sided else set())

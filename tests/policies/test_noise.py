@@ -8,7 +8,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 
 
-def test_ou_starts_at_rest_and_drifts_as_its_equation_says() -> None:
+def test_ou_starts_at_zero_and_follows_its_equation() -> None:
     theta, sigma, dt = 0.17, 0.5, 0.025
     n, steps = 4000, 400
     policy = OrnsteinUhlenbeck()
@@ -25,14 +25,14 @@ def test_ou_starts_at_rest_and_drifts_as_its_equation_says() -> None:
     assert np.abs(walk.mean(axis=(1, 2))).max() < 0.05
     slope = np.polyfit(walk[-2].ravel(), walk[-1].ravel(), 1)[0]
     assert slope == pytest.approx(keep, abs=0.003)
-    assert np.abs(walk[-1]).max() > 1.0, "what it does is clipped, where it is is not"
+    assert np.abs(walk[-1]).max() > 1.0, "actions are clipped, the state is not"
 
 
-def test_ou_forgets_when_a_match_begins_anew() -> None:
+def test_ou_restarts_at_zero_with_a_new_episode() -> None:
     matches = Matches(VssSelfPlay(max_steps=30), 2, controllers={"all": "ou"})
     matches.reset()
-    nobody = np.zeros((2, 0, 2), np.float32)
-    deviation = 0.5 * 0.025**0.5  # of the first step from rest
+    no_actions = np.zeros((2, 0, 2), np.float32)
+    deviation = 0.5 * 0.025**0.5  # of the first step from zero
     for _ in range(31):
-        matches.step(nobody)
+        matches.step(no_actions)
     assert np.abs(matches.play.actions).max() < 6 * deviation

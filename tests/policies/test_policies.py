@@ -17,16 +17,16 @@ TASK = VssSelfPlay()
 
 
 def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> np.ndarray:
-    """Actions (steps, n, robots, 2) of a policy that sees nothing."""
+    """Actions (steps, n, robots, 2) of a policy that observes nothing."""
     shape = (n, robots, 2)
     rng = WorldRng.seeded(seed, n)
     memory = policy.new_memory(shape, rng)
-    seen = PolicyInput(shape, None, None)
-    return np.array([policy.act(seen, rng, memory) for _ in range(steps)])
+    inputs = PolicyInput(shape, None, None)
+    return np.array([policy.act(inputs, rng, memory) for _ in range(steps)])
 
 
-# Tasks for policies that do not drive two wheels.
-TASKS = {
+# Tasks of the policies for SSL robots.
+SSL_TASKS = {
     "fetch": "SSLGoToBall-v0",
     "hold": "SSLSelfPlay-v0",
     "passer": "SSLPassEndurance-v0",
@@ -36,43 +36,43 @@ TASKS = {
 }
 
 
-def test_names() -> None:
+def test_every_name_makes_a_policy() -> None:
     names = policies.names()
     assert names == sorted(names)
-    assert {"chase", "ou", "scripted", "uniform", "zero", *TASKS} <= set(names)
+    assert {"chase", "ou", "scripted", "uniform", "zero", *SSL_TASKS} <= set(names)
     for name in names:
-        task = rsoccer.make_task(TASKS[name]) if name in TASKS else TASK
+        task = rsoccer.make_task(SSL_TASKS[name]) if name in SSL_TASKS else TASK
         assert isinstance(policies.make(name, task), Policy)
 
 
-@pytest.mark.parametrize("name", TASKS)
-def test_scripts_for_ssl_refuse_other_robots(name: str) -> None:
+@pytest.mark.parametrize("name", SSL_TASKS)
+def test_ssl_scripts_refuse_other_robots(name: str) -> None:
     with pytest.raises(ValueError, match="robots with a dribbler"):
         policies.make(name, TASK)
 
 
-def test_a_policy_is_itself() -> None:
+def test_a_policy_object_is_returned_as_it_is() -> None:
     policy = OrnsteinUhlenbeck()
     assert policies.make(policy, TASK) is policy
 
 
 @pytest.mark.parametrize("name", ["chess", "", "out/no_such_file"])
-def test_an_unknown_name_is_told_with_the_valid_ones(name: str) -> None:
+def test_the_error_for_an_unknown_name_lists_the_valid_ones(name: str) -> None:
     with pytest.raises(ValueError, match=r"unknown policy.*'chase', .*'ou', .*'uniform', .*'zero'"):
         policies.make(name, TASK)
 
 
 @pytest.mark.parametrize("wrong", [3, None, b"chase", ["chase"]])
-def test_what_is_no_policy_is_named(wrong: Any) -> None:  # noqa: ANN401
+def test_other_types_are_refused(wrong: Any) -> None:  # noqa: ANN401
     message = re.escape(f"policy: expected a policy, its name or its file, got {wrong!r}")
     with pytest.raises(TypeError, match=message):
         policies.make(wrong, TASK)
-    for ask in (policies.trained_on, policies.name_of):
+    for function in (policies.trained_on, policies.name_of):
         with pytest.raises(TypeError, match=message):
-            ask(wrong)
+            function(wrong)
 
 
-def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_the_error_for_a_missing_file_names_it(tmp_path: Path) -> None:
     with pytest.raises((ValueError, OSError), match=r"lost\.safetensors"):
         policies.make(tmp_path / "lost.safetensors", TASK)
 
@@ -81,7 +81,7 @@ def test_zero_stands_still() -> None:
     assert not run(policies.make("zero", TASK), 4, 3).any()
 
 
-def test_uniform_draws_every_action_afresh() -> None:
+def test_uniform_draws_independent_actions() -> None:
     actions = run(policies.make("uniform", TASK), 50, 200)
     assert actions.min() >= -1.0
     assert actions.max() <= 1.0
@@ -90,8 +90,8 @@ def test_uniform_draws_every_action_afresh() -> None:
 
 
 @pytest.mark.parametrize("name", ["uniform", "ou"])
-def test_noise_is_the_same_in_any_batch(name: str) -> None:
+def test_noise_does_not_depend_on_the_batch(name: str) -> None:
     policy = policies.make(name, TASK)
-    many = run(policy, 9, 30, seed=5)
+    batch = run(policy, 9, 30, seed=5)
     for i in (0, 4, 8):
-        assert same(many[:, i : i + 1], run(policy, 1, 30, seed=5 + i))
+        assert same(batch[:, i : i + 1], run(policy, 1, 30, seed=5 + i))

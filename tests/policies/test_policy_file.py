@@ -1,4 +1,4 @@
-"""Policy files: whole, equal where policies are, and refused where they are not fit."""
+"""Policy files: complete, byte-equal for equal policies, and refused where they are invalid."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -9,13 +9,20 @@ from safetensors import safe_open
 from safetensors.numpy import save_file
 
 from rsoccer.policies.network import Network
-from tests.policies.test_network import ACTION, HIDDEN, OBSERVATION, Arrays, Metadata, parts
+from tests.policies.networks import (
+    ACTION,
+    HIDDEN,
+    OBSERVATION,
+    Arrays,
+    Metadata,
+    network_parts,
+)
 
-Spoil = Callable[[Arrays, Metadata], object]
+Corruption = Callable[[Arrays, Metadata], object]
 
 
-def test_a_file_keeps_everything(tmp_path: Path) -> None:
-    arrays, metadata = parts(action_repeat="3")
+def test_saving_and_loading_keeps_everything(tmp_path: Path) -> None:
+    arrays, metadata = network_parts(action_repeat="3")
     arrays["action_std"] = np.full(ACTION, 0.5, np.float32)
     network = Network(arrays, metadata)
     network.save(tmp_path / "policy.safetensors")
@@ -29,11 +36,11 @@ def test_a_file_keeps_everything(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["policy.safetensors"]
 
 
-def test_equal_policies_were_files_of_different_bytes(tmp_path: Path) -> None:
+def test_equal_policies_give_equal_bytes(tmp_path: Path) -> None:
     path = tmp_path / "policy.safetensors"
     contents = set()
     for order in range(10):
-        arrays, metadata = parts()
+        arrays, metadata = network_parts()
         metadata = dict(np.random.default_rng(order).permutation(list(metadata.items())).tolist())
         Network(arrays, metadata).save(path)
         contents.add(path.read_bytes())
@@ -43,13 +50,13 @@ def test_equal_policies_were_files_of_different_bytes(tmp_path: Path) -> None:
         assert sorted(file.keys()) == sorted(arrays)
         for name in file.keys():  # noqa: SIM118
             np.testing.assert_array_equal(file.get_tensor(name), arrays[name])
-    (header,) = {int.from_bytes(content[:8], "little") for content in contents}
-    assert header % 8 == 0, "the data are not aligned"
+    (header_size,) = {int.from_bytes(content[:8], "little") for content in contents}
+    assert header_size % 8 == 0, "the data are not aligned"
 
 
 def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "policy.safetensors"
-    network = Network(*parts())
+    network = Network(*network_parts())
     network.save(path)
     before = path.read_bytes()
 
@@ -58,25 +65,25 @@ def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.M
 
     monkeypatch.setattr("os.fsync", full_disk)
     with pytest.raises(OSError, match="No space left"):
-        Network(*parts(action_repeat="2")).save(path)
+        Network(*network_parts(action_repeat="2")).save(path)
     assert path.read_bytes() == before
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
-SPOILED: dict[str, tuple[Spoil, str]] = {
+CORRUPTIONS: dict[str, tuple[Corruption, str]] = {
     "no format": (
         lambda arrays, metadata: metadata.pop("format"),
         "'format'.*rsoccer-policy-2.*None",
     ),
-    "format before the spread": (
+    "format of an older version": (
         lambda arrays, metadata: metadata.update(format="rsoccer-policy-1"),
         "'format' should be 'rsoccer-policy-2', got 'rsoccer-policy-1'",
     ),
-    "spread of 0": (
+    "action_std of 0": (
         lambda arrays, metadata: arrays.update(action_std=np.zeros(ACTION, np.float32)),
         "'action_std'.*above 0",
     ),
-    "spread of another size": (
+    "action_std of another size": (
         lambda arrays, metadata: arrays.update(action_std=np.ones(3, np.float32)),
         "'action_std' should be float32",
     ),
@@ -84,12 +91,15 @@ SPOILED: dict[str, tuple[Spoil, str]] = {
     "other activation": (lambda arrays, metadata: metadata.update(activation="relu"), "'relu'"),
     "no task": (lambda arrays, metadata: metadata.pop("task"), "'task'"),
     "clip of 0": (lambda arrays, metadata: metadata.update(clip="0"), "'clip'.*'0'"),
-    "clip no number": (lambda arrays, metadata: metadata.update(clip="ten"), "'clip'.*'ten'"),
-    "half a repeat": (
+    "clip that is no number": (
+        lambda arrays, metadata: metadata.update(clip="ten"),
+        "'clip'.*'ten'",
+    ),
+    "a fractional repeat": (
         lambda arrays, metadata: metadata.update(action_repeat="1.5"),
         "'action_repeat'",
     ),
-    "a repeat that overflowed in play": (
+    "a repeat that would overflow": (
         lambda arrays, metadata: metadata.update(action_repeat="1e300"),
         "'action_repeat' should be at most 1000000, got '1e300'",
     ),
@@ -107,7 +117,7 @@ SPOILED: dict[str, tuple[Spoil, str]] = {
         ),
         "layers.7",
     ),
-    "layers that do not meet": (
+    "layers of sizes that do not match": (
         lambda arrays, metadata: arrays.update(
             {"layers.1.weight": np.zeros((HIDDEN, 3), np.float32)},
         ),
@@ -129,39 +139,39 @@ SPOILED: dict[str, tuple[Spoil, str]] = {
 }
 
 
-@pytest.mark.parametrize(("spoil", "message"), SPOILED.values(), ids=SPOILED)
-def test_wrong_parts_are_refused(spoil: Spoil, message: str, tmp_path: Path) -> None:
-    arrays, metadata = parts()
-    spoil(arrays, metadata)
+@pytest.mark.parametrize(("corrupt", "message"), CORRUPTIONS.values(), ids=CORRUPTIONS)
+def test_invalid_content_is_refused(corrupt: Corruption, message: str, tmp_path: Path) -> None:
+    arrays, metadata = network_parts()
+    corrupt(arrays, metadata)
     with pytest.raises(ValueError, match=message):
         Network(arrays, metadata)
-    path = tmp_path / "spoiled.safetensors"
+    path = tmp_path / "invalid.safetensors"
     save_file(arrays, path, metadata=metadata)
-    with pytest.raises(ValueError, match=rf"spoiled\.safetensors.*{message}"):
+    with pytest.raises(ValueError, match=rf"invalid\.safetensors.*{message}"):
         Network.load(path)
 
 
-def test_no_truncated_file_is_read(tmp_path: Path) -> None:
+def test_truncated_files_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "policy.safetensors"
-    Network(*parts()).save(path)
-    whole = path.read_bytes()
-    for length in [0, 1, 7, 8, 9, 200, len(whole) // 2, len(whole) - 1]:
-        path.write_bytes(whole[:length])
+    Network(*network_parts()).save(path)
+    content = path.read_bytes()
+    for length in [0, 1, 7, 8, 9, 200, len(content) // 2, len(content) - 1]:
+        path.write_bytes(content[:length])
         with pytest.raises(ValueError, match=r"policy\.safetensors is not a usable policy file"):
             Network.load(path)
 
 
 @pytest.mark.parametrize("content", [b"PK\x03\x04 a zip", b"\xff" * 64, b"\x80\x04K\x01."])
-def test_foreign_files_are_refused(content: bytes, tmp_path: Path) -> None:
+def test_files_of_other_formats_are_refused(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "policy.safetensors"
     path.write_bytes(content)
     with pytest.raises(ValueError, match=r"policy\.safetensors.*not safetensors"):
         Network.load(path)
 
 
-def test_a_file_of_unknown_number_types_is_refused(tmp_path: Path) -> None:
+def test_other_dtypes_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "half.safetensors"
-    arrays, metadata = parts()
+    arrays, metadata = network_parts()
     save_file({**arrays, "mean": arrays["mean"].astype(np.float16)}, path, metadata=metadata)
     with pytest.raises(ValueError, match="'mean' should be float32"):
         Network.load(path)

@@ -12,7 +12,7 @@ from rsoccer.frame import Floats
 from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
 from rsoccer.render.record import GOAL_PAUSE, LEAST_WIDTH, _film
-from tests.policies.test_network_chance import fitting
+from tests.policies.networks import network_for
 
 CHASE = {"all": "chase"}
 SCORING_SEED = 3
@@ -40,7 +40,7 @@ def film(seconds: float, spy: Spy) -> list[Image]:
 
 def test_a_trained_policys_own_task_was_not_filmed(tmp_path: Path) -> None:
     file = tmp_path / "policy.safetensors"
-    fitting(make_task("SSLPassEndurance-v0")).save(file)
+    network_for(make_task("SSLPassEndurance-v0")).save(file)
     images, _ = film_match(controllers={"blue_0": f"{file}:mean"}, seconds=0.05)
     assert len(list(images)) == 3
     with pytest.raises(ValueError, match=r"chase.*SSLPassEndurance|SSLPassEndurance.*chase"):

@@ -35,9 +35,9 @@ def test_the_policy_file_plays_what_was_learned(whole: Path) -> None:
     normal = torch.tensor(((observations - mean) / std).clip(-10.0, 10.0))
     expected = trainer.model.actor(normal).detach().clamp(-1.0, 1.0).numpy()
     policy = Network.load(whole / "policy.safetensors")
-    np.testing.assert_allclose(policy.decide(observations), expected, atol=1e-5)
+    np.testing.assert_allclose(policy.mean_actions(observations), expected, atol=1e-5)
     untrained = Network.load(whole / "untrained.safetensors")
-    assert np.abs(untrained.decide(observations) - expected).max() > 0.01
+    assert np.abs(untrained.mean_actions(observations) - expected).max() > 0.01
     assert np.abs(mean).max() > 0.1, "nothing was normalised"
     assert policy.task_name == NAME
 
@@ -46,7 +46,7 @@ def test_a_policy_file_said_nothing_of_repeat_and_spread(whole: Path) -> None:
     trainer = Trainer(tiny(whole))
     restore(trainer, checkpoint.load(whole / checkpoint.FILE_NAME))
     policy = Network.load(whole / "policy.safetensors")
-    assert (policy.play, policy.action_repeat) == ("sample", trainer.args.action_repeat)
+    assert (policy.mode, policy.action_repeat) == ("sample", trainer.args.action_repeat)
     assert policy.action_repeat == 3
     assert policy.action_std is not None
     expected = trainer.model.log_std.detach().exp().numpy()

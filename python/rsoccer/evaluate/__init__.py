@@ -19,7 +19,7 @@ from rsoccer.evaluate.episodes import Doubles, Episodes, Terms, play
 from rsoccer.evaluate.results import Evaluation, Interval, Results, estimated, results
 from rsoccer.evaluate.tables import table
 from rsoccer.lineup import lineup, opponents_of, task_for
-from rsoccer.policies import Player, check_player, make, name_of
+from rsoccer.policies import PolicyLike, check_policy_like, make, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.registry import as_task
 from rsoccer.task import LEARN, Task
@@ -29,8 +29,8 @@ __all__ = ["Evaluation", "Interval", "Results", "evaluate", "table"]
 
 
 def evaluate(
-    policy: Player,
-    opponent: Player | None = None,
+    policy: PolicyLike,
+    opponent: PolicyLike | None = None,
     matches: int = 200,
     seed: int = 0,
     *,
@@ -47,9 +47,9 @@ def evaluate(
     processor). `worlds` matches are played at once; another number plays the same starts, and a
     network's last bits may differ.
     """
-    check_player("policy", policy)
+    check_policy_like("policy", policy)
     if opponent is not None:
-        check_player("opponent", opponent)
+        check_policy_like("opponent", opponent)
     task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
     each = _matches_of_a_side(task, matches)

@@ -1,4 +1,18 @@
-"""Policies by name: what can drive a robot that does not learn."""
+"""Policies, and their construction from names and files.
+
+`zero`, `uniform` and `ou` are noise, the other names are scripts:
+
+| name | league | behaviour |
+| --- | --- | --- |
+| `chase` | VSSS | the robot nearest to the ball drives it at the goal |
+| `scripted` | VSSS | keeper, attacker and support; a skill may follow, as in `scripted:0.5` |
+| `fetch` | SSL | takes the ball into the mouth |
+| `hold` | SSL | stands with the dribbler on |
+| `receive` | SSL | stands with the dribbler on and faces the ball |
+| `passer` | SSL | passes to its teammate and receives passes |
+| `strike` | SSL | wins the ball, and shoots past the opponents |
+| `weave` | SSL | dribbles through the gates of the dribbling task |
+"""
 
 from __future__ import annotations
 
@@ -21,12 +35,12 @@ if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
 __all__ = ["Policy", "PolicyInput", "make", "name_of", "names", "names_with_skill"]
-__all__ += ["Player", "check_player", "trained_on"]
+__all__ += ["PolicyLike", "check_policy_like", "trained_on"]
 
-Player = str | os.PathLike[str] | Policy
-"""A policy by name (`zero`, `ou`, ...), by the path of its file, or itself."""
+PolicyLike = str | os.PathLike[str] | Policy
+"""A policy, its name (`zero`, `ou`, ...), or the path of its file."""
 
-FILE_ENDING: Final = ".safetensors"
+FILE_SUFFIX: Final = ".safetensors"
 
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "chase": Chase,
@@ -42,92 +56,123 @@ _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
     "zero": lambda task: Zero(),
 }
 
-_WITH_SKILL: Final[dict[str, Callable[[Task, float], Policy]]] = {"scripted": Scripted}
+_MAKERS_WITH_SKILL: Final[dict[str, Callable[[Task, float], Policy]]] = {"scripted": Scripted}
 
 
 def names() -> list[str]:
-    """Names that `make` knows; it also takes the path of a trained policy's file."""
+    """Return the names that `make` takes, sorted."""
     return sorted(_MAKERS)
 
 
 def names_with_skill() -> list[str]:
-    """Names that a skill from 0 to 1 may follow, as in "scripted:0.5"; without one it is 1."""
-    return sorted(_WITH_SKILL)
+    """Return the names that a skill from 0 to 1 may follow, as in "scripted:0.5"; default 1."""
+    return sorted(_MAKERS_WITH_SKILL)
 
 
-def check_player(name: str, value: object) -> None:
-    """TypeError, which calls it `name`, unless it is a `Player`, known or not."""
+def check_policy_like(name: str, value: object) -> None:
+    """Check the type of an argument; an unknown name or path passes.
+
+    Args:
+        name: name of the argument, for the error message.
+        value: the argument.
+
+    Raises:
+        TypeError: not a `PolicyLike`.
+    """
     if not isinstance(value, str | os.PathLike | Policy):
         raise TypeError(f"{name}: expected a policy, its name or its file, got {value!r}")
 
 
-def make(policy: Player, task: Task) -> Policy:
-    """A policy fit for the robots of `task`, from its name, its file, or itself.
+def make(policy: PolicyLike, task: Task) -> Policy:
+    """Make a policy for the robots of a task.
 
-    A file plays as it was trained; "policy.safetensors:mean" and ":sample" say how it shall.
+    Args:
+        policy: a policy, which is returned as it is; a name; or the path of a policy file.
+            "scripted:0.5" sets a skill. "policy.safetensors:mean" and ":sample" choose how a
+            network acts; the default is as in training.
+        task: the task that is played.
+
+    Returns:
+        A policy that fits the task.
+
+    Raises:
+        FileNotFoundError: no such policy file.
+        TypeError: not a `PolicyLike`.
+        ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
+
+    Example:
+        >>> policies.make("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
     """
     if not isinstance(policy, Policy):
-        given = _text(policy)
-        name, colon, skill = given.partition(":")
+        text = _text(policy)
+        name, colon, skill = text.partition(":")
         if name not in _MAKERS:
-            policy = _load(given)
+            policy = _load(text)
         else:
             policy = _with_skill(name, skill, task) if colon else _MAKERS[name](task)
     policy.check_fits(task, task.observation_size)
     return policy
 
 
-def trained_on(policy: Player) -> str | None:
-    """Name of the task that a policy was trained on; None for scripts and noise."""
+def trained_on(policy: PolicyLike) -> str | None:
+    """Return the name of the task that a policy was trained on; None for scripts and noise.
+
+    Args:
+        policy: a policy, its name, or the path of its file.
+    """
     if isinstance(policy, Policy):
         return policy.task_name
-    given = _text(policy)
-    return None if given.partition(":")[0] in _MAKERS else _load(given).task_name
+    text = _text(policy)
+    return None if text.partition(":")[0] in _MAKERS else _load(text).task_name
 
 
-def name_of(policy: Player) -> str:
-    """What to call a policy in tables: its name or file, or its class if it has neither."""
+def name_of(policy: PolicyLike) -> str:
+    """Return a policy's name for tables: its name or path, or its class for an object.
+
+    Args:
+        policy: a policy, its name, or the path of its file.
+    """
     return type(policy).__name__ if isinstance(policy, Policy) else _text(policy)
 
 
 def _text(policy: str | os.PathLike[str]) -> str:
-    """A name, or the path of a file, as text."""
-    check_player("policy", policy)
+    """A name or a path as text."""
+    check_policy_like("policy", policy)
     return os.fspath(policy)
 
 
 def _with_skill(name: str, skill: str, task: Task) -> Policy:
-    """A policy by its name and the text of its skill."""
-    if name not in _WITH_SKILL:
+    """A policy from its name and the text of its skill."""
+    if name not in _MAKERS_WITH_SKILL:
         raise ValueError(
             f"policy {name!r} has no skill: expected {name!r}, got {f'{name}:{skill}'!r}; "
-            f"those with a skill are {names_with_skill()}"
+            f"policies with a skill are {names_with_skill()}"
         )
     try:
         number = float(skill)
     except ValueError:
         raise ValueError(f"{name}: expected a skill from 0 to 1, got {skill!r}") from None
-    return _WITH_SKILL[name](task, number)
+    return _MAKERS_WITH_SKILL[name](task, number)
 
 
-def _load(given: str) -> Network:
-    """A trained policy from its file, or an error that says what could have been meant."""
-    path, play = _path_and_play(given)
-    if not (path.endswith(FILE_ENDING) or os.path.exists(path)):
+def _load(text: str) -> Network:
+    """A trained policy from its path, which a mode may follow."""
+    path, mode = _split_mode(text)
+    if not (path.endswith(FILE_SUFFIX) or os.path.exists(path)):
         raise ValueError(
-            f"unknown policy {given!r}: expected one of {names()} or the path of a policy file"
+            f"unknown policy {text!r}: expected one of {names()} or the path of a policy file"
         )
-    from rsoccer.policies.network import Network  # a script needs no file format
+    from rsoccer.policies.network import Network  # scripts do not need the file format
 
-    return Network.load(path, play)
+    return Network.load(path, mode)
 
 
-def _path_and_play(given: str) -> tuple[str, str | None]:
-    """A file's path, and what follows its last colon, if that is no part of the path."""
-    from rsoccer.policies.network import PLAYS
+def _split_mode(text: str) -> tuple[str, str | None]:
+    """Path and mode of a policy file; a colon may also be part of the path."""
+    from rsoccer.policies.network import MODES
 
-    path, colon, play = given.rpartition(":")
-    if not colon or os.path.exists(given) or given.endswith(FILE_ENDING):
-        return given, None
-    known = play in PLAYS or path.endswith(FILE_ENDING)
-    return (path, play) if known else (given, None)
+    path, colon, mode = text.rpartition(":")
+    if not colon or os.path.exists(text) or text.endswith(FILE_SUFFIX):
+        return text, None
+    known = mode in MODES or path.endswith(FILE_SUFFIX)
+    return (path, mode) if known else (text, None)

@@ -1,4 +1,4 @@
-"""What drives a robot that does not learn: one interface for scripts, noise and networks."""
+"""The interface of policies: scripts, noise and trained networks drive robots through it."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -11,52 +11,111 @@ from rsoccer.task import Task
 from rsoccer.view import View
 
 Memory = dict[str, Array]
+"""State of a policy between steps: arrays (n, ...) by name, one row per world."""
+
+Observes = Literal["nothing", "view", "observation"]
+"""Kinds of input: none, the `View` of the robots, or the view and the task's observations."""
 
 
 @dataclass
 class PolicyInput:
-    """What a policy is shown of the robots that it drives, in order."""
+    """Input of one policy step, for the robots that the policy drives, in order."""
 
-    action_shape: tuple[int, int, int]  # (n, robots, action): the shape of the actions to return
-    view: View | None  # (n, robots, ...) unless it observes "nothing"
-    observations: Floats | None  # (n, robots, o) if it observes "observation"
+    action_shape: tuple[int, int, int]
+    """(n, robots, action): shape of the actions to return."""
+    view: View | None
+    """View of each robot, arrays (n, robots, ...); None if the policy observes "nothing"."""
+    observations: Floats | None
+    """(n, robots, o) observations of the task; None unless the policy observes "observation"."""
+
+    def required_view(self, policy: str) -> View:
+        """Return the view of a policy that cannot act without one.
+
+        Args:
+            policy: name of the policy, for the error message.
+
+        Raises:
+            ValueError: there is no view.
+        """
+        if self.view is None:
+            raise ValueError(f"{policy} needs a view, got none")
+        return self.view
 
 
 class Policy(ABC):
-    """Drives some robots of each world. Holds no state of a match: that lives in `memory`."""
+    """Base class of policies, which drive some robots in each of n worlds.
 
-    observes: Literal["nothing", "view", "observation"]
+    A policy object holds no state of a match. State between steps belongs in `memory`, so that
+    one object can drive several teams, and matches can be copied and saved.
 
-    _made_for: tuple[SimConfig, tuple[str, ...]] | None = None  # what it knows; None: nothing
+    Example:
+        >>> class Forward(Policy):
+        ...     observes = "nothing"
+        ...
+        ...     def act(self, inputs, rng, memory):
+        ...         return np.ones(inputs.action_shape, np.float32)
+        >>> matches = rsoccer.Matches("VSS-v0", 8, controllers={"yellow": Forward()})
+    """
+
+    observes: Observes
+    """Input that `act` gets; unused inputs are not computed."""
+
+    _built_for: tuple[SimConfig, tuple[str, ...]] | None = None
+    """Configuration and sides of the task it depends on; None if it depends on no task."""
 
     def __init__(self, task: Task | None = None) -> None:
-        """Know the field and the teams of `task`, or need to know none."""
+        """Bind the policy to a task, or to none.
+
+        Args:
+            task: the policy fits only tasks with the same field, robots, ball and sides; None:
+                it fits every task.
+        """
         if task is not None:
-            self._made_for = task.config, tuple(task.sides)
+            self._built_for = task.config, tuple(task.sides)
 
     @property
     def task_name(self) -> str | None:
         """Name of the task that it was trained on, for `make_task`; None if it was not trained."""
         return None
 
-    @property
-    def knows_task(self) -> bool:
-        """Whether it was made for one field and its teams."""
-        return self._made_for is not None
-
     def check_fits(self, task: Task, observation_size: int) -> None:
-        """ValueError for a task of other robots, teams or another field than it was made for."""
-        if self._made_for not in (None, (task.config, tuple(task.sides))):
+        """Check that the policy can play a task.
+
+        Args:
+            task: the task to be played.
+            observation_size: numbers in one robot's observation.
+
+        Raises:
+            ValueError: the policy was built for another field, other robots or other teams.
+        """
+        if self._built_for not in (None, (task.config, tuple(task.sides))):
             raise ValueError(
                 f"policy: expected one for the field, robots and teams of {task.name}, got a "
-                f"{type(self).__name__} that was made for others; make it for this task, "
-                "or give its name"
+                f"{type(self).__name__} that was built for others; build it for this task, "
+                "or pass its name"
             )
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """What it remembers when episodes start; arrays (n, ...), for shape (n, robots, action)."""
+        """Return the memory at the start of episodes.
+
+        Args:
+            shape: (n, robots, action), as `PolicyInput.action_shape`.
+            rng: (n,) random streams of the worlds.
+
+        Returns:
+            New arrays, each (n, ...). The default is no memory.
+        """
         return {}
 
     @abstractmethod
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """(n, robots, action) in [-1, 1]. Writes what it wants to remember into `memory`."""
+        """Return the actions of one control step.
+
+        Args:
+            inputs: view and observations of the robots.
+            rng: (n,) random streams of the worlds.
+            memory: arrays as `new_memory` returned them; updated in place.
+
+        Returns:
+            (n, robots, action) in [-1, 1]; larger values are clipped.
+        """

@@ -1,61 +1,68 @@
-"""A trained policy: a small perceptron run in NumPy, kept in one safetensors file."""
+"""Trained policies: a small perceptron that runs in NumPy."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal, Self
+from typing import TYPE_CHECKING, Final, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.frame import Array, Floats
 from rsoccer.policies import policy_file
-from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 
 if TYPE_CHECKING:
     from rsoccer.rng import WorldRng
     from rsoccer.task import Task
 
-ONE_THREAD = 2**18  # multiplications of a product that OpenBLAS still does on one thread
+SINGLE_THREAD_SIZE: Final = 2**18
+"""Multiplications in a matrix product up to which OpenBLAS uses one thread."""
 
-PLAYS: Final = ("sample", "mean")
-"""How a network may act: drawn with the spread it was trained with, or the mean of that."""
+MODES: Final = ("sample", "mean")
+"""Action selection of a network: drawn from its Gaussian, or the mean of the Gaussian."""
 
 
 class Network(Policy):
-    """A trained network: actions (n, robots, action) in [-1, 1], chosen as it was trained.
+    """A trained network, run in NumPy; PyTorch is needed for training only.
 
-    Torch is needed to train it, not to play with it. It decides as often as it did in training:
-    with `action_repeat` k it looks at every k-th control step and holds its action between. With
-    `play` "sample" it draws each decision around its mean, with the spread that it learned with,
-    from the stream of each world; "mean" is deterministic, and stands still where chance would
-    have freed it. Products of matrices are not bit-equal between batch sizes, so in two batch
-    sizes its actions may differ by about 1e-6; whoever needs the same numbers twice plays in
-    chunks of the same size, as `rsoccer.evaluate` does. What it draws is equal in all.
+    In mode "sample" each decision is drawn from the Gaussian of the training, with the random
+    stream of each world. Mode "mean" is deterministic; a robot may then stay stuck where noise
+    would free it. With `action_repeat` k the network decides at every k-th control step and holds
+    its action in between, as in training.
+
+    Matrix products are not bit-equal between batch sizes, so actions differ by about 1e-6 between
+    batch sizes. For reproducible numbers play in chunks of one size, as `rsoccer.evaluate` does.
+    The random draws are equal in all batch sizes.
+
+    Example:
+        >>> network = Network.load("policy.safetensors", mode="mean")
+        >>> matches = rsoccer.Matches(network.task_name, 100, controllers={"blue": network})
     """
 
-    observes: Literal["nothing", "view", "observation"] = "observation"
+    observes: Observes = "observation"
 
     def __init__(
-        self, arrays: Mapping[str, Array], metadata: Mapping[str, str], play: str | None = None
+        self, arrays: Mapping[str, Array], metadata: Mapping[str, str], mode: str | None = None
     ) -> None:
-        """Check names, shapes, numbers and metadata, then copy the arrays.
+        """Build a network from the content of a policy file; the arrays are copied.
 
-        `arrays` holds `layers.<i>.weight` (out, in), `layers.<i>.bias` (out,), `mean`, `std`
-        (observation,), and `action_std` (action,) unless it was trained without a spread, all
-        float32. `metadata` is text: format, task, observation_size, action_size, activation,
-        clip (bound of a normalised observation), where it is known layout (`Task.layout`) and,
-        if it is not 1, action_repeat (control steps). `play` is "sample" or "mean"; None is as it
-        was trained.
+        Args:
+            arrays: weights and normalisation by name, see `rsoccer.policies.policy_file`.
+            metadata: text by key, see the same module.
+            mode: "sample" or "mean"; None is "sample" if there is an `action_std`, else "mean".
+
+        Raises:
+            ValueError: arrays, metadata or mode that do not fit the format or each other.
         """
         self.metadata = dict(metadata)
         self.clip, self.action_repeat = policy_file.read_metadata(self.metadata)
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normaliser(arrays, self.observation_size)
-        self.action_std = policy_file.read_spread(arrays, self.action_size)
-        self.play = _chosen(play, self.action_std)
+        self.action_std = policy_file.read_action_std(arrays, self.action_size)
+        self.mode = _checked_mode(mode, self.action_std)
         for name, size in self._sizes().items():
             if self.metadata.get(name) != str(size):
                 raise ValueError(
@@ -65,27 +72,27 @@ class Network(Policy):
 
     @property
     def observation_size(self) -> int:
-        """Numbers that the first layer takes."""
+        """Numbers in an observation."""
         return int(self.layers[0][0].shape[1])
 
     @property
     def action_size(self) -> int:
-        """Numbers that the last layer gives."""
+        """Numbers in an action."""
         return int(self.layers[-1][0].shape[0])
 
     @property
     def task_name(self) -> str:
-        """Name of the task it was trained on, for `make_task`."""
+        """Name of the task that it was trained on, for `make_task`."""
         return self.metadata["task"]
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """The action that is held (n, robots, action) and for how many steps it was (n,)."""
+        """Return the held action (n, robots, action) and its age (n,), control steps."""
         if self.action_repeat == 1:
             return {}
         return {"held": np.zeros(shape, np.float32), "age": np.zeros(shape[0], np.int64)}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Action for each robot by its own observation, (n, robots, action)."""
+        """Return actions (n, robots, action): new decisions, or held ones."""
         if inputs.observations is None:
             raise ValueError("a network needs observations (n, robots, o), got none")
         if self.action_repeat == 1:
@@ -100,20 +107,32 @@ class Network(Policy):
         return held.copy()
 
     def choose(self, observations: Floats, rng: WorldRng) -> Floats:
-        """A decision for each robot as `play` says, (n, robots, action), by (n, robots, o)."""
-        if self.play == "mean" or self.action_std is None:
-            return self.decide(observations)
-        actions = self._means(observations)
+        """Choose actions as the mode says, without holding them.
+
+        Args:
+            observations: (n, robots, o) observations.
+            rng: (n,) random streams; used in mode "sample".
+
+        Returns:
+            (n, robots, action) in [-1, 1].
+        """
+        if self.mode == "mean" or self.action_std is None:
+            return self.mean_actions(observations)
+        actions = self._unclipped_means(observations)
         actions += self.action_std * rng.normal(actions.shape[1:])
         return np.clip(actions, -1.0, 1.0, out=actions)
 
-    def decide(self, observations: Floats) -> Floats:
-        """Mean action (..., action) for observations (..., o)."""
-        actions = self._means(observations)
+    def mean_actions(self, observations: Floats) -> Floats:
+        """Return the mean actions (..., action) in [-1, 1].
+
+        Args:
+            observations: (..., o) observations.
+        """
+        actions = self._unclipped_means(observations)
         return np.clip(actions, -1.0, 1.0, out=actions)
 
-    def _means(self, observations: Floats) -> Floats:
-        """What actions are drawn around (..., action), beyond [-1, 1] too."""
+    def _unclipped_means(self, observations: Floats) -> Floats:
+        """Output of the last layer (..., action)."""
         if observations.shape[-1] != self.observation_size:
             raise ValueError(
                 f"the network takes observations of {self.observation_size} numbers, "
@@ -121,7 +140,7 @@ class Network(Policy):
             )
         flat = observations.reshape(-1, self.observation_size)
         actions = np.empty((len(flat), self.action_size), np.float32)
-        rows = self._rows_at_once()
+        rows = self._rows_per_product()
         for first in range(0, len(flat), rows):
             actions[first : first + rows] = self._forward(flat[first : first + rows])
         return actions.reshape(*observations.shape[:-1], self.action_size)
@@ -134,12 +153,12 @@ class Network(Policy):
         actions: Floats = hidden @ weight.T + bias
         return actions
 
-    def _rows_at_once(self) -> int:
-        """Rows whose products stay on one thread: more would go on spinning on other cores."""
-        return max(16, ONE_THREAD // max(weight.size for weight, _ in self.layers))
+    def _rows_per_product(self) -> int:
+        """Rows whose products use one thread; further threads would spin on other cores."""
+        return max(16, SINGLE_THREAD_SIZE // max(weight.size for weight, _ in self.layers))
 
     def check_fits(self, task: Task, observation_size: int) -> None:
-        """Raise ValueError where the task shows or takes something else than the network."""
+        """Raise ValueError for a task with other observations or actions."""
         wanted = {"observation_size": observation_size, "action_size": task.action_size}
         for name, size in self._sizes().items():
             if size != wanted[name]:
@@ -150,12 +169,12 @@ class Network(Policy):
         layout = self.metadata.get("layout", task.layout)
         if layout != task.layout:
             raise ValueError(
-                f"a network trained on {self.task_name!r} looks at {layout}, "
-                f"but task {task.name!r} shows {task.layout}"
+                f"a network trained on {self.task_name!r} observes {layout}, "
+                f"but the observations of task {task.name!r} are {task.layout}"
             )
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:
-        """Copies of all arrays by the names that the file uses."""
+        """Return copies of all arrays, by their names in the policy file."""
         named = {"mean": self.mean, "std": self.std}
         if self.action_std is not None:
             named["action_std"] = self.action_std
@@ -165,32 +184,46 @@ class Network(Policy):
         return {name: np.ascontiguousarray(array).copy() for name, array in named.items()}
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], play: str | None = None) -> Self:
-        """Read a policy file; ValueError names the file and what is wrong with it.
+    def load(cls, path: str | os.PathLike[str], mode: str | None = None) -> Self:
+        """Read a policy file.
 
-        `play` is "sample" or "mean"; without it, the network plays as it was trained.
+        Args:
+            path: the file.
+            mode: "sample" or "mean"; None is as in training.
+
+        Returns:
+            The network.
+
+        Raises:
+            FileNotFoundError: no such file.
+            ImportError: safetensors is not installed.
+            ValueError: the file is not a usable policy file, or the mode does not fit it.
         """
         try:
             network = cls(*policy_file.read_file(Path(path)))
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)} is not a usable policy file: {error}") from error
-        network.play = _chosen(play, network.action_std)
+        network.mode = _checked_mode(mode, network.action_std)
         return network
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the policy file whole or not at all; equal policies are equal bytes."""
-        policy_file.write(Path(path), self.arrays(), self.metadata)
+        """Write the policy file atomically; equal policies give equal bytes.
+
+        Args:
+            path: the file; an existing one is replaced.
+        """
+        policy_file.write_file(Path(path), self.arrays(), self.metadata)
 
     def _sizes(self) -> dict[str, int]:
         return {"observation_size": self.observation_size, "action_size": self.action_size}
 
 
-def _chosen(play: str | None, spread: Floats | None) -> str:
-    """How to play; as it was trained if nobody says."""
-    if play not in (None, *PLAYS):
-        raise ValueError(f"play: expected one of {PLAYS}, got {play!r}")
-    if play == "sample" and spread is None:
+def _checked_mode(mode: str | None, action_std: Floats | None) -> str:
+    """The mode; as in training if it is None."""
+    if mode not in (None, *MODES):
+        raise ValueError(f"mode: expected one of {MODES}, got {mode!r}")
+    if mode == "sample" and action_std is None:
         raise ValueError(
-            "play: expected 'mean', as there is no spread to sample with, got 'sample'"
+            "mode: expected 'mean', as the policy has no action_std to sample with, got 'sample'"
         )
-    return play or ("mean" if spread is None else "sample")
+    return mode or ("mean" if action_std is None else "sample")

@@ -1,54 +1,59 @@
-"""Policies that ignore the game: standing still, white noise, Ornstein-Uhlenbeck noise."""
-
-from typing import Literal
+"""Policies that ignore the game: zero actions, uniform noise, Ornstein-Uhlenbeck noise."""
 
 import numpy as np
 
 from rsoccer.frame import Floats
-from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 
 
 class Zero(Policy):
-    """Every action is zero."""
+    """Zero actions. The robots stand still."""
 
-    observes: Literal["nothing", "view", "observation"] = "nothing"
+    observes: Observes = "nothing"
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """(n, robots, action) of zeros."""
+        """Return zeros, (n, robots, action)."""
         return np.zeros(inputs.action_shape, np.float32)
 
 
 class Uniform(Policy):
-    """Every action is drawn evenly from [-1, 1] in each step."""
+    """Actions drawn uniformly from [-1, 1], independent in each step."""
 
-    observes: Literal["nothing", "view", "observation"] = "nothing"
+    observes: Observes = "nothing"
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """(n, robots, action) drawn from [-1, 1]."""
+        """Draw actions (n, robots, action) from [-1, 1]."""
         return rng.uniform(-1.0, 1.0, inputs.action_shape[1:])
 
 
 class OrnsteinUhlenbeck(Policy):
-    """A random walk with a pull to zero; its long-run deviation is sigma / sqrt(2 theta) = 0.86.
+    """Ornstein-Uhlenbeck noise: a random walk that is pulled towards zero.
 
-    Its numbers are those of rSoccer's VSSS environment. At them it is a slow drift near full
-    speed, so a robot draws long arcs.
+    The default parameters are those of rSoccer's VSSS environment. Their stationary standard
+    deviation is sigma / sqrt(2 theta) = 0.86, so robots drift slowly near full speed, in long
+    arcs.
     """
 
-    observes: Literal["nothing", "view", "observation"] = "nothing"
+    observes: Observes = "nothing"
 
     def __init__(self, theta: float = 0.17, sigma: float = 0.5, time_step: float = 0.025) -> None:
-        """`theta` is the pull (1/s), `sigma` the noise (1/sqrt(s)), `time_step` in seconds."""
+        """Set the parameters of the process.
+
+        Args:
+            theta: rate of the pull towards zero, 1/s.
+            sigma: strength of the noise, 1/sqrt(s).
+            time_step: duration of a control step, s.
+        """
         self._keep = np.float32(1.0 - theta * time_step)
         self._noise = np.float32(sigma * time_step**0.5)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """Where the walk is (n, robots, action); it starts at rest."""
+        """Return `walk` (n, robots, action), the state of the process; it starts at zero."""
         return {"walk": np.zeros(shape, np.float32)}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """One step of the walk, (n, robots, action); only what it tells the robot is clipped."""
+        """Advance the process one step; the actions are clipped, its state is not."""
         walk = memory["walk"]
         walk *= self._keep
         walk += self._noise * rng.normal(inputs.action_shape[1:])

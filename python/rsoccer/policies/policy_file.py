@@ -1,39 +1,84 @@
-"""The file of a trained policy: what it must hold, and how it is read and written."""
+"""The file format of trained policies: its definition, reading, checks and writing.
+
+A policy file is one safetensors file, `policy.safetensors`. It holds a perceptron with tanh
+layers, the normalisation of its observations, and how it acts. With observation size o, action
+size a and layers 0 to k:
+
+| array | shape | dtype | content |
+| --- | --- | --- | --- |
+| `layers.<i>.weight` | (out, in) | float32 | weights of layer i; layer 0 takes o, layer k gives a |
+| `layers.<i>.bias` | (out,) | float32 | biases of layer i |
+| `mean` | (o,) | float32 | mean of the observations in training |
+| `std` | (o,) | float32 | standard deviation of the observations in training, above 0 |
+| `action_std` | (a,) | float32 | standard deviation of the actions in training, above 0; optional |
+
+All numbers are finite. The metadata are text:
+
+| key | value | meaning |
+| --- | --- | --- |
+| `format` | `rsoccer-policy-2` | version of this format |
+| `task` | a task's name | task of the training, for `make_task` |
+| `observation_size` | o | numbers in an observation |
+| `action_size` | a | numbers in an action |
+| `activation` | `tanh` | activation after each layer but the last |
+| `clip` | above 0, default 10 | bound of a normalised observation, in standard deviations |
+| `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
+| `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
+
+The mean action for an observation x is
+
+    h = clip((x - mean) / std, -clip, clip)
+    h = tanh(weight @ h + bias)         for layers 0 to k - 1
+    action = weight @ h + bias          for layer k
+
+With `action_std` an action is drawn as `action + action_std * N(0, 1)`. Then it is clipped to
+[-1, 1]. Equal policies give equal bytes.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
 from rsoccer.files import safetensors_bytes, write_atomically
 from rsoccer.frame import Array, Floats
 
-FORMAT = "rsoccer-policy-2"
-"""First thing a reader looks at; a new number means that old readers must refuse."""
+FORMAT: Final = "rsoccer-policy-2"
+"""Version of the format. A new number makes older readers refuse the file."""
 
-MOST_REPEAT = 1_000_000
-"""Control steps that an action may last, some seven hours of play."""
+MAX_ACTION_REPEAT: Final = 1_000_000
+"""Upper bound of `action_repeat`, control steps: some seven hours of play."""
 
-INSTALL_HINT = "policy files need safetensors: pip install 'rsoccer[cli]'"
+INSTALL_HINT: Final = "policy files need safetensors: pip install 'rsoccer[cli]'"
 
 
 def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
-    """Bound of a normalised observation, and action repeat, once the rest is found right."""
+    """Check the metadata, except the sizes and the layout.
+
+    Args:
+        metadata: text by key, see the table of the module.
+
+    Returns:
+        `clip` (standard deviations) and `action_repeat` (control steps).
+
+    Raises:
+        ValueError: a missing or wrong value.
+    """
     for name, wanted in {"format": FORMAT, "activation": "tanh"}.items():
         if metadata.get(name) != wanted:
             raise ValueError(f"metadata {name!r} should be {wanted!r}, got {metadata.get(name)!r}")
     if not metadata.get("task"):
-        raise ValueError("metadata 'task' should name the task it was trained on, got nothing")
+        raise ValueError("metadata 'task' should name the task of the training, got nothing")
     clip = _read_number(metadata, "clip", "10")
     repeat = _read_number(metadata, "action_repeat", "1")
     if not repeat.is_integer():
         raise ValueError(f"metadata 'action_repeat' should be a whole number, got {repeat}")
-    if repeat > MOST_REPEAT:
+    if repeat > MAX_ACTION_REPEAT:
         raise ValueError(
-            f"metadata 'action_repeat' should be at most {MOST_REPEAT}, "
+            f"metadata 'action_repeat' should be at most {MAX_ACTION_REPEAT}, "
             f"got {metadata['action_repeat']!r}"
         )
     return np.float32(clip), int(repeat)
@@ -52,7 +97,17 @@ def _read_number(metadata: Mapping[str, str], name: str, default: str) -> float:
 
 
 def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
-    """Weight (out, in) and bias (out,) of each layer, the input side first."""
+    """Read the layers, and check that there are no missing or unknown arrays.
+
+    Args:
+        arrays: all arrays of the file, by name.
+
+    Returns:
+        Weight (out, in) and bias (out,) of each layer, the input layer first.
+
+    Raises:
+        ValueError: missing or unknown arrays, or layers of sizes that do not match.
+    """
     count = sum(name.endswith(".weight") for name in arrays)
     expected = {f"layers.{index}.{part}" for index in range(count) for part in ("weight", "bias")}
     expected |= {"mean", "std"}
@@ -73,25 +128,47 @@ def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
 
 
 def read_normaliser(arrays: Mapping[str, Array], size: int) -> tuple[Floats, Floats]:
-    """Mean and standard deviation of observations, (o,) each; the latter above 0."""
+    """Read the normalisation of observations.
+
+    Args:
+        arrays: arrays by name, with `mean` and `std`.
+        size: numbers in an observation.
+
+    Returns:
+        Mean and standard deviation, (o,) each.
+
+    Raises:
+        ValueError: an array of another shape or type, or a deviation that is not above 0.
+    """
     mean, std = _read_array(arrays, "mean", (size,)), _read_array(arrays, "std", (size,))
     if not (std > 0.0).all():
         raise ValueError(f"array 'std' should be above 0 everywhere, got {std.min()}")
     return mean, std
 
 
-def read_spread(arrays: Mapping[str, Array], size: int) -> Floats | None:
-    """Spread of actions while it learned (action,), above 0; None if it learned without."""
+def read_action_std(arrays: Mapping[str, Array], size: int) -> Floats | None:
+    """Read the standard deviation of actions.
+
+    Args:
+        arrays: arrays by name, with or without `action_std`.
+        size: numbers in an action.
+
+    Returns:
+        (a,) standard deviations; None for a policy without them.
+
+    Raises:
+        ValueError: an array of another shape or type, or a deviation that is not above 0.
+    """
     if "action_std" not in arrays:
         return None
-    spread = _read_array(arrays, "action_std", (size,))
-    if not (spread > 0.0).all():
-        raise ValueError(f"array 'action_std' should be above 0 everywhere, got {spread.min()}")
-    return spread
+    action_std = _read_array(arrays, "action_std", (size,))
+    if not (action_std > 0.0).all():
+        raise ValueError(f"array 'action_std' should be above 0 everywhere, got {action_std.min()}")
+    return action_std
 
 
 def _read_array(arrays: Mapping[str, Array], name: str, shape: tuple[int | None, ...]) -> Floats:
-    """Own copy of one array, float32 and finite; None in `shape` is any size above 0."""
+    """Copy of one array, float32 and finite; None in `shape` is any size above 0."""
     array = np.asarray(arrays[name])
     fits = array.ndim == len(shape) and all(
         size > 0 if wanted is None else size == wanted
@@ -107,13 +184,22 @@ def _read_array(arrays: Mapping[str, Array], name: str, shape: tuple[int | None,
     return array.copy()
 
 
-def write(path: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:
-    """Write the file whole or not at all; equal content gives equal bytes."""
+def write_file(path: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:
+    """Write a policy file atomically; equal content gives equal bytes.
+
+    Args:
+        path: the file; an existing one is replaced.
+        arrays: arrays by name.
+        metadata: text by key.
+
+    Raises:
+        ImportError: safetensors is not installed.
+    """
     _safetensors()
     write_atomically(path, safetensors_bytes(arrays, metadata))
 
 
-def _safetensors() -> Any:  # noqa: ANN401  (an optional module has no type before it is there)
+def _safetensors() -> Any:  # noqa: ANN401  (an optional module has no type)
     try:
         import safetensors
     except ImportError as error:
@@ -122,7 +208,19 @@ def _safetensors() -> Any:  # noqa: ANN401  (an optional module has no type befo
 
 
 def read_file(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
-    """Arrays and metadata as they stand in the file."""
+    """Read a policy file without checking its content.
+
+    Args:
+        path: the file.
+
+    Returns:
+        Arrays by name, and metadata by key.
+
+    Raises:
+        FileNotFoundError: no such file.
+        ImportError: safetensors is not installed.
+        ValueError: not a safetensors file, a truncated one, or arrays that are not float32.
+    """
     safetensors = _safetensors()
     if path.is_dir():
         raise ValueError("it is a folder")
@@ -130,7 +228,7 @@ def read_file(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
         with safetensors.safe_open(path, framework="numpy") as file:
             for name in file.keys():  # noqa: SIM118  (the handle is no mapping)
                 kind = file.get_slice(name).get_dtype()
-                if kind != "F32":  # before NumPy meets a type that it does not know
+                if kind != "F32":  # NumPy would fail on types that it does not have
                     raise ValueError(f"array {name!r} should be float32, got {kind}")
             arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
             return arrays, dict(file.metadata() or {})

@@ -11,6 +11,7 @@ import numpy as np
 from rsoccer.frame import Array, Floats
 from rsoccer.matches import Matches
 from rsoccer.task import Task
+from rsoccer.tasks.ssl import Ssl
 
 NOISE: Final = 0.3  # on every number of an action: crowds that stir
 KICKS: Final = 0.03  # share of actions of the SSL that kick
@@ -63,9 +64,8 @@ def _known_drive(task: Task) -> str:
     drives = {robot.drive for robot in task.config.robots}
     if drives == {"differential"} and task.action_size == 2:
         return "wheels"
-    velocity_frame = getattr(task, "velocity_frame", None)
-    if drives == {"omni"} and task.action_size == 5 and velocity_frame in ("field", "robot"):
-        return str(velocity_frame)
+    if drives == {"omni"} and isinstance(task, Ssl) and task.action_size == 5:
+        return task.velocity_frame
     return "unknown"
 
 

@@ -3,13 +3,20 @@ import pytest
 
 from rsoccer import Matches
 from rsoccer.tasks import SslContestedPossession, SslSelfPlay, SslStaticDefenders
-from tests.policies.ssl.ssl_policies import expect_rows_alone, expect_view_needed, score
+from tests.policies.ssl.ssl_policies import (
+    expect_independent_worlds,
+    expect_view_needed,
+    mean_metric,
+)
 
-# That it scores past robots that stand and wins the ball off an opponent, tests/tasks shows.
+# tests/tasks check that it scores past standing robots and steals the ball from an opponent.
 
 
-def test_it_scores_in_its_own_axes_too() -> None:
-    assert score(SslStaticDefenders(velocity_frame="robot"), "goal_score", blue_0="strike") >= 0.9
+def test_it_scores_with_velocities_in_the_robot_frame() -> None:
+    assert (
+        mean_metric(SslStaticDefenders(velocity_frame="robot"), "goal_score", blue_0="strike")
+        >= 0.9
+    )
 
 
 @pytest.mark.parametrize(("blue", "yellow"), [("strike", "hold"), ("hold", "strike")])
@@ -17,26 +24,26 @@ def test_it_plays_for_either_side(blue: str, yellow: str) -> None:
     task = (
         SslSelfPlay(n_blue=1, n_yellow=2) if yellow == "hold" else SslSelfPlay(n_blue=2, n_yellow=1)
     )
-    got = score(task, "goal_score", blue=blue, yellow=yellow)
-    assert got * (1.0 if blue == "strike" else -1.0) >= 0.8
+    score = mean_metric(task, "goal_score", blue=blue, yellow=yellow)
+    assert score * (1.0 if blue == "strike" else -1.0) >= 0.8
 
 
-def test_of_a_team_only_the_nearest_goes() -> None:
+def test_only_the_nearest_of_a_team_goes() -> None:
     matches = Matches(SslSelfPlay(), 6, 3, controllers={"blue": "strike", "yellow": "zero"})
     matches.reset()
     for _ in range(60):
         matches.step(np.zeros((6, 0, 5), np.float32))
     to_ball = matches.frame.blue.position - matches.frame.ball.position[:, None]
-    far = np.sort(np.linalg.norm(to_ball, axis=-1), axis=1)
-    assert (far[:, 0] < 0.5).mean() > 0.6
-    assert (far[:, 1] > 0.4).all()
+    distance = np.sort(np.linalg.norm(to_ball, axis=-1), axis=1)
+    assert (distance[:, 0] < 0.5).mean() > 0.6
+    assert (distance[:, 1] > 0.4).all()
 
 
 @pytest.mark.parametrize("task", [SslStaticDefenders(), SslContestedPossession(), SslSelfPlay()])
-def test_rows_do_not_depend_on_their_neighbours(
+def test_worlds_are_independent(
     task: SslStaticDefenders | SslContestedPossession | SslSelfPlay,
 ) -> None:
-    expect_rows_alone("strike", task, 120)
+    expect_independent_worlds("strike", task, 120)
 
 
 def test_it_needs_a_view() -> None:

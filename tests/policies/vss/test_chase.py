@@ -32,7 +32,7 @@ def score(blue: str, yellow: str, robots: int = 3) -> float:
 
 
 @pytest.mark.parametrize("robots", [1, 3])
-def test_chase_scores_against_robots_that_stand_still(robots: int) -> None:
+def test_chase_scores_against_standing_robots(robots: int) -> None:
     assert score("chase", "zero", robots) > 0.85
 
 
@@ -44,12 +44,12 @@ def test_chase_beats_drifting() -> None:
     assert score("chase", "ou") > 0.75
 
 
-def test_chase_drives_two_wheels_only() -> None:
-    class Winged(VssSelfPlay):
+def test_chase_refuses_other_actions() -> None:
+    class ThreeActions(VssSelfPlay):
         action_size = 3
 
-    with pytest.raises(ValueError, match="chase drives two wheels"):
-        Chase(Winged())
+    with pytest.raises(ValueError, match="chase needs robots on two wheels"):
+        Chase(ThreeActions())
 
 
 def test_chase_needs_a_view() -> None:

@@ -19,7 +19,8 @@ from tests.test_view import turned
 TASK = VssSelfPlay()
 
 
-def nobody(worlds: int) -> np.ndarray:
+def no_actions(worlds: int) -> np.ndarray:
+    """Actions of no learners."""
     return np.zeros((worlds, 0, 2), np.float32)
 
 
@@ -47,12 +48,12 @@ def test_it_beats_drifting_from_either_side() -> None:
     assert wilson_low(found.wins, found.wins + found.losses) > 0.9
 
 
-def test_it_beats_chasers_from_either_side() -> None:
+def test_it_beats_chase_from_either_side() -> None:
     found = score("scripted", "chase", 80, VssSelfPlay(max_steps=600))
     assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.3
 
 
-def test_it_scores_against_robots_that_stand_still_and_hardly_into_its_own_goal() -> None:
+def test_it_scores_against_standing_robots_and_hardly_into_its_own_goal() -> None:
     found = score("scripted", "zero", 160, VssSelfPlay(max_steps=800))
     assert min(found.sides["blue"].low, found.sides["yellow"].low) > 0.8
     assert found.losses <= 4
@@ -65,23 +66,23 @@ def test_more_skill_is_stronger(better: str, worse: str) -> None:
 
 
 @pytest.mark.parametrize(("blue", "yellow"), [(1, 1), (5, 5), (2, 4)])
-def test_sides_of_any_size_play(blue: int, yellow: int) -> None:
+def test_teams_of_any_size_play(blue: int, yellow: int) -> None:
     task = VssSelfPlay(n_blue=blue, n_yellow=yellow, max_steps=400)
     found: Results = score("scripted", "ou", 20, task).sides["blue"]
     assert found.wins - found.losses >= 5
 
 
-# -- What it does -----------------------------------------------------------------------------
+# -- Behaviour --------------------------------------------------------------------------------
 
 
 def test_the_keeper_stays_home() -> None:
-    worlds = 60  # of few, one long scramble in a corner would be much
+    worlds = 60  # with fewer, one long scramble in a corner would weigh too much
     controllers = {"blue": "scripted", "yellow": "ou"}
     matches = Matches(TASK, worlds, 4, 2, controllers=controllers, autoreset="disabled")
     matches.reset()
     out = []
     for step in range(300):
-        matches.step(nobody(worlds))
+        matches.step(no_actions(worlds))
         keeper = matches.state_dict()["blue_0.roles"][:, 0] == KEEPER
         assert (keeper.sum(axis=1) == 1).all()
         if step >= 80:  # once it is there
@@ -93,34 +94,35 @@ def test_the_keeper_stays_home() -> None:
     assert np.quantile(np.abs(away[:, 1]), 0.95) < 0.3
 
 
-def test_seen_from_the_other_side_it_does_the_same() -> None:
+def test_both_sides_act_alike() -> None:
     rows = Crowd().get_initial_positions_frame(WorldRng.seeded(0, 8)).rows
     actions = []
     for start in (rows, turned(Frame(rows, 3, 3)).rows):
         matches = Matches(TASK, 8, controllers={"all": "scripted"})
         matches.reset(rows=start)
-        matches.step(nobody(8))
+        matches.step(no_actions(8))
         actions.append(matches.play.actions)
     assert np.array_equal(actions[0][:, [3, 4, 5, 0, 1, 2]], actions[1])
     assert np.abs(actions[0]).max() > 0.5
 
 
 @pytest.mark.parametrize("skill", [0.5, 1.0])
-def test_rows_do_not_depend_on_their_neighbours(skill: float) -> None:
+def test_worlds_are_independent(skill: float) -> None:
     worlds, policy = 4, Scripted(TASK, skill)
     every: Controllers = {"all": policy}
-    many = Matches(TASK, worlds, 3, controllers=every)
-    ones = [Matches(TASK, 1, 3 + i, controllers=every) for i in range(worlds)]
-    for each in (many, *ones):
+    batch = Matches(TASK, worlds, 3, controllers=every)
+    singles = [Matches(TASK, 1, 3 + i, controllers=every) for i in range(worlds)]
+    for each in (batch, *singles):
         each.reset()
     backed_off = 0
     for _ in range(200):
-        many.step(nobody(worlds))
-        for one in ones:
-            one.step(nobody(1))
-        assert same(many.play.actions, np.concatenate([one.play.actions for one in ones]))
-        backed_off += int((many.state_dict()["blue_0.slow"] < 0).sum())
-    assert backed_off > 0, "no draws were compared"
+        batch.step(no_actions(worlds))
+        for single in singles:
+            single.step(no_actions(1))
+        expected = np.concatenate([single.play.actions for single in singles])
+        assert same(batch.play.actions, expected)
+        backed_off += int((batch.state_dict()["blue_0.slow_steps"] < 0).sum())
+    assert backed_off > 0, "no random draws were compared"
 
 
 def test_the_same_seed_is_the_same_match() -> None:
@@ -129,20 +131,20 @@ def test_the_same_seed_is_the_same_match() -> None:
         matches = Matches(TASK, 5, 9, controllers={"all": "scripted:0.7"})
         matches.reset()
         for _ in range(150):
-            matches.step(nobody(5))
+            matches.step(no_actions(5))
         rows.append(matches.frame.rows.copy())
     assert same(*rows)
 
 
-def test_a_robot_plays_its_part_whoever_drives_its_teammates() -> None:
-    """In the first step roles follow from the start alone, so each does what it does in a side."""
-    whole = Matches(TASK, 6, 3, controllers={"all": "scripted"})
+def test_a_robot_plays_its_role_whichever_policy_drives_its_teammates() -> None:
+    """In the first step roles follow from the start alone, so each robot acts as in a full team."""
+    full = Matches(TASK, 6, 3, controllers={"all": "scripted"})
     mixed: Controllers = {"all": "ou", "blue_1": "scripted", "yellow_2": Scripted(TASK)}
     some = Matches(TASK, 6, 3, controllers=mixed)
-    for matches in (whole, some):
+    for matches in (full, some):
         matches.reset()
-        matches.step(nobody(6))
-    assert np.array_equal(whole.play.actions[:, [1, 5]], some.play.actions[:, [1, 5]])
+        matches.step(no_actions(6))
+    assert np.array_equal(full.play.actions[:, [1, 5]], some.play.actions[:, [1, 5]])
 
 
 @pytest.mark.parametrize(
@@ -156,30 +158,30 @@ def test_a_robot_plays_its_part_whoever_drives_its_teammates() -> None:
         VssSelfPlay(robot="vss_650rpm"),
     ],
 )
-def test_it_drives_in_every_task_of_two_wheels(task: VssSelfPlay) -> None:
+def test_it_drives_in_every_task_with_two_wheels(task: VssSelfPlay) -> None:
     controllers: Controllers = {f"blue_{task.n_blue - 1}": "scripted"}
     matches = Matches(task, 3, controllers=controllers)
     matches.reset()
     for _ in range(60):
         matches.step(np.zeros((3, len(matches.agents), 2), np.float32))
-    mine = matches.play.actions[:, task.n_blue - 1]
-    assert np.isfinite(mine).all()
-    assert np.abs(mine).max() > 0.0
+    actions = matches.play.actions[:, task.n_blue - 1]
+    assert np.isfinite(actions).all()
+    assert np.abs(actions).max() > 0.0
 
 
 # -- Skill ------------------------------------------------------------------------------------
 
 
-def test_skill_limits_speed_and_how_often_it_looks() -> None:
+def test_skill_limits_speed_and_decision_rate() -> None:
     changes = {}
     for skill in (0.0, 0.5, 1.0):
         matches = Matches(TASK, 4, 1, controllers={"blue": Scripted(TASK, skill), "yellow": "zero"})
         matches.reset()
-        orders = []
+        targets = []
         for _ in range(48):
-            matches.step(nobody(4))
-            orders.append(matches.state_dict()["blue_0.orders"].copy())
-        changes[skill] = int((np.diff(orders, axis=0) != 0.0).any(axis=(1, 2, 3)).sum())
+            matches.step(no_actions(4))
+            targets.append(matches.state_dict()["blue_0.targets"].copy())
+        changes[skill] = int((np.diff(targets, axis=0) != 0.0).any(axis=(1, 2, 3)).sum())
         powers = np.abs(matches.play.actions[:, :3]).max()
         assert powers <= 0.03 + 0.97 * skill + 1e-6
         assert powers > 0.5 * skill
@@ -193,7 +195,7 @@ def test_a_name_may_carry_a_skill() -> None:
         matches = Matches(TASK, 4, 1, controllers={"all": policy})
         matches.reset()
         for _ in range(20):
-            matches.step(nobody(4))
+            matches.step(no_actions(4))
         actions.append(matches.play.actions.copy())
     assert same(actions[0], actions[1])
     assert not same(actions[0], actions[2])
@@ -202,31 +204,31 @@ def test_a_name_may_carry_a_skill() -> None:
 
 
 @pytest.mark.parametrize("skill", ["2", "-0.1", "x", "", "nan", "0.5:1"])
-def test_a_skill_that_is_none_is_told(skill: str) -> None:
+def test_invalid_skills_are_refused(skill: str) -> None:
     with pytest.raises(ValueError, match=f"scripted: expected a skill from 0 to 1, got '?{skill}"):
         policies.make(f"scripted:{skill}", TASK)
 
 
 @pytest.mark.parametrize("name", ["zero:0.5", "chase:1", "ou:"])
-def test_others_have_no_skill(name: str) -> None:
+def test_other_policies_have_no_skill(name: str) -> None:
     first = name.split(":")[0]
     message = f"'{first}' has no skill: expected '{first}', got '{name}'.*'scripted'"
     with pytest.raises(ValueError, match=message):
         policies.make(name, TASK)
 
 
-# -- Wrong input ------------------------------------------------------------------------------
+# -- Invalid input ----------------------------------------------------------------------------
 
 
-def test_it_drives_two_wheels_only() -> None:
-    with pytest.raises(ValueError, match="scripted drives two wheels"):
+def test_it_refuses_other_robots() -> None:
+    with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
         policies.make("scripted:0.5", SslSelfPlay())
-    with pytest.raises(ValueError, match="scripted drives two wheels"):
+    with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
         rsoccer.Matches("SSLSelfPlay-v0", controllers={"blue": "scripted"})
 
 
 @pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0"])
-def test_a_side_made_for_other_teams_is_refused(name: str) -> None:
+def test_a_policy_built_for_other_teams_is_refused(name: str) -> None:
     other = Scripted(VssSelfPlay(n_blue=2))
     with pytest.raises(ValueError, match=f"field, robots and teams of {name}, got a Scripted"):
         Matches(name, controllers={"blue": other})

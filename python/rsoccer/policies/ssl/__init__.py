@@ -1,1 +1,1 @@
-"""Scripted policies for SSL robots."""
+"""Scripted policies for SSL robots, which are omnidirectional, with kicker and dribbler."""

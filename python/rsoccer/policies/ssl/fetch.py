@@ -1,40 +1,41 @@
-"""A script that goes to the ball and takes it into its mouth."""
+"""The `fetch` policy: go to the ball and take it into the mouth."""
 
-from typing import Final, Literal
+from typing import Final
 
 from rsoccer.frame import Floats
-from rsoccer.policies.base import Memory, Policy, PolicyInput
-from rsoccer.policies.ssl import motion
-from rsoccer.policies.ssl.paths import Ground, others
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.ssl.approach import approach_ball
+from rsoccer.policies.ssl.path_planning import other_robots
+from rsoccer.policies.ssl.region import Region
+from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
-FASTEST: Final = 2.0  # m/s
-ROOM: Final = 0.02  # metres that its centre keeps from the lines
+MAX_SPEED: Final = 2.0  # m/s
+LINE_MARGIN: Final = 0.02  # m between the robot's centre and the field's lines
 
 
 class Fetch(Policy):
-    """Drives round the others to the ball, faces it, and takes it with the dribbler on."""
+    """A script that drives past other robots to the ball and takes it with the dribbler on."""
 
-    observes: Literal["nothing", "view", "observation"] = "view"
+    observes: Observes = "view"
 
     def __init__(self, task: Task) -> None:
-        """Learn the field and the robot of `task`."""
+        """Prepare the script for a task.
+
+        Args:
+            task: an SSL task.
+        """
         super().__init__(task)
-        self._mover = motion.Mover("fetch", task)
-        self._ground = Ground.field(task.config.field, ROOM)
+        self._control = RobotControl(require_ssl("fetch", task))
+        self._region = Region.of_field(task.config.field, LINE_MARGIN)
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """(n, robots, 5)."""
-        if inputs.view is None:
-            raise ValueError("fetch needs a view, got none")
-        ego, ball = inputs.view.ego, inputs.view.ball
-        v_x, v_y, spin = motion.fetching(
-            self._mover,
-            ego,
-            (ball.position, ball.velocity),
-            others(inputs.view),
-            self._ground,
-            FASTEST,
+        """Return actions, (n, robots, 5)."""
+        view = inputs.required_view("fetch")
+        ball = view.ball.position, view.ball.velocity
+        robots = other_robots(view)
+        v_x, v_y, spin = approach_ball(
+            self._control, view.ego, ball, robots, self._region, MAX_SPEED
         )
-        return self._mover.actions(ego, v_x, v_y, spin)
+        return self._control.actions(view.ego, v_x, v_y, spin)

@@ -1,7 +1,8 @@
-"""How a script takes the ball out of an opponent's mouth: nose to nose, and then aside.
+"""Stealing the ball from an opponent's mouth: face the opponent, then slide sideways.
 
-Straight back the dribblers pull alike and neither wins. From some degrees off the opponent's axis its
-front is a wedge with ours: sliding along it drags the ball out at the side, in our own mouth.
+Facing it straight, both dribblers pull alike and neither robot wins. From some degrees off the
+opponent's axis the two fronts form a wedge. Sliding along the opponent's front then drags the ball
+out at the side, in the own mouth.
 """
 
 from typing import Final
@@ -9,61 +10,76 @@ from typing import Final
 import numpy as np
 
 from rsoccer.frame import Floats, Mask
+from rsoccer.policies.geometry import XY
 from rsoccer.policies.ssl import motion
-from rsoccer.policies.ssl.paths import Ground
+from rsoccer.policies.ssl.approach import approach_ball
+from rsoccer.policies.ssl.region import Region
+from rsoccer.policies.ssl.robot_control import RobotControl
 from rsoccer.view import View
 
-OFF: Final = np.float32(np.radians(20.0))  # between the opponent's axis and the way we come
-ASIDE: Final = np.float32(0.4)  # m/s along its front; a crash counts from 0.5 m/s
-INWARD: Final = np.float32(0.1)  # m/s towards it meanwhile, so as not to lose touch
-UNDECIDED: Final = np.float32(
-    -0.23
-)  # metres inwards from which on it slides to the opponent's left
-NOSE: Final = np.float32(-0.8)  # cosine between the headings of two that are nose to nose
+APPROACH_ANGLE: Final = np.float32(np.radians(20.0))  # rad off the opponent's axis
+SLIDE_SPEED: Final = np.float32(0.4)  # m/s along the opponent's front; a crash counts from 0.5 m/s
+PRESS_SPEED: Final = np.float32(0.1)  # m/s towards the opponent in the slide, to keep contact
+SIDE_THRESHOLD: Final = np.float32(-0.23)  # m inwards from which it slides to the opponent's left
+FACING_COSINE: Final = np.float32(-0.8)  # cosine between the headings of robots face to face
+MAX_TURN_RATE: Final = 4.0  # rad/s in the slide
 
-_COS: Final = np.cos(OFF)
-_SIN: Final = np.sin(OFF)
+_COS: Final = np.cos(APPROACH_ANGLE)
+_SIN: Final = np.sin(APPROACH_ANGLE)
 
 
-def held(view: View) -> Mask:
-    """Whether an opponent has the ball in its mouth, (n, robots)."""
+def opponent_has_ball(view: View) -> Mask:
+    """Return whether an opponent has the ball in its mouth, (n, robots).
+
+    Args:
+        view: view of the robots.
+    """
     held: Mask = view.opponents.infrared.max(axis=-1) > 0.5
     return held
 
 
-def stealing(
-    mover: motion.Mover,
-    view: View,
-    robots: tuple[Floats, Floats],
-    ground: Ground,
-    fastest: float,
+def steal_ball(
+    control: RobotControl, view: View, robots: XY, region: Region, max_speed: float
 ) -> tuple[Floats, Floats, Floats]:
-    """Velocity (m/s) and turn rate (rad/s) towards the ball that an opponent holds, and then aside."""
+    """Return velocities towards the ball that an opponent holds, then along its front.
+
+    Args:
+        control: control of the robots.
+        view: view of the robots.
+        robots: (n, robots, others) positions of other robots, m.
+        region: allowed positions.
+        max_speed: upper bound of the approach, m/s.
+
+    Returns:
+        Velocity along x and y (m/s) and turn rate (rad/s), (n, robots) each.
+    """
     ego, ball = view.ego, view.ball
-    at, (opponent_x, opponent_y) = _holder(view)
-    # The side to slide to: to the opponent's left (1) or right (-1), inwards from the lines; by where
-    # the opponent is, for the ball moves, and not right between the two.
-    left_x, left_y = -opponent_y, opponent_x
-    inwards = left_x * (np.float32(0.5) * ground.high[0] - at[0]) - left_y * at[1]
-    side = np.where(inwards > UNDECIDED, np.float32(1.0), np.float32(-1.0))
-    u_x = left_x * side * _SIN - opponent_x * _COS
-    u_y = left_y * side * _SIN - opponent_y * _COS
-    moves = ball.position, ball.velocity * np.float32(0.0)
-    v_x, v_y, spin = motion.fetching(mover, ego, moves, robots, ground, fastest, (u_x, u_y))
-    touches = mover.has(view)
-    touches &= ego.heading[..., 0] * opponent_x + ego.heading[..., 1] * opponent_y < NOSE
-    out_x = left_x * side * ASIDE - opponent_x * INWARD
-    out_y = left_y * side * ASIDE - opponent_y * INWARD
-    v_x, v_y = np.where(touches, out_x, v_x), np.where(touches, out_y, v_y)
-    return v_x, v_y, np.where(touches, motion.turning(ego, u_x, u_y, 4.0), spin)
+    holder, (heading_x, heading_y) = _ball_holder(view)
+    # The slide goes to the opponent's left (1) or right (-1), inwards from the lines. The side
+    # follows from the opponent's position, as the ball moves. The threshold is not 0, so that the
+    # side does not flicker for an opponent in the middle.
+    left_x, left_y = -heading_y, heading_x
+    inwards = left_x * (np.float32(0.5) * region.high[0] - holder[0]) - left_y * holder[1]
+    side = np.where(inwards > SIDE_THRESHOLD, np.float32(1.0), np.float32(-1.0))
+    u_x = left_x * side * _SIN - heading_x * _COS
+    u_y = left_y * side * _SIN - heading_y * _COS
+    still_ball = ball.position, ball.velocity * np.float32(0.0)
+    v_x, v_y, spin = approach_ball(control, ego, still_ball, robots, region, max_speed, (u_x, u_y))
+    slides = control.has_ball(view)
+    slides &= ego.heading[..., 0] * heading_x + ego.heading[..., 1] * heading_y < FACING_COSINE
+    slide_x = left_x * side * SLIDE_SPEED - heading_x * PRESS_SPEED
+    slide_y = left_y * side * SLIDE_SPEED - heading_y * PRESS_SPEED
+    v_x, v_y = np.where(slides, slide_x, v_x), np.where(slides, slide_y, v_y)
+    slide_spin = motion.turn_rate_to(ego, u_x, u_y, MAX_TURN_RATE)
+    return v_x, v_y, np.where(slides, slide_spin, spin)
 
 
-def _holder(view: View) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
-    """Place and heading of the opponent that has the ball (or of some opponent), (n, robots) each."""
-    which = np.argmax(view.opponents.infrared, axis=-1)[..., None]
+def _ball_holder(view: View) -> tuple[XY, XY]:
+    """Position and heading of the opponent with the ball, or of any opponent; (n, robots)."""
+    index = np.argmax(view.opponents.infrared, axis=-1)[..., None]
 
-    def chosen(of_opponents: Floats) -> tuple[Floats, Floats]:
-        x, y = (np.take_along_axis(of_opponents[..., i], which, -1)[..., 0] for i in (0, 1))
+    def select(column: Floats) -> XY:
+        x, y = (np.take_along_axis(column[..., i], index, -1)[..., 0] for i in (0, 1))
         return x, y
 
-    return chosen(view.opponents.position), chosen(view.opponents.heading)
+    return select(view.opponents.position), select(view.opponents.heading)

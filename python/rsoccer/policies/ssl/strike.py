@@ -1,163 +1,184 @@
-"""A script that gets the ball and shoots it past the others into the goal."""
+"""The `strike` policy: get the ball and shoot it past other robots into the goal."""
 
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from rsoccer._core import Field
 from rsoccer.frame import Floats, Mask, length
-from rsoccer.policies.base import Memory, Policy, PolicyInput
-from rsoccer.policies.ssl import motion, steal
-from rsoccer.policies.ssl.paths import Ground, around, clearance, others
-from rsoccer.policies.vectors import inverse
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.geometry import XY, reciprocal, team_from_ball
+from rsoccer.policies.ssl import motion
+from rsoccer.policies.ssl.approach import approach_ball
+from rsoccer.policies.ssl.path_planning import (
+    Obstacles,
+    next_waypoint,
+    other_robots,
+    segment_distance,
+)
+from rsoccer.policies.ssl.region import Region
+from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
+from rsoccer.policies.ssl.steal import opponent_has_ball, steal_ball
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
 
-FASTEST: Final = 1.5  # m/s
-CARRYING: Final = 0.8  # m/s, with the ball on the dribbler
-TURN: Final = 4.0  # rad/s, likewise
-EXACT: Final = np.float32(0.01)  # sine of the angle that it may be off when it kicks
-CALM: Final = np.float32(0.2)  # rad/s that it may still turn then
-STANDS: Final = np.float32(0.1)  # m/s that it may still drive then
-ROOM: Final = 0.1  # metres that its centre keeps from lines, so that the ball stays inside
-EDGE: Final = 0.02  # metres likewise where it wins the ball
-AREA: Final = 0.05  # metres that it keeps from the opponents' area
-SWING: Final = np.float32(0.23)  # metres to robots in which it can turn with the ball
-POST: Final = 0.08  # metres that shots keep from the posts
-SPARE: Final = np.float32(0.03)  # metres that shots keep from robots
-ENOUGH: Final = np.float32(0.15)  # metres from robots, from which more is no better
-STRICT: Final = np.float32(0.02)  # metres more that a place to go to must offer
-BLOCKED: Final = np.float32(10.0)  # metres of way that a place without a free shot counts for
-WAITS: Final = np.float32(0.7)  # metres from the ball at which teammates wait
+MAX_SPEED: Final = 1.5  # m/s
+DRIBBLE_SPEED: Final = 0.8  # m/s, with the ball on the dribbler
+MAX_TURN_RATE: Final = 4.0  # rad/s, with the ball on the dribbler
+MAX_AIM_SINE: Final = np.float32(0.01)  # sine of the heading error for a kick
+MAX_KICK_SPIN: Final = np.float32(0.2)  # rad/s, turn rate of the robot for a kick
+MAX_KICK_SPEED: Final = np.float32(0.1)  # m/s, speed of the robot for a kick
+DRIBBLE_MARGIN: Final = 0.1  # m to the field's lines with the ball, so that the ball stays inside
+LINE_MARGIN: Final = 0.02  # m to the field's lines where it steals the ball or waits
+AREA_MARGIN: Final = 0.05  # m to the opponents' goal area
+TURNING_CLEARANCE: Final = np.float32(0.23)  # m to other robots at which it can turn with the ball
+POST_MARGIN: Final = 0.08  # m between shots and the posts
+SHOT_CLEARANCE: Final = np.float32(0.03)  # m between the ball of a shot and other robots
+ENOUGH_CLEARANCE: Final = np.float32(0.15)  # m from robots beyond which more is no better
+SPOT_MARGIN: Final = np.float32(0.02)  # m more clearance for a shooting position to drive to
+BLOCKED_COST: Final = np.float32(10.0)  # m of path for a shooting position without a free shot
+WAITING_DISTANCE: Final = np.float32(0.7)  # m from the ball where teammates wait
 
-AIMS: Final = 9  # places in the goal that it may shoot at
-PLACES: Final = (8, 11)  # along x and y, from which it may shoot
+AIM_POINTS: Final = 9  # points in the goal to shoot at
+SHOT_GRID: Final = (8, 11)  # shooting positions along x and y
 
 
 class Strike(Policy):
-    """Fetches the ball or wins it off an opponent, carries it to where a shot is free, and shoots.
+    """A script that gets the ball, dribbles to a position with a free shot, and shoots.
 
-    Of a team the nearest goes, its teammates keep off.
+    It steals the ball from an opponent that holds it. Only the team's nearest robot goes to the
+    ball; its teammates keep off.
     """
 
-    observes: Literal["nothing", "view", "observation"] = "view"
+    observes: Observes = "view"
 
     def __init__(self, task: Task) -> None:
-        """Learn the field and the robot of `task`."""
+        """Prepare the script for a task.
+
+        Args:
+            task: an SSL task.
+        """
         super().__init__(task)
-        self._mover = motion.Mover("strike", task)
+        ssl_task = require_ssl("strike", task)
+        self._control = RobotControl(ssl_task)
         field = task.config.field
         self._goal_x = np.float32(field.half_length)
-        half = field.goal_width / 2 - POST
-        self._aims = np.linspace(-half, half, AIMS).astype(np.float32)
-        self._half_only = bool(getattr(task, "half_only", False))
-        self._ground = self._inside(field, ROOM, AREA)
-        self._edge = self._inside(field, EDGE, EDGE)
-        far_y = field.half_width - EDGE
-        front = field.half_length - field.goal_area_depth - ROOM - AREA
-        x = np.linspace(0.3, front, PLACES[0])
-        y = np.linspace(-far_y + 0.3, far_y - 0.3, PLACES[1])
-        self._x, self._y = (part.ravel().astype(np.float32) for part in np.meshgrid(x, y))
+        half_goal = field.goal_width / 2 - POST_MARGIN
+        self._aim_y = np.linspace(-half_goal, half_goal, AIM_POINTS).astype(np.float32)
+        self._half_only = ssl_task.half_only
+        self._dribble_region = self._region_of(field, DRIBBLE_MARGIN, AREA_MARGIN)
+        self._outer_region = self._region_of(field, LINE_MARGIN, LINE_MARGIN)
+        max_y = field.half_width - LINE_MARGIN
+        max_x = field.half_length - field.goal_area_depth - DRIBBLE_MARGIN - AREA_MARGIN
+        x = np.linspace(0.3, max_x, SHOT_GRID[0])
+        y = np.linspace(-max_y + 0.3, max_y - 0.3, SHOT_GRID[1])
+        self._shot_x, self._shot_y = (part.ravel().astype(np.float32) for part in np.meshgrid(x, y))
 
-    def _inside(self, field: Field, room: float, area: float) -> Ground:
-        """Where it may be, with so much room to the lines and to the opponents' area."""
+    def _region_of(self, field: Field, line_margin: float, area_margin: float) -> Region:
+        """Allowed positions; margins to the field's lines and the opponents' goal area in m."""
         if not self._half_only:
-            return Ground.field(field, room)
-        high = field.half_length - room, field.half_width - room
-        return Ground((room, -high[1]), high).without_area(field, area)
+            return Region.of_field(field, line_margin)
+        high = field.half_length - line_margin, field.half_width - line_margin
+        return Region((line_margin, -high[1]), high).exclude_goal_area(field, area_margin)
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """(n, robots, 5)."""
-        view = inputs.view
-        if view is None:
-            raise ValueError("strike needs a view, got none")
-        goes = _nearest(view)
-        steals = goes & steal.held(view)
-        has = goes & ~steals & self._mover.has(view)
+        """Return actions, (n, robots, 5)."""
+        view = inputs.required_view("strike")
+        goes = _nearest_of_team(view)
+        steals = goes & opponent_has_ball(view)
+        shoots = goes & ~steals & self._control.has_ball(view)
+        approaches = goes & ~steals & ~shoots
         actions = np.zeros(inputs.action_shape, np.float32)
-        ways = (goes & ~steals & ~has, self._fetch), (steals, self._steal), (has, self._shoot)
-        for mask, way in (*ways, (~goes, self._wait)):
+        for mask, behaviour in (
+            (approaches, self._approach),
+            (steals, self._steal),
+            (shoots, self._shoot),
+            (~goes, self._wait),
+        ):
             worlds = np.flatnonzero(mask.any(axis=1))
             if len(worlds):
-                part = way(view.take(worlds))
+                part = behaviour(view.take(worlds))
                 actions[worlds] = np.where(mask[worlds][..., None], part, actions[worlds])
         return actions
 
-    def _fetch(self, view: View) -> Floats:
+    def _approach(self, view: View) -> Floats:
         """Go to the ball."""
-        moves = view.ball.position, view.ball.velocity
-        robots = others(view)
-        way = motion.fetching(self._mover, view.ego, moves, robots, self._ground, FASTEST)
-        return self._mover.actions(view.ego, *way)
+        ball = view.ball.position, view.ball.velocity
+        robots, region = other_robots(view), self._dribble_region
+        velocity = approach_ball(self._control, view.ego, ball, robots, region, MAX_SPEED)
+        return self._control.actions(view.ego, *velocity)
 
     def _steal(self, view: View) -> Floats:
-        """Win the ball off the opponent that has it."""
-        way = steal.stealing(self._mover, view, others(view), self._edge, FASTEST)
-        return self._mover.actions(view.ego, *way)
+        """Steal the ball from an opponent."""
+        robots = other_robots(view)
+        velocity = steal_ball(self._control, view, robots, self._outer_region, MAX_SPEED)
+        return self._control.actions(view.ego, *velocity)
 
     def _wait(self, view: View) -> Floats:
-        """Keep off the ball, and face it."""
+        """Keep off the ball and face it."""
         ego, ball = view.ego, view.ball.position
         x, y = ego.position[..., 0] - ball[..., 0], ego.position[..., 1] - ball[..., 1]
-        off = np.maximum(WAITS * inverse(length(x, y)), np.float32(1.0))
-        target = self._edge.inside(ball[..., 0] + x * off, ball[..., 1] + y * off)
-        v_x, v_y = motion.driving(ego.position, *target, FASTEST)
-        return self._mover.actions(ego, v_x, v_y, motion.turning(ego, -x, -y, TURN))
+        scale = np.maximum(WAITING_DISTANCE * reciprocal(length(x, y)), np.float32(1.0))
+        target = self._outer_region.clamp(ball[..., 0] + x * scale, ball[..., 1] + y * scale)
+        v_x, v_y = motion.velocity_to(ego.position, *target, MAX_SPEED)
+        spin = motion.turn_rate_to(ego, -x, -y, MAX_TURN_RATE)
+        return self._control.actions(ego, v_x, v_y, spin)
 
     def _shoot(self, view: View) -> Floats:
-        """Turn and kick where the shot is free, else carry the ball to where it is."""
-        ego, robots = view.ego, others(view)
-        my_x, my_y = ego.position[..., 0], ego.position[..., 1]
-        aim, free = (part[..., 0] for part in self._aim(my_x[..., None], my_y[..., None], robots))
-        gaps = length(robots[0] - my_x[..., None], robots[1] - my_y[..., None]).min(axis=-1)
-        shoots = (free > SPARE) & (gaps > SWING)
-        shoots &= self._ground.outside(my_x, my_y) < np.float32(AREA)
-        way_x, way_y = self._goal_x - my_x, aim - my_y
-        spin = motion.turning(ego, way_x, way_y, TURN)
-        ahead, left = motion.bearing(ego, way_x, way_y)
-        exact = shoots & (ahead > 0.0) & (np.abs(left) < EXACT) & (np.abs(ego.spin) < CALM)
-        exact &= length(ego.velocity[..., 0], ego.velocity[..., 1]) < STANDS
+        """Turn and kick where a shot is free, else dribble to a position with a free shot."""
+        ego, robots = view.ego, other_robots(view)
+        x, y = ego.position[..., 0], ego.position[..., 1]
+        aim_y, free = (part[..., 0] for part in self._best_aim(x[..., None], y[..., None], robots))
+        gaps = length(robots[0] - x[..., None], robots[1] - y[..., None]).min(axis=-1)
+        aims = (free > SHOT_CLEARANCE) & (gaps > TURNING_CLEARANCE)
+        aims &= self._dribble_region.distance_outside(x, y) < np.float32(AREA_MARGIN)
+        goal_x, goal_y = self._goal_x - x, aim_y - y
+        spin = motion.turn_rate_to(ego, goal_x, goal_y, MAX_TURN_RATE)
+        cos, sin = motion.heading_error(ego, goal_x, goal_y)
+        kicks = aims & (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE)
+        kicks &= np.abs(ego.spin) < MAX_KICK_SPIN
+        kicks &= length(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
         zero = np.float32(0.0)
-        v_x, v_y = (np.where(shoots, zero, v) for v in self._carry(ego.position, robots))
-        kick = np.where(exact, self._mover.kick, zero)
-        way = self._mover.gently(ego, v_x, v_y, np.where(shoots, spin, zero))
-        return self._mover.actions(ego, *way, kick)
+        v_x, v_y = (np.where(aims, zero, v) for v in self._dribble(ego.position, robots))
+        kick = np.where(kicks, self._control.max_kick, zero)
+        velocity = self._control.limit_acceleration(ego, v_x, v_y, np.where(aims, spin, zero))
+        return self._control.actions(ego, *velocity, kick)
 
-    def _aim(self, x: Floats, y: Floats, robots: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
-        """The best places in the goal to shoot at from x, y (n, robots, places), and the room.
+    def _best_aim(self, x: Floats, y: Floats, robots: XY) -> tuple[Floats, Floats]:
+        """Best aim points of shots from x, y (n, robots, positions), and their clearance (m).
 
-        Room is metres between the ball on its way there and the nearest robot.
+        The clearance is the least distance between the surfaces of the ball and other robots.
         """
         start = x[..., None], y[..., None]
-        shape = (*x.shape, AIMS)
-        end = np.broadcast_to(self._goal_x, shape), np.broadcast_to(self._aims, shape)
-        at_x, at_y = (part[:, :, None, None] for part in robots)
-        room = clearance(start, end, at_x, at_y) - self._mover.ball_room
-        best = np.argmax(np.minimum(room, ENOUGH), axis=-1)[..., None]
-        return self._aims[best[..., 0]], np.take_along_axis(room, best, -1)[..., 0]
+        shape = (*x.shape, AIM_POINTS)
+        end = np.broadcast_to(self._goal_x, shape), np.broadcast_to(self._aim_y, shape)
+        robot_x, robot_y = (part[:, :, None, None] for part in robots)
+        distance = segment_distance(start, end, robot_x, robot_y).min(axis=-1)
+        clearance = distance - self._control.ball_distance
+        best = np.argmax(np.minimum(clearance, ENOUGH_CLEARANCE), axis=-1)[..., None]
+        return self._aim_y[best[..., 0]], np.take_along_axis(clearance, best, -1)[..., 0]
 
-    def _carry(self, ego: Floats, robots: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
-        """Velocity (m/s) to the nearest place with a free shot."""
-        shape = (*ego.shape[:2], len(self._x))
-        x, y = np.broadcast_to(self._x, shape), np.broadcast_to(self._y, shape)
-        _, free = self._aim(x, y, robots)
+    def _dribble(self, position: Floats, robots: XY) -> XY:
+        """Velocity (m/s) to the nearest shooting position with a free shot."""
+        shape = (*position.shape[:2], len(self._shot_x))
+        x, y = np.broadcast_to(self._shot_x, shape), np.broadcast_to(self._shot_y, shape)
+        _, free = self._best_aim(x, y, robots)
         gaps = length(
             robots[0][:, :, None] - x[..., None], robots[1][:, :, None] - y[..., None]
         ).min(axis=-1)
-        good = (free > SPARE + STRICT) & (gaps > SWING + STRICT)
-        way = length(x - ego[..., 0, None], y - ego[..., 1, None])
-        best = np.argmin(way + np.where(good, np.float32(0.0), BLOCKED), axis=-1)
-        things = robots[0], robots[1], np.broadcast_to(SWING, robots[0].shape)
-        next_x, next_y, far = around(ego, self._x[best], self._y[best], things, self._ground)
-        return motion.driving(ego, next_x, next_y, CARRYING, far)
+        good = free > SHOT_CLEARANCE + SPOT_MARGIN
+        good &= gaps > TURNING_CLEARANCE + SPOT_MARGIN
+        path = length(x - position[..., 0, None], y - position[..., 1, None])
+        best = np.argmin(path + np.where(good, np.float32(0.0), BLOCKED_COST), axis=-1)
+        obstacles = Obstacles(*robots, np.broadcast_to(TURNING_CLEARANCE, robots[0].shape))
+        target = self._shot_x[best], self._shot_y[best]
+        next_x, next_y, remaining = next_waypoint(position, target, obstacles, self._dribble_region)
+        return motion.velocity_to(position, next_x, next_y, DRIBBLE_SPEED, remaining)
 
 
-def _nearest(view: View) -> Mask:
+def _nearest_of_team(view: View) -> Mask:
     """Whether a robot is its team's nearest to the ball, (n, robots)."""
-    team = slice(0, 1 + view.n_teammates)
-    x = view.robots.position[:, :, team, 0] - view.ball.position[..., None, 0]
-    y = view.robots.position[:, :, team, 1] - view.ball.position[..., None, 1]
-    distance = np.where(view.present[:, team], length(x, y), np.float32(np.inf))
+    _, _, distance = team_from_ball(view)
     nearest: Mask = np.equal(distance[:, :, 0], distance.min(axis=2))
     return nearest

@@ -1,1 +1,1 @@
-"""Scripted policies for VSSS robots."""
+"""Scripted policies for VSSS robots, which drive on two wheels."""

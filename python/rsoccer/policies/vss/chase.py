@@ -1,108 +1,109 @@
-"""A script that plays: round the ball until it lies before the goal, then through it."""
+"""The `chase` policy: get behind the ball, then push it at the goal."""
 
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from rsoccer.frame import Floats, Mask, length
-from rsoccer.policies.base import Memory, Policy, PolicyInput
-from rsoccer.policies.vectors import inverse
-from rsoccer.policies.vss import driving
-from rsoccer.policies.vss.pitch import Pitch, unit
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.geometry import XY, reciprocal, team_from_ball, unit
+from rsoccer.policies.vss import drive_control
+from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
 
-BEHIND: Final = np.float32(0.15)  # metres between the ball and where a run at it starts
-ASIDE: Final = np.float32(0.13)  # metres by which it passes the ball on the way there
-AHEAD: Final = np.float32(0.15)  # metres ahead on the line to the ball that a run aims at
-ALIGNED: Final = np.float32(0.45)  # metres off the line, per metre from the ball, that still do
-TURN: Final = np.float32(0.8)  # how hard it turns, per sine of the angle it is off
-ROOM: Final = np.float32(0.4)  # metres that teammates leave round the ball
-NEAR: Final = np.float32(0.02)  # metres from its target at which it slows down
+RUN_UP: Final = np.float32(0.15)  # m behind the ball where a run at it starts
+BALL_CLEARANCE: Final = np.float32(0.13)  # m beside the ball on the way to the run-up
+FOLLOW_THROUGH: Final = np.float32(0.15)  # m beyond the robot, on the push line, that a run aims at
+ALIGNMENT: Final = np.float32(0.45)  # m beside the push line, per m behind the ball, to start a run
+TURN_GAIN: Final = np.float32(0.8)  # turning power, per sine of the heading error
+KEEP_OFF: Final = np.float32(0.4)  # m from the ball that teammates keep
+SLOWING_DISTANCE: Final = np.float32(0.02)  # m from the target within which it slows down
 
 
 class Chase(Policy):
-    """The nearest of the team goes, its teammates make room. For robots on two wheels.
+    """A script for two wheels: the team's nearest robot chases the ball, teammates keep off.
 
-    It drives backwards as well as forwards. It does not look out for others: where it is stuck,
-    it backs off in some curve.
+    Robots drive backwards as well as forwards. They do not avoid other robots; a robot that is
+    stuck backs off in a random curve.
     """
 
-    observes: Literal["nothing", "view", "observation"] = "view"
+    observes: Observes = "view"
 
     def __init__(self, task: Task) -> None:
-        """Learn the field and the robot of `task`."""
+        """Prepare the script for a task.
+
+        Args:
+            task: a task whose robots drive on two wheels.
+        """
         super().__init__(task)
-        driving.expect_two_wheels(task, "chase")
-        field, robot = task.config.field, task.config.robot
-        self._pitch = Pitch(task.config)
-        clear = driving.room_to_turn(robot)
-        self._most_x = np.float32(field.half_length - clear)
-        self._most_y = np.float32(field.half_width - clear)
-        self._damping = driving.damping(robot)
-        self._slow = driving.SLOW * np.float32(robot.top_speed)
+        drive_control.require_two_wheels("chase", task)
+        robot = task.config.robot
+        self._field = FieldGeometry(task.config)
+        self._damping = drive_control.turn_damping(robot)
+        self._min_speed = drive_control.SLOW_SHARE * np.float32(robot.top_speed)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """Steps (n, robots) that it has been slow for; below 0 while it backs off."""
-        return {"slow": np.zeros(shape[:2], np.int64)}
+        """Return `slow_steps` (n, robots), the counters of `back_off`."""
+        return {"slow_steps": np.zeros(shape[:2], np.int64)}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Powers of the two wheels, (n, robots, 2)."""
-        if inputs.view is None:
-            raise ValueError("chase needs a view, got none")
-        ego, ball = inputs.view.ego, inputs.view.ball.position
+        """Return the power of the two wheels, (n, robots, 2)."""
+        view = inputs.required_view("chase")
+        ego, ball = view.ego, view.ball.position
         x, y = self._target(ball, ego.position)
         x, y = x - ego.position[..., 0], y - ego.position[..., 1]
-        chases, away_x, away_y = _roles(inputs.view)
+        chases, away_x, away_y = _chaser(view)
         x, y = np.where(chases, x, away_x), np.where(chases, y, away_y)
         cos, sin = ego.heading[..., 0], ego.heading[..., 1]
         ahead, left = x * cos + y * sin, y * cos - x * sin
-        per = inverse(length(x, y), NEAR)
-        forward, turn = ahead * per, left * per * np.sign(ahead) * TURN
+        scale = reciprocal(length(x, y), SLOWING_DISTANCE)
+        forward, turn = ahead * scale, left * scale * np.sign(ahead) * TURN_GAIN
         turn = turn - ego.spin * self._damping
-        always = np.ones_like(chases)  # who makes room may be stuck too, but then need not push
-        backing = driving.backing(ego.velocity, self._slow, always, memory["slow"]) & chases
+        # Slow steps count for all robots, but a teammate that keeps off need not push.
+        all_robots = np.ones_like(chases)
+        slow_steps = memory["slow_steps"]
+        stuck = drive_control.back_off(ego.velocity, self._min_speed, all_robots, slow_steps)
+        backing = stuck & chases
         forward = np.where(backing, -forward, forward)
         turn = np.where(backing, rng.uniform(-1.0, 1.0, inputs.action_shape[1:2]), turn)
-        return driving.wheels(forward, turn)
+        return drive_control.wheel_powers(forward, turn)
 
-    def _target(self, ball: Floats, ego: Floats) -> tuple[Floats, Floats]:
-        """Where to drive at, (n, robots) metres along x and along y."""
+    def _target(self, ball: Floats, position: Floats) -> XY:
+        """Position to drive at, m: the run-up, or beyond the ball on a run."""
         ball_x, ball_y = ball[..., 0], ball[..., 1]
-        u_x, u_y = self._course(ball_x, ball_y)  # (-u_y, u_x) is to its left
-        x, y = ego[..., 0] - ball_x, ego[..., 1] - ball_y
-        behind, aside = -(x * u_x + y * u_y), y * u_x - x * u_y
-        ready = (behind > 0.0) & (np.abs(aside) < ALIGNED * behind)
-        beside = behind < np.float32(0.5) * BEHIND
-        along = np.where(ready, AHEAD - behind, -BEHIND)
-        across = np.where(beside & ~ready, np.copysign(ASIDE, aside), np.float32(0.0))
+        u_x, u_y = self._push_direction(ball_x, ball_y)  # (-u_y, u_x) is to its left
+        x, y = position[..., 0] - ball_x, position[..., 1] - ball_y
+        behind, left = -(x * u_x + y * u_y), y * u_x - x * u_y
+        runs = (behind > 0.0) & (np.abs(left) < ALIGNMENT * behind)
+        beside = behind < np.float32(0.5) * RUN_UP
+        along = np.where(runs, FOLLOW_THROUGH - behind, -RUN_UP)
+        across = np.where(beside & ~runs, np.copysign(BALL_CLEARANCE, left), np.float32(0.0))
         target_x = ball_x + along * u_x - across * u_y
         target_y = ball_y + along * u_y + across * u_x
-        inside_x = np.minimum(np.maximum(target_x, -self._most_x), self._most_x)
-        inside_y = np.minimum(np.maximum(target_y, -self._most_y), self._most_y)
-        return np.where(ready, target_x, inside_x), np.where(ready, target_y, inside_y)
+        max_x, max_y = self._field.max_x, self._field.max_y
+        inside_x = np.minimum(np.maximum(target_x, -max_x), max_x)
+        inside_y = np.minimum(np.maximum(target_y, -max_y), max_y)
+        return np.where(runs, target_x, inside_x), np.where(runs, target_y, inside_y)
 
-    def _course(self, ball_x: Floats, ball_y: Floats) -> tuple[Floats, Floats]:
-        """Where to push the ball, a direction: at the goal, or along a wall that it lies at."""
-        x, y = self._pitch.half_length - ball_x, -ball_y
-        beside, before = self._pitch.walls(ball_x, ball_y)
-        y = np.where(beside, np.float32(0.0), y)
-        y = np.where(before, np.copysign(y, -ball_y * ball_x), y)
-        x = np.where(before & ~beside, np.float32(0.0), x)
+    def _push_direction(self, ball_x: Floats, ball_y: Floats) -> XY:
+        """Direction in which to push the ball: at the goal, or along a wall at the ball."""
+        x, y = self._field.half_length - ball_x, -ball_y
+        side, end = self._field.at_walls(ball_x, ball_y)
+        y = np.where(side, np.float32(0.0), y)
+        y = np.where(end, np.copysign(y, -ball_y * ball_x), y)
+        x = np.where(end & ~side, np.float32(0.0), x)
         return unit(x, y)
 
 
-def _roles(view: View) -> tuple[Mask, Floats, Floats]:
-    """Whether a robot is its team's nearest to the ball, and the way off for one that is not.
+def _chaser(view: View) -> tuple[Mask, Floats, Floats]:
+    """Whether a robot is its team's nearest to the ball, and the path of one that is not.
 
-    The way (n, robots) metres along x and y leads straight away from the ball, until there is
-    room enough.
+    The path (x and y, m) leads straight away from the ball, until the robot is far enough.
     """
-    team = slice(0, 1 + view.n_teammates)
-    x = view.robots.position[:, :, team, 0] - view.ball.position[..., None, 0]
-    y = view.robots.position[:, :, team, 1] - view.ball.position[..., None, 1]
-    distance = np.where(view.present[:, team], length(x, y), np.float32(np.inf))
-    mine = distance[:, :, 0]
-    off = np.maximum(ROOM - mine, np.float32(0.0)) * inverse(mine, NEAR)
-    return mine == distance.min(axis=2), x[:, :, 0] * off, y[:, :, 0] * off
+    x, y, distance = team_from_ball(view)
+    ego_distance = distance[:, :, 0]
+    scale = np.maximum(KEEP_OFF - ego_distance, np.float32(0.0))
+    scale = scale * reciprocal(ego_distance, SLOWING_DISTANCE)
+    return ego_distance == distance.min(axis=2), x[:, :, 0] * scale, y[:, :, 0] * scale

@@ -1,7 +1,7 @@
-"""Who does what in a VSSS side: a keeper, an attacker, and support.
+"""Role assignment in a VSSS team: keeper, attacker and support.
 
-Each robot works it out for the whole of its side from what all of them see, so teammates agree without
-a word, whoever drives them.
+Each robot assigns the roles of its whole team from what all of them see. Teammates so agree
+without communication, whichever policy drives them.
 """
 
 from typing import Final
@@ -9,64 +9,78 @@ from typing import Final
 import numpy as np
 
 from rsoccer.frame import Array, Floats, length
-from rsoccer.policies.vss.driving import Place
-from rsoccer.policies.vss.pitch import Pitch
+from rsoccer.policies.geometry import XY
+from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.view import View
 
 NONE, KEEPER, ATTACKER, SUPPORT = 0, 1, 2, 3  # a second support is SUPPORT + 1, and so on
 
-FORESIGHT: Final = np.float32(0.15)  # seconds ahead that the ball counts from
-KEEP_X: Final = np.float32(0.10)  # metres from the goal line to where the keeper stands
-RUN_UP: Final = np.float32(0.14)  # metres behind the ball from which an attacker runs at it
-BEFORE: Final = np.float32(0.15)  # metres of way that being on the far side of the ball counts for
-STAY: Final = np.float32(0.10)  # metres that another must be nearer by to take a role over
-TILT: Final = np.float32(1e-4), np.float32(0.7e-4)  # by place, so that no two are equally near
+LOOKAHEAD: Final = np.float32(0.15)  # s; roles follow the predicted position of the ball
+KEEPER_DEPTH: Final = np.float32(0.10)  # m from the own goal line to the keeper
+RUN_UP: Final = np.float32(0.14)  # m behind the ball where an attacker starts its run
+WRONG_SIDE_COST: Final = np.float32(0.15)  # m of path for a robot on the far side of the ball
+HYSTERESIS: Final = np.float32(0.10)  # m by which another robot must be nearer to take a role over
+TIE_BREAK: Final = np.float32(1e-4), np.float32(0.7e-4)  # cost per m of x and y: no equal costs
 
-SPOTS: Final = ((0.35, 0.4), (0.2, -0.7), (0.5, -0.3))
-"""Where support waits: metres behind the ball, at which share of its y; the last for all others."""
-SPREAD: Final = np.float32(0.5)  # metres from the middle, along x and along y, that it keeps to
+SUPPORT_OFFSETS: Final = ((0.35, 0.4), (0.2, -0.7), (0.5, -0.3))
+"""Support positions: m behind the ball, share of its y; the last one for all further robots."""
+SUPPORT_LIMIT: Final = np.float32(0.5)
+"""Largest |x| and |y| of a support position, m."""
 
 
-def spot(which: int, ball: Place) -> Place:
-    """Where the `which`-th support waits, by where the ball is."""
-    behind, share = SPOTS[min(which, len(SPOTS) - 1)]
+def support_position(index: int, ball: XY) -> XY:
+    """Return the position of a supporting robot.
+
+    Args:
+        index: 0 for the first supporting robot.
+        ball: position of the ball, m.
+    """
+    behind, share = SUPPORT_OFFSETS[min(index, len(SUPPORT_OFFSETS) - 1)]
     x, y = ball[0] - np.float32(behind), ball[1] * np.float32(share)
     return (
-        np.minimum(np.maximum(x, -SPREAD), SPREAD),
-        np.minimum(np.maximum(y, -SPREAD), SPREAD),
+        np.minimum(np.maximum(x, -SUPPORT_LIMIT), SUPPORT_LIMIT),
+        np.minimum(np.maximum(y, -SUPPORT_LIMIT), SUPPORT_LIMIT),
     )
 
 
-def assign(pitch: Pitch, view: View, last: Array) -> None:
-    """Write into `last` (n, robots, side), the roles of old, those of now: mine, then my teammates'."""
+def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
+    """Assign the roles of each robot's team by the shortest paths, one role after the other.
+
+    Args:
+        field: geometry of the field.
+        view: view of the robots.
+        roles: (n, robots, team) last roles of ego and its teammates; updated in place.
+    """
     team = slice(0, 1 + view.n_teammates)
     x, y = view.robots.position[:, :, team, 0], view.robots.position[:, :, team, 1]
     present = np.broadcast_to(view.present[:, team], x.shape)
-    several = present.sum(axis=2, keepdims=True) > 1  # who has no teammate attacks
-    ball = pitch.rolled(view.ball, FORESIGHT)
-    ways = [(KEEPER, _to_keep(pitch, x, y)), (ATTACKER, _to_attack(pitch, x, y, ball))]
-    for which in range(view.n_teammates - 1):
-        at_x, at_y = spot(which, ball)
-        ways.append((SUPPORT + which, length(x - at_x[..., None], y - at_y[..., None])))
-    roles = np.full_like(last, NONE)
-    for role, way in ways:
-        stay = np.where(last == role, STAY, np.float32(0.0))
-        cost = way + TILT[0] * x + TILT[1] * y - stay
-        free = present & (roles == NONE) & (several | (role != KEEPER))
+    several = present.sum(axis=2, keepdims=True) > 1  # a robot without teammates attacks
+    ball = field.predict_ball(view.ball, LOOKAHEAD)
+    paths = [(KEEPER, _keeper_path(field, x, y)), (ATTACKER, _attacker_path(field, x, y, ball))]
+    for index in range(view.n_teammates - 1):
+        support_x, support_y = support_position(index, ball)
+        path = length(x - support_x[..., None], y - support_y[..., None])
+        paths.append((SUPPORT + index, path))
+    assigned = np.full_like(roles, NONE)
+    for role, path in paths:
+        bonus = np.where(roles == role, HYSTERESIS, np.float32(0.0))
+        cost = path + TIE_BREAK[0] * x + TIE_BREAK[1] * y - bonus
+        free = present & (assigned == NONE) & (several | (role != KEEPER))
         nearest = np.where(free, cost, np.float32(np.inf)).argmin(axis=2)[..., None]
         chosen = free & (np.arange(x.shape[2]) == nearest)
-        roles[chosen] = role
-    last[:] = roles
+        assigned[chosen] = role
+    roles[:] = assigned
 
 
-def _to_keep(pitch: Pitch, x: Floats, y: Floats) -> Floats:
-    """Metres to the goal, (n, robots, side)."""
-    return length(x + pitch.half_length - KEEP_X, y)
+def _keeper_path(field: FieldGeometry, x: Floats, y: Floats) -> Floats:
+    """Distance (m) to the keeper's position, (n, robots, team)."""
+    return length(x + field.half_length - KEEPER_DEPTH, y)
 
 
-def _to_attack(pitch: Pitch, x: Floats, y: Floats, ball: Place) -> Floats:
-    """Metres to where a run at the ball starts, (n, robots, side)."""
-    u_x, u_y = (part[..., None] for part in pitch.course(*ball))
+def _attacker_path(field: FieldGeometry, x: Floats, y: Floats, ball: XY) -> Floats:
+    """Distance (m) to the start of the run at the ball, (n, robots, team)."""
+    u_x, u_y = (part[..., None] for part in field.push_direction(*ball))
     from_x, from_y = x - ball[0][..., None], y - ball[1][..., None]
-    round_it = np.where(from_x * u_x + from_y * u_y > 0.0, BEFORE, np.float32(0.0))
-    return length(from_x + RUN_UP * u_x, from_y + RUN_UP * u_y) + round_it
+    wrong_side = from_x * u_x + from_y * u_y > 0.0
+    detour = np.where(wrong_side, WRONG_SIDE_COST, np.float32(0.0))
+    return length(from_x + RUN_UP * u_x, from_y + RUN_UP * u_y) + detour

@@ -1,62 +1,79 @@
-"""A script that plays as a VSSS side: a keeper, an attacker, support."""
+"""The `scripted` policy: a VSSS team of keeper, attacker and support."""
 
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from rsoccer.frame import Floats
-from rsoccer.policies.base import Memory, Policy, PolicyInput
-from rsoccer.policies.vss import driving, roles
-from rsoccer.policies.vss.driving import Driver, Orders
-from rsoccer.policies.vss.orders import give
-from rsoccer.policies.vss.pitch import Pitch
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.vss.drive_control import DriveController, DriveTarget, require_two_wheels
+from rsoccer.policies.vss.field_geometry import FieldGeometry
+from rsoccer.policies.vss.roles import NONE, assign_roles
+from rsoccer.policies.vss.tactics import role_targets
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
-SLOWEST: Final = 0.03  # share of full power without any skill: about as strong as drifting
-REACTION: Final = 0.275  # seconds more between two looks at the game, without any skill
+MIN_POWER: Final = 0.03  # share of full power at skill 0: about as strong as drifting
+MAX_DELAY: Final = 0.275  # s added between two decisions at skill 0
 
 
 class Scripted(Policy):
-    """One of the side keeps the goal, one attacks, others back them up; roles follow the game.
+    """A team script: one robot keeps the goal, one attacks, the others support.
 
-    `skill` from 0 to 1 scales how fast it drives and how soon it reacts. Teammates that others drive
-    count as if they played the roles that fit them.
+    The roles follow the game. A robot counts teammates of other policies as if they played the
+    roles that fit them.
     """
 
-    observes: Literal["nothing", "view", "observation"] = "view"
+    observes: Observes = "view"
 
     def __init__(self, task: Task, skill: float = 1.0) -> None:
-        """Learn the pitch and the robot of `task`."""
-        driving.expect_two_wheels(task, "scripted")
+        """Prepare the script for a task.
+
+        Args:
+            task: a task whose robots drive on two wheels.
+            skill: 0 to 1; scales the speed and shortens the reaction time.
+
+        Raises:
+            ValueError: a task with other robots, or a skill out of range.
+        """
+        require_two_wheels("scripted", task)
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
         super().__init__(task)
-        self._pitch = Pitch(task.config)
-        self._driver = Driver(task.config.robot)
-        self._side = max({"blue": task.n_blue, "yellow": task.n_yellow}[s] for s in task.sides)
-        self._pace = np.float32(SLOWEST + (1.0 - SLOWEST) * skill)
-        self._rest = round((1.0 - skill) * REACTION / task.config.time_step)
+        self._field = FieldGeometry(task.config)
+        self._controller = DriveController(task.config.robot)
+        sizes = {"blue": task.n_blue, "yellow": task.n_yellow}
+        self._team_size = max(sizes[side] for side in task.sides)
+        self._max_power = np.float32(MIN_POWER + (1.0 - MIN_POWER) * skill)
+        self._delay_steps = round((1.0 - skill) * MAX_DELAY / task.config.time_step)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """Roles in the side, standing orders, steps until the next look, slow steps."""
+        """Return roles in the team, motion targets, delay and slow steps.
+
+        | array | shape | content |
+        | --- | --- | --- |
+        | `roles` | (n, robots, team) | roles of ego and its teammates |
+        | `targets` | (n, robots, 4) | current `DriveTarget` |
+        | `delay` | (n,) | control steps until the next decision |
+        | `slow_steps` | (n, robots) | counters of `back_off` |
+        """
         return {
-            "roles": np.full((*shape[:2], self._side), roles.NONE, np.int8),
-            "orders": np.zeros((*shape[:2], len(Orders._fields)), np.float32),
-            "rest": np.zeros(shape[0], np.int64),
-            "slow": np.zeros(shape[:2], np.int64),
+            "roles": np.full((*shape[:2], self._team_size), NONE, np.int8),
+            "targets": np.zeros((*shape[:2], len(DriveTarget._fields)), np.float32),
+            "delay": np.zeros(shape[0], np.int64),
+            "slow_steps": np.zeros(shape[:2], np.int64),
         }
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Powers of the two wheels, (n, robots, 2)."""
-        if inputs.view is None:
-            raise ValueError("scripted needs a view, got none")
-        roles.assign(self._pitch, inputs.view, memory["roles"])
-        mine = memory["roles"][:, :, 0]
-        fresh = np.stack(give(self._pitch, inputs.view, mine), axis=-1)
-        orders, rest = memory["orders"], memory["rest"]
-        looks = rest == 0
-        orders[looks] = fresh[looks]
-        rest[:] = np.where(looks, self._rest, rest - 1)
-        standing = Orders(*(orders[..., i] for i in range(orders.shape[-1])))
-        return self._driver.drive(inputs.view.ego, standing, self._pace, memory["slow"], rng)
+        """Return the power of the two wheels, (n, robots, 2)."""
+        view = inputs.required_view("scripted")
+        assign_roles(self._field, view, memory["roles"])
+        ego_roles = memory["roles"][:, :, 0]
+        new_targets = np.stack(role_targets(self._field, view, ego_roles), axis=-1)
+        targets, delay = memory["targets"], memory["delay"]
+        decides = delay == 0
+        targets[decides] = new_targets[decides]
+        delay[:] = np.where(decides, self._delay_steps, delay - 1)
+        target = DriveTarget(*(targets[..., i] for i in range(targets.shape[-1])))
+        slow_steps = memory["slow_steps"]
+        return self._controller.drive(view.ego, target, self._max_power, slow_steps, rng)

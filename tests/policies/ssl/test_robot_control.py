@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from rsoccer import SimConfig, policies
+from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.policies.ssl.hold import Hold
+from rsoccer.rng import WorldRng
+from rsoccer.task import Play, Task
+
+
+class OtherTask(Task):
+    """A task of SSL robots that does not derive from `Ssl`."""
+
+    name = "other"
+    action_size = 5
+    max_steps = 10
+
+    @property
+    def config(self) -> SimConfig:
+        return SimConfig("ssl_challenge", 2, 0)
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        return Frame.empty(len(rng), 2, 0)
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        return np.zeros_like(play.commands)
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        return {"ball": play.view.ball.position}
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        n = len(play.frame)
+        return {"none": np.zeros((n, 1), np.float32)}, np.zeros(n, np.bool_)
+
+
+@pytest.mark.parametrize("name", ["fetch", "passer", "strike", "weave"])
+def test_scripts_that_drive_need_an_ssl_task(name: str) -> None:
+    with pytest.raises(ValueError, match=f"task: {name} needs a subclass of Ssl, got other"):
+        policies.make(name, OtherTask())
+
+
+@pytest.mark.parametrize("name", ["hold", "receive"])
+def test_scripts_that_stand_fit_any_robots_with_a_dribbler(name: str) -> None:
+    assert isinstance(policies.make(name, OtherTask()), Hold)
