@@ -75,10 +75,10 @@ def test_the_extra_of_a_missing_package_is_named(
 ) -> None:
     policy = tmp_path / "policy.safetensors"
     policy.write_bytes(b"")
-    given = [part.format(policy=policy) for part in arguments]
+    words = [part.format(policy=policy) for part in arguments]
     code = f"import sys; sys.modules[{module!r}] = None\nfrom rsoccer.cli import main\n"
     done = subprocess.run(
-        [sys.executable, "-c", f"{code}sys.exit(main({given!r}))"],
+        [sys.executable, "-c", f"{code}sys.exit(main({words!r}))"],
         capture_output=True,
         text=True,
         cwd=tmp_path,

@@ -84,7 +84,7 @@ def test_evaluate_prints_a_table_and_writes_results(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "results.json"
-    given = [
+    arguments = [
         "evaluate",
         "chase",
         "--opponents",
@@ -95,7 +95,7 @@ def test_evaluate_prints_a_table_and_writes_results(
         "--json",
         str(file),
     ]
-    assert cli.main(given) == 0
+    assert cli.main(arguments) == 0
     task, _, header, *rows = capsys.readouterr().out.splitlines()
     assert task == "VSSSelfPlay-v0"
     assert header.split()[:2] == ["policy", "opponent"]
@@ -144,8 +144,8 @@ def test_watch_writes_a_video_without_a_display(
 ) -> None:
     pytest.importorskip("pygame")
     file = tmp_path / name
-    given = ["watch", "chase", "--seconds", "0.5", "--width", "128", "--video", str(file)]
-    assert cli.main(given) == 0
+    arguments = ["watch", "chase", "--seconds", "0.5", "--width", "128", "--video", str(file)]
+    assert cli.main(arguments) == 0
     assert str(file) in capsys.readouterr().out
     assert file.stat().st_size > 1000
 
@@ -166,9 +166,9 @@ def filmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Any]:
 
 
 def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
-    given = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
-    assert cli.main(given) == 0
-    assert cli.main([*given, "--opponent", "zero"]) == 0
+    arguments = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
+    assert cli.main(arguments) == 0
+    assert cli.main([*arguments, "--opponent", "zero"]) == 0
     assert cli.main(["watch", "scripted", "--video", "never.mp4"]) == 0
     (_, default, names), (_, changed, _), (task, controllers, _) = filmed
     assert default == {"blue_0": "strike", "yellow_0": "hold"}
@@ -198,8 +198,8 @@ def test_watch_and_evaluate_play_the_task_that_the_file_names(
 
 def test_watch_opens_a_window() -> None:
     pytest.importorskip("pygame")
-    given = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
-    done = run(*given, "--width", "128", SDL_VIDEODRIVER="dummy")
+    arguments = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
+    done = run(*arguments, "--width", "128", SDL_VIDEODRIVER="dummy")
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -55,11 +55,11 @@ class Spy(Matches):
 
     def __init__(self, *args: Any, controllers: Mapping[str, Any], **kwargs: Any) -> None:  # noqa: ANN401
         super().__init__(*args, controllers=controllers, **kwargs)
-        self.given = dict(controllers)
+        self.assigned = dict(controllers)
 
     def reset(self, *args: Any, **kwargs: Any) -> Floats:  # noqa: ANN401
         observations = super().reset(*args, **kwargs)
-        self.records.append((self.given, [row.tobytes() for row in self.frame.rows]))
+        self.records.append((self.assigned, [row.tobytes() for row in self.frame.rows]))
         return observations
 
 

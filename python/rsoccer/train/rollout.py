@@ -107,7 +107,7 @@ class Batch:
 
 
 class RolloutCollector:
-    """Plays matches with the current policy and records what the update needs.
+    """Plays matches with the current policy and records batches of samples.
 
     Attributes:
         matches: the matches in progress.

@@ -42,7 +42,7 @@ class Trainer:
     Attributes:
         args: settings of the run.
         task: the task to train on.
-        clock: measures where the time goes.
+        clock: measures the time of each part.
         generator: draws weights, actions, truncations and minibatches.
         curriculum: creates the matches.
         pool: opponents of the learners if both teams learn, else None.
