@@ -1,4 +1,4 @@
-"""The speed of learning: updates of the trainer, playing included."""
+"""Training speed: rollouts and updates of the trainer."""
 
 import time
 from pathlib import Path
@@ -10,13 +10,13 @@ DECISIONS: Final = Quantity("speed", "decisions/s")
 
 
 def training(task: str, worlds: int, threads: int) -> Measure:
-    """Updates with all robots of a side learning, as in most of a run; one at least."""
+    """Measure updates in which all robots of a team learn, as in most of a run; at least one."""
     import torch
 
     from rsoccer.train.args import Args
     from rsoccer.train.trainer import Trainer
 
-    # Nothing is written: the folder belongs to what `run` keeps.
+    # `Trainer.run` alone writes to the folder, so it stays empty here.
     args = Args(
         task, Path("nowhere"), worlds=worlds, threads=threads, solo_fraction=0.0, progress=False
     )
@@ -24,10 +24,10 @@ def training(task: str, worlds: int, threads: int) -> Measure:
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(args.torch_threads)
-        before, start, spent = trainer.samples, time.perf_counter(), 0.0
-        while not spent or spent < seconds:
-            trainer.learn(trainer.play(lambda: None), lambda: None)
-            spent = time.perf_counter() - start
-        return {DECISIONS: (trainer.samples - before) / spent}
+        before, start, elapsed = trainer.samples, time.perf_counter(), 0.0
+        while not elapsed or elapsed < seconds:
+            trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
+            elapsed = time.perf_counter() - start
+        return {DECISIONS: (trainer.samples - before) / elapsed}
 
     return measure

@@ -1,6 +1,6 @@
-"""Train a policy by self-play, measure it, and film it.
+"""Train a policy by self-play, evaluate it, and film a match.
 
-A minute of training is enough to see robots go for the ball; `make demo` trains longer.
+After a minute of training the robots drive to the ball; `make demo` trains longer.
 """
 
 from pathlib import Path
@@ -13,7 +13,7 @@ OUT = Path("out/self_play")
 
 
 def main(samples: int = 1_500_000) -> None:
-    """Each world plays its own opponent: the latest self, a past one, or drifting robots."""
+    """Train; each world plays the current policy, a past policy, or drifting robots."""
     args = Args(
         task="VSSSelfPlay-v0",
         out=OUT,
@@ -21,9 +21,9 @@ def main(samples: int = 1_500_000) -> None:
         latest_fraction=0.5,
         past_fraction=0.3,
         ou_fraction=0.2,
-        overwrite=True,  # without it a second run refuses to replace the first
+        overwrite=True,  # without it a second run does not replace the first
     )
-    policy = train(args)  # Ctrl-C saves; Args(..., resume=True) goes on from there
+    policy = train(args)  # Ctrl-C saves; Args(..., resume=True) continues
     for opponent in ("zero", "ou", OUT / "untrained.safetensors"):
         print(rsoccer.evaluate(policy, opponent, matches=100))
     record_match(OUT / "match.mp4", controllers={"blue": str(policy), "yellow": "ou"})

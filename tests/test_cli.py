@@ -1,4 +1,4 @@
-"""What becomes of errors: one line on standard error, and an exit status."""
+"""Errors of the command line: one line on standard error, and an exit status."""
 
 import os
 import signal
@@ -13,6 +13,7 @@ from rsoccer import cli
 
 
 def one_line(text: str) -> str:
+    """Return an error message after checking that it is one line."""
     assert text.startswith("rsoccer: ")
     assert text.endswith("\n")
     assert text.count("\n") == 1
@@ -20,7 +21,9 @@ def one_line(text: str) -> str:
 
 
 @pytest.mark.parametrize("arguments", [[], ["fly"], ["evaluate"], ["watch", "--seed", "one"]])
-def test_wrong_usage_ends_with_2(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_arguments_that_cannot_be_parsed_exit_with_2(
+    arguments: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit) as exit_:
         cli.main(arguments)
     assert exit_.value.code == 2
@@ -32,15 +35,15 @@ def test_wrong_usage_ends_with_2(arguments: list[str], capsys: pytest.CaptureFix
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["evaluate", "nobody"], "unknown policy 'nobody'.*chase"),
-        (["evaluate", "chase", "--opponents", "nobody"], "unknown policy 'nobody'"),
+        (["evaluate", "unknown"], "unknown policy 'unknown'.*chase"),
+        (["evaluate", "chase", "--opponents", "unknown"], "unknown policy 'unknown'"),
         (["evaluate", "chase", "--matches", "1"], "matches: expected at least 2, got 1"),
         (["evaluate", "chase", "--task", "VSS-v9"], "unknown task 'VSS-v9'"),
         (["evaluate", "no/such.safetensors"], "no/such.safetensors"),
-        (["watch", "nobody", "--video", "never.mp4"], "unknown policy 'nobody'"),
+        (["watch", "unknown", "--video", "never.mp4"], "unknown policy 'unknown'"),
     ],
 )
-def test_wrong_input_is_one_line_and_2(
+def test_invalid_input_is_reported_in_one_line(
     arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert cli.main(arguments) == cli.WRONG_INPUT
@@ -49,7 +52,7 @@ def test_wrong_input_is_one_line_and_2(
     assert message.split(".*")[0] in one_line(printed.err)
 
 
-def test_a_damaged_policy_file_is_one_line(
+def test_a_damaged_policy_file_is_reported_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "policy.safetensors"
@@ -67,15 +70,15 @@ def test_a_damaged_policy_file_is_one_line(
         ("tyro", ["list"], "rsoccer[cli]"),
     ],
 )
-def test_a_missing_package_comes_with_its_extra(
+def test_the_extra_of_a_missing_package_is_named(
     module: str, arguments: list[str], extra: str, tmp_path: Path
 ) -> None:
     policy = tmp_path / "policy.safetensors"
     policy.write_bytes(b"")
-    given = [part.format(policy=policy) for part in arguments]
+    words = [part.format(policy=policy) for part in arguments]
     code = f"import sys; sys.modules[{module!r}] = None\nfrom rsoccer.cli import main\n"
     done = subprocess.run(
-        [sys.executable, "-c", f"{code}sys.exit(main({given!r}))"],
+        [sys.executable, "-c", f"{code}sys.exit(main({words!r}))"],
         capture_output=True,
         text=True,
         cwd=tmp_path,
@@ -86,22 +89,22 @@ def test_a_missing_package_comes_with_its_extra(
 
 
 # Shells start background jobs with SIGINT ignored, and their children inherit that.
-HEEDING_SIGINT = """
+WITH_SIGINT = """
 import runpy, signal
 signal.signal(signal.SIGINT, signal.default_int_handler)
 runpy.run_module("rsoccer", run_name="__main__", alter_sys=True)
 """
 
 
-def test_ctrl_c_ends_with_130() -> None:
+def test_ctrl_c_exits_with_130() -> None:
     worker = subprocess.Popen(
-        [sys.executable, "-c", HEEDING_SIGINT, "evaluate", "chase", "--matches", "1000000"],
+        [sys.executable, "-c", WITH_SIGINT, "evaluate", "chase", "--matches", "1000000"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
     )
     try:
-        _wait_until_it_plays(worker.pid)
+        _wait_until_playing(worker.pid)
         worker.send_signal(signal.SIGINT)
         printed = worker.communicate(timeout=30)
     finally:
@@ -111,8 +114,8 @@ def test_ctrl_c_ends_with_130() -> None:
     assert "Traceback" not in printed[1]
 
 
-def _wait_until_it_plays(process: int) -> None:
-    """Wait for the processor time that starting up does not need."""
+def _wait_until_playing(process: int) -> None:
+    """Wait until the process has used more processor time than its start needs."""
     deadline = time.monotonic() + 60
     stat = Path(f"/proc/{process}/stat")
     if not stat.exists():
@@ -123,10 +126,10 @@ def _wait_until_it_plays(process: int) -> None:
         if int(ticks) / os.sysconf("SC_CLK_TCK") > 2.5:
             return
         time.sleep(0.05)
-    pytest.fail("it never played")
+    pytest.fail("timeout before the first match")
 
 
-def test_a_reader_that_leaves_is_no_error() -> None:
+def test_a_closed_pipe_is_no_error() -> None:
     command = f"{sys.executable} -m rsoccer list | true"
     done = subprocess.run(
         ["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False

@@ -1,3 +1,5 @@
+"""Commands: what they print, write, and pass on."""
+
 import json
 import os
 import subprocess
@@ -13,7 +15,7 @@ from tests.policies.networks import network_for
 
 
 def run(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """The command in a process of its own, as a shell would start it."""
+    """Run a command in a new process, as a shell does."""
     return subprocess.run(
         [sys.executable, "-m", "rsoccer", *arguments],
         capture_output=True,
@@ -34,7 +36,7 @@ def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str
         assert name in printed
 
 
-def test_heavy_packages_stay_out_of_the_way() -> None:
+def test_list_and_help_import_no_heavy_package() -> None:
     code = (
         "import sys; from rsoccer.cli import main; main(['list'])\n"
         "try: main(['train', '--help'])\n"
@@ -46,7 +48,7 @@ def test_heavy_packages_stay_out_of_the_way() -> None:
     assert "--learning-rate" in done.stdout
 
 
-def test_the_module_is_the_command() -> None:
+def test_the_module_runs_as_the_command() -> None:
     done = run("list")
     assert done.returncode == 0
     assert "VSSSelfPlay-v0" in done.stdout
@@ -64,7 +66,7 @@ def test_the_module_is_the_command() -> None:
         (["watch"], ["POLICY", "--video PATH", "needs no display"]),
     ],
 )
-def test_help_reads_well(
+def test_help_describes_the_options(
     command: list[str], words: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as exit_:
@@ -82,7 +84,7 @@ def test_evaluate_prints_a_table_and_writes_results(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "results.json"
-    given = [
+    arguments = [
         "evaluate",
         "chase",
         "--opponents",
@@ -93,7 +95,7 @@ def test_evaluate_prints_a_table_and_writes_results(
         "--json",
         str(file),
     ]
-    assert cli.main(given) == 0
+    assert cli.main(arguments) == 0
     task, _, header, *rows = capsys.readouterr().out.splitlines()
     assert task == "VSSSelfPlay-v0"
     assert header.split()[:2] == ["policy", "opponent"]
@@ -103,7 +105,7 @@ def test_evaluate_prints_a_table_and_writes_results(
     assert zero["wins"] + zero["draws"] + zero["losses"] == 4
 
 
-def test_evaluate_checks_where_results_shall_go_before_it_plays(
+def test_evaluate_checks_the_output_folder_before_it_plays(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(commands, "evaluate", lambda *_, **__: pytest.fail("it played"))
@@ -114,20 +116,20 @@ def test_evaluate_checks_where_results_shall_go_before_it_plays(
 # -- train ------------------------------------------------------------------------------------
 
 
-def test_train_hands_over_what_it_was_told(
+def test_train_passes_its_options_on(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    told: list[Any] = []
+    received: list[Any] = []
 
-    def note(args: commands.Train) -> Path:
-        told.append(args)
+    def record(args: commands.Train) -> Path:
+        received.append(args)
         return args.out / "policy.safetensors"
 
-    monkeypatch.setattr(commands, "train", note)
-    given = ["train", "--out", "there", "--samples", "5", "--hidden-sizes", "8", "9", "--no-progress"]
-    assert cli.main([*given, "--seed", "3"]) == 0
-    (args,) = told
-    assert (args.out, args.samples, args.hidden) == (Path("there"), 5, (8, 9))
+    monkeypatch.setattr(commands, "train", record)
+    options = ["--out", "there", "--samples", "5", "--hidden-sizes", "8", "9", "--seed", "3"]
+    assert cli.main(["train", *options, "--no-progress"]) == 0
+    (args,) = received
+    assert (args.out, args.samples, args.hidden_sizes) == (Path("there"), 5, (8, 9))
     assert (args.progress, args.resume, args.seed) == (False, False, 3)
     assert json.dumps(args.to_json())
     assert "there/policy.safetensors" in capsys.readouterr().out
@@ -137,46 +139,46 @@ def test_train_hands_over_what_it_was_told(
 
 
 @pytest.mark.parametrize("name", ["match.mp4", "match.gif"])
-def test_watch_films_without_a_display(
+def test_watch_writes_a_video_without_a_display(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("pygame")
     file = tmp_path / name
-    given = ["watch", "chase", "--seconds", "0.5", "--width", "128", "--video", str(file)]
-    assert cli.main(given) == 0
+    arguments = ["watch", "chase", "--seconds", "0.5", "--width", "128", "--video", str(file)]
+    assert cli.main(arguments) == 0
     assert str(file) in capsys.readouterr().out
     assert file.stat().st_size > 1000
 
 
 @pytest.fixture
 def filmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Any]:
-    """What `watch` asks to be filmed: the task, its drivers, and names on the board."""
+    """Replace the video by a record of the task, the controllers and the names of the teams."""
     record, video = pytest.importorskip("rsoccer.render.record"), tmp_path / "never.mp4"
-    told: list[Any] = []
+    filmed: list[Any] = []
 
     def film(task: rsoccer.Task, controllers: Any, *_: Any, names: Any, **__: Any) -> Any:  # noqa: ANN401
-        told.append((task.name, controllers, names))
+        filmed.append((task.name, controllers, names))
         return iter([]), 40.0
 
     monkeypatch.setattr(record, "film_match", film)
     monkeypatch.setattr("rsoccer.render.video.write_video", lambda *_: video)
-    return told
+    return filmed
 
 
-def test_watch_put_ou_in_the_place_of_the_tasks_own_robots(filmed: list[Any]) -> None:
-    given = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
-    assert cli.main(given) == 0
-    assert cli.main([*given, "--opponent", "zero"]) == 0
+def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
+    arguments = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
+    assert cli.main(arguments) == 0
+    assert cli.main([*arguments, "--opponent", "zero"]) == 0
     assert cli.main(["watch", "scripted", "--video", "never.mp4"]) == 0
-    (_, own, names), (_, other, _), (task, both, _) = filmed
-    assert own == {"blue_0": "strike", "yellow_0": "hold"}
+    (_, default, names), (_, changed, _), (task, controllers, _) = filmed
+    assert default == {"blue_0": "strike", "yellow_0": "hold"}
     assert names == ("STRIKE", "HOLD")
-    assert other == {"blue_0": "strike", "yellow_0": "zero"}
+    assert changed == {"blue_0": "strike", "yellow_0": "zero"}
     assert task == "VSSSelfPlay-v0"
-    assert set(both.values()) == {"scripted", "ou"}
+    assert set(controllers.values()) == {"scripted", "ou"}
 
 
-def test_watch_and_evaluate_asked_for_the_task_that_the_file_names(
+def test_watch_and_evaluate_play_the_task_that_the_file_names(
     filmed: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "policy.safetensors"
@@ -194,10 +196,10 @@ def test_watch_and_evaluate_asked_for_the_task_that_the_file_names(
     assert row.split()[:3] == [str(file), "-", "3"]
 
 
-def test_watch_plays_in_a_window() -> None:
+def test_watch_opens_a_window() -> None:
     pytest.importorskip("pygame")
-    given = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
-    done = run(*given, "--width", "128", SDL_VIDEODRIVER="dummy")
+    arguments = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
+    done = run(*arguments, "--width", "128", SDL_VIDEODRIVER="dummy")
     assert (done.returncode, done.stderr) == (0, "")
 
 
@@ -205,11 +207,13 @@ def test_watch_plays_in_a_window() -> None:
     ("player", "shown"),
     [("scripted:0.5", "SCRIPTED:0.5"), ("ou", "OU"), ("out/mine/policy.safetensors", "MINE")],
 )
-def test_the_score_board_names_who_plays(player: str, shown: str) -> None:
+def test_the_scoreboard_names_the_policies(player: str, shown: str) -> None:
     assert vars(commands)["_team_name"](player) == shown
 
 
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])
-def test_watch_refuses_to_stand_still(speed: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_watch_refuses_a_speed_that_is_not_positive(
+    speed: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert cli.main(["watch", "--speed", speed]) == 2
     assert "speed" in capsys.readouterr().err

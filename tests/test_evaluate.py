@@ -1,3 +1,5 @@
+"""Evaluations of two-sided tasks: sides, seeds, counts, and invalid input."""
+
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,8 +23,8 @@ from rsoccer.tasks import VssSelfPlay
 module = sys.modules["rsoccer.evaluate.episodes"]
 
 
-def a_network(seed: int = 0) -> Network:
-    """A policy of the right sizes that has learned nothing."""
+def untrained_network(seed: int = 0) -> Network:
+    """Return an untrained policy of the right sizes."""
     task = rsoccer.make_task("VSSSelfPlay-v0")
     rng = np.random.default_rng(seed)
     sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
@@ -39,18 +41,18 @@ def a_network(seed: int = 0) -> Network:
     )
 
 
-BETTER = [
+WINNERS = [
     ("VSSSelfPlay-v0", "chase", 60, 0.72),
-    ("VSS-v0", "chase", 60, 0.3),  # one among teammates that drift
+    ("VSS-v0", "chase", 60, 0.3),  # its teammates drift
     ("SSLSelfPlay-v0", "strike", 10, 0.72),
 ]
 
 
-@pytest.mark.parametrize(("task", "better", "count", "share"), BETTER)
-def test_a_better_policy_wins_from_either_side(
-    task: str, better: str, count: int, share: float
+@pytest.mark.parametrize(("task", "winner", "count", "share"), WINNERS)
+def test_a_better_policy_wins_on_either_side(
+    task: str, winner: str, count: int, share: float
 ) -> None:
-    result = evaluate(better, "zero", matches=count, seed=1, task=task)
+    result = evaluate(winner, "zero", matches=count, seed=1, task=task)
     assert result.matches == count
     assert result.sides["blue"].matches == result.sides["yellow"].matches == count // 2
     assert result.sides["blue"].wins >= share * count / 2
@@ -58,9 +60,9 @@ def test_a_better_policy_wins_from_either_side(
     assert result.low > share - 0.25
     assert result.decided_after is not None
     assert 1.0 < result.decided_after < 20.0
-    assert (result.policy, result.opponent, result.task) == (better, "zero", task)
-    mirrored = evaluate("zero", better, matches=count, seed=1, task=task)
-    assert mirrored.high < 0.25 - share or task == "VSS-v0", "its own drifting teammates may score"
+    assert (result.policy, result.opponent, result.task) == (winner, "zero", task)
+    mirrored = evaluate("zero", winner, matches=count, seed=1, task=task)
+    assert mirrored.high < 0.25 - share or task == "VSS-v0", "zero's drifting teammates may score"
 
 
 def test_counts_add_up() -> None:
@@ -71,10 +73,10 @@ def test_counts_add_up() -> None:
         assert part.low <= part.score <= part.high
     assert result.wins == result.sides["blue"].wins + result.sides["yellow"].wins
     assert result.losses == result.sides["blue"].losses + result.sides["yellow"].losses
-    assert result.wins * result.losses > 0, "one side wins all: signs are not compared"
+    assert result.wins * result.losses > 0, "one policy won all, so signs are not compared"
 
 
-def test_a_seed_fixes_the_result_whatever_else() -> None:
+def test_the_result_depends_on_the_seed_only() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=300)
     expected = evaluate("chase", "ou", matches=10, seed=3, task=task)
     assert 0 < expected.wins < 10
@@ -84,7 +86,7 @@ def test_a_seed_fixes_the_result_whatever_else() -> None:
     assert evaluate("chase", "ou", matches=10, seed=4, task=task) != expected
 
 
-def test_each_match_has_a_start_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_each_match_has_its_own_initial_state(monkeypatch: pytest.MonkeyPatch) -> None:
     starts: list[bytes] = []
 
     class Spy(Matches):
@@ -128,42 +130,30 @@ class Decided(VssSelfPlay):
         return {"goal_score": np.where(play.steps == np.arange(len(play.steps)) + 1, score, 9)}
 
 
-def test_each_match_counts_once_as_it_ended() -> None:
+def test_each_match_counts_once_at_its_end() -> None:
     result = evaluate("zero", "zero", matches=12, task=Decided())
-    assert counts(result.sides["blue"]) == (
-        2,
-        2,
-        2,
-    )
+    assert counts(result.sides["blue"]) == (2, 2, 2)
     assert counts(result.sides["yellow"]) == (2, 2, 2)
     assert result.decided_after == pytest.approx(0.025 * np.mean([1, 3, 4, 6]))
     five = evaluate("zero", "zero", matches=10, task=Decided())
-    assert counts(five.sides["blue"]) == (
-        1,
-        2,
-        2,
-    )
-    assert counts(five.sides["yellow"]) == (
-        2,
-        2,
-        1,
-    )
+    assert counts(five.sides["blue"]) == (1, 2, 2)
+    assert counts(five.sides["yellow"]) == (2, 2, 1)
     assert five.score == 0.0
     assert (five.sides["blue"].score, five.sides["yellow"].score) == (-0.2, 0.2)
 
 
-def test_three_matches_were_reported_as_four() -> None:
+def test_an_odd_number_of_matches_is_refused_in_two_sided_tasks() -> None:
     with pytest.raises(ValueError, match=r"matches: expected an even number, .*both sides, got 3"):
         evaluate("zero", "zero", matches=3, task=Decided())
     for count in (1, 3):
         assert evaluate("fetch", matches=count, task="SSLGoToBall-v0").matches == count
 
 
-# -- Who plays --------------------------------------------------------------------------------
+# -- Policies ---------------------------------------------------------------------------------
 
 
 class Spin(Policy):
-    """Turns on the spot."""
+    """A policy that turns on the spot."""
 
     observes: Literal["nothing", "view", "observation"] = "nothing"
 
@@ -172,7 +162,7 @@ class Spin(Policy):
 
 
 def test_policies_may_be_names_files_or_objects(tmp_path: Path) -> None:
-    network = a_network()
+    network = untrained_network()
     path = tmp_path / "policy.safetensors"
     network.save(path)
     task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=300)
@@ -183,17 +173,17 @@ def test_policies_may_be_names_files_or_objects(tmp_path: Path) -> None:
     assert by_object.opponent == "Spin"
     assert by_object.policy == "Network"
     assert by_path.policy == by_text.policy == str(path)
-    without_names = [{**one.as_dict(), "policy": ""} for one in (by_object, by_path, by_text)]
-    assert without_names[0] == without_names[1] == without_names[2]
+    unnamed = [{**one.as_dict(), "policy": ""} for one in (by_object, by_path, by_text)]
+    assert unnamed[0] == unnamed[1] == unnamed[2]
 
 
-def test_one_policy_can_play_itself() -> None:
+def test_one_object_can_play_against_itself() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0")
     chase = Chase(task)
     assert evaluate(chase, chase, matches=4, seed=0, task=task).matches == 4
 
 
-# -- Wrong input ------------------------------------------------------------------------------
+# -- Invalid input ----------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -204,7 +194,7 @@ class Unscored(VssSelfPlay):
         return {}
 
 
-WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
+INVALID: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"policy": "nobody"}, ValueError, "unknown policy 'nobody'.*chase"),
     ({"opponent": "nobody"}, ValueError, "unknown policy 'nobody'.*chase"),
     ({"policy": "gone.safetensors"}, FileNotFoundError, r"gone\.safetensors"),
@@ -224,7 +214,7 @@ WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "error", "message"), WRONG)
+@pytest.mark.parametrize(("changes", "error", "message"), INVALID)
 def test_wrong_input_is_named(
     changes: dict[str, Any], error: type[Exception], message: str
 ) -> None:
@@ -234,4 +224,4 @@ def test_wrong_input_is_named(
 
 def test_a_network_for_other_sizes_is_refused() -> None:
     with pytest.raises(ValueError, match=r"observation_size \d+, but task 'VSSSelfPlay-v0' has"):
-        evaluate(a_network(), "zero", 2, task=VssSelfPlay(n_blue=2, n_yellow=2))
+        evaluate(untrained_network(), "zero", 2, task=VssSelfPlay(n_blue=2, n_yellow=2))

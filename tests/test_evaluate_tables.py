@@ -1,4 +1,4 @@
-"""Evaluations of two sides as text and as JSON."""
+"""Evaluations of two-sided tasks as text and as JSON."""
 
 import json
 
@@ -7,7 +7,7 @@ from rsoccer.evaluate import Evaluation, evaluate, table
 from tests.test_evaluate import Decided
 
 
-def test_tables_line_up() -> None:
+def test_columns_are_aligned() -> None:
     results = [
         evaluate("zero", opponent, matches=4, task=Decided()) for opponent in ("ou", "uniform")
     ]
@@ -21,11 +21,11 @@ def test_tables_line_up() -> None:
 
 def test_results_go_into_json() -> None:
     result = evaluate("zero", "zero", matches=4, task=Decided())
-    read = json.loads(json.dumps(result.as_dict()))
-    assert read["matches"] == 4
-    assert read["sides"]["blue"]["wins"] == result.sides["blue"].wins
-    assert read["seed"] == 0
-    assert set(read) >= {"wins", "draws", "losses", "score", "low", "high", "decided_after"}
+    loaded = json.loads(json.dumps(result.as_dict()))
+    assert loaded["matches"] == 4
+    assert loaded["sides"]["blue"]["wins"] == result.sides["blue"].wins
+    assert loaded["seed"] == 0
+    assert set(loaded) >= {"wins", "draws", "losses", "score", "low", "high", "decided_after"}
 
 
 def test_the_package_offers_the_function() -> None:

@@ -1,4 +1,4 @@
-"""Tasks in which one side plays: how often a policy succeeds, against whom the task has."""
+"""Evaluations of one-sided tasks: success, starts, opponents and tables."""
 
 import json
 import sys
@@ -25,85 +25,85 @@ SOLVED = [
     ("SSLGoToBall-v0", "fetch", "reached", 0.9, 1.0, 15),
     ("SSLStaticDefenders-v0", "strike", "goal_score", 0.6, 1.0, 15),
     ("SSLContestedPossession-v0", "strike", "goal_score", 0.4, 1.0, 11),
-    ("SSLDribbling-v0", "weave", "gates", 4.0, 7.0, 1),  # it always starts alike
+    ("SSLDribbling-v0", "weave", "gates", 4.0, 7.0, 1),  # every start is the same
     ("SSLPassEndurance-v0", "passer", "received", 0.8, 1.0, 15),
     ("SSLPassEnduranceMulti-v0", "passer", "passes", 1.0, 30.0, 11),
 ]
 
 
-@pytest.mark.parametrize(("task", "solver", "metric", "least", "most", "count"), SOLVED)
-def test_nobody_could_tell_how_often_a_policy_succeeds(
-    task: str, solver: str, metric: str, least: float, most: float, count: int
+@pytest.mark.parametrize(("task", "solver", "metric", "lowest", "highest", "count"), SOLVED)
+def test_a_script_solves_its_task_and_zero_does_not(
+    task: str, solver: str, metric: str, lowest: float, highest: float, count: int
 ) -> None:
     result = evaluate(solver, matches=count, seed=1, task=task)
     assert (result.matches, result.task, result.metric) == (count, task, metric)
-    assert least <= result.low <= result.score <= result.high <= most
-    assert result.low < result.high or result.score == most or count == 1
+    assert lowest <= result.low <= result.score <= result.high <= highest
+    assert result.low < result.high or result.score == highest or count == 1
     assert result.returns.low <= result.returns.mean <= result.returns.high
     assert 0.0 < result.seconds.low <= result.seconds.mean <= result.seconds.high
     assert result.sides == {}
     idle = evaluate("zero", matches=count, seed=1, task=task)
-    assert idle.high < 0.2 * least
+    assert idle.high < 0.2 * lowest
     assert idle.returns.high < result.returns.low
     assert idle.decided_after is None
 
 
 class Spy(Matches):
-    """Notes who plays, and from where."""
+    """Records controllers and initial states."""
 
-    seen: ClassVar[list[tuple[dict[str, object], list[bytes]]]] = []
+    records: ClassVar[list[tuple[dict[str, object], list[bytes]]]] = []
 
     def __init__(self, *args: Any, controllers: Mapping[str, Any], **kwargs: Any) -> None:  # noqa: ANN401
         super().__init__(*args, controllers=controllers, **kwargs)
-        self.told = dict(controllers)
+        self.assigned = dict(controllers)
 
     def reset(self, *args: Any, **kwargs: Any) -> Floats:  # noqa: ANN401
         observations = super().reset(*args, **kwargs)
-        self.seen.append((self.told, [row.tobytes() for row in self.frame.rows]))
+        self.records.append((self.assigned, [row.tobytes() for row in self.frame.rows]))
         return observations
 
 
 @pytest.fixture
 def spy(monkeypatch: pytest.MonkeyPatch) -> type[Spy]:
-    monkeypatch.setattr(Spy, "seen", [])
+    monkeypatch.setattr(Spy, "records", [])
     monkeypatch.setattr(module, "Matches", Spy)
     return Spy
 
 
-def test_defenders_were_driven_away_by_ou(spy: type[Spy]) -> None:
+def test_opponents_keep_their_default_policies(spy: type[Spy]) -> None:
     task = rsoccer.make_task("SSLStaticDefenders-v0", max_steps=2)
     assert evaluate("strike", matches=4, task=task).opponent == "hold"
-    ((told, _),) = spy.seen
+    ((controllers, _),) = spy.records
     opponents = [f"yellow_{i}" for i in range(6)]
-    assert told == {"blue_0": LEARN, **dict.fromkeys(opponents, "hold")}
+    assert controllers == {"blue_0": LEARN, **dict.fromkeys(opponents, "hold")}
     assert evaluate("strike", "zero", matches=4, task=task).opponent == "zero"
-    told = spy.seen[1][0]
-    assert {type(told[opponent]).__name__ for opponent in opponents} == {"Zero"}
+    controllers = spy.records[1][0]
+    assert {type(controllers[opponent]).__name__ for opponent in opponents} == {"Zero"}
 
 
-def test_teammates_who_do_not_learn_were_driven_by_the_policy(spy: type[Spy]) -> None:
+def test_teammates_that_do_not_learn_keep_their_default_policies(spy: type[Spy]) -> None:
     task = rsoccer.make_task("VSS-v0", max_steps=2, teammates="chase", opponent="uniform")
     assert evaluate("scripted", matches=2, task=task).opponent == "uniform"
-    blue, yellow = (told for told, _ in spy.seen)
-    ours, theirs = [LEARN, "chase", "chase"], ["uniform"] * 3
-    assert [blue[robot] for robot in task.robots] == [*ours, *theirs]
-    assert [yellow[robot] for robot in task.robots] == [*theirs, *ours]
+    blue, yellow = (controllers for controllers, _ in spy.records)
+    home, away = [LEARN, "chase", "chase"], ["uniform"] * 3
+    assert [blue[robot] for robot in task.robots] == [*home, *away]
+    assert [yellow[robot] for robot in task.robots] == [*away, *home]
 
 
-def test_every_policy_plays_the_same_starts(spy: type[Spy]) -> None:
+def test_starts_depend_on_the_seed_only(spy: type[Spy]) -> None:
     task = rsoccer.make_task("SSLGoToBall-v0", max_steps=3)
     for policy, worlds in (("zero", 10), ("fetch", 10), ("fetch", 4)):
         evaluate(policy, matches=10, seed=3, task=task, worlds=worlds)
-    rows = [row for _, starts in spy.seen for row in starts]
+    rows = [row for _, starts in spy.records for row in starts]
     assert rows[:10] == rows[10:20] == rows[20:]
     assert len(set(rows)) == 10
 
 
 @dataclass(frozen=True)
-class Paid(SslGoToBall):
-    """World i of a batch ends after i + 1 steps, paid 0.5 a step; every other one succeeds."""
+class Alive(SslGoToBall):
+    """World i of a batch ends after i + 1 steps of reward 0.5; every second world succeeds."""
 
-    name = "Paid-v0"
+    name = "Alive-v0"
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         n = len(play.steps)
@@ -116,15 +116,15 @@ class Paid(SslGoToBall):
 
 
 def test_each_match_counts_once_as_it_ended() -> None:
-    result = evaluate("zero", matches=6, task=Paid())
+    result = evaluate("zero", matches=6, task=Alive())
     assert (result.score, result.wins, result.draws, result.losses) == (0.5, 3, 3, 0)
     assert result.returns.mean == pytest.approx(0.5 * np.mean([1, 2, 3, 4, 5, 6]))
     assert result.seconds.mean == pytest.approx(0.025 * np.mean([1, 2, 3, 4, 5, 6]))
     assert result.decided_after == pytest.approx(0.025 * np.mean([2, 4, 6]))
-    assert evaluate("zero", matches=5, task=Paid()).matches == 5
+    assert evaluate("zero", matches=5, task=Alive()).matches == 5
 
 
-def test_half_a_course_is_no_full_success() -> None:
+def test_part_of_a_course_is_no_full_success() -> None:
     result = evaluate("weave", matches=2, task=rsoccer.make_task("SSLDribbling-v0", max_steps=400))
     assert 0.0 < result.score < 7.0
     assert result.decided_after is None
@@ -132,7 +132,7 @@ def test_half_a_course_is_no_full_success() -> None:
 
 def test_without_a_success_the_return_counts() -> None:
     @dataclass(frozen=True)
-    class Unnamed(Paid):
+    class Unnamed(Alive):
         success = None  # type: ignore[assignment]
 
     result = evaluate("zero", matches=4, task=Unnamed())
@@ -141,7 +141,7 @@ def test_without_a_success_the_return_counts() -> None:
     assert str(result).split()[:5] == ["policy", "opponent", "matches", "return", "95%"]
 
 
-def test_two_sides_need_a_success() -> None:
+def test_a_two_sided_task_without_a_success_is_refused() -> None:
     @dataclass(frozen=True)
     class Unnamed(VssSelfPlay):
         success = None  # type: ignore[assignment]
@@ -150,20 +150,20 @@ def test_two_sides_need_a_success() -> None:
         evaluate("zero", task=Unnamed())
 
 
-def test_a_seed_fixes_what_a_network_draws(tmp_path: Path) -> None:
+def test_the_actions_of_a_network_depend_on_the_seed_only(tmp_path: Path) -> None:
     task = rsoccer.make_task("SSLGoToBall-v0", max_steps=200)
     network_for(task).save(tmp_path / "policy.safetensors")
     drawn, again, mean = (
-        evaluate(f"{tmp_path}/policy.safetensors{how}", matches=10, task=task, threads=threads)
-        for how, threads in (("", 2), (":sample", 1), (":mean", 2))
+        evaluate(f"{tmp_path}/policy.safetensors{mode}", matches=10, task=task, threads=threads)
+        for mode, threads in (("", 2), (":sample", 1), (":mean", 2))
     )
     assert drawn.returns == again.returns != mean.returns
 
 
-# -- Which task -------------------------------------------------------------------------------
+# -- Default task -----------------------------------------------------------------------------
 
 
-def test_the_task_that_a_policy_was_trained_on_was_not_played(tmp_path: Path) -> None:
+def test_the_default_task_is_the_one_a_policy_was_trained_on(tmp_path: Path) -> None:
     task = rsoccer.make_task("SSLGoToBall-v0")
     network_for(task).save(tmp_path / "policy.safetensors")
     for policy in (tmp_path / "policy.safetensors", network_for(task)):
@@ -181,25 +181,25 @@ def test_each_task_names_its_success(name: str, tmp_path: Path) -> None:
     assert task.two_sided == (name.startswith("VSS") or name == "SSLSelfPlay-v0")
 
 
-def test_a_line_up_puts_teams_of_other_sizes_in_their_places() -> None:
+def test_a_lineup_resizes_teams_that_change_sides() -> None:
     task = VssSelfPlay(n_blue=1, n_yellow=3)
     assert lineup(task, "chase") == {"blue_0": "chase", **_yellow("ou", 3)}
     assert lineup(task, "chase", "zero", "yellow") == {"blue_0": "zero", **_yellow("chase", 3)}
 
 
-def _yellow(driver: str, count: int) -> dict[str, str]:
-    return {f"yellow_{i}": driver for i in range(count)}
+def _yellow(policy: str, count: int) -> dict[str, str]:
+    return {f"yellow_{i}": policy for i in range(count)}
 
 
-# -- Words and tables -------------------------------------------------------------------------
+# -- Tables and JSON --------------------------------------------------------------------------
 
 
-def test_tables_of_other_successes_stand_apart() -> None:
-    told = [
+def test_evaluations_of_other_metrics_get_a_table_of_their_own() -> None:
+    evaluations = [
         evaluate("zero", matches=3, task=rsoccer.make_task(name, max_steps=2))
         for name in ("SSLGoToBall-v0", "SSLDribbling-v0")
     ]
-    first, second = table(told).split("\n\n")
+    first, second = table(evaluations).split("\n\n")
     assert first.split()[3] == "reached"
     assert second.split()[3] == "gates"
     assert first.splitlines()[1].split()[:4] == ["zero", "-", "3", "0.000"]
@@ -210,9 +210,9 @@ def test_tables_of_other_successes_stand_apart() -> None:
 
 def test_results_go_into_json() -> None:
     result = evaluate("fetch", matches=3, task="SSLGoToBall-v0")
-    read = json.loads(json.dumps(result.as_dict()))
-    assert (read["metric"], read["score"], read["matches"]) == ("reached", result.score, 3)
-    assert read["returns"] == {
+    loaded = json.loads(json.dumps(result.as_dict()))
+    assert (loaded["metric"], loaded["score"], loaded["matches"]) == ("reached", result.score, 3)
+    assert loaded["returns"] == {
         "mean": result.returns.mean,
         "low": result.returns.low,
         "high": result.returns.high,

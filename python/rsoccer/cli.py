@@ -1,4 +1,4 @@
-"""`rsoccer list | train | evaluate | watch`, and what becomes of errors on the way."""
+"""Entry point of the command `rsoccer list | train | evaluate | watch`, and its errors."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import os
 import sys
 from collections.abc import Sequence
 
-WRONG_INPUT = 2  # exit status, as command-line parsers have it
-INTERRUPTED = 130  # what shells report after Ctrl-C
+WRONG_INPUT = 2  # exit status for wrong input, as of command-line parsers
+INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
 EXTRAS = {
     "imageio": "render",
@@ -20,18 +20,29 @@ EXTRAS = {
     "tqdm": "train",
     "tyro": "cli",
 }
-"""Which of the package's extras brings each optional module."""
+"""The extra of this package that installs each optional module."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command, by default that of `sys.argv`; the exit status."""
+    """Run one command. Errors are reported as one line on standard error.
+
+    Args:
+        arguments: words after `rsoccer`; by default those of `sys.argv`.
+
+    Returns:
+        Exit status: 0, `WRONG_INPUT` or `INTERRUPTED`.
+
+    Raises:
+        SystemExit: with status 2 if the words cannot be parsed, 0 after `--help`, or the status
+            of an interrupted training run.
+    """
     try:
         _run(arguments)
         sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        # Whoever read our output has left; without this Python complains once more at exit.
+        # The reader of the output has closed it. Otherwise Python reports a second error at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except (ImportError, OSError, RuntimeError, ValueError) as error:
         sys.stderr.write(f"rsoccer: {_explain(error)}\n")
@@ -40,6 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str] | None) -> None:
+    """Parse the arguments and run the command."""
     import tyro
 
     from rsoccer.commands import Command
@@ -55,7 +67,7 @@ def _run(arguments: Sequence[str] | None) -> None:
 
 
 def _explain(error: Exception) -> str:
-    """One line that says what is wrong and, where a module is missing, how to get it."""
+    """One line for an error; for a missing module the command that installs it."""
     module = (getattr(error, "name", None) or "").partition(".")[0]
     if isinstance(error, ImportError) and module in EXTRAS:
         return f"this needs {module}: pip install 'rsoccer[{EXTRAS[module]}]'"

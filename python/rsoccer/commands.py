@@ -1,4 +1,4 @@
-"""What the command line can do: a class for each command, whose fields are its options."""
+"""Commands of the command line: one class per command, its fields are the options."""
 
 from __future__ import annotations
 
@@ -18,65 +18,69 @@ from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.task import Task
 from rsoccer.train import Args, train
 
-PLAYER = (
-    "a name that `rsoccer list` prints, or the path of a policy file, which plays as it was "
-    "trained unless :mean or :sample follows"
+_POLICY = arg(
+    metavar="POLICY",
+    help="a name that `rsoccer list` prints, or the path of a policy file, which plays as it was "
+    "trained unless :mean or :sample follows",
 )
-OWN_TASK = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
-OWN_OPPONENT = "(default: whom the task has, or ou)"
-POLICY = arg(metavar="POLICY", help=PLAYER)
+_DEFAULT_TASK = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
+_DEFAULT_OPPONENT = "(default: the task's own, or ou where that team learns)"
 
 
 @dataclass(frozen=True)
 class List:
-    """Name the tasks with their options, and the policies."""
+    """Print the tasks with their options, and the policies."""
 
     def run(self) -> None:
-        """Print them."""
+        """Print the lists."""
         for name in registry.list_tasks():
             task = registry.make_task(name)
             _write(f"{name}: {_summary(task)}")
             _write("\n".join(f"    {option}" for option in _options(task)) + "\n")
         for name, (task_name, options) in registry.list_aliases().items():
-            told = [f"{option}={value!r}" for option, value in options.items()]
-            _write(f"{name}: {', '.join([task_name, *told])}")
+            values = [f"{option}={value!r}" for option, value in options.items()]
+            _write(f"{name}: {', '.join([task_name, *values])}")
         _write(f"policies: {', '.join(policies.names())}, or the path of a policy file")
-        skilled = (f"{name}:0.5" for name in policies.names_with_skill())
+        examples = (f"{name}:0.5" for name in policies.names_with_skill())
         _write("a file plays as it was trained; :mean or :sample may follow its name")
-        _write(f"a skill from 0 to 1 may follow, as in {', '.join(skilled)}")
+        _write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
 
 
 @dataclass(frozen=True)
 class Train(Args):
-    """Teach one policy to drive every learning robot, by playing against itself."""
+    """Train one policy, which controls every learning robot, by self-play."""
 
     def run(self) -> None:
-        """Train, and say where the policy is."""
+        """Train, and print the path of the policy file."""
         _write(f"policy: {train(self)}")
 
 
 @dataclass(frozen=True)
 class Evaluate:
-    """Play a policy at its task, and print how well it does; from both sides where two play."""
+    """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
-    policy: Annotated[str, Positional, POLICY]
-    opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=OWN_OPPONENT)] = ()
-    """one row of the table for each; names or paths, as for the policy"""
+    policy: Annotated[str, Positional, _POLICY]
+    opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=_DEFAULT_OPPONENT)] = ()
+    """policies of the other team, names or paths; one row of the table for each"""
     matches: int = 200
-    """for each opponent; where two sides play, half of them as blue, half as yellow"""
+    """matches against each opponent; in two-sided tasks half of them as blue, half as yellow"""
     seed: int = 0
-    """the same seed gives the same table"""
-    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=OWN_TASK)] = None
-    """what is played"""
+    """random seed; equal seeds give equal tables"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=_DEFAULT_TASK)] = None
+    """task to play"""
     worlds: int = 50
     """matches played at once"""
     threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
-    """processors to use"""
+    """threads of the simulator"""
     json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
-    """also write the results into this file"""
+    """file to write the results to as JSON, in addition to the table"""
 
     def run(self) -> None:
-        """Play, then print the table."""
+        """Play the matches, then print the table.
+
+        Raises:
+            ValueError: the folder of the JSON file does not exist, or `evaluate` refuses an option.
+        """
         if self.json is not None and not self.json.parent.is_dir():
             raise ValueError(f"json: expected a file in a folder that exists, got {self.json}")
         evaluations = [self._against(opponent) for opponent in self.opponents or (None,)]
@@ -86,6 +90,7 @@ class Evaluate:
             write_atomically(self.json, (json.dumps(results, indent=2) + "\n").encode())
 
     def _against(self, opponent: str | None) -> Evaluation:
+        """Evaluation against one opponent."""
         return evaluate(
             self.policy,
             opponent,
@@ -99,26 +104,32 @@ class Evaluate:
 
 @dataclass(frozen=True)
 class Watch:
-    """Show a match in a window, or film it."""
+    """Show a match in a window, or write it to a video file."""
 
-    policy: Annotated[str, Positional, POLICY] = "chase"
-    opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=OWN_OPPONENT)] = None
-    """who plays yellow, against the policy in blue; likewise"""
-    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=OWN_TASK)] = None
-    """what is played"""
+    policy: Annotated[str, Positional, _POLICY] = "chase"
+    opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_OPPONENT)] = (
+        None
+    )
+    """policy of the yellow team, a name or path, against the policy in blue"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=_DEFAULT_TASK)] = None
+    """task to play"""
     seed: int = 0
-    """another seed, another match"""
+    """random seed; each seed gives another match"""
     seconds: float = 60.0
-    """of play; after a goal a new episode begins"""
+    """seconds of play; a new episode begins when one ends"""
     speed: float = 1.0
-    """of the window's clock: 2 is twice as fast as life"""
+    """speed of the window, above 0: 1 is real time, 2 is twice as fast"""
     width: int | None = None
-    """of the picture, in pixels; one at which robots can be told apart if not given"""
+    """width of the picture in pixels; by default one at which robots can be distinguished"""
     video: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
-    """write an .mp4 or .gif file in place of the window; needs no display"""
+    """.mp4 or .gif file to write instead of opening a window; needs no display"""
 
     def run(self) -> None:
-        """Play on the screen, or into the file."""
+        """Show the match, or write the video file.
+
+        Raises:
+            ValueError: the speed is not positive and finite, or another option is refused.
+        """
         if not 0.0 < self.speed < math.inf:
             raise ValueError(f"speed: expected a positive number, got {self.speed}")
         from rsoccer.render.record import film_match
@@ -155,18 +166,18 @@ Command = (
 
 
 def _summary(task: Task) -> str:
-    """The first line of what a task says of itself."""
+    """First line of the task's docstring."""
     return (type(task).__doc__ or "").strip().split("\n")[0]
 
 
 def _options(task: Task) -> list[str]:
-    """A task's options for `make_task`, each with its default."""
+    """Options of a task for `make_task`, each with its default."""
     names = registry.list_options(type(task))
     return [f"{name}={getattr(task, name)!r}" for name in names]
 
 
 def _team_name(player: str) -> str:
-    """What stands on the score board."""
+    """Name of a policy on the scoreboard: for a file its folder's name."""
     if player.partition(":")[0] in policies.names():
         return player.upper()
     path = Path(player)
@@ -174,4 +185,5 @@ def _team_name(player: str) -> str:
 
 
 def _write(text: str) -> None:
+    """Print a line on standard output."""
     sys.stdout.write(text + "\n")

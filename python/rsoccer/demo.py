@@ -1,4 +1,4 @@
-"""The whole of rSoccer in a few minutes: learn to play, measure it, show it (`make demo`)."""
+"""Demonstration in a few minutes: train a policy, evaluate it, film a match (`make demo`)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,25 @@ from typing import Any
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.render.record import record_match
 from rsoccer.train import Args, train
-from rsoccer.train.learning_curve import draw_curve
+from rsoccer.train.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
 SAMPLES = 1_600_000
-"""Decisions to learn from: two to three minutes on two cores."""
+"""Default number of decisions to learn from: two to three minutes on two cores."""
 
 
 def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any]:
-    """Train, evaluate and film; leaves everything in `out` and returns the metrics."""
+    """Train a policy, evaluate it and film a match.
+
+    Args:
+        out: folder for all files; a run that it holds is replaced.
+        samples: decisions to learn from, at least 1.
+        matches: matches against each of four opponents, an even number.
+
+    Returns:
+        The content of `metrics.json`: the task, the samples, the seconds of each stage and the
+        evaluations.
+    """
     seconds: dict[str, float] = {}
     started = time.monotonic()
 
@@ -36,7 +46,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         evaluate(policy, opponent, matches=matches, seed=1, task=TASK) for opponent in opponents
     ]
     stage("evaluation", table(evaluations))
-    curve = draw_curve(out, out / "curve.png")
+    curve = plot_learning_curve(out, out / "curve.png")
     video = record_match(
         out / "match.mp4",
         task=TASK,
@@ -54,6 +64,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
 def _metrics(
     samples: int, evaluations: list[Evaluation], seconds: dict[str, float]
 ) -> dict[str, Any]:
+    """Content of `metrics.json`."""
     return {
         "task": TASK,
         "samples": samples,

@@ -1,4 +1,4 @@
-"""Short tasks that these tests, and no others, find in the registry."""
+"""Registers the short tasks for the tests of this folder only."""
 
 from collections.abc import Iterator
 

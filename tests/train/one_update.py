@@ -1,4 +1,4 @@
-"""The shortest run there is."""
+"""Settings of the shortest run."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from rsoccer.train import Args
 
 
 def one_update(task: str, folder: Path) -> Args:
-    """Settings of a run of one update: four decisions in three matches, a tiny network."""
+    """Return settings for one update: four decisions in three matches, a tiny network."""
     return Args(
         task,
         folder,

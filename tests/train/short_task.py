@@ -1,4 +1,4 @@
-"""A self-play task whose matches end within seconds, by goals and by the clock."""
+"""Self-play tasks whose matches end within seconds, by goals and by the time limit."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class ShortSelfPlay(VssSelfPlay):
     max_steps: int = 25
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Robots in two columns, so that the way to the goal is free."""
+        """Place robots in two columns, so that the path to the goal is free."""
         frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
         side = np.where(rng.uniform(-1.0, 1.0) < 0, -1.0, 1.0)
         frame.ball.position[:, 0] = 0.6 * side
@@ -33,16 +33,16 @@ class ShortSelfPlay(VssSelfPlay):
 
 @dataclass(frozen=True)
 class Forward(ShortSelfPlay):
-    """Power ahead is all that pays: easy to learn."""
+    """The reward is power ahead alone, so the task is easy to learn."""
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """The mean of both wheels."""
+        """Return the mean of both wheel commands as the reward."""
         _, done = super().calculate_reward_and_done(play)
         return {"forward": play.actions[:, play.observers].clip(-1, 1).mean(axis=2)}, done
 
 
 def register_all() -> None:
-    """Make both known; not on import, since tests of every registered task would play them."""
+    """Register both tasks; not on import, since tests of all registered tasks would play them."""
     register(NAME, ShortSelfPlay)
     register(FORWARD, Forward)
 

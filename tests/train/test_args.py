@@ -1,4 +1,4 @@
-"""Settings of a run: bad ones are refused by name."""
+"""Settings of a run: invalid values raise errors that name the field."""
 
 import json
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 
 from rsoccer.train.args import Args
 
-BAD: list[tuple[str, Any]] = [
+INVALID: list[tuple[str, Any]] = [
     ("samples", 0),
     ("worlds", 0),
     ("threads", 0),
@@ -35,8 +35,8 @@ BAD: list[tuple[str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize(("name", "value"), BAD)
-def test_a_bad_value_is_refused_by_name(name: str, value: Any) -> None:  # noqa: ANN401
+@pytest.mark.parametrize(("name", "value"), INVALID)
+def test_an_invalid_value_is_refused_by_name(name: str, value: Any) -> None:  # noqa: ANN401
     with pytest.raises(ValueError, match=name):
         Args(**{name: value})
 
@@ -46,14 +46,14 @@ def test_resume_and_overwrite_exclude_each_other() -> None:
         Args(resume=True, overwrite=True)
 
 
-def test_settings_survive_json() -> None:
+def test_settings_make_a_round_trip_through_json() -> None:
     args = Args(out=Path("somewhere"), hidden_sizes=(32, 16))
     saved = json.loads(json.dumps(args.to_json()))
     assert args.differences(saved) == []
     assert Args(**saved) == args
 
 
-def test_only_what_changes_the_run_counts_as_a_difference() -> None:
+def test_differences_are_the_fields_that_change_the_run() -> None:
     saved = Args(seed=1).to_json()
     assert Args(seed=1, samples=5, resume=True, out=Path("x")).differences(saved) == []
     assert Args(seed=2, worlds=8).differences(saved) == [

@@ -1,4 +1,4 @@
-"""Checkpoints: whole or not at all, and nothing foreign gets in."""
+"""Checkpoints: complete or not written at all, and foreign files are refused."""
 
 import os
 import tempfile
@@ -23,7 +23,7 @@ SAVED = Checkpoint(
 )
 
 
-def test_what_is_saved_comes_back(tmp_path: Path) -> None:
+def test_a_checkpoint_makes_a_round_trip(tmp_path: Path) -> None:
     path = tmp_path / "a.safetensors"
     checkpoint.save(path, SAVED)
     loaded = checkpoint.load(path)
@@ -51,15 +51,15 @@ def test_an_interrupted_write_leaves_the_old_checkpoint(
     with pytest.raises(OSError, match="no space"):
         checkpoint.save(path, Checkpoint({"other": np.zeros(9)}, {}))
     assert path.read_bytes() == before
-    assert [file.name for file in tmp_path.iterdir()] == [path.name], "a leftover stays behind"
+    assert [file.name for file in tmp_path.iterdir()] == [path.name], "a temporary file is left"
 
 
 def test_every_truncation_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.safetensors"
     checkpoint.save(path, SAVED)
-    whole = path.read_bytes()
-    for size in [*range(0, len(whole), 29), len(whole) - 1]:
-        path.write_bytes(whole[:size])
+    content = path.read_bytes()
+    for size in [*range(0, len(content), 29), len(content) - 1]:
+        path.write_bytes(content[:size])
         with pytest.raises(ValueError, match=r"a\.safetensors is damaged"):
             checkpoint.load(path)
 
@@ -68,7 +68,7 @@ def test_foreign_files_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.safetensors"
     with pytest.raises(ValueError, match="does not exist"):
         checkpoint.load(path)
-    path.write_bytes(b"\x80\x04K\x01." * 100)  # looks like a pickle
+    path.write_bytes(b"\x80\x04K\x01." * 100)  # the start of a pickle
     with pytest.raises(ValueError, match="damaged or not a checkpoint"):
         checkpoint.load(path)
     save_file({"a": np.zeros(2)}, path, {"format": "rsoccer-policy-1"})
@@ -89,7 +89,7 @@ def test_a_folder_that_cannot_be_written_is_refused_first(
     def refuse(*args: object, **options: object) -> None:
         raise PermissionError("read-only file system")
 
-    # Permissions do not bind an administrator, so the system's refusal is played.
+    # Permissions do not bind root, so the refusal of the system is simulated.
     monkeypatch.setattr(tempfile, "TemporaryFile", refuse)
     with pytest.raises(ValueError, match="read-only file system"):
         checkpoint.prepare_folder(tmp_path / "new")

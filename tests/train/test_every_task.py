@@ -1,4 +1,4 @@
-"""Every registered task can be trained on: a first update of a tiny network, all of it finite."""
+"""Every registered task can be trained: the first update of a tiny network is finite."""
 
 import csv
 import math
@@ -13,11 +13,11 @@ from rsoccer.train import Args, train
 from rsoccer.train.log import EpisodeStats, read_progress
 from tests.train.one_update import one_update
 
-TASKS = rsoccer.list_tasks()  # before the short tasks of other tests here are known
+TASKS = rsoccer.list_tasks()  # without the short tasks of the other tests here
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_first_update_can_be_made(name: str, tmp_path: Path) -> None:
+def test_the_first_update_is_finite(name: str, tmp_path: Path) -> None:
     policy = Network.load(train(one_update(name, tmp_path)))
     task = rsoccer.make_task(name)
     policy.check_fits(task, task.observation_size)
@@ -31,7 +31,7 @@ def test_a_first_update_can_be_made(name: str, tmp_path: Path) -> None:
     )
 
 
-def test_a_metric_named_seconds_was_written_over_the_runs_own(tmp_path: Path) -> None:
+def test_metrics_of_a_task_do_not_replace_columns_of_the_run(tmp_path: Path) -> None:
     args = Args(
         "SSLGoToBall-v0",
         tmp_path,
@@ -46,10 +46,12 @@ def test_a_metric_named_seconds_was_written_over_the_runs_own(tmp_path: Path) ->
     train(args)
     seconds = read_progress(tmp_path)["seconds"]
     assert len(seconds) == 2
-    assert 0.0 < seconds[0] < seconds[1], "no clock on the wall"
+    assert 0.0 < seconds[0] < seconds[1], "not the elapsed time"
     assert "episode/seconds" in read_progress(tmp_path)
-    own = {name for name in read_progress(tmp_path) if "/" not in name}
-    assert own >= {"seconds", "samples", "episodes", "reward", "time_physics"}
+    run_columns = {name for name in read_progress(tmp_path) if "/" not in name}
+    assert run_columns >= {"seconds", "samples", "episodes", "reward", "time_physics"}
     episode_stats = EpisodeStats(("ou",))
-    episode_stats.add(np.zeros(1, int), {name: np.full(1, 7.0) for name in own})
-    assert set(episode_stats.take()) & own == {"episodes"}, "a metric takes a column of the run"
+    episode_stats.add(np.zeros(1, int), {name: np.full(1, 7.0) for name in run_columns})
+    assert set(episode_stats.take()) & run_columns == {"episodes"}, (
+        "a metric replaces a column of the run"
+    )

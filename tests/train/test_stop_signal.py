@@ -1,4 +1,4 @@
-"""Signals: the run saves, says so and leaves; and can go on."""
+"""Signals: the run saves a checkpoint, reports it and ends; it can be resumed."""
 
 import os
 import signal
@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from rsoccer.train import Args, checkpoint, train
-from rsoccer.train.stop_signal import Stop, Stopped
+from rsoccer.train.stop_signal import Stopped, StopSignal
 from tests.train.short_task import TINY
 
 SCRIPT = """
@@ -27,22 +27,22 @@ train(Args(**{**TINY, "out": Path(sys.argv[1]), "samples": 10**9, "checkpoint_in
 def wait_for(condition: object, seconds: float = 60.0) -> None:
     deadline = time.monotonic() + seconds
     while not condition():  # type: ignore[operator]
-        assert time.monotonic() < deadline, "it never happened"
+        assert time.monotonic() < deadline, "timeout"
         time.sleep(0.02)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_saves_and_the_run_can_go_on(number: signal.Signals, tmp_path: Path) -> None:
+def test_a_run_that_a_signal_ended_can_be_resumed(number: signal.Signals, tmp_path: Path) -> None:
     process = subprocess.Popen(
         [sys.executable, "-c", SCRIPT, str(tmp_path)], stderr=subprocess.PIPE, text=True
     )
     log = tmp_path / "progress.csv"
     wait_for(lambda: process.poll() is not None or (log.exists() and log.stat().st_size > 500))
     process.send_signal(number)
-    _, said = process.communicate(timeout=120)  # of a run that would go on for hours
+    _, errors = process.communicate(timeout=120)  # the run itself would take hours
     assert process.returncode == 128 + number
-    assert f"{number.name}: saved after" in said and "--resume" in said
-    assert "Traceback" not in said
+    assert f"{number.name}: saved after" in errors and "--resume" in errors
+    assert "Traceback" not in errors
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["samples"] > 0
     target = saved.info["samples"] + 144
@@ -51,34 +51,34 @@ def test_a_signal_saves_and_the_run_can_go_on(number: signal.Signals, tmp_path: 
     assert resumed.info["samples"] == target
 
 
-def test_the_first_signal_asks_and_the_second_acts() -> None:
-    def act(number: int, frame: object) -> None:
+def test_the_first_signal_sets_a_flag_and_the_second_acts_as_usual() -> None:
+    def handler(number: int, frame: object) -> None:
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGINT, act)
+    previous = signal.signal(signal.SIGINT, handler)
     try:
-        with Stop() as stop:
+        with StopSignal() as stop:
             stop.check()
             os.kill(os.getpid(), signal.SIGINT)
-            assert (stop.name, stop.status) == ("SIGINT", 130)
+            assert (stop.name, stop.exit_status) == ("SIGINT", 130)
             with pytest.raises(Stopped):
                 stop.check()
             with pytest.raises(KeyboardInterrupt):
                 os.kill(os.getpid(), signal.SIGINT)
-        assert signal.getsignal(signal.SIGINT) is act
+        assert signal.getsignal(signal.SIGINT) is handler
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.signal(signal.SIGINT, previous)
 
 
-def test_outside_the_main_thread_signals_stay_as_they_are() -> None:
-    before = signal.getsignal(signal.SIGINT)
-    seen = []
+def test_other_threads_do_not_catch_signals() -> None:
+    previous = signal.getsignal(signal.SIGINT)
+    handlers = []
 
     def enter() -> None:
-        with Stop():
-            seen.append(signal.getsignal(signal.SIGINT))
+        with StopSignal():
+            handlers.append(signal.getsignal(signal.SIGINT))
 
     thread = threading.Thread(target=enter)
     thread.start()
     thread.join()
-    assert seen == [before]
+    assert handlers == [previous]

@@ -1,4 +1,4 @@
-"""A run: the same again, the same after a break, and better than before."""
+"""Training runs: equal for equal seeds, equal after a resume, and rewards rise."""
 
 import csv
 import hashlib
@@ -13,7 +13,7 @@ import torch
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, checkpoint, train
 from rsoccer.train.run_state import capture
-from rsoccer.train.stop_signal import Stop, Stopped
+from rsoccer.train.stop_signal import Stopped, StopSignal
 from rsoccer.train.trainer import Trainer
 from tests.train.short_task import FORWARD, NAME, TINY
 
@@ -23,7 +23,7 @@ def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
 
 
 def digest(folder: Path) -> str:
-    """SHA-256 over every array of a run's checkpoint, and the plain values that count."""
+    """Return the SHA-256 of every array of a run's checkpoint, and of its counters."""
     saved = checkpoint.load(folder / checkpoint.FILE_NAME)
     total = hashlib.sha256()
     for name, array in sorted(saved.arrays.items()):
@@ -33,28 +33,28 @@ def digest(folder: Path) -> str:
 
 
 def progress(folder: Path) -> list[dict[str, str]]:
-    """Rows of the log without what depends on the clock on the wall."""
+    """Return the rows of the log without the columns that depend on wall-clock time."""
     with (folder / "progress.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    clocks = ("seconds", "samples_per_second", "time_")
-    return [{k: v for k, v in row.items() if not k.startswith(clocks)} for row in rows]
+    times = ("seconds", "samples_per_second", "time_")
+    return [{k: v for k, v in row.items() if not k.startswith(times)} for row in rows]
 
 
-class StopAfter(Stop):
-    """Plays a signal that comes at the given check."""
+class StopAfter(StopSignal):
+    """A signal that comes at the given check."""
 
     def __init__(self, checks: int) -> None:
         super().__init__()
-        self.left = checks
+        self.checks_left = checks
 
     def check(self) -> None:
-        self.left -= 1
-        if self.left < 0:
-            raise Stopped("played")
+        self.checks_left -= 1
+        if self.checks_left < 0:
+            raise Stopped("test")
 
 
 def run_until(args: Args, checks: int) -> int:
-    """Train until a signal at the given check; the updates done by then."""
+    """Train until a signal at the given check, and return the number of updates."""
     trainer = Trainer(args)
     with pytest.raises(Stopped):
         trainer.run(StopAfter(checks), 0)
@@ -62,38 +62,38 @@ def run_until(args: Args, checks: int) -> int:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A run that nothing interrupted."""
-    folder = tmp_path_factory.mktemp("whole")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the folder of a run without interruption."""
+    folder = tmp_path_factory.mktemp("finished")
     train(tiny(folder))
     return folder
 
 
-def test_the_run_played_what_it_should(whole: Path) -> None:
-    rows = progress(whole)
+def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> None:
+    rows = progress(finished)
     assert len(rows) == 6
     assert [int(row["samples"]) for row in rows] == [144 * k for k in range(1, 7)]
     assert sum(int(row["episodes"]) for row in rows) > 10
     assert sum(float(row["goals_for"]) for row in rows) > 0
     assert sum(float(row["goals_against"]) for row in rows) > 0
-    arrays = checkpoint.load(whole / checkpoint.FILE_NAME).arrays
-    assert set(arrays["worlds.yellow_0.opponent"].tolist()) & {2, 3}, "no past self plays"
-    assert arrays["pool.born"].tolist() == [5, 6]
-    settings = json.loads((whole / "args.json").read_text())
+    arrays = checkpoint.load(finished / checkpoint.FILE_NAME).arrays
+    assert set(arrays["worlds.yellow_0.opponent"].tolist()) & {2, 3}, "no past policy plays"
+    assert arrays["pool.frozen_at"].tolist() == [5, 6]
+    settings = json.loads((finished / "args.json").read_text())
     assert settings["task"] == NAME and settings["worlds"] == 6
-    assert list((whole / "tensorboard").iterdir())
+    assert list((finished / "tensorboard").iterdir())
 
 
-def test_the_same_seed_gives_the_same_run(whole: Path, tmp_path: Path) -> None:
-    torch.manual_seed(123)  # whatever else draws random numbers
+def test_the_same_seed_gives_the_same_run(finished: Path, tmp_path: Path) -> None:
+    torch.manual_seed(123)  # global generators must not matter
     np.random.seed(5)  # noqa: NPY002
     train(tiny(tmp_path / "same"))
-    assert digest(tmp_path / "same") == digest(whole)
+    assert digest(tmp_path / "same") == digest(finished)
     train(tiny(tmp_path / "other", seed=1))
-    assert digest(tmp_path / "other") != digest(whole)
+    assert digest(tmp_path / "other") != digest(finished)
 
 
-def test_training_leaves_global_random_numbers_alone(tmp_path: Path) -> None:
+def test_training_does_not_use_global_generators(tmp_path: Path) -> None:
     torch.manual_seed(7)
     np.random.seed(7)  # noqa: NPY002
     expected = torch.rand(3).tolist(), np.random.rand(3).tolist()  # noqa: NPY002
@@ -103,54 +103,54 @@ def test_training_leaves_global_random_numbers_alone(tmp_path: Path) -> None:
     assert (torch.rand(3).tolist(), np.random.rand(3).tolist()) == expected  # noqa: NPY002
 
 
-# Per update there are 8 checks while playing, 4 while learning and one between.
+# An update has 8 checks in the rollout, 4 in the minibatches and one at the end.
 @pytest.mark.parametrize(
     ("checks", "updates"), [(0, 0), (3, 0), (13 + 4, 1), (3 * 13 + 10, 3), (5 * 13 + 12, 6)]
 )
 def test_a_resumed_run_equals_the_uninterrupted_one(
-    checks: int, updates: int, whole: Path, tmp_path: Path
+    checks: int, updates: int, finished: Path, tmp_path: Path
 ) -> None:
     assert run_until(tiny(tmp_path), checks) == updates
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["updates"] == updates
-    assert digest(tmp_path) != digest(whole) or updates == 6
+    assert digest(tmp_path) != digest(finished) or updates == 6
     train(tiny(tmp_path, resume=True))
-    assert digest(tmp_path) == digest(whole)
-    assert progress(tmp_path) == progress(whole)
-    policies = [Network.load(folder / "policy.safetensors") for folder in (tmp_path, whole)]
+    assert digest(tmp_path) == digest(finished)
+    assert progress(tmp_path) == progress(finished)
+    policies = [Network.load(folder / "policy.safetensors") for folder in (tmp_path, finished)]
     resumed, expected = (policy.arrays() for policy in policies)
     assert all(resumed[name].tobytes() == expected[name].tobytes() for name in expected)
 
 
-def test_rows_after_the_checkpoint_are_dropped(whole: Path, tmp_path: Path) -> None:
+def test_rows_after_the_checkpoint_are_dropped(finished: Path, tmp_path: Path) -> None:
     run_until(tiny(tmp_path), 2 * 13)
     with (tmp_path / "progress.csv").open("a") as file:
-        file.write("a row that was written before the machine died")
+        file.write("a row from before a crash")
     train(tiny(tmp_path, resume=True))
-    assert progress(tmp_path) == progress(whole)
+    assert progress(tmp_path) == progress(finished)
 
 
-def test_a_task_with_one_learning_side_trains_against_its_own_opponent(tmp_path: Path) -> None:
+def test_a_task_with_one_learning_team_keeps_its_own_opponent(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", solo_fraction=0))
     assert trainer.pool is None
-    assert trainer.matches.agents == ("blue_0", "blue_1", "blue_2")
+    assert trainer.collector.matches.agents == ("blue_0", "blue_1", "blue_2")
     train(tiny(tmp_path, task="VSSMulti-v0", samples=144))
     assert Network.load(tmp_path / "policy.safetensors").task_name == "VSSMulti-v0"
 
 
-def test_a_run_starts_with_a_lone_learner_and_goes_on_with_all(tmp_path: Path) -> None:
+def test_a_run_starts_solo_and_continues_with_self_play(tmp_path: Path) -> None:
     args = tiny(tmp_path)
     trainer = Trainer(args)
-    assert list(trainer.matches.agents) == ["blue_0"]
-    assert trainer.matches.worlds == args.worlds * 3, "as many learners as later"
-    trainer.run(Stop(), 0)
-    assert list(trainer.matches.agents) == ["blue_0", "blue_1", "blue_2"]
+    assert list(trainer.collector.matches.agents) == ["blue_0"]
+    assert trainer.collector.matches.worlds == args.worlds * 3, "as many learners as in self-play"
+    trainer.run(StopSignal(), 0)
+    assert list(trainer.collector.matches.agents) == ["blue_0", "blue_1", "blue_2"]
     assert not trainer.is_solo
-    shares = [row["episode_latest/goal_score"] for row in progress(tmp_path)]
-    assert set(shares[:3]) == {"nan"}, "nobody but drifting robots at first"
+    scores = [row["episode_latest/goal_score"] for row in progress(tmp_path)]
+    assert set(scores[:3]) == {"nan"}, "solo learners meet drifting robots only"
 
 
-def test_learning_raises_what_is_rewarded(tmp_path: Path) -> None:
+def test_training_raises_the_reward(tmp_path: Path) -> None:
     args = tiny(
         tmp_path,
         task=FORWARD,
@@ -162,30 +162,30 @@ def test_learning_raises_what_is_rewarded(tmp_path: Path) -> None:
     )
     trainer, rewards = Trainer(args), []
     for _ in range(25):
-        trainer.learn(trainer.play(lambda: None), lambda: None)
-        rewards.append(trainer.row.pop("reward") / args.action_repeat)
-    assert abs(rewards[0]) < 0.1, "at first it knows nothing"
-    assert rewards[-1] > 0.6, "the best there is is 1, at full power ahead"
+        trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
+        rewards.append(trainer.collector.reward_means["reward"] / args.action_repeat)
+    assert abs(rewards[0]) < 0.1, "untrained"
+    assert rewards[-1] > 0.6, "the maximum is 1, at full power ahead"
 
 
-def test_capturing_changes_nothing(tmp_path: Path) -> None:
+def test_capturing_the_state_does_not_change_the_run(tmp_path: Path) -> None:
     first, second = Trainer(tiny(tmp_path)), Trainer(tiny(tmp_path))
     for _ in range(2):
         capture(first, 0)
         for trainer in (first, second):
-            trainer.learn(trainer.play(lambda: None), lambda: None)
+            trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
     left, right = capture(first, 0).arrays, capture(second, 0).arrays
     assert all(left[name].tobytes() == right[name].tobytes() for name in left)
 
 
-# -- Bad input --
+# -- Invalid input --
 
 
-def test_a_folder_with_a_run_is_not_overwritten_unasked(whole: Path) -> None:
-    before = digest(whole)
+def test_a_folder_with_a_run_is_not_overwritten_by_default(finished: Path) -> None:
+    before = digest(finished)
     with pytest.raises(ValueError, match="holds a run"):
-        train(tiny(whole))
-    assert digest(whole) == before
+        train(tiny(finished))
+    assert digest(finished) == before
 
 
 def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
@@ -193,18 +193,16 @@ def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
         train(tiny(tmp_path, resume=True))
 
 
-def test_resuming_with_other_settings_is_refused(whole: Path) -> None:
+def test_resuming_with_other_settings_is_refused(finished: Path) -> None:
     with pytest.raises(ValueError, match=r"gamma was 0\.97, now 0\.9"):
-        train(tiny(whole, resume=True, gamma=0.9))
+        train(tiny(finished, resume=True, gamma=0.9))
     with pytest.raises(ValueError, match="task was 'ShortSelfPlay-v0', now 'VSSMulti-v0'"):
-        train(tiny(whole, resume=True, task="VSSMulti-v0"))
+        train(tiny(finished, resume=True, task="VSSMulti-v0"))
 
 
 @pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.generator"])
-def test_a_checkpoint_that_lacks_something_is_refused(
-    missing: str, whole: Path, tmp_path: Path
-) -> None:
-    saved = checkpoint.load(whole / checkpoint.FILE_NAME)
+def test_an_incomplete_checkpoint_is_refused(missing: str, finished: Path, tmp_path: Path) -> None:
+    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
     del saved.arrays[missing]
     checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
     with pytest.raises(ValueError, match="does not fit"):

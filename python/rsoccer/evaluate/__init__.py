@@ -1,11 +1,11 @@
-"""How good a policy is at a task: matches from a fixed list of starts, with intervals.
+"""Evaluation of policies: matches from a fixed list of starts, with confidence intervals.
 
     >>> print(rsoccer.evaluate("chase", "ou", matches=200, seed=0))  # doctest: +SKIP
 
-Every match starts anew, ends as the task says or at the clock, and counts once. What counts is the
-task's own: the metric that it names as its success. Where yellow can play blue's part, a policy
-plays half of the matches from each side: one that has learned a single side, or a slip in what
-yellow sees, shows in nothing else.
+Every match starts anew, ends by the task's rules or at the time limit, and counts once. Its score
+is the metric that the task names as its success. In two-sided tasks, where yellow can play blue's
+part, a policy plays half of the matches for each team. Otherwise a policy that has learned one
+side only, or an error in yellow's view, would go unnoticed.
 """
 
 from __future__ import annotations
@@ -15,8 +15,14 @@ import os
 import numpy as np
 
 from rsoccer import checks
-from rsoccer.evaluate.episodes import Doubles, Episodes, Terms, play
-from rsoccer.evaluate.results import Evaluation, Interval, Results, estimated, results
+from rsoccer.evaluate.episodes import Doubles, EpisodeRunner, Episodes
+from rsoccer.evaluate.results import (
+    Evaluation,
+    Interval,
+    Results,
+    bootstrap_interval,
+    count_results,
+)
 from rsoccer.evaluate.tables import table
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make, name_of
@@ -38,72 +44,92 @@ def evaluate(
     worlds: int = 50,
     threads: int | None = None,
 ) -> Evaluation:
-    """Play a policy at a task: the one it was trained on, or VSSSelfPlay-v0 for a script.
+    """Play matches of a task with a policy in the place of its learners.
 
-    It drives the robots that learn. All others follow who the task has for them; `opponent` takes
-    the other team's place, which is `ou` where that team learns too. Where yellow can play blue's
-    part (`Task.two_sided`), half of the matches are played from each side, so `matches` must be
-    even there. The same seed gives the same result whatever `threads` is (default: every
-    processor). `worlds` matches are played at once; another number plays the same starts, and a
-    network's last bits may differ.
+    All other robots keep the task's default controllers. In two-sided tasks (`Task.two_sided`) the
+    policy plays half of the matches for blue and half for yellow.
+
+    Args:
+        policy: a policy, its name, or the path of its file. It controls the robots that learn.
+        opponent: a policy for all robots of the other team. By default the task's own, and "ou"
+            for robots that learn.
+        matches: number of matches, at least 1; even and at least 2 in two-sided tasks.
+        seed: at least 0; equal seeds give equal results for any `threads`.
+        task: a task or its name; by default the one that the policy was trained on, and
+            VSSSelfPlay-v0 for scripts.
+        worlds: matches played at once, at least 1. The starts do not depend on it, but a network's
+            actions may differ in their last bits.
+        threads: threads of the simulator, at least 1; by default one per available processor.
+
+    Returns:
+        Counts, the mean score, the mean return and the mean duration with their intervals.
+
+    Raises:
+        ValueError: a number out of range, an unknown policy or task, a policy that does not fit
+            the task, an opponent in a task with one team, or a two-sided task without a success
+            metric.
+        TypeError: an argument of the wrong type.
+        FileNotFoundError: the policy file does not exist.
     """
     check_policy_like("policy", policy)
     if opponent is not None:
         check_policy_like("opponent", opponent)
     task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
-    each = _matches_of_a_side(task, matches)
+    per_side = _matches_per_side(task, matches)
     checks.integer("seed", seed, 0)
     checks.integer("worlds", worlds, 1)
     threads = _processors() if threads is None else checks.integer("threads", threads, 1)
-    other: Policy | None = None
+    opponent_policy: Policy | None = None
     if opponent is not None:
-        other = make(opponent, task)
-    driver = make(policy, task)
-    played = []
-    for number, side in enumerate(sides):
-        start = np.random.SeedSequence((seed, number))
-        base = int(start.generate_state(1, np.uint64)[0]) >> 1
-        terms = Terms(task, lineup(task, LEARN, other, side), driver, worlds, threads)
-        played.append(play(terms, each, base))
-    chance = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
-    others = opponents_of(task) if opponent is None else [name_of(opponent)]
-    names = (name_of(policy), " ".join(others) or "-")
-    return _evaluation(task, names, seed, played, chance)
+        opponent_policy = make(opponent, task)
+    own_policy = make(policy, task)
+    episodes = []
+    for index, side in enumerate(sides):
+        words = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
+        first_seed = int(words[0]) >> 1
+        controllers = lineup(task, LEARN, opponent_policy, side)
+        runner = EpisodeRunner(task, controllers, own_policy, worlds, threads)
+        episodes.append(runner.run(per_side, first_seed))
+    rng = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
+    opponents = opponents_of(task) if opponent is None else [name_of(opponent)]
+    names = (name_of(policy), " ".join(opponents) or "-")
+    return _evaluation(task, names, seed, episodes, rng)
 
 
 def _evaluation(
     task: Task,
     names: tuple[str, str],
     seed: int,
-    played: list[Episodes],
-    chance: np.random.Generator,
+    episodes: list[Episodes],
+    rng: np.random.Generator,
 ) -> Evaluation:
-    """What the matches of all sides come to."""
-    # What is reported is blue's; no draw shall read as -0.
-    scores = [each.score * (1 - 2 * side) + 0.0 for side, each in enumerate(played)]
-    seconds = [episodes.seconds for episodes in played]
-    decided = np.concatenate(seconds)[np.concatenate([each.decided for each in played])]
+    """Summary of the episodes of each side."""
+    # Scores are blue's, so those of yellow change their sign; adding 0.0 turns -0.0 into 0.0.
+    scores = [part.scores * (1 - 2 * side) + 0.0 for side, part in enumerate(episodes)]
+    seconds = [part.seconds for part in episodes]
+    decided = np.concatenate(seconds)[np.concatenate([part.decided for part in episodes])]
     return Evaluation(
-        **vars(results(scores, chance)),
+        **vars(count_results(scores, rng)),
         policy=names[0],
         opponent=names[1],
         task=task.name,
         seed=seed,
-        metric=played[0].metric,
-        sides=_by_side(scores, chance) if task.two_sided else {},
-        returns=estimated([episodes.returns for episodes in played], chance),
-        seconds=estimated(seconds, chance),
+        metric=episodes[0].metric,
+        sides=_by_side(scores, rng) if task.two_sided else {},
+        returns=bootstrap_interval([part.returns for part in episodes], rng),
+        seconds=bootstrap_interval(seconds, rng),
         decided_after=float(decided.mean()) if len(decided) else None,
     )
 
 
-def _by_side(scores: list[Doubles], chance: np.random.Generator) -> dict[str, Results]:
-    return {side: results([each], chance) for side, each in zip(SIDES, scores, strict=True)}
+def _by_side(scores: list[Doubles], rng: np.random.Generator) -> dict[str, Results]:
+    """Results of each side by its name."""
+    return {side: count_results([part], rng) for side, part in zip(SIDES, scores, strict=True)}
 
 
-def _matches_of_a_side(task: Task, matches: int) -> int:
-    """How many to play from each side, so that there are exactly as many as were asked for."""
+def _matches_per_side(task: Task, matches: int) -> int:
+    """Number of matches for each side, so that their sum is `matches`."""
     if task.two_sided and task.success is None:
         raise ValueError(f"task: {task.name} has two sides and must name its success, got None")
     if not task.two_sided:
@@ -117,5 +143,5 @@ def _matches_of_a_side(task: Task, matches: int) -> int:
 
 
 def _processors() -> int:
-    """Processors that this process may use."""
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

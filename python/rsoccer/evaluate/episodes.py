@@ -1,4 +1,4 @@
-"""Matches played to their end, each once, and what came of them."""
+"""Episodes of an evaluation: each match is played to its end and counts once."""
 
 from __future__ import annotations
 
@@ -16,76 +16,91 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
 Doubles = NDArray[np.float64]
+"""Array of double precision."""
 
 RETURN = "return"
-"""What stands for a metric where a task names no success."""
-
-
-@dataclass(frozen=True)
-class Terms:
-    """Who plays, and how."""
-
-    task: Task
-    controllers: Mapping[str, Controller]
-    policy: Policy  # drives those that learn
-    worlds: int  # matches at once
-    threads: int
+"""Name of the score of a task without a success metric: the return of the episode."""
 
 
 @dataclass(frozen=True)
 class Episodes:
-    """What each match came to, (n,) each."""
+    """Results of n episodes."""
 
-    metric: str  # what the score is
-    score: Doubles  # the task's success, as the task counts it
-    returns: Doubles  # mean over the policy's robots of all that they were paid
+    metric: str
+    """name of the score: the task's success metric, or `RETURN`"""
+    scores: Doubles
+    """(n,) value of the metric at the end of the episode"""
+    returns: Doubles
+    """(n,) sum of rewards, undiscounted, a mean over the robots that learn"""
     seconds: Doubles
-    decided: NDArray[np.bool_]  # by a goal of either side, or by full success
+    """(n,) duration"""
+    decided: NDArray[np.bool_]
+    """(n,) a team scored a goal (two-sided tasks), or the success was full"""
 
 
-def play(terms: Terms, count: int, base: int) -> Episodes:
-    """Play `count` matches, the i-th of them with seed `base + i`, as many at once as may be."""
-    parts = [
-        _play(terms, min(terms.worlds, count - first), base + first)
-        for first in range(0, count, terms.worlds)
-    ]
-    score, returns, steps = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
-    task, metric = terms.task, terms.task.success
-    full = task.full_success
-    decided = score != 0.0 if task.two_sided else score >= (np.inf if full is None else full)
-    if metric is None:
-        score, decided = returns, np.zeros(count, np.bool_)
-    return Episodes(metric or RETURN, score, returns, steps * task.config.time_step, decided)
+@dataclass(frozen=True)
+class EpisodeRunner:
+    """Plays matches in which one policy controls the robots that learn."""
 
+    task: Task
+    controllers: Mapping[str, Controller]
+    """controllers by robot; `LEARN` for the robots of the policy"""
+    policy: Policy
+    worlds: int
+    """matches played at once, at least 1"""
+    threads: int
+    """threads of the simulator, at least 1"""
 
-def _play(terms: Terms, n: int, seed: int) -> tuple[Doubles, Doubles, Doubles]:
-    """Success, return and steps of n matches, (n,) each."""
-    # Ended worlds wait, so long matches count as often as short ones.
-    matches = Matches(
-        terms.task,
-        n,
-        seed,
-        terms.threads,
-        controllers=terms.controllers,
-        autoreset="disabled",
-    )
-    observations = matches.reset()
-    driver = _Driver(terms.policy, matches, seed)
-    score, returns, steps = np.zeros(n), np.zeros(n), np.zeros(n)
-    playing = ~matches.done
-    while playing.any():
-        outcome = matches.step(driver.act(observations))
-        observations = outcome.observations
-        steps += playing
-        returns += outcome.rewards.mean(axis=1)  # nothing where a match waits
-        ending = playing & outcome.ended
-        score[ending] = _success(terms.task, outcome)[ending]
-        playing &= ~ending
-    return score, returns, steps
+    def run(self, count: int, first_seed: int) -> Episodes:
+        """Play matches, at most `worlds` at once.
+
+        Args:
+            count: number of matches, at least 1.
+            first_seed: match i has the seed `first_seed + i`.
+
+        Returns:
+            Results of all matches, in the order of their seeds.
+        """
+        batches = [
+            self._run_batch(min(self.worlds, count - start), first_seed + start)
+            for start in range(0, count, self.worlds)
+        ]
+        scores, returns, steps = (np.concatenate(parts) for parts in zip(*batches, strict=True))
+        task, metric = self.task, self.task.success
+        full = np.inf if task.full_success is None else task.full_success
+        decided = scores != 0.0 if task.two_sided else scores >= full
+        if metric is None:
+            scores, decided = returns, np.zeros(count, np.bool_)
+        return Episodes(metric or RETURN, scores, returns, steps * task.config.time_step, decided)
+
+    def _run_batch(self, n: int, seed: int) -> tuple[Doubles, Doubles, Doubles]:
+        """Scores, returns and steps of n matches at once, (n,) each."""
+        # Ended worlds wait, so long matches count as often as short ones.
+        matches = Matches(
+            self.task,
+            n,
+            seed,
+            self.threads,
+            controllers=self.controllers,
+            autoreset="disabled",
+        )
+        observations = matches.reset()
+        learners = _LearnerPolicy(self.policy, matches, seed)
+        scores, returns, steps = np.zeros(n), np.zeros(n), np.zeros(n)
+        playing = ~matches.done
+        while playing.any():
+            outcome = matches.step(learners.act(observations))
+            observations = outcome.observations
+            steps += playing
+            returns += outcome.rewards.mean(axis=1)  # zero where a match waits
+            ending = playing & outcome.ended
+            scores[ending] = _success(self.task, outcome)[ending]
+            playing &= ~ending
+        return scores, returns, steps
 
 
 def _success(task: Task, outcome: Outcome) -> Floats:
-    """The task's metric (n,), or zeros where it names none."""
+    """The task's success metric (n,), or zeros if it names none."""
     if task.success is None:
         return np.zeros(len(outcome.terminated), np.float32)
     if task.success not in outcome.metrics:
@@ -93,21 +108,20 @@ def _success(task: Task, outcome: Outcome) -> Floats:
     return outcome.metrics[task.success]
 
 
-class _Driver:
-    """A policy in the place of those that learn: they are paid, which others are not."""
+class _LearnerPolicy:
+    """A policy in the place of the learners: only learners receive rewards."""
 
     def __init__(self, policy: Policy, matches: Matches, seed: int) -> None:
-        """Take the learners of matches that have just begun; world i draws by `seed + i`."""
+        """Control the learners of new matches; world i draws with the seed `seed + i`."""
         self._policy, self._matches = policy, matches
         self._shape = (matches.worlds, len(matches.agents), matches.action_size)
         self._rng = WorldRng.seeded(seed, matches.worlds).split(matches.agents[0])
         self._memory = policy.new_memory(self._shape, self._rng)
 
     def act(self, observations: Floats) -> Floats:
-        """What the learners do, (n, agents, action), by what they see (n, agents, o)."""
-        view, seen = None, None
+        """Actions of the learners (n, agents, action) for their observations (n, agents, o)."""
+        view = None
         if self._policy.observes != "nothing":
             view = self._matches.play.view.select(self._matches.assignment.learner_indices)
-        if self._policy.observes == "observation":
-            seen = observations
-        return self._policy.act(PolicyInput(self._shape, view, seen), self._rng, self._memory)
+        own = observations if self._policy.observes == "observation" else None
+        return self._policy.act(PolicyInput(self._shape, view, own), self._rng, self._memory)

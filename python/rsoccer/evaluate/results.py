@@ -1,4 +1,4 @@
-"""What an evaluation found: means of matches, and how sure they are."""
+"""Results of an evaluation: means over matches with bootstrap confidence intervals."""
 
 from __future__ import annotations
 
@@ -10,49 +10,67 @@ import numpy as np
 
 from rsoccer.evaluate.episodes import Doubles
 
-RESAMPLES = 10_000  # of the bootstrap; an interval's ends then repeat to about 0.005
-DRAWN_AT_ONCE = 2**20  # numbers, so that many matches need no more memory than few
+N_RESAMPLES = 10_000
+"""Resamples of the bootstrap; the bounds of an interval then repeat to about 0.005."""
+_DRAWN_AT_ONCE = 2**20  # indices; bounds the memory for any number of matches
 
 
 @dataclass(frozen=True)
 class Interval:
-    """A mean, and where the true one is 19 times in 20."""
+    """A mean with its 95% bootstrap confidence interval."""
 
     mean: float
-    low: float  # lower end of the 95% bootstrap interval
-    high: float  # its upper end; both equal the mean where all matches ended alike
+    low: float
+    """lower bound"""
+    high: float
+    """upper bound; both bounds equal the mean if all values are equal"""
 
 
 @dataclass(frozen=True)
 class Results:
-    """How some matches ended, by the task's success: above 0 is won, below 0 lost."""
+    """Wins, draws, losses and mean score of some matches, by the task's success metric."""
 
     matches: int
     wins: int
+    """matches with a score above 0"""
     draws: int
+    """matches with a score of 0"""
     losses: int
-    score: float  # mean success: of goal scores (wins - losses) / matches, from -1 to 1
-    low: float  # ends of its 95% interval, as in `Interval`
+    """matches with a score below 0"""
+    score: float
+    """mean score; for goal scores (wins - losses) / matches, from -1 to 1"""
+    low: float
+    """lower bound of the score's 95% interval, as in `Interval`"""
     high: float
+    """upper bound of the score's 95% interval"""
 
 
 @dataclass(frozen=True)
 class Evaluation(Results):
-    """What `evaluate` found; `print` it, or put several into one `table`."""
+    """Result of `evaluate`; `print` shows it, and `table` compares several."""
 
     policy: str
-    opponent: str  # who drives the other team; "-" where there is none
+    """name or file of the policy, or its class"""
+    opponent: str
+    """policies of the other team, as `policy`; "-" if there is none"""
     task: str
+    """name of the task"""
     seed: int
-    metric: str  # what the score is the mean of: the task's success, or "return" if it names none
-    sides: dict[str, Results]  # by the colour it played, where it played both; else empty
-    returns: Interval  # rewards of an episode, a mean over the robots that the policy drives
-    seconds: Interval  # how long an episode lasted
-    # Mean seconds of matches with a goal of either team, or else with full success; None if none.
+    """seed of the evaluation"""
+    metric: str
+    """metric whose mean is the score: the task's success, or "return" if it names none"""
+    sides: dict[str, Results]
+    """results by the team that the policy played for, "blue" and "yellow"; empty if one-sided"""
+    returns: Interval
+    """undiscounted return of an episode, a mean over the policy's robots"""
+    seconds: Interval
+    """duration of an episode"""
     decided_after: float | None
+    """mean seconds of episodes that ended with a goal of either team (two-sided tasks) or with
+    full success; None if none did"""
 
     def as_dict(self) -> dict[str, object]:
-        """Numbers, texts and dictionaries, ready for JSON."""
+        """Return the fields as numbers, texts and dictionaries, ready for JSON."""
         return dataclasses.asdict(self)
 
     def __str__(self) -> str:
@@ -61,21 +79,34 @@ class Evaluation(Results):
         return table([self])
 
 
-def results(strata: Sequence[Doubles], chance: np.random.Generator) -> Results:
-    """Count scores, each side's in an array of its own."""
+def count_results(strata: Sequence[Doubles], rng: np.random.Generator) -> Results:
+    """Return wins, draws, losses and the mean score of matches.
+
+    Args:
+        strata: scores of the matches, one array (n,) per side that the policy played.
+        rng: draws the resamples of the interval.
+    """
     scores = np.concatenate(strata)
     counts = (int((np.sign(scores) == sign).sum()) for sign in (1, 0, -1))
-    return Results(len(scores), *counts, *vars(estimated(strata, chance)).values())
+    return Results(len(scores), *counts, *vars(bootstrap_interval(strata, rng)).values())
 
 
-def estimated(strata: Sequence[Doubles], chance: np.random.Generator) -> Interval:
-    """Mean of all values, resampled with replacement, each side among its own matches."""
+def bootstrap_interval(strata: Sequence[Doubles], rng: np.random.Generator) -> Interval:
+    """Return the mean of all values with its 95% interval, by a stratified percentile bootstrap.
+
+    Values are resampled with replacement within each stratum, so the sides keep their weights.
+
+    Args:
+        strata: values, one array (n,) per side that the policy played.
+        rng: draws the resamples.
+    """
     total = sum(map(len, strata))
-    sums = np.zeros(RESAMPLES)
-    for part in strata:
-        rows = max(1, DRAWN_AT_ONCE // len(part))
-        for first in range(0, RESAMPLES, rows):
-            size = (min(rows, RESAMPLES - first), len(part))
-            sums[first : first + rows] += part[chance.integers(len(part), size=size)].sum(axis=1)
+    sums = np.zeros(N_RESAMPLES)
+    for values in strata:
+        rows = max(1, _DRAWN_AT_ONCE // len(values))
+        for start in range(0, N_RESAMPLES, rows):
+            size = (min(rows, N_RESAMPLES - start), len(values))
+            indices = rng.integers(len(values), size=size)
+            sums[start : start + rows] += values[indices].sum(axis=1)
     low, high = np.quantile(sums / total, (0.025, 0.975)).tolist()
     return Interval(float(np.concatenate(strata).sum()) / total, low, high)

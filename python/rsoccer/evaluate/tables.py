@@ -1,4 +1,4 @@
-"""Evaluations as lines of text."""
+"""Evaluations as text tables."""
 
 from __future__ import annotations
 
@@ -9,36 +9,41 @@ from rsoccer.evaluate.results import Evaluation, Interval, Results
 
 Cells = tuple[str, ...]
 
-INTERVAL = "95% interval"
-BOTH_SIDES: Cells = (
-    *("policy", "opponent", "matches", "won", "drawn", "lost"),
-    *("goal score", INTERVAL, "as blue", "as yellow", "goal after"),
-)
+_INTERVAL = "95% interval"
 
 
 def table(evaluations: Iterable[Evaluation]) -> str:
-    """Evaluations, one a line under a header, columns aligned.
+    """Return evaluations as lines of text: a header, one line each, aligned columns.
 
-    Where headers differ, as those of tasks with different successes do, there are several tables.
+    Args:
+        evaluations: the rows, in order. Consecutive ones of the same metric share a table.
+
+    Returns:
+        The tables, separated by an empty line.
     """
     groups = groupby(evaluations, _header)
     return "\n\n".join(_table([header, *map(_row, group)]) for header, group in groups)
 
 
 def _table(rows: Sequence[Cells]) -> str:
+    """Aligned lines of rows with the same number of cells."""
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
     return "\n".join(_aligned(row, widths) for row in rows)
 
 
 def _header(evaluation: Evaluation) -> Cells:
+    """Column titles: of a two-sided task if the evaluation has sides."""
     metric = evaluation.metric.replace("_", " ")
+    first = ("policy", "opponent", "matches")
     if evaluation.sides:
-        return (*BOTH_SIDES[:6], metric, *BOTH_SIDES[7:])
-    means = (title for name in (metric, "return", "seconds") for title in (name, INTERVAL))
-    return ("policy", "opponent", "matches", *means, "done after")
+        counts = ("won", "drawn", "lost")
+        return (*first, *counts, metric, _INTERVAL, "as blue", "as yellow", "goal after")
+    means = (title for name in (metric, "return", "seconds") for title in (name, _INTERVAL))
+    return (*first, *means, "done after")
 
 
 def _row(evaluation: Evaluation) -> Cells:
+    """Cells of an evaluation below its header."""
     after = evaluation.decided_after
     last = "-" if after is None else f"{after:.1f} s"
     first = (evaluation.policy, evaluation.opponent, str(evaluation.matches))
@@ -49,12 +54,12 @@ def _row(evaluation: Evaluation) -> Cells:
         cells = (_mean(mean, sign) for mean, sign in zip(means, signs, strict=True))
         return (*first, *(cell for pair in cells for cell in pair), last)
     counts = (evaluation.wins, evaluation.draws, evaluation.losses)
-    sides = (_side(evaluation.sides[side]) for side in ("blue", "yellow"))
+    sides = (_score(evaluation.sides[side]) for side in ("blue", "yellow"))
     return (*first, *map(str, counts), *_mean(score, "+"), *sides, last)
 
 
 def _mean(interval: Interval, sign: str) -> Cells:
-    """A mean and its interval, to three digits after the point, or two where numbers are large."""
+    """Cells of a mean and its interval: three decimals below 10, else two."""
     places = 3 if abs(interval.mean) < 10.0 else 2
     mean, low, high = (
         f"{value:{sign}.{places}f}" for value in (interval.mean, interval.low, interval.high)
@@ -62,12 +67,13 @@ def _mean(interval: Interval, sign: str) -> Cells:
     return mean, f"[{low}, {high}]"
 
 
-def _side(results: Results) -> str:
+def _score(results: Results) -> str:
+    """Cell of the mean score of one side."""
     return f"{results.score:+.3f}"
 
 
 def _aligned(row: Cells, widths: Sequence[int]) -> str:
-    """Names to the left, numbers to the right."""
+    """A line with names aligned to the left and numbers to the right."""
     cells = (
         cell.ljust(width) if column < 2 else cell.rjust(width)
         for column, (cell, width) in enumerate(zip(row, widths, strict=True))

@@ -1,4 +1,4 @@
-"""Learning to play: `Args` says how, `train` does it (needs torch)."""
+"""Training by self-play: `Args` holds the settings, `train` runs them (needs torch)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,22 @@ __all__ = ["Args", "train"]
 
 
 def train(args: Args) -> Path:
-    """Train a policy as `args` say; the path of the policy file."""
+    """Train a policy with PPO and save it.
+
+    Example:
+        >>> path = train(Args(samples=1_000_000, out=Path("out/mine")))  # doctest: +SKIP
+
+    Args:
+        args: settings of the run.
+
+    Returns:
+        Path of the policy file, in the folder `args.out`.
+
+    Raises:
+        ValueError: a folder that cannot be written or that holds a run already, an unknown task,
+            or a checkpoint that is missing, damaged or of a run with other settings.
+        Interrupted: Ctrl-C or SIGTERM ended the run, after a checkpoint was saved.
+    """
     from rsoccer.train.trainer import train as run
 
     return run(args)

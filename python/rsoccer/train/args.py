@@ -1,6 +1,6 @@
-"""What a training run can be told, with defaults that learn three-a-side play on two cores.
+"""Settings of a training run; the defaults learn three-a-side play on two cores.
 
-No torch here: the command line reads this file to build its help.
+This module does not import torch, because the command line builds its help from it.
 """
 
 from __future__ import annotations
@@ -12,90 +12,104 @@ from pathlib import Path
 from typing import Any
 
 SETTINGS_FILE = "args.json"
-"""In a run's folder: its settings, as they were when it was begun or resumed."""
+"""File in a run's folder with its settings, written when the run starts and when it resumes."""
 
-FREE_ON_RESUME = ("out", "resume", "overwrite", "samples", "checkpoint_interval", "progress")
-"""Fields that a resumed run may set. Of these only `samples` changes what an update computes: the
-step size falls towards the end that it names."""
+CHANGEABLE_ON_RESUME = (
+    "out",
+    "resume",
+    "overwrite",
+    "samples",
+    "checkpoint_interval",
+    "progress",
+)
+"""Fields that may change when a run resumes. Of these only `samples` affects the updates: the
+learning rate falls towards the end that it sets."""
 
 
+# The docstrings of the fields are the help of `rsoccer train`, which keeps their line breaks.
 @dataclass(frozen=True)
 class Args:
-    """Settings of one training run. A sample is one decision of one learning robot."""
+    """Settings of one training run. A sample is one decision of one learning robot.
+
+    Raises:
+        ValueError: a value outside its range, fractions of opponents whose sum is not 1, or
+            `resume` together with `overwrite`.
+    """
 
     task: str = "VSSSelfPlay-v0"
-    """registered task to train on (`rsoccer list` names them)"""
+    """registered task to train on (`rsoccer list` prints the names)"""
     out: Path = Path("out/train")
-    """folder for the policy, checkpoint, logs and curve data"""
+    """folder for the policy, the checkpoint and the logs"""
     samples: int = 10_000_000
-    """decisions to learn from, summed over all learning robots"""
+    """decisions to learn from, over all learning robots; at least 1, rounded up to full updates"""
     seed: int = 0
-    """the same seed, settings, machine and threads give the same run"""
+    """random seed, at least 0; equal seed, settings, machine and threads give equal runs"""
     threads: int = 2
-    """threads for physics"""
+    """threads of the simulator, at least 1"""
     torch_threads: int = 1
-    """threads for torch; more pay for wide networks only, small ones just wait for each other"""
+    """threads of torch, at least 1; more help wide networks only, in small ones threads wait"""
     resume: bool = False
     """continue the run in `out` from its last checkpoint"""
     overwrite: bool = False
-    """start anew in `out` even if it already holds a run"""
+    """start a new run in `out` even if it already holds one"""
     checkpoint_interval: float = 30.0
-    """most time between two checkpoints; more loses more if the machine dies"""
+    """seconds between checkpoints, above 0; a crash loses the updates after the last one"""
     progress: bool = True
     """show a progress bar"""
 
     solo_fraction: float = 0.4
-    """share of the samples at the start in which one robot of a match learns and all others
-    drift; what it is paid for is then its own doing (0 lets all learn from the start)"""
+    """first part of the samples, 0 to 1, with one learner per match and all other robots drifting.
+    Its rewards then follow from its own actions; 0 lets all learners play from the start"""
     worlds: int = 256
-    """matches played at once; more gives steadier gradients and slower first progress"""
+    """matches played at once, at least 1; more give steadier gradients, slower first progress"""
     horizon: int = 16
-    """decisions played in every world between two updates; longer sees more of an episode"""
+    """decisions per world between two updates, at least 1; more cover more of an episode"""
     action_repeat: int = 3
-    """control steps (25 ms) that each decision is held; more explores further, reacts slower"""
+    """control steps (25 ms each) per decision, at least 1; more explore further, react slower"""
     random_truncation: float = 0.01
-    """chance after each decision that a match is cut off, as by the clock, and starts anew: more
-    gives fresh starts in place of long stalemates, less shows how matches end"""
+    """probability, 0 to 1, that a match is truncated after a decision and starts anew.
+    More gives fresh starts in place of long stalemates, less shows how matches end"""
     gamma: float = 0.97
-    """discount per control step, so its meaning does not change with `action_repeat`; closer to 1
-    looks further ahead and, as waiting costs less, learns to hurry more slowly"""
+    """discount factor per control step, 0 to 1, whatever `action_repeat` is.
+    Closer to 1 looks further ahead, but waiting costs less, so speed is learned later"""
     gae_lambda: float = 0.9
-    """1 trusts played rewards only, 0 the value network only"""
+    """lambda of generalised advantage estimation, 0 to 1.
+    1 trusts the collected rewards only, 0 trusts the value network only"""
 
     hidden_sizes: tuple[int, ...] = (64, 64)
-    """widths of the hidden layers, of the policy and of the value network alike"""
+    """widths of the hidden layers of the policy and of the value network, at least 1 each"""
     action_std: float = 0.6
-    """spread of the first random actions, as a share of full power"""
+    """initial standard deviation of the actions, above 0, as a share of full power"""
     learning_rate: float = 2e-3
-    """Adam's step size at the start; it falls to a tenth of it by the end"""
+    """initial step size of Adam, above 0; it falls to a tenth by the end of the run"""
     n_epochs: int = 6
-    """times each batch is learned from; more learns faster until the policy changes too much"""
+    """passes over each batch, at least 1; more learn faster until the policy changes too much"""
     n_minibatches: int = 4
-    """pieces that a batch is split into for each epoch"""
+    """minibatches per epoch, at least 1"""
     clip_range: float = 0.2
-    """how far one update may move the probability of an action, as a ratio"""
+    """clip range of PPO, above 0: largest change of an action's probability ratio in an update"""
     target_kl: float = 0.02
-    """KL divergence from the policy that played at which the epochs of an update stop"""
+    """KL divergence from the policy that played, above 0, at which the epochs of an update stop"""
     entropy_coef: float = 0.002
-    """reward for staying random; raise it if play freezes early"""
+    """weight of the entropy bonus, at least 0; raise it if the robots stop exploring early"""
     value_coef: float = 0.5
-    """weight of the value network's error"""
+    """weight of the value loss, at least 0"""
     max_grad_norm: float = 0.5
-    """gradients longer than this are shortened to it"""
+    """largest norm of a gradient, above 0; longer gradients are shortened to it"""
 
     latest_fraction: float = 0.5
-    """share of matches against the current self (tasks where both sides learn)"""
+    """share of matches, 0 to 1, against the current policy (tasks where both teams learn)"""
     past_fraction: float = 0.35
-    """share of matches against frozen past selves"""
+    """share of matches, 0 to 1, against frozen past policies"""
     ou_fraction: float = 0.15
-    """share of matches against random drifting (an Ornstein-Uhlenbeck process)"""
+    """share of matches, 0 to 1, against random drifting (an Ornstein-Uhlenbeck process)"""
     pool_size: int = 8
-    """frozen past selves kept; when full, the one closest in age to its neighbours makes room"""
+    """past policies kept, at least 1; a full pool drops the one closest in age to its neighbours"""
     pool_interval: int = 10
-    """updates between two additions to the frozen past selves"""
+    """updates between two additions to the past policies, at least 1"""
 
     def __post_init__(self) -> None:
-        """Refuse values that cannot train, naming the field."""
+        """Convert paths and sizes, and check every value."""
         object.__setattr__(self, "out", Path(self.out))
         object.__setattr__(self, "hidden_sizes", tuple(self.hidden_sizes))
         for name in _COUNTS:
@@ -103,32 +117,33 @@ class Args:
         for name in _POSITIVE:
             value = getattr(self, name)
             _expect(self, name, math.isfinite(value) and value > 0, "finite and above 0")
-        for name in _SHARES:
+        for name in _FRACTIONS:
             _expect(self, name, 0 <= getattr(self, name) <= 1, "between 0 and 1")
         for name in ("entropy_coef", "value_coef"):
             value = getattr(self, name)
             _expect(self, name, math.isfinite(value) and value >= 0, "finite and at least 0")
         _expect(self, "seed", self.seed >= 0, "at least 0")
-        self._check_together()
+        self._check_hidden_sizes()
+        self._check_combinations()
 
-    def _check_together(self) -> None:
-        widths = all(isinstance(width, int) and width >= 1 for width in self.hidden_sizes)
-        _expect(
-            self,
-            "hidden_sizes",
-            widths and bool(self.hidden_sizes),
-            "one or more widths of at least 1",
-        )
+    def _check_hidden_sizes(self) -> None:
+        """Check the type and the range of every width."""
+        valid = all(isinstance(width, int) and width >= 1 for width in self.hidden_sizes)
+        valid = valid and bool(self.hidden_sizes)
+        _expect(self, "hidden_sizes", valid, "one or more widths of at least 1")
+
+    def _check_combinations(self) -> None:
+        """Check fields that depend on each other."""
         total = self.latest_fraction + self.past_fraction + self.ou_fraction
         if not math.isclose(total, 1.0, abs_tol=1e-6):
             raise ValueError(
                 f"latest_fraction + past_fraction + ou_fraction must be 1, got {total:g}"
             )
         if self.resume and self.overwrite:
-            raise ValueError("resume and overwrite exclude each other")
+            raise ValueError("resume and overwrite exclude each other, got both")
 
     def to_json(self) -> dict[str, Any]:
-        """The settings as plain JSON values."""
+        """Return the settings as JSON values by field name; `Args(**values)` restores them."""
         return {
             **dataclasses.asdict(self),
             "out": str(self.out),
@@ -136,44 +151,39 @@ class Args:
         }
 
     def differences(self, saved: dict[str, Any]) -> list[str]:
-        """Fields whose value differs from a saved run's in a way that would change the run."""
-        own = self.to_json()
-        names = [name for name in {**own, **saved} if name not in FREE_ON_RESUME]
+        """Return the settings that differ from a saved run's and would change its updates.
+
+        Args:
+            saved: settings of the saved run, from `to_json`.
+
+        Returns:
+            One text per field, such as "gamma was 0.97, now 0.9"; empty if the run may resume.
+            Fields in `CHANGEABLE_ON_RESUME` are ignored.
+        """
+        current = self.to_json()
+        names = [name for name in {**current, **saved} if name not in CHANGEABLE_ON_RESUME]
         return [
-            f"{name} was {saved.get(name)!r}, now {own.get(name)!r}"
+            f"{name} was {saved.get(name)!r}, now {current.get(name)!r}"
             for name in names
-            if own.get(name) != saved.get(name)
+            if current.get(name) != saved.get(name)
         ]
 
 
 _COUNTS = (
-    *(
-        "samples",
-        "threads",
-        "torch_threads",
-        "worlds",
-        "horizon",
-        "action_repeat",
-        "n_epochs",
-        "n_minibatches",
-    ),
-    *("pool_size", "pool_interval"),
+    *("samples", "threads", "torch_threads", "worlds", "horizon", "action_repeat"),
+    *("n_epochs", "n_minibatches", "pool_size", "pool_interval"),
 )
 _POSITIVE = (
     *("learning_rate", "clip_range", "target_kl", "max_grad_norm", "action_std"),
     "checkpoint_interval",
 )
-_SHARES = (
-    "solo_fraction",
-    "random_truncation",
-    "gamma",
-    "gae_lambda",
-    "latest_fraction",
-    "past_fraction",
-    "ou_fraction",
+_FRACTIONS = (
+    *("solo_fraction", "random_truncation", "gamma", "gae_lambda"),
+    *("latest_fraction", "past_fraction", "ou_fraction"),
 )
 
 
-def _expect(args: Args, name: str, good: bool, expected: str) -> None:
-    if not good:
+def _expect(args: Args, name: str, valid: bool, expected: str) -> None:
+    """Raise ValueError, which names the field, unless its value is valid."""
+    if not valid:
         raise ValueError(f"{name} must be {expected}, got {getattr(args, name)!r}")

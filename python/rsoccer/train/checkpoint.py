@@ -1,7 +1,8 @@
-"""A training run on disk: arrays as safetensors, the rest as JSON in that file's metadata.
+"""Checkpoints of a training run: arrays as safetensors, other values as JSON in the metadata.
 
-One file, replaced whole: a run killed at any moment leaves either the old checkpoint or the new
-one. Nothing is unpickled, so a checkpoint from a stranger can be refused but cannot run code.
+A checkpoint is one file, replaced in one step: a run that is killed at any moment leaves either the
+old checkpoint or the new one. Nothing is unpickled, so a checkpoint from an unknown source may be
+refused, but it cannot run code.
 """
 
 from __future__ import annotations
@@ -19,28 +20,45 @@ from numpy.typing import NDArray
 from rsoccer.files import safetensors_bytes, write_atomically
 
 FORMAT = "rsoccer-checkpoint-2"
+"""Value of "format" in the metadata of a checkpoint."""
 FILE_NAME = "checkpoint.safetensors"
+"""Name of the checkpoint in a run's folder."""
 
 Arrays = dict[str, NDArray[Any]]
+"""Arrays by name."""
 
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Everything that a run needs to go on as if it had never stopped."""
+    """Complete state of a run: a resumed run continues bit for bit as if it had never stopped."""
 
     arrays: Arrays
+    """Arrays of all parts of the run by `part.name`."""
     info: dict[str, Any]
+    """JSON values by name: the settings, counters, and the size of the log."""
 
 
 def save(path: Path, checkpoint: Checkpoint) -> None:
-    """Write the checkpoint so that `path` holds either the old or the new one, whole."""
+    """Write a checkpoint in one step: `path` holds either the old file or the complete new one.
+
+    Args:
+        path: the file to replace.
+        checkpoint: state to save.
+    """
     arrays = {name: np.asarray(array, order="C") for name, array in checkpoint.arrays.items()}
     metadata = {"format": FORMAT, "info": json.dumps(checkpoint.info)}
     write_atomically(path, safetensors_bytes(arrays, metadata))
 
 
 def load(path: Path) -> Checkpoint:
-    """Read a checkpoint; a missing, truncated or foreign file is a ValueError naming the file."""
+    """Return the checkpoint in a file.
+
+    Args:
+        path: a file that `save` wrote.
+
+    Raises:
+        ValueError: a missing, truncated or foreign file; the message names the file.
+    """
     from safetensors import SafetensorError, safe_open
 
     if not path.is_file():
@@ -56,13 +74,21 @@ def load(path: Path) -> Checkpoint:
 
 
 def _expect_format(path: Path, metadata: Mapping[str, str]) -> None:
+    """Raise ValueError unless the metadata names the format of checkpoints."""
     found = metadata.get("format")
     if found != FORMAT:
         raise ValueError(f"{path} is not a training checkpoint: format {found!r}, not {FORMAT!r}")
 
 
 def prepare_folder(folder: Path) -> None:
-    """Create the folder and prove that files can be written there, before any work is done."""
+    """Create the folder of a run and prove that files can be written there.
+
+    Args:
+        folder: created with its parents if it does not exist.
+
+    Raises:
+        ValueError: the folder cannot be created or written.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -71,12 +97,22 @@ def prepare_folder(folder: Path) -> None:
         raise ValueError(f"out must be a folder to write in, got {folder}: {error}") from error
 
 
-def prefixed(prefix: str, arrays: Mapping[str, NDArray[Any]]) -> Arrays:
-    """The arrays under `prefix.name`, so that several owners share one file."""
+def add_prefix(prefix: str, arrays: Mapping[str, NDArray[Any]]) -> Arrays:
+    """Return arrays under the names `prefix.name`, so that several parts can share one file.
+
+    Args:
+        prefix: name of the part.
+        arrays: arrays of the part by name.
+    """
     return {f"{prefix}.{name}": array for name, array in arrays.items()}
 
 
-def owned(prefix: str, arrays: Mapping[str, NDArray[Any]]) -> Arrays:
-    """The arrays that were saved under a prefix, by their own names."""
+def select_prefix(prefix: str, arrays: Mapping[str, NDArray[Any]]) -> Arrays:
+    """Return the arrays that `add_prefix` named with a prefix, by their names without it.
+
+    Args:
+        prefix: name of the part.
+        arrays: arrays of all parts by `prefix.name`; other prefixes are skipped.
+    """
     start = f"{prefix}."
     return {name[len(start) :]: array for name, array in arrays.items() if name.startswith(start)}

@@ -1,4 +1,4 @@
-"""The learning curve of a run as a picture."""
+"""Plot of a run's learning curve."""
 
 from __future__ import annotations
 
@@ -10,29 +10,41 @@ import numpy as np
 from rsoccer.frame import Array
 from rsoccer.registry import make_task
 from rsoccer.train.args import SETTINGS_FILE
-from rsoccer.train.log import SCORE, against, read_progress
+from rsoccer.train.log import GOAL_SCORE, opponent_column, read_progress
 
-NAMES = {
+STYLES = {
     "ou": ("drifting robots (OU)", "#3a7d44"),
-    "past": ("past selves", "#d98e04"),
-    "latest": ("current self", "#8a8f98"),
+    "past": ("past policies", "#d98e04"),
+    "latest": ("current policy", "#8a8f98"),
 }
+"""Label and colour of the curve for each kind of opponent."""
 
 
-def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
-    """Goal score against each kind of opponent over samples, as a PNG file at `path`.
+def plot_learning_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
+    """Plot the goal score against each kind of opponent over samples as a PNG file.
 
-    The title names the task of the run in `folder` and the sizes of its teams.
+    The title names the task of the run and the sizes of its teams.
+
+    Args:
+        folder: folder of the run, which holds its log.
+        path: the file to write.
+        window: updates that the moving average covers.
+
+    Returns:
+        `path`.
+
+    Raises:
+        ValueError: the log has no rows yet.
     """
     from matplotlib.figure import Figure
 
     progress = read_progress(folder)
     figure = Figure(figsize=(8.0, 4.5), dpi=130, layout="constrained")
     axes = figure.add_subplot()
-    for kind, (label, colour) in NAMES.items():
-        scores = progress.get(against(kind, SCORE), np.zeros(0))
+    for kind, (label, colour) in STYLES.items():
+        scores = progress.get(opponent_column(kind, GOAL_SCORE), np.zeros(0))
         if np.isfinite(scores).any():
-            smooth = _running_mean(scores, window)
+            smooth = _moving_average(scores, window)
             axes.plot(progress["samples"] / 1e6, smooth, label=label, color=colour, linewidth=2)
     axes.axhline(0.0, color="black", linewidth=0.6)
     axes.set(ylim=(-1.05, 1.05), xlabel="samples (millions of decisions)")
@@ -46,7 +58,7 @@ def draw_curve(folder: Path, path: Path, *, window: int = 15) -> Path:
 
 
 def _title(folder: Path) -> str:
-    """What the run in a folder learns to play, if that is written there."""
+    """Title with the task of the run, if the folder holds its settings."""
     settings = folder / SETTINGS_FILE
     if not settings.is_file():
         return "Learning to play"
@@ -54,8 +66,8 @@ def _title(folder: Path) -> str:
     return f"Learning to play {task.name}, {task.n_blue} v {task.n_yellow}"
 
 
-def _running_mean(values: Array, window: int) -> Array:
-    """Mean over the last `window` values, NaN ones left out."""
+def _moving_average(values: Array, window: int) -> Array:
+    """Mean over the last `window` values without the NaN ones, (updates,)."""
     known = np.isfinite(values)
     sums = np.convolve(np.where(known, values, 0.0), np.ones(window))[: len(values)]
     counts = np.convolve(known.astype(float), np.ones(window))[: len(values)]

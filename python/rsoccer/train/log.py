@@ -1,4 +1,4 @@
-"""What a run tells: a progress bar for people, a CSV file for plots, TensorBoard for both."""
+"""Logs of a run: a progress bar, a CSV file for plots, and TensorBoard."""
 
 from __future__ import annotations
 
@@ -14,54 +14,77 @@ from rsoccer.frame import Array
 from rsoccer.train.args import Args
 
 FILE_NAME = "progress.csv"
-SCORE = "goal_score"
-"""Metric of an ended episode that counts as goals and wins: +1 for us, -1 against us."""
-EPISODE = "episode/"
-"""What columns of a task's metrics begin with: whatever it calls them, the run's own are others."""
+"""Name of the CSV file in a run's folder, one row per update."""
+GOAL_SCORE = "goal_score"
+"""Metric of an ended episode that counts goals and wins: +1 for the learners, -1 against them."""
+EPISODE_PREFIX = "episode/"
+"""Prefix of the columns of a task's metrics, which keeps them apart from the run's own columns."""
 
 Row = dict[str, float]
+"""Values of one update by column."""
 
 
 class EpisodeStats:
-    """Ended episodes since the last `take`, by kind of opponent."""
+    """Statistics of the episodes that ended since the last `take`, by kind of opponent."""
 
     def __init__(self, kinds: tuple[str, ...]) -> None:
-        """Start empty; `kinds` names the opponents."""
+        """Start without episodes.
+
+        Args:
+            kinds: names of the kinds of opponents.
+        """
         self._kinds = kinds
         self._ended: list[tuple[Array, dict[str, Array]]] = []
 
     def add(self, kinds: Array, metrics: dict[str, Array]) -> None:
-        """Note episodes that ended: kind of opponent (k,), and each metric (k,)."""
+        """Add k episodes that ended.
+
+        Args:
+            kinds: (k,) index of each episode's opponent into the names of the kinds.
+            metrics: (k,) values by metric.
+        """
         self._ended.append((kinds, metrics))
 
     def take(self) -> Row:
-        """Means of the metrics, of all and by opponent (NaN where no match ended)."""
+        """Return the statistics, and start again without episodes.
+
+        Returns:
+            The number of episodes, the mean of each metric over all of them and by kind of
+            opponent (NaN where no episode ended), and the goals for and against if the task has
+            the metric `goal_score`.
+        """
         kinds = np.concatenate([kinds for kinds, _ in self._ended])
         row: Row = {"episodes": len(kinds)}
         for name in self._ended[0][1]:
             values = np.concatenate([metrics[name] for _, metrics in self._ended])
-            row[EPISODE + name] = _mean(values)
+            row[EPISODE_PREFIX + name] = _mean(values)
             for index, kind in enumerate(self._kinds):
-                row[against(kind, name)] = _mean(values[kinds == index])
-            if name == SCORE:
+                row[opponent_column(kind, name)] = _mean(values[kinds == index])
+            if name == GOAL_SCORE:
                 row["goals_for"] = float((values > 0).sum())
                 row["goals_against"] = float((values < 0).sum())
         self._ended = []
         return row
 
 
-class Log:
+class Logger:
     """Writes one row per update; a resumed run drops the rows after its checkpoint."""
 
     def __init__(self, args: Args, samples: int, size: int) -> None:
-        """Go on after `samples`, with a CSV file cut back to `size` bytes."""
+        """Open the logs of a run, to continue after a checkpoint or from the start.
+
+        Args:
+            args: settings of the run; `progress` shows the bar.
+            samples: samples at the checkpoint; 0 for a new run.
+            size: bytes that the CSV file is truncated to; 0 for a new run.
+        """
         from torch.utils.tensorboard import SummaryWriter
         from tqdm import tqdm
 
         self._path = args.out / FILE_NAME
         with self._path.open("ab"):
             os.truncate(self._path, size)
-        self._board = SummaryWriter(str(args.out / "tensorboard"), purge_step=samples + 1)
+        self._tensorboard = SummaryWriter(str(args.out / "tensorboard"), purge_step=samples + 1)
         self._bar = tqdm(
             total=args.samples,
             initial=samples,
@@ -76,11 +99,16 @@ class Log:
 
     @property
     def size(self) -> int:
-        """Bytes of the CSV file, as a checkpoint remembers them."""
+        """Bytes of the CSV file, which a checkpoint stores."""
         return self._path.stat().st_size
 
     def write(self, samples: int, row: Row) -> None:
-        """Log one update that ended at `samples`."""
+        """Log one update.
+
+        Args:
+            samples: samples at the end of the update.
+            row: values by column, the same columns in every update; TensorBoard skips NaN.
+        """
         with self._path.open("a", newline="") as file:
             writer = csv.DictWriter(file, list(row))
             if file.tell() == 0:
@@ -88,25 +116,20 @@ class Log:
             writer.writerow(row)
         for name, value in row.items():
             if np.isfinite(value):
-                self._board.add_scalar(name, value, samples)
+                self._tensorboard.add_scalar(name, value, samples)
         self._recent.append(row)
         self._bar.set_postfix_str(self._summary(), refresh=False)
         self._bar.update(samples - self._bar.n)
 
-    def say(self, message: str) -> None:
-        """Show a line above the bar; silent where the bar is off."""
-        if not self._bar.disable:
-            self._bar.write(message, file=sys.stderr)
-
     def close(self) -> None:
-        """Finish the bar and the files."""
+        """Close the progress bar and the files."""
         self._bar.close()
-        self._board.close()
+        self._tensorboard.close()
 
     def _summary(self) -> str:
-        """Goals and share of wins over the last updates; the reward, where nobody scores."""
+        """Goals and share of wins over the last updates; the reward if the task has no goals."""
         total = {name: sum(row.get(name, 0.0) for row in self._recent) for name in _SUMMED}
-        if EPISODE + SCORE not in self._recent[-1] or not total["episodes"]:
+        if EPISODE_PREFIX + GOAL_SCORE not in self._recent[-1] or not total["episodes"]:
             return f"reward {self._recent[-1]['reward']:.3f}"
         goals_for, goals_against = total["goals_for"], total["goals_against"]
         won = goals_for / total["episodes"]
@@ -116,13 +139,25 @@ class Log:
 _SUMMED = ("episodes", "goals_for", "goals_against")
 
 
-def against(kind: str, metric: str) -> str:
-    """Column of a metric's mean over episodes against one kind of opponent."""
+def opponent_column(kind: str, metric: str) -> str:
+    """Return the column of a metric's mean over episodes against one kind of opponent.
+
+    Args:
+        kind: name of the kind, such as "ou".
+        metric: name of the metric.
+    """
     return f"episode_{kind}/{metric}"
 
 
 def read_progress(folder: Path) -> dict[str, Array]:
-    """Columns of a run's CSV file, each (updates,)."""
+    """Return the columns of a run's CSV file by name, each (updates,).
+
+    Args:
+        folder: folder of the run.
+
+    Raises:
+        ValueError: the file has no rows yet.
+    """
     with (folder / FILE_NAME).open(newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:
@@ -131,4 +166,5 @@ def read_progress(folder: Path) -> dict[str, Array]:
 
 
 def _mean(values: Array) -> float:
+    """Mean of values (k,); NaN for k = 0."""
     return float(values.mean()) if len(values) else float("nan")

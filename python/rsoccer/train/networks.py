@@ -1,4 +1,4 @@
-"""What learns: a policy network and a value network, and the policy's way into a file."""
+"""Policy network and value network in torch, and the export of the policy to NumPy."""
 
 from __future__ import annotations
 
@@ -13,78 +13,113 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task
 
-OBSERVATION_CLIP = 10.0  # standard deviations; rarer values are bounded
+OBSERVATION_CLIP = 10.0
+"""Bound of a normalised observation, in standard deviations."""
 
 
 class ActorCritic(nn.Module):
-    """A policy and a value network of the same shape; the spread of actions is a parameter."""
+    """A Gaussian policy and a value network with hidden layers of the same sizes.
+
+    Attributes:
+        observation_size: o, the numbers in an observation.
+        actor: network from normalised observations (..., o) to mean actions (..., action).
+        critic: network from normalised observations (..., o) to values (..., 1).
+        log_std: (action,) logarithm of the standard deviation, independent of the observation.
+    """
 
     def __init__(
         self,
-        observation: int,
-        action: int,
-        hidden: tuple[int, ...],
+        observation_size: int,
+        action_size: int,
+        hidden_sizes: tuple[int, ...],
         action_std: float,
-        chance: torch.Generator,
+        generator: torch.Generator,
     ) -> None:
-        """Orthogonal weights; a small last layer, so that the first actions are near zero."""
+        """Draw orthogonal weights; a small last layer keeps the first mean actions near zero.
+
+        Args:
+            observation_size: numbers in an observation.
+            action_size: numbers in an action.
+            hidden_sizes: widths of the hidden layers.
+            action_std: initial standard deviation of the actions.
+            generator: draws the weights.
+        """
         super().__init__()
-        self.actor = _perceptron([observation, *hidden, action], 0.01, chance)
-        self.critic = _perceptron([observation, *hidden, 1], 1.0, chance)
-        self.log_std = nn.Parameter(torch.full((action,), math.log(action_std)))
+        self.observation_size = observation_size
+        self.actor = _mlp([observation_size, *hidden_sizes, action_size], 0.01, generator)
+        self.critic = _mlp([observation_size, *hidden_sizes, 1], 1.0, generator)
+        self.log_std = nn.Parameter(torch.full((action_size,), math.log(action_std)))
 
     def value(self, observations: Tensor) -> Tensor:
-        """What is still to come, in scaled rewards, (...)."""
+        """Return the expected discounted return, in scaled rewards, (...).
+
+        Args:
+            observations: (..., o) normalised observations.
+        """
         values: Tensor = self.critic(observations)
         return values.squeeze(-1)
 
     def log_prob(self, mean: Tensor, actions: Tensor) -> Tensor:
-        """Logarithm of the density of Gaussian actions (..., action), summed over them."""
+        """Return the log density of Gaussian actions, summed over their components, (...).
+
+        Args:
+            mean: (..., action) mean actions from `actor`.
+            actions: (..., action) drawn actions.
+        """
         offset = (actions - mean) * (-self.log_std).exp()
         constant = mean.shape[-1] * 0.5 * math.log(2 * math.pi)
         return -0.5 * offset.square().sum(-1) - self.log_std.sum() - constant
 
     def entropy(self) -> Tensor:
-        """Entropy of the Gaussian, the same for every observation."""
+        """Return the entropy of the Gaussian, a scalar, the same for every observation."""
         return (self.log_std + 0.5 * math.log(2 * math.pi * math.e)).sum()
 
-    def export(self, task: Task, name: str, repeat: int, mean: Floats, std: Floats) -> Network:
-        """The policy as it plays while it learns, in NumPy.
+    def export(
+        self, task: Task, task_name: str, action_repeat: int, mean: Floats, std: Floats
+    ) -> Network:
+        """Return a copy of the current policy that plays in NumPy as it plays in training.
 
-        `name` is that of the task for `make_task`; each decision is held for `repeat` steps.
+        Args:
+            task: the task it is trained on.
+            task_name: name of the task for `make_task`.
+            action_repeat: control steps per decision.
+            mean: (o,) mean of the observations.
+            std: (o,) standard deviation of the observations.
         """
-        spread = self.log_std.detach().exp().numpy().copy()
-        arrays: dict[str, Array] = {"mean": mean, "std": std, "action_std": spread}
+        action_std = self.log_std.detach().exp().numpy().copy()
+        arrays: dict[str, Array] = {"mean": mean, "std": std, "action_std": action_std}
         linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
         for index, layer in enumerate(linear):
             arrays[f"layers.{index}.weight"] = layer.weight.detach().numpy().copy()
             arrays[f"layers.{index}.bias"] = layer.bias.detach().numpy().copy()
         metadata = {
             "format": FORMAT,
-            "task": name,
+            "task": task_name,
             "layout": task.layout,
             "observation_size": str(linear[0].in_features),
             "action_size": str(linear[-1].out_features),
             "activation": "tanh",
             "clip": f"{OBSERVATION_CLIP:g}",
-            "action_repeat": str(repeat),
+            "action_repeat": str(action_repeat),
         }
         return Network(arrays, metadata)
 
 
-def _perceptron(sizes: list[int], last_gain: float, chance: torch.Generator) -> nn.Sequential:
+def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> nn.Sequential:
     """Linear layers of the given sizes with tanh between them."""
     layers: list[nn.Module] = []
-    for index, (taken, given) in enumerate(itertools.pairwise(sizes)):
+    for index, (in_features, out_features) in enumerate(itertools.pairwise(sizes)):
         last = index == len(sizes) - 2
-        layer = _empty_linear(taken, given)
-        nn.init.orthogonal_(layer.weight, last_gain if last else 2**0.5, generator=chance)
+        layer = _empty_linear(in_features, out_features)
+        nn.init.orthogonal_(layer.weight, last_gain if last else 2**0.5, generator=generator)
         nn.init.zeros_(layer.bias)
         layers += [layer] if last else [layer, nn.Tanh()]
     return nn.Sequential(*layers)
 
 
-def _empty_linear(taken: int, given: int) -> nn.Linear:
-    """A layer whose weights are yet to be set: torch's own start draws from global chance."""
-    layer: nn.Linear = nn.utils.skip_init(nn.Linear, taken, given)  # type: ignore[no-untyped-call]
+def _empty_linear(in_features: int, out_features: int) -> nn.Linear:
+    """A layer with uninitialised weights: torch's own initialisation uses the global generator."""
+    layer: nn.Linear = nn.utils.skip_init(  # type: ignore[no-untyped-call]
+        nn.Linear, in_features, out_features
+    )
     return layer

@@ -1,7 +1,7 @@
-"""Whom the learners play against: themselves, their past selves, and random drifting.
+"""Pool of opponents for self-play: the current policy, frozen past policies, random drifting.
 
-Self-play against the latest self alone chases its own tail: it beats what it just was and
-forgets how to beat the rest. Frozen past selves and a slice of drifting robots keep old curriculum.
+Self-play against the current policy alone can cycle: a policy learns to beat its predecessor and
+forgets how to beat others. Frozen past policies and a share of drifting robots keep that skill.
 """
 
 from __future__ import annotations
@@ -17,56 +17,76 @@ from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
-from rsoccer.train.checkpoint import owned
+from rsoccer.train.checkpoint import add_prefix, select_prefix
 from rsoccer.train.timing import Clock
 
 OU, LATEST, PAST = 0, 1, 2
-"""Codes of opponents; past self `k` of the pool has code `PAST + k`."""
+"""Codes of opponents; past policy `k` of the pool has code `PAST + k`."""
 
 KINDS = ("ou", "latest", "past")
-"""Names of the codes, where all past selves are one kind."""
+"""Names of the kinds of opponents by code; all past policies are one kind."""
 
 
 class OpponentPool(Policy):
-    """Gives each world an opponent of its own, drawn anew whenever an episode starts."""
+    """A policy that gives each world its own opponent, drawn when an episode starts.
+
+    Attributes:
+        latest: the current policy, which the trainer sets after every update; None at first.
+        past: frozen past policies.
+        frozen_at: number of updates after which each past policy was frozen.
+        opponents: (n,) code of each world's opponent in the last step.
+    """
 
     observes: Literal["nothing", "view", "observation"] = "observation"
 
     def __init__(
-        self, task: Task, shares: dict[str, float], size: int, repeat: int, clock: Clock
+        self,
+        task: Task,
+        fractions: dict[str, float],
+        size: int,
+        action_repeat: int,
+        clock: Clock,
     ) -> None:
-        """`shares` of worlds by kind; networks hold each decision for `repeat` control steps."""
+        """Create a pool without past policies.
+
+        Args:
+            task: the task that is trained.
+            fractions: shares of the episodes, 0 to 1, by the names in `KINDS`; they sum to 1.
+            size: largest number of past policies.
+            action_repeat: control steps that networks hold each decision.
+            clock: measures the time of the opponents.
+        """
         self.latest: Network | None = None
         self.past: list[Network] = []
-        self.born: list[int] = []
-        self.opponents = np.zeros(0, np.int64)  # code of each world's opponent in the last step
+        self.frozen_at: list[int] = []
+        self.opponents = np.zeros(0, np.int64)
         self._clock = clock
-        self._drift = make("ou", task)
-        self._shares, self._size, self._repeat = shares, size, repeat
+        self._ou = make("ou", task)
+        self._fractions, self._size, self._action_repeat = fractions, size, action_repeat
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> dict[str, Array]:
-        """Opponents of fresh episodes, and what they have in mind."""
+        """Draw opponents for new episodes, and return their memory, arrays (n, ...)."""
         n = shape[0]
-        drift = self._drift.new_memory(shape, rng)
+        ou_memory = self._ou.new_memory(shape, rng)
         return {
             "opponent": self._draw(rng),
             "age": np.zeros(n, np.int64),
             "held": np.zeros(shape, np.float32),
-            **{f"drift.{name}": array for name, array in drift.items()},
+            **add_prefix("ou", ou_memory),
         }
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: dict[str, Array]) -> Floats:
-        """Each world's opponent acts, (n, robots, action)."""
+        """Return the actions of each world's opponent, (n, robots, action)."""
         with self._clock.measure("opponents"):
             self.opponents = memory["opponent"]
             return self._act(inputs, rng, memory)
 
     def _act(self, inputs: PolicyInput, rng: WorldRng, memory: dict[str, Array]) -> Floats:
+        """Actions (n, robots, action); networks decide every `action_repeat` steps."""
         assert inputs.observations is not None, "a pool observes"
-        drift = {name[6:]: array for name, array in memory.items() if name.startswith("drift.")}
-        drifting = self._drift.act(inputs, rng, drift)
+        ou_actions = self._ou.act(inputs, rng, select_prefix("ou", memory))
         opponent, held = memory["opponent"], memory["held"]
-        due = memory["age"] % self._repeat == 0
+        due = memory["age"] % self._action_repeat == 0
         memory["age"] += 1
         for code, network in self._networks():
             rows = due & (opponent == code)
@@ -74,56 +94,73 @@ class OpponentPool(Policy):
                 streams = rng[rows]
                 held[rows] = network.choose(inputs.observations[rows], streams)
                 rng.put(rows, streams)
-        return np.where((opponent == OU)[:, None, None], drifting, held)
+        return np.where((opponent == OU)[:, None, None], ou_actions, held)
 
-    def freeze(self, network: Network, born: int) -> None:
-        """Keep a copy of a policy; once full, the one that leaves the smallest gap makes room.
+    def freeze(self, network: Network, update: int) -> None:
+        """Add a past policy. A full pool evicts the one closest in age to its neighbours.
 
-        So the pool stays spread over the whole run. A match against the one that left goes on
-        against the one that came.
+        The ages in the pool thus stay spread over the whole run. Matches in progress against the
+        evicted policy continue against its replacement.
+
+        Args:
+            network: the policy to add.
+            update: number of updates that the policy was trained for.
         """
         if len(self.past) < self._size:
             self.past.append(network)
-            self.born.append(born)
+            self.frozen_at.append(update)
             return
         slot = self._most_crowded()
-        self.past[slot], self.born[slot] = network, born
+        self.past[slot], self.frozen_at[slot] = network, update
 
     def _most_crowded(self) -> int:
         """Slot whose removal leaves the smallest gap between the ages of its neighbours."""
-        order = np.argsort(self.born)
+        order = np.argsort(self.frozen_at)
         if len(order) < 3:
             return int(order[0])
-        times = np.array(self.born)[order]
-        return int(order[1 + np.argmin(times[2:] - times[:-2])])
+        updates = np.array(self.frozen_at)[order]
+        return int(order[1 + np.argmin(updates[2:] - updates[:-2])])
 
     def _draw(self, rng: WorldRng) -> Array:
-        """Code of an opponent for each world (n,); before there is a past, the latest self."""
-        share = rng.uniform(0.0, 1.0)
-        chosen = rng.integers(max(len(self.past), 1))
-        past = PAST + chosen if self.past else np.full(len(rng), LATEST)
-        ou = share < self._shares["ou"]
-        recent = share < self._shares["ou"] + self._shares["latest"]
-        return np.where(ou, OU, np.where(recent, LATEST, past))
+        """Code of an opponent for each world (n,); `LATEST` for past ones in an empty pool."""
+        uniform = rng.uniform(0.0, 1.0)
+        slot = rng.integers(max(len(self.past), 1))
+        past = PAST + slot if self.past else np.full(len(rng), LATEST)
+        is_ou = uniform < self._fractions["ou"]
+        is_ou_or_latest = uniform < self._fractions["ou"] + self._fractions["latest"]
+        return np.where(is_ou, OU, np.where(is_ou_or_latest, LATEST, past))
 
     def state_dict(self) -> dict[str, Array]:
-        """Arrays of the past selves; the latest self is the trainer's to keep."""
-        arrays: dict[str, Array] = {"born": np.array(self.born, np.int64)}
+        """Return the arrays of the past policies by name; the trainer saves the current one."""
+        arrays: dict[str, Array] = {"frozen_at": np.array(self.frozen_at, np.int64)}
         for slot, network in enumerate(self.past):
-            arrays |= {f"{slot}.{name}": array for name, array in network.arrays().items()}
+            arrays |= add_prefix(str(slot), network.arrays())
         return arrays
 
     def load_state_dict(self, arrays: dict[str, Array], metadata: dict[str, str]) -> None:
-        """Continue from what `state_dict` gave; `metadata` is that of all these networks."""
-        self.born = arrays["born"].tolist()
-        self.past = [Network(owned(str(slot), arrays), metadata) for slot in range(len(self.born))]
+        """Restore the past policies.
+
+        Args:
+            arrays: arrays from `state_dict`.
+            metadata: metadata of the networks, the same for all.
+        """
+        self.frozen_at = arrays["frozen_at"].tolist()
+        self.past = [
+            Network(select_prefix(str(slot), arrays), metadata)
+            for slot in range(len(self.frozen_at))
+        ]
 
     def _networks(self) -> Iterator[tuple[int, Network]]:
+        """Codes and networks of the current policy and of the past ones."""
         if self.latest is not None:
             yield LATEST, self.latest
         yield from enumerate(self.past, PAST)
 
 
-def kinds(opponent: Array) -> Array:
-    """Index into `KINDS` of each opponent's code (n,)."""
-    return np.minimum(opponent, PAST)
+def kinds_of(opponents: Array) -> Array:
+    """Return the kind of each opponent as an index into `KINDS`, (n,).
+
+    Args:
+        opponents: (n,) codes of opponents.
+    """
+    return np.minimum(opponents, PAST)

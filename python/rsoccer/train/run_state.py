@@ -1,4 +1,4 @@
-"""All that the rest of a run depends on, as arrays and plain values, and back."""
+"""State of a run as a checkpoint, and back: all that the remaining updates depend on."""
 
 from __future__ import annotations
 
@@ -8,28 +8,34 @@ import torch
 from torch import Tensor
 
 from rsoccer.frame import Array
-from rsoccer.train.checkpoint import Arrays, Checkpoint, owned, prefixed
+from rsoccer.train.checkpoint import Arrays, Checkpoint, add_prefix, select_prefix
 
 if TYPE_CHECKING:
     from rsoccer.train.trainer import Trainer
 
 
 def capture(trainer: Trainer, log_size: int) -> Checkpoint:
-    """The run as it is between two updates, in memory of its own."""
+    """Return a copy of the run's state between two updates.
+
+    Args:
+        trainer: the run.
+        log_size: bytes of the log's CSV file.
+    """
+    collector = trainer.collector
     run = {
-        "returns": trainer.returns.copy(),
-        "observations": trainer.observations.copy(),
+        "discounted_returns": collector.discounted_returns.copy(),
+        "observations": collector.observations.copy(),
         "generator": trainer.generator.get_state().numpy().copy(),
     }
     model = {name: part.numpy().copy() for name, part in trainer.model.state_dict().items()}
     arrays = {
-        **prefixed("run", run),
-        **prefixed("model", model),
-        **prefixed("adam", _capture_optimiser(trainer.optimiser)),
-        **prefixed("obs_rms", trainer.obs_rms.state_dict()),
-        **prefixed("return_rms", trainer.return_rms.state_dict()),
-        **prefixed("worlds", trainer.matches.state_dict()),
-        **prefixed("pool", {} if trainer.pool is None else trainer.pool.state_dict()),
+        **add_prefix("run", run),
+        **add_prefix("model", model),
+        **add_prefix("adam", _capture_optimiser(trainer.ppo.optimiser)),
+        **add_prefix("obs_rms", collector.obs_rms.state_dict()),
+        **add_prefix("return_rms", collector.return_rms.state_dict()),
+        **add_prefix("worlds", collector.matches.state_dict()),
+        **add_prefix("pool", {} if trainer.pool is None else trainer.pool.state_dict()),
     }
     info = {
         "args": trainer.args.to_json(),
@@ -43,7 +49,15 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
 
 
 def restore(trainer: Trainer, saved: Checkpoint) -> None:
-    """Become the run that was captured, bit for bit; ValueError if it does not fit this one."""
+    """Give a new run the captured state; its updates then equal the captured run's bit for bit.
+
+    Args:
+        trainer: a new run with the settings of the captured one.
+        saved: state from `capture`.
+
+    Raises:
+        ValueError: a checkpoint that lacks a part, or of another task or version.
+    """
     try:
         _restore(trainer, saved)
     except (KeyError, RuntimeError, TypeError, ValueError) as error:
@@ -51,27 +65,30 @@ def restore(trainer: Trainer, saved: Checkpoint) -> None:
 
 
 def _restore(trainer: Trainer, saved: Checkpoint) -> None:
+    """Restore every part of a run."""
     arrays, info = saved.arrays, saved.info
     if trainer.is_solo and not info["is_solo"]:
         trainer.start_self_play()
-    model = {name: torch.tensor(part) for name, part in owned("model", arrays).items()}
+    collector = trainer.collector
+    model = {name: torch.tensor(part) for name, part in select_prefix("model", arrays).items()}
     trainer.model.load_state_dict(model)
-    _restore_optimiser(trainer.optimiser, owned("adam", arrays))
-    trainer.obs_rms.load_state_dict(owned("obs_rms", arrays))
-    trainer.return_rms.load_state_dict(owned("return_rms", arrays))
-    trainer.matches.load_state_dict(owned("worlds", arrays))
-    run = owned("run", arrays)
-    trainer.returns, trainer.observations = run["returns"].copy(), run["observations"].copy()
+    _restore_optimiser(trainer.ppo.optimiser, select_prefix("adam", arrays))
+    collector.obs_rms.load_state_dict(select_prefix("obs_rms", arrays))
+    collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
+    collector.matches.load_state_dict(select_prefix("worlds", arrays))
+    run = select_prefix("run", arrays)
+    collector.discounted_returns = run["discounted_returns"].copy()
+    collector.observations = run["observations"].copy()
     trainer.generator.set_state(torch.tensor(run["generator"]))
     trainer.samples, trainer.updates = info["samples"], info["updates"]
     trainer.elapsed = info["elapsed"]
     if trainer.pool is not None:
         trainer.pool.latest = trainer.network()
-        trainer.pool.load_state_dict(owned("pool", arrays), trainer.pool.latest.metadata)
+        trainer.pool.load_state_dict(select_prefix("pool", arrays), trainer.pool.latest.metadata)
 
 
 def _capture_optimiser(optimiser: torch.optim.Optimizer) -> Arrays:
-    """What Adam remembers of each parameter, by `<parameter>.<name>`."""
+    """Adam's moments and steps of each parameter by `<parameter>.<name>`."""
     return {
         f"{index}.{name}": part.numpy().copy()
         for index, parts in optimiser.state_dict()["state"].items()
@@ -80,6 +97,7 @@ def _capture_optimiser(optimiser: torch.optim.Optimizer) -> Arrays:
 
 
 def _restore_optimiser(optimiser: torch.optim.Optimizer, arrays: dict[str, Array]) -> None:
+    """Restore what `_capture_optimiser` returned."""
     state: dict[int, dict[str, Tensor]] = {}
     for name, array in arrays.items():
         index, key = name.split(".", 1)

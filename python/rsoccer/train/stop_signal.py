@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM as a polite request: finish, save, leave."""
+"""Ctrl-C and SIGTERM during training: the run saves a checkpoint before it ends."""
 
 from __future__ import annotations
 
@@ -8,43 +8,52 @@ from types import FrameType, TracebackType
 from typing import Any, Self
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+"""Signals that stop a run."""
 
 
 class Stopped(Exception):
-    """Raised by `Stop.check` once a signal has come."""
+    """A signal came; `StopSignal.check` raises it inside the run."""
 
 
 class Interrupted(SystemExit):
-    """A run that a signal ended after it was saved; the exit status tells which signal."""
+    """The run saved its checkpoint after a signal; the exit status encodes the signal."""
 
 
-class Stop:
-    """While entered, a first signal only sets a flag; a second one acts as it always does."""
+class StopSignal:
+    """Context manager in which the first signal sets a flag and the second acts as usual.
+
+    Attributes:
+        signal: the signal that came, or None.
+    """
 
     def __init__(self) -> None:
-        """Nothing is caught until the object is entered."""
+        """Create the flag; signals are caught only inside the `with` block."""
         self.signal: signal.Signals | None = None
-        self._before: dict[signal.Signals, Any] = {}
+        self._previous: dict[signal.Signals, Any] = {}
 
     def check(self) -> None:
-        """Raise `Stopped` if a signal has come."""
+        """Do nothing unless a signal has come.
+
+        Raises:
+            Stopped: a signal has come.
+        """
         if self.signal is not None:
             raise Stopped(self.signal.name)
 
     @property
     def name(self) -> str:
-        """Name of the signal that came."""
+        """Name of the signal that came; empty if none did."""
         return "" if self.signal is None else self.signal.name
 
     @property
-    def status(self) -> int:
-        """Exit status of a program that this signal ended, by the shell's convention."""
+    def exit_status(self) -> int:
+        """128 + the number of the signal, as shells report a program that it ended; else 0."""
         return 0 if self.signal is None else 128 + self.signal
 
     def __enter__(self) -> Self:
-        """Catch the signals, where Python lets us: in the main thread."""
+        """Catch the signals; Python allows that in the main thread only."""
         if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._record) for number in SIGNALS}
+            self._previous = {number: signal.signal(number, self._record) for number in SIGNALS}
         return self
 
     def __exit__(
@@ -53,14 +62,16 @@ class Stop:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Give the signals back."""
-        self._give_back()
+        """Restore the previous signal handlers."""
+        self._restore_handlers()
 
     def _record(self, number: int, frame: FrameType | None) -> None:
+        """Handle the first signal."""
         self.signal = signal.Signals(number)
-        self._give_back()
+        self._restore_handlers()
 
-    def _give_back(self) -> None:
-        for number, handler in self._before.items():
+    def _restore_handlers(self) -> None:
+        """Install the handlers from before the `with` block."""
+        for number, handler in self._previous.items():
             signal.signal(number, handler)
-        self._before = {}
+        self._previous = {}

@@ -1,0 +1,256 @@
+"""Rollouts: decisions held for `action_repeat` control steps, recorded as a batch for PPO.
+
+The collector uses a task through `Matches` and `Outcome` only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from rsoccer.frame import Array, Floats, Mask
+from rsoccer.matches import Matches
+from rsoccer.train.args import Args
+from rsoccer.train.gae import compute_gae
+from rsoccer.train.log import EpisodeStats, Row
+from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
+from rsoccer.train.opponent_pool import KINDS, OpponentPool, kinds_of
+from rsoccer.train.running_mean_std import RunningMeanStd
+from rsoccer.train.timing import Clock
+
+
+@dataclass
+class Transition:
+    """Result of one decision in n worlds, after its last control step."""
+
+    observations: Floats
+    """(n, agents, o) next observations; the last ones of the episode where it ended."""
+    rewards: Floats
+    """(n, agents) sums over the control steps."""
+    terms: dict[str, float]
+    """Sum over the control steps of each reward term's mean over worlds and agents."""
+    terminated: Mask
+    """(n,) the task ended the episode."""
+    ended: Mask
+    """(n,) the episode terminated or reached the time limit."""
+    metrics: dict[str, Array]
+    """(n,) metrics of the task by name, valid where the episode ended."""
+
+
+def repeat_action(matches: Matches, actions: Floats, action_repeat: int) -> Transition:
+    """Hold actions for some control steps, in each world until its episode ends.
+
+    A world whose episode ends waits for the next decision, so no reward of one episode counts for
+    an action of another.
+
+    Args:
+        matches: matches without automatic resets.
+        actions: (n, agents, action) actions in [-1, 1].
+        action_repeat: control steps, at least 1.
+
+    Returns:
+        The transition from before the first step to after the last.
+    """
+    outcome = matches.step(actions)
+    result = Transition(
+        outcome.observations,
+        outcome.rewards,
+        {name: float(term.mean()) for name, term in outcome.terms.items()},
+        outcome.terminated,
+        outcome.ended,
+        outcome.metrics,
+    )
+    for _ in range(action_repeat - 1):
+        playing = ~result.ended
+        outcome = matches.step(actions)
+        result.rewards += outcome.rewards * playing[:, None]
+        for name, term in outcome.terms.items():
+            result.terms[name] += float((term * playing[:, None]).mean())
+        result.observations[playing] = outcome.observations[playing]
+        result.terminated |= outcome.terminated & playing
+        result.ended |= outcome.ended & playing
+        for name, values in outcome.metrics.items():
+            result.metrics[name][playing] = values[playing]
+    return result
+
+
+@dataclass
+class Batch:
+    """Samples of one rollout; size is horizon x worlds x agents."""
+
+    observations: Tensor
+    """(size, o) normalised observations."""
+    actions: Tensor
+    """(size, action) drawn actions, not clipped."""
+    log_probs: Tensor
+    """(size,) log densities of the actions under the policy that drew them."""
+    advantages: Tensor
+    """(size,) advantages from GAE, in scaled rewards."""
+    returns: Tensor
+    """(size,) targets of the value network: advantages + values."""
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return len(self.returns)
+
+    def select(self, indices: Tensor) -> Batch:
+        """Return a minibatch of some samples.
+
+        Args:
+            indices: (k,) indices of the samples.
+        """
+        return Batch(*(part[indices] for part in vars(self).values()))
+
+
+class RolloutCollector:
+    """Plays matches with the current policy and records batches of samples.
+
+    Attributes:
+        matches: the matches in progress.
+        observations: (n, agents, o) current observations, not normalised.
+        discounted_returns: (n, agents) discounted sums of past rewards; their standard deviation
+            scales the rewards.
+        obs_rms: running mean and standard deviation of the observations.
+        return_rms: running standard deviation of `discounted_returns`.
+        gamma: discount factor per decision.
+        episode_stats: statistics of the episodes that ended.
+        reward_means: mean reward per decision in the last rollout, and of each reward term.
+    """
+
+    def __init__(
+        self, args: Args, model: ActorCritic, generator: torch.Generator, clock: Clock
+    ) -> None:
+        """Create a collector; `enter` gives it matches.
+
+        Args:
+            args: settings of the run.
+            model: the policy that acts, and the value network.
+            generator: draws actions and truncations.
+            clock: measures the time of acting, of the matches and of the value network.
+        """
+        self._args, self._model, self._generator, self._clock = args, model, generator, clock
+        self.gamma = args.gamma**args.action_repeat
+        self.obs_rms = RunningMeanStd(model.observation_size)
+        self.return_rms = RunningMeanStd(1, min_std=1e-6)
+        self.episode_stats = EpisodeStats(KINDS)
+        self.reward_means: Row = {}
+
+    def enter(self, matches: Matches, pool: OpponentPool | None) -> None:
+        """Start to play some matches.
+
+        Args:
+            matches: matches without automatic resets.
+            pool: the pool that controls the opponents, if one does.
+        """
+        self.matches, self._pool = matches, pool
+        self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
+        self.observations = matches.reset()
+
+    def collect(self, check_stop: Callable[[], None]) -> Batch:
+        """Play `horizon` decisions in every world.
+
+        Args:
+            check_stop: called before each decision; an exception that it raises ends the rollout.
+
+        Returns:
+            Batch of horizon x worlds x agents samples.
+        """
+        transitions: list[tuple[Tensor, ...]] = []
+        observations: list[Floats] = []
+        self.reward_means = {}
+        for _ in range(self._args.horizon):
+            check_stop()
+            observations.append(self.observations)
+            transitions.append(self._play_decision())
+        size = self._model.observation_size
+        self.obs_rms.update(np.concatenate(observations).reshape(-1, size))
+        return self._make_batch(*(torch.stack(parts) for parts in zip(*transitions, strict=True)))
+
+    @torch.no_grad()
+    def _play_decision(self) -> tuple[Tensor, ...]:
+        """One decision in every world: the arguments of `_make_batch`, (worlds x agents, ...)."""
+        with self._clock.measure("acting"):
+            observations = self._normalise(self.observations)
+            mean = self._model.actor(observations)
+            noise = torch.randn(mean.shape, generator=self._generator)
+            actions = mean + noise * self._model.log_std.exp()
+            log_probs = self._model.log_prob(mean, actions)
+        with self._clock.measure("matches"):
+            shape = (*self.discounted_returns.shape, actions.shape[-1])
+            transition = repeat_action(
+                self.matches, actions.numpy().reshape(shape), self._args.action_repeat
+            )
+            self._record(transition)
+            ended = transition.ended | self._draw_truncations()
+            self.discounted_returns[ended] = 0.0
+            self.observations = transition.observations
+            if ended.any():
+                self.observations = self.matches.reset(mask=ended)
+        agents = self.discounted_returns.shape[1]
+        return (
+            observations,
+            actions,
+            log_probs,
+            torch.tensor(transition.rewards.reshape(-1)),
+            self._normalise(transition.observations),
+            torch.tensor(np.repeat(transition.terminated, agents)),
+            torch.tensor(np.repeat(ended, agents)),
+        )
+
+    def _draw_truncations(self) -> Mask:
+        """Mask (n,) of random truncations, which are bootstrapped like time limits."""
+        uniform = torch.rand(len(self.discounted_returns), generator=self._generator)
+        return (uniform < self._args.random_truncation).numpy()
+
+    def _record(self, transition: Transition) -> None:
+        """Update the statistics of rewards and of ended episodes."""
+        self.discounted_returns = (
+            self.discounted_returns * np.float32(self.gamma) + transition.rewards
+        )
+        self.return_rms.update(self.discounted_returns.reshape(-1, 1))
+        ended = transition.ended
+        opponents = np.zeros(len(ended), int)
+        if self._pool is not None:
+            opponents = kinds_of(self._pool.opponents)
+        metrics = {name: values[ended] for name, values in transition.metrics.items()}
+        self.episode_stats.add(opponents[ended], metrics)
+        means = {f"reward_{name}": mean for name, mean in transition.terms.items()}
+        for name, mean in {**means, "reward": float(transition.rewards.mean())}.items():
+            self.reward_means[name] = self.reward_means.get(name, 0.0) + mean / self._args.horizon
+
+    def _make_batch(
+        self,
+        observations: Tensor,
+        actions: Tensor,
+        log_probs: Tensor,
+        rewards: Tensor,
+        next_observations: Tensor,
+        terminated: Tensor,
+        ended: Tensor,
+    ) -> Batch:
+        """Batch of the decisions of a rollout, each tensor (horizon, worlds x agents, ...)."""
+        with self._clock.measure("learning"), torch.no_grad():
+            values = self._model.value(observations)
+            next_values = self._model.value(next_observations)
+            scaled_rewards = rewards / float(self.return_rms.std[0])
+            advantages = compute_gae(
+                scaled_rewards,
+                values,
+                next_values,
+                terminated,
+                ended,
+                self.gamma,
+                self._args.gae_lambda,
+            )
+            batch = (observations, actions, log_probs, advantages, advantages + values)
+            return Batch(*(part.flatten(0, 1) for part in batch))
+
+    def _normalise(self, observations: Floats) -> Tensor:
+        """Normalised observations (worlds x agents, o) of observations (n, agents, o)."""
+        mean, std = self.obs_rms.as_float32()
+        flat = observations.reshape(-1, observations.shape[-1])
+        return torch.tensor(np.clip((flat - mean) / std, -OBSERVATION_CLIP, OBSERVATION_CLIP))
