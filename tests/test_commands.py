@@ -39,7 +39,7 @@ def test_heavy_packages_stay_out_of_the_way() -> None:
         "import sys; from rsoccer.cli import main; main(['list'])\n"
         "try: main(['train', '--help'])\n"
         "except SystemExit: pass\n"
-        "sys.exit(','.join({'torch', 'pygame', 'matplotlib', 'imageio'} & set(sys.modules)) or 0)"
+        "sys.exit(','.join({'torch', 'pygame', 'matplotlib', 'PIL'} & set(sys.modules)) or 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

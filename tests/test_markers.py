@@ -4,7 +4,7 @@ import pytest
 import rsoccer
 from rsoccer import Matches
 from rsoccer.markers import Area, Gate, Target, Way
-from rsoccer.render.markers import draw_markers, marked
+from rsoccer.render.overlay import marker_shapes, task_overlay
 from rsoccer.tasks.courses import COURSES, Course
 
 SHOWN = {
@@ -24,8 +24,8 @@ def test_tasks_mark_what_their_play_is_about(name: str) -> None:
     for world in range(2):
         markers = matches.task.markers(matches.play, world)
         assert {type(marker) for marker in markers} == SHOWN.get(name, set())
-        shapes = marked(matches, world)
-        assert shapes == draw_markers(matches.task.config.field, markers)
+        shapes = task_overlay(matches, world)
+        assert shapes == marker_shapes(matches.task.config.field, markers)
         assert bool(shapes) == bool(markers)
 
 

@@ -10,7 +10,7 @@ WRONG_INPUT = 2  # exit status, as command-line parsers have it
 INTERRUPTED = 130  # what shells report after Ctrl-C
 
 EXTRAS = {
-    "imageio": "render",
+    "PIL": "render",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "pygame": "render",
