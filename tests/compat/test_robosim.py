@@ -53,7 +53,7 @@ def test_field_parameters_are_those_of_the_page() -> None:
 
 def test_the_page_has_the_models_numbers() -> None:
     robot, text = SSL_ROBOT, PAGE.read_text()
-    for said in (
+    for phrase in (
         f"holds with {robot.grip:g} N",
         f"up to {robot.max_kick:g} m/s, then {robot.recharge:g} s",
         f"{robot.speed_up:.2f} m/s² up and {robot.brake:.2f} m/s² down",
@@ -64,7 +64,7 @@ def test_the_page_has_the_models_numbers() -> None:
         f"corners of {VSS_FIELDS[0].corner:g} m",
         f"{VSS_FIELDS[0].max_robots} a side (VSS), {SSL_FIELDS[0].max_robots} (SSL)",
     ):
-        assert said in text
+        assert phrase in text
 
 
 @pytest.mark.parametrize("n", [(0, 0), (1, 0), (0, 2), (3, 1)])
@@ -82,8 +82,8 @@ def test_any_number_of_robots(world: Builder, n: tuple[int, int]) -> None:
 def test_no_robots_may_be_any_empty_array() -> None:
     sim = ssl(2, 1, 0)
     empty: list[object] = [[], (), np.array([]), np.zeros((0, 3))]
-    for nobody in empty:
-        sim.reset(BALL, ((0.5, 0, 90),), nobody)
+    for robots in empty:
+        sim.reset(BALL, ((0.5, 0, 90),), robots)
     assert sim.get_state()[5:8] == [0.5, 0.0, 90.0]
 
 

@@ -7,7 +7,7 @@ from rsoccer.entities import Doubles, headings
 
 RADIUS = SSL_BALL.radius
 FRONT = SSL_ROBOT.front + RADIUS
-FAR = np.array([9.0, 9.0])
+FAR_BALL = np.array([9.0, 9.0])
 
 
 def ball_beside(local: list[float], angle: float = 0.0) -> Doubles:
@@ -43,26 +43,26 @@ def test_a_ball_whose_centre_is_inside_stays(local: list[float]) -> None:
 
 def test_two_round_robots_move_by_the_same_distance() -> None:
     places = np.array([[0.0, 0.0], [0.0, 0.174]])
-    _, moved = separate(FAR, places, headings(np.zeros(2)), SSL_ROBOT, RADIUS)
+    _, moved = separate(FAR_BALL, places, headings(np.zeros(2)), SSL_ROBOT, RADIUS)
     assert moved == pytest.approx(np.array([[0.0, -0.003], [0.0, 0.177]]))
 
 
 def test_robots_that_overlap_too_much_stay() -> None:
     places = np.array([[0.0, 0.0], [0.0, 0.18 - MAX_OVERLAP - 1e-6]])
-    _, moved = separate(FAR, places, headings(np.zeros(2)), SSL_ROBOT, RADIUS)
+    _, moved = separate(FAR_BALL, places, headings(np.zeros(2)), SSL_ROBOT, RADIUS)
     assert (moved == places).all()
 
 
 def test_squares_corner_to_corner_are_moved_apart() -> None:
     places = np.array([[0.0, 0.0], [0.1, 0.0]])
-    _, moved = separate(FAR, places, headings(np.array([45.0, 45.0])), VSS_ROBOT, RADIUS)
+    _, moved = separate(FAR_BALL, places, headings(np.array([45.0, 45.0])), VSS_ROBOT, RADIUS)
     assert np.hypot(*(moved[1] - moved[0])) > 0.1
     assert 0.0 < np.hypot(*(moved[1] - places[1])) < MAX_OVERLAP
 
 
 def test_squares_side_by_side_stay() -> None:
     places = np.array([[0.0, 0.0], [0.0, 0.0751], [0.0751, 0.0]])
-    _, moved = separate(FAR, places, headings(np.array([0.0, 90.0, 180.0])), VSS_ROBOT, RADIUS)
+    _, moved = separate(FAR_BALL, places, headings(np.array([0.0, 90.0, 180.0])), VSS_ROBOT, RADIUS)
     assert (moved == places).all()
 
 
@@ -80,8 +80,8 @@ def test_separated_robots_stay() -> None:
     places, moves = np.array([[0.0, 0.0], [0.1, 0.0]]), 0
     for _ in range(200):
         forward = headings(rng.uniform(0.0, 360.0, 2))
-        _, once = separate(FAR, places, forward, VSS_ROBOT, RADIUS)
-        _, twice = separate(FAR, once, forward, VSS_ROBOT, RADIUS)
+        _, once = separate(FAR_BALL, places, forward, VSS_ROBOT, RADIUS)
+        _, twice = separate(FAR_BALL, once, forward, VSS_ROBOT, RADIUS)
         assert once == pytest.approx(twice, abs=1e-8)
         moves += bool((once != places).any())
     assert 0 < moves < 200

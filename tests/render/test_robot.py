@@ -44,7 +44,7 @@ def test_a_robot_covers_its_body_and_no_more(model: RobotModel) -> None:
     drawn = points(robot_shapes(model, ORIGIN, palette.BLUE, 0))
     back, front, side = reach(model)
     assert max(x for x, _ in drawn) == pytest.approx(front)
-    # A round outline is drawn by chords, whose corners need not lie at its very ends.
+    # A round outline is drawn by chords; their corners need not lie at its extremes.
     for actual, expected in (
         (-min(x for x, _ in drawn), back),
         (max(y for _, y in drawn), side),

@@ -72,7 +72,7 @@ def test_a_scene_depends_on_its_arguments_only(config: SimConfig, row: Floats) -
     first = background_shapes(config) + foreground_shapes(config, row, PLAIN)
     foreground_shapes(SimConfig("vss_5v5", 1, 2), Frame.empty(1, 1, 2).rows[0], Board((9, 9), 99.0))
     assert background_shapes(config) + foreground_shapes(config, row, PLAIN) == first
-    assert hash(first)  # frozen all the way down
+    assert hash(first)  # frozen, with all that it holds
     np.testing.assert_array_equal(row, before)
 
 

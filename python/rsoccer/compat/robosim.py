@@ -108,8 +108,8 @@ class _Simulation:
         """
         ball = _numbers("ball_pos", ball_pos, (4,), "x, y, v_x, v_y")
         poses = [
-            _numbers(name, given, (n, 3), "x, y and degrees of each robot")
-            for name, given, n in (
+            _numbers(name, positions, (n, 3), "x, y and degrees of each robot")
+            for name, positions, n in (
                 ("blue_robots_pos", blue_robots_pos, self._config.n_blue),
                 ("yellow_robots_pos", yellow_robots_pos, self._config.n_yellow),
             )
@@ -270,13 +270,13 @@ def install(*, force: bool = False) -> ModuleType:
     return here
 
 
-def _numbers(name: str, given: object, shape: tuple[int, ...], meaning: str) -> Doubles:
-    """A copy of given numbers as an array of this shape, or ValueError."""
+def _numbers(name: str, values: object, shape: tuple[int, ...], meaning: str) -> Doubles:
+    """A copy of values as an array of this shape, or ValueError."""
     expected = f"{name}: expected {' x '.join(map(str, shape))} numbers, {meaning}"
     try:
-        array = np.array(given, np.float64)
+        array = np.array(values, np.float64)
     except (TypeError, ValueError) as error:
-        raise ValueError(f"{expected}; got {given!r}") from error
+        raise ValueError(f"{expected}; got {values!r}") from error
     if array.size == 0 and 0 in shape:
         array = array.reshape(shape)  # no robots, in any notation
     if array.shape != shape:
