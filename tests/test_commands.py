@@ -41,7 +41,7 @@ def test_list_and_help_import_no_heavy_package() -> None:
         "import sys; from rsoccer.cli import main; main(['list'])\n"
         "try: main(['train', '--help'])\n"
         "except SystemExit: pass\n"
-        "sys.exit(','.join({'torch', 'pygame', 'matplotlib', 'imageio'} & set(sys.modules)) or 0)"
+        "sys.exit(','.join({'torch', 'pygame', 'matplotlib', 'PIL'} & set(sys.modules)) or 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -48,22 +48,22 @@ def test_states_stay_in_their_space_and_change(name: str) -> None:
     match = parallel_env(name, max_cycles=30)
     match.reset(seed=1)
     assert match.state_space.shape == match.state().shape
-    rng, seen = np.random.default_rng(0), []
+    rng, states = np.random.default_rng(0), []
     while match.agents:
         match.step(random_actions(match, rng))
-        seen.append(match.state())
-        assert match.state_space.contains(seen[-1])
-    assert len(np.unique(seen, axis=0)) == len(seen)
+        states.append(match.state())
+        assert match.state_space.contains(states[-1])
+    assert len(np.unique(states, axis=0)) == len(states)
 
 
 def test_states_of_many_worlds_are_those_of_each() -> None:
     config = SimConfig(n_blue=1, n_yellow=2)
     rows = np.random.default_rng(0).normal(size=(5, config.row_size)).astype(np.float32)
-    scale = StateEncoder(config)
-    states = scale.states(rows)
-    assert states.shape == (5, scale.size) == (5, 4 + 3 * 7)
+    encoder = StateEncoder(config)
+    states = encoder.encode(rows)
+    assert states.shape == (5, encoder.size) == (5, 4 + 3 * 7)
     assert all(
-        np.array_equal(scale.states(row[None])[0], state)
+        np.array_equal(encoder.encode(row[None])[0], state)
         for row, state in zip(rows, states, strict=True)
     )
     before = states.copy()

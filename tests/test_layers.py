@@ -99,7 +99,7 @@ def test_modules_import_only_from_earlier_layers() -> None:
 
 
 def test_importing_the_package_loads_no_heavy_library() -> None:
-    heavy = ["torch", "pygame", "imageio", "matplotlib", "safetensors", "tyro", "tqdm"]
+    heavy = ["torch", "pygame", "PIL", "matplotlib", "safetensors", "tyro", "tqdm"]
     program = f"import sys, rsoccer; sys.exit(str([m for m in {heavy} if m in sys.modules] or ''))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stderr.strip() == ""

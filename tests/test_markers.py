@@ -3,8 +3,8 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.markers import Area, Gate, Segment, Target
-from rsoccer.render.markers import draw_markers, marked
+from rsoccer.markers import Area, Gate, Target, Segment
+from rsoccer.render.overlay import marker_shapes, task_overlay
 from rsoccer.tasks.courses import COURSES, Course
 
 MARKERS = {
@@ -23,9 +23,9 @@ def test_markers_of_each_task_are_drawn(name: str) -> None:
     matches.reset()
     for world in range(2):
         markers = matches.task.markers(matches.play, world)
-        assert {type(marker) for marker in markers} == MARKERS.get(name, set())
-        shapes = marked(matches, world)
-        assert shapes == draw_markers(matches.task.config.field, markers)
+        assert {type(marker) for marker in markers} == SHOWN.get(name, set())
+        shapes = task_overlay(matches, world)
+        assert shapes == marker_shapes(matches.task.config.field, markers)
         assert bool(shapes) == bool(markers)
 
 

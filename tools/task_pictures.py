@@ -10,8 +10,8 @@ from benches.table import ROOT
 from rsoccer import Matches
 from rsoccer.controllers import Controllers
 from rsoccer.render.image import Image, draw_image
-from rsoccer.render.library import pygame
-from rsoccer.render.markers import marked
+from rsoccer.render.overlay import task_overlay
+from rsoccer.render.pygame_import import pygame
 
 FOLDER: Final = ROOT / "docs" / "tasks"
 WIDTH: Final = 420  # pixels
@@ -61,7 +61,7 @@ def draw(name: str) -> Image:
         matches.step(nobody)
         steps += 1
     row, clock = matches.frame.rows[0], steps * config.time_step
-    return draw_image(config, row, clock=clock, extras=marked(matches), width=WIDTH)
+    return draw_image(config, row, clock=clock, extras=task_overlay(matches), width=WIDTH)
 
 
 def save(path: Path, image: Image) -> None:

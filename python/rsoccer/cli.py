@@ -10,7 +10,7 @@ WRONG_INPUT = 2  # exit status for wrong input, as of command-line parsers
 INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
 EXTRAS = {
-    "imageio": "render",
+    "PIL": "render",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "pygame": "render",

@@ -1,12 +1,12 @@
-"""The paper's entities: one moment of one match as plain objects, for people and printing.
+"""The paper's entities: one world at one instant as plain objects, for people and printing.
 
-    >>> moment = entities.of(matches.play.frame, 0)
-    >>> moment.robots_blue[0].theta  # degrees
-    >>> moment.ball.x = 0.1
-    >>> row = entities.to_row(moment, n_blue=3, n_yellow=3)  # where a match can start
+    >>> state = entities.from_frame(matches.play.frame, 0)
+    >>> state.robots_blue[0].theta  # degrees
+    >>> state.ball.x = 0.1
+    >>> row = entities.to_row(state, n_blue=3, n_yellow=3)  # a start of a match
 
-Metres and seconds from the field's centre; a robot's angles are degrees, as in the paper. Nothing
-that runs often uses them: reading many worlds is what `Frame` is for.
+Positions are metres from the field's centre; a robot's angles are degrees, as in the paper. The
+objects are too slow for many worlds or every step: there `Frame` gives arrays.
 """
 
 from collections.abc import Mapping
@@ -24,7 +24,16 @@ Doubles = NDArray[np.float64]
 
 @dataclass
 class Ball:
-    """Where the ball is and how it moves. `z` is the height of its lowest point, 0 on the floor."""
+    """Position and velocity of the ball.
+
+    Attributes:
+        x: position towards yellow's goal, metres.
+        y: position to the left of that, metres.
+        z: height of the ball's lowest point, 0 on the floor, metres.
+        v_x: velocity along x, m/s.
+        v_y: velocity along y, m/s.
+        v_z: velocity upwards, m/s.
+    """
 
     x: float = 0.0
     y: float = 0.0
@@ -42,28 +51,47 @@ class Ball:
 
 @dataclass
 class Robot:
-    """A robot as it is, as it should be placed, or as it is told to move.
+    """State or command of a robot.
 
-    The velocity of a state is along the field's axes, that of a command forward and to the left.
-    From `infrared` on, a state knows the beam only, and a command all but the beam.
+    A state uses the fields up to `infrared`, with velocities along the field's axes. A command uses
+    `v_x`, `v_y` (forward and to the left), `v_theta` and the fields after `infrared`, as far as the
+    robot's drive has them.
+
+    Attributes:
+        yellow: the robot is yellow, not blue.
+        id: number of the robot in its team.
+        x: position towards yellow's goal, metres.
+        y: position to the left of that, metres.
+        theta: heading, degrees from +x towards +y; (-180, 180] when read from a frame.
+        v_x: velocity along x, or forward in a command, m/s.
+        v_y: velocity along y, or to the left in a command, m/s.
+        v_theta: turn rate, anticlockwise, degrees per second.
+        infrared: the ball cuts the beam.
+        v_wheel0: wheel speed, rad/s; of two wheels the left one.
+        v_wheel1: wheel speed, rad/s; of two wheels the right one.
+        v_wheel2: wheel speed, rad/s.
+        v_wheel3: wheel speed, rad/s.
+        kick_v_x: kick forward, m/s.
+        kick_v_z: kick upward, m/s.
+        dribbler: share of the dribbler's speed, 0 to 1, or a bool.
     """
 
     yellow: bool = False
     id: int = 0
     x: float = 0.0
     y: float = 0.0
-    theta: float = 0.0  # degrees from +x to +y, read in (-180, 180]
+    theta: float = 0.0
     v_x: float = 0.0
     v_y: float = 0.0
-    v_theta: float = 0.0  # degrees per second
-    infrared: bool = False  # the ball cuts its beam
-    v_wheel0: float = 0.0  # rad/s; the left one of two
-    v_wheel1: float = 0.0  # the right one of two
+    v_theta: float = 0.0
+    infrared: bool = False
+    v_wheel0: float = 0.0
+    v_wheel1: float = 0.0
     v_wheel2: float = 0.0
     v_wheel3: float = 0.0
-    kick_v_x: float = 0.0  # forward
-    kick_v_z: float = 0.0  # upward
-    dribbler: float = 0.0  # share of its speed; True and False do
+    kick_v_x: float = 0.0
+    kick_v_z: float = 0.0
+    dribbler: float = 0.0
 
     def __str__(self) -> str:
         ball = ", ball in its beam" if self.infrared else ""
@@ -76,7 +104,13 @@ class Robot:
 
 @dataclass
 class Entities:
-    """The paper's `Frame`: the ball and each side's robots by their number in the side."""
+    """Ball and robots of one world: the paper's `Frame`.
+
+    Attributes:
+        ball: the ball.
+        robots_blue: blue robots by their number in the team.
+        robots_yellow: yellow robots by their number in the team.
+    """
 
     ball: Ball = field(default_factory=Ball)
     robots_blue: dict[int, Robot] = field(default_factory=dict)
@@ -88,34 +122,56 @@ class Entities:
 
 
 @dataclass(frozen=True)
-class Field:
-    """The paper's `Field`: numbers of the field, the ball and the robots, metres and rad/s."""
+class FieldParams:
+    """Dimensions of the field, the ball and the robots: the paper's `Field`.
+
+    Attributes:
+        length: length of the field, metres.
+        width: width of the field, metres.
+        penalty_length: size of a goal area along x, metres.
+        penalty_width: size of a goal area along y, metres.
+        goal_width: width of a goal, metres.
+        goal_depth: depth of a goal, metres.
+        ball_radius: radius of the ball, metres.
+        robot_radius: radius of a round robot, half the side of a square one, metres.
+        robot_front: distance from the centre to the middle of the front, metres.
+        wheel_radius: radius of a wheel, metres.
+        wheel_angles: directions of the wheels from the centre, degrees from the front.
+        max_wheel_speed: largest speed of a wheel, rad/s.
+    """
 
     length: float
     width: float
-    penalty_length: float  # of the area before a goal, along x
+    penalty_length: float
     penalty_width: float
     goal_width: float
     goal_depth: float
     ball_radius: float
-    robot_radius: float  # half the side of a square one
-    robot_front: float  # from the centre to the middle of the front
+    robot_radius: float
+    robot_front: float
     wheel_radius: float
-    wheel_angles: tuple[float, ...]  # degrees from the front, where each wheel is
+    wheel_angles: tuple[float, ...]
     max_wheel_speed: float
 
     @classmethod
-    def of(cls, config: SimConfig) -> "Field":
-        """Numbers of a configuration whose robots are of one model."""
-        place, robot = config.field, config.robot
+    def from_config(cls, config: SimConfig) -> "FieldParams":
+        """Read the dimensions of a configuration.
+
+        Args:
+            config: a configuration whose robots are all of one model.
+
+        Returns:
+            Its dimensions.
+        """
+        field, robot = config.field, config.robot
         two_wheels = robot.drive == "differential"
         return cls(
-            length=place.length,
-            width=place.width,
-            penalty_length=place.goal_area_depth,
-            penalty_width=place.goal_area_width,
-            goal_width=place.goal_width,
-            goal_depth=place.goal_depth,
+            length=field.length,
+            width=field.width,
+            penalty_length=field.goal_area_depth,
+            penalty_width=field.goal_area_width,
+            goal_width=field.goal_width,
+            goal_depth=field.goal_depth,
             ball_radius=config.ball.radius,
             robot_radius=robot.side / 2 if two_wheels else robot.radius,
             robot_front=robot.side / 2 if two_wheels else robot.front,
@@ -125,16 +181,24 @@ class Field:
         )
 
 
-# What a drive calls the numbers that a Robot carries under other names, or in other units.
-COMMAND_NAMES: Final = {
+# Fields of a Robot by names of command columns, where the two differ.
+_ROBOT_FIELDS: Final = {
     "left": "v_wheel0",
     "right": "v_wheel1",
     **{f"wheel_{i}": f"v_wheel{i}" for i in range(4)},
 }
 
 
-def of(frame: Frame, world: int) -> Entities:
-    """The moment that a world of a frame shows."""
+def from_frame(frame: Frame, world: int) -> Entities:
+    """Read one world of a frame.
+
+    Args:
+        frame: states of worlds.
+        world: index of the world.
+
+    Returns:
+        A copy of its ball and robots.
+    """
     position, velocity = frame.ball.position[world], frame.ball.velocity[world]
     (x, y), (v_x, v_y) = position.tolist(), velocity.tolist()
     ball = Ball(x, y, float(frame.ball.height[world]), v_x, v_y, float(frame.ball.rise[world]))
@@ -142,14 +206,25 @@ def of(frame: Frame, world: int) -> Entities:
 
 
 def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
-    """The row (row,) that says the same; a robot is who its place in the dictionary says.
+    """Return the state row of entities, such as for `Matches.reset`.
 
-    What entities do not tell is as in `Frame.empty`: the ball's spin, for one, so that a ball that
-    moves slides before it rolls (`spawn.set_rolling_spin` gives it the spin of rolling).
+    Columns that entities do not have are as in `Frame.empty`. The ball's spin is one of them, so a
+    moving ball slides before it rolls; `spawn.set_rolling_spin` gives it the spin of rolling.
+
+    Args:
+        entities: ball and robots. The keys of the dictionaries count, not `id` and `yellow`.
+        n_blue: number of blue robots.
+        n_yellow: number of yellow robots.
+
+    Returns:
+        A row (row,), float32.
+
+    Raises:
+        ValueError: the robots are not those of the two numbers, or a number is not finite.
     """
     robots = [
-        *_listed("robots_blue", entities.robots_blue, n_blue),
-        *_listed("robots_yellow", entities.robots_yellow, n_yellow),
+        *_in_order("robots_blue", entities.robots_blue, n_blue),
+        *_in_order("robots_yellow", entities.robots_yellow, n_yellow),
     ]
     frame, ball = Frame.empty(1, n_blue, n_yellow), entities.ball
     frame.ball.position[0] = ball.x, ball.y
@@ -168,23 +243,45 @@ def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
 
 
 def to_command(robot: Robot, drive: str) -> Floats:
-    """A robot's command (command,) for a drive: a key of `COMMAND_COLUMNS`."""
+    """Return the command of a robot.
+
+    Args:
+        robot: the robot.
+        drive: kind of drive: a key of `COMMAND_COLUMNS`.
+
+    Returns:
+        The columns of the command (command,), float32; the turn rate in rad/s.
+    """
     numbers = {part.name: getattr(robot, part.name) for part in fields(robot)}
     numbers["v_theta"] = np.radians(robot.v_theta)
     columns = COMMAND_COLUMNS[drive]
-    return np.array([numbers[COMMAND_NAMES.get(name, name)] for name in columns], np.float32)
+    return np.array([numbers[_ROBOT_FIELDS.get(name, name)] for name in columns], np.float32)
 
 
 def degrees(heading: Array) -> Doubles:
-    """Angles (...) in (-180, 180] of headings (..., 2) as cosine and sine."""
+    """Convert headings to angles.
+
+    Args:
+        heading: headings (..., 2), cosine and sine.
+
+    Returns:
+        Angles (...), degrees, in (-180, 180].
+    """
     heading = np.asarray(heading, np.float64)
-    turned = np.degrees(np.arctan2(heading[..., 1], heading[..., 0]))
-    return np.where(turned <= -180.0, 180.0, turned) + 0.0  # no minus before a zero
+    angles = np.degrees(np.arctan2(heading[..., 1], heading[..., 0]))
+    return np.where(angles <= -180.0, 180.0, angles) + 0.0  # -0.0 becomes 0.0
 
 
 def headings(angles: float | Array) -> Doubles:
-    """Headings (..., 2) of angles (...), degrees; exact where they are multiples of 90."""
-    with np.errstate(invalid="ignore"):  # what is not finite stays so
+    """Convert angles to headings, exactly for multiples of 90 degrees.
+
+    Args:
+        angles: angles (...), degrees.
+
+    Returns:
+        Headings (..., 2), cosine and sine; not finite where an angle is not.
+    """
+    with np.errstate(invalid="ignore"):  # NaN and infinity stay NaN
         angles = np.mod(np.asarray(angles, np.float64), 360.0)
         quarters = np.round(angles / 90.0)
         turns = quarters.astype(np.int64) % 4
@@ -195,8 +292,9 @@ def headings(angles: float | Array) -> Doubles:
 
 
 def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]:
+    """Robots of a team in one world, by their number."""
     thetas = degrees(columns.heading[world])
-    turns = np.degrees(columns.spin[world], dtype=np.float64)
+    turn_rates = np.degrees(columns.spin[world], dtype=np.float64)
     return {
         i: Robot(
             yellow,
@@ -206,14 +304,15 @@ def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]
             theta=float(theta),
             v_x=float(columns.velocity[world, i, 0]),
             v_y=float(columns.velocity[world, i, 1]),
-            v_theta=float(turn),
+            v_theta=float(turn_rate),
             infrared=bool(columns.infrared[world, i]),
         )
-        for i, (theta, turn) in enumerate(zip(thetas, turns, strict=True))
+        for i, (theta, turn_rate) in enumerate(zip(thetas, turn_rates, strict=True))
     }
 
 
-def _listed(name: str, robots: Mapping[int, Robot], n: int) -> list[Robot]:
+def _in_order(name: str, robots: Mapping[int, Robot], n: int) -> list[Robot]:
+    """Robots 0 to n - 1, or ValueError if the numbers are others."""
     if set(robots) != set(range(n)):
         raise ValueError(f"{name}: expected robots {list(range(n))}, got {sorted(robots)}")
     return [robots[i] for i in range(n)]

@@ -1,4 +1,4 @@
-"""The whole game as one flat vector, for critics that may see everything."""
+"""The global state: a whole match as one flat vector, for centralized critics."""
 
 from __future__ import annotations
 
@@ -8,37 +8,60 @@ from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
 from rsoccer.frame import Floats
 
 LIMIT = 5.0
-"""Largest magnitude shown: a ball at five times a robot's top speed."""
+"""Largest magnitude of a number in a state, such as a ball at five times a robot's top speed."""
 
 
 class StateEncoder:
-    """Turns rows (n, row) into states (n, state): absolute, scaled to about 1, clipped to LIMIT.
+    """An encoder of rows (n, row) as global states (n, state), scaled to about 1.
 
-    Positions by the field's half length, velocities by a robot's top speed, turn rates by that of
-    a robot spinning at top speed. What the ball crossed is left out: it is an event and not a
-    place, and it ends the episode.
+    A state has the columns below, first the ball's, then each robot's, blue first. Numbers are
+    absolute and clipped to -`LIMIT` to `LIMIT`. The column `crossed` is left out: it is an event,
+    and it ends the episode.
+
+    | body | columns | unit |
+    | --- | --- | --- |
+    | ball, robot | `x`, `y` | half length of the field |
+    | ball, robot | `v_x`, `v_y` | top speed of the fastest robot |
+    | ball | `z`, `v_z`; only if a robot has a mouth | as `x` and `v_x` |
+    | robot | `cos`, `sin` of the heading | 1 |
+    | robot | `v_theta` | turn rate of the fastest robot spinning at top speed |
+    | robot | `infrared`; only if a robot has a mouth | 1 if the ball cuts the beam |
+
+    The columns stand in the order of `BALL_COLUMNS` and `ROBOT_COLUMNS`.
     """
 
     def __init__(self, config: SimConfig) -> None:
-        """Find by name the columns to show."""
+        """Select columns and scales.
+
+        Args:
+            config: the configuration of the rows.
+        """
         fastest = max(config.robots, key=lambda robot: robot.top_speed)
         top_speed, half_length = fastest.top_speed, config.field.half_length
         scales = {"x": half_length, "y": half_length, "v_x": top_speed, "v_y": top_speed}
-        turns = {"cos": 1.0, "sin": 1.0, "v_theta": fastest.top_turn_rate}
+        robot_scales = {"cos": 1.0, "sin": 1.0, "v_theta": fastest.top_turn_rate}
         if any(robot.has_mouth for robot in config.robots):
             scales |= {"z": half_length, "v_z": top_speed}
-            turns["infrared"] = 1.0
+            robot_scales["infrared"] = 1.0
+        scales |= robot_scales
         columns = [*BALL_COLUMNS, *ROBOT_COLUMNS * config.n_robots]
-        shown = [(place, name) for place, name in enumerate(columns) if name in scales | turns]
-        self._columns = np.array([place for place, _ in shown])
-        self._factors = np.array([1.0 / (scales | turns)[name] for _, name in shown], np.float32)
+        encoded = [(index, name) for index, name in enumerate(columns) if name in scales]
+        self._columns = np.array([index for index, _ in encoded])
+        self._factors = np.array([1.0 / scales[name] for _, name in encoded], np.float32)
 
     @property
     def size(self) -> int:
-        """Numbers in a state."""
+        """Number of columns in a state."""
         return len(self._columns)
 
-    def states(self, rows: Floats) -> Floats:
-        """A new array (n, state): ball, then blue robots, then yellow ones."""
+    def encode(self, rows: Floats) -> Floats:
+        """Encode rows as states.
+
+        Args:
+            rows: rows of the configuration (n, row), float32.
+
+        Returns:
+            A new array (n, state), float32, within -`LIMIT` to `LIMIT`.
+        """
         states: Floats = np.clip(rows[:, self._columns] * self._factors, -LIMIT, LIMIT)
         return states

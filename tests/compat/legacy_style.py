@@ -1,4 +1,4 @@
-"""Environments as they were written for the old simulator: its interface, by index, no more."""
+"""Environments in the style of the old simulator: its interface only, states by index."""
 
 import random
 from collections.abc import Callable
@@ -59,7 +59,7 @@ class FetchAndShoot:
 
 
 def to_goal(state: State) -> State:
-    """VSS: drive on, turning back to the x axis."""
+    """VSS: drive forward, turning back to the x axis."""
     angle = (state[5 + 2] + 180) % 360 - 180
     aim = np.degrees(np.arctan2(-state[5 + 1], 0.3))
     turn = (aim - angle) / 180
@@ -75,7 +75,7 @@ def turn_and_shoot(state: State) -> State:
 
 
 def play(env: PushBall | FetchAndShoot, policy: Callable[[State], State]) -> tuple[State, bool]:
-    """All states of an episode of at most 400 steps, and whether it ended in a goal."""
+    """All states of an episode of at most 400 steps, and whether the episode ended in a goal."""
     states, done = [env.reset()], False
     while not done and len(states) <= 400:
         state, done = env.step(policy(states[-1]))

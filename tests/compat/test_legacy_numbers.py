@@ -1,14 +1,14 @@
-"""What robots and ball do, through the old interface; "measured" is on the old simulator."""
+"""Motion of robots and ball through the old interface; "measured": on the old simulator."""
 
 import numpy as np
 import pytest
 
 from rsoccer.compat.robosim import SSL, VSS
 
-AWAY = [0.0, -0.5, 0.0, 0.0]  # a ball out of the way
+FAR_BALL = [0.0, -0.5, 0.0, 0.0]
 STEP = 0.025
 STILL = [0.0] * 8
-FRONT = 0.081 + 0.0215  # where the ball touches
+FRONT = 0.081 + 0.0215  # distance of a ball that touches the front
 
 
 def state_after(sim: VSS | SSL, action: list[float], steps: int) -> np.ndarray:
@@ -18,10 +18,10 @@ def state_after(sim: VSS | SSL, action: list[float], steps: int) -> np.ndarray:
 
 
 def vss() -> VSS:
-    return VSS(1, 1, 0, 25, AWAY, [[-0.9, 0, 0]], [])
+    return VSS(1, 1, 0, 25, FAR_BALL, [[-0.9, 0, 0]], [])
 
 
-def ssl(angle: float = 0.0, ball: list[float] = AWAY) -> SSL:
+def ssl(angle: float = 0.0, ball: list[float] = FAR_BALL) -> SSL:
     return SSL(0, 1, 0, 25, ball, [[0, 0, angle]], [])
 
 
@@ -66,9 +66,9 @@ def test_an_ssl_robot_moves_to_its_left_and_turns() -> None:
 
 
 def test_wheels_and_body_speeds_mean_the_same_and_may_alternate() -> None:
-    by_body = [0, 0.5, 0.25, 1.0, 99.0, 0, 0, 0]  # what is unused is not used
-    asked = state_after(ssl(), by_body, 1)[-4:]
-    by_wheels = [1, *asked, 0, 0, 0]
+    by_body = [0, 0.5, 0.25, 1.0, 99.0, 0, 0, 0]  # index 4 is unused
+    speeds = state_after(ssl(), by_body, 1)[-4:]
+    by_wheels = [1, *speeds, 0, 0, 0]
     straight, mixed = ssl(), ssl()
     for i in range(40):
         straight.step([by_body])
@@ -77,14 +77,14 @@ def test_wheels_and_body_speeds_mean_the_same_and_may_alternate() -> None:
     assert straight.get_state()[10] == pytest.approx(np.degrees(1.0), rel=1e-2)
 
 
-def test_the_state_tells_what_was_asked_of_the_wheels() -> None:
+def test_the_state_has_the_commanded_wheel_speeds() -> None:
     sim = ssl()
     assert sim.get_state()[-4:] == [0.0] * 4
     sim.step([[1, 1.0, -2.0, 3.0, 400.0, 0, 0, 0]])
     assert sim.get_state()[-4:] == [1.0, -2.0, 3.0, 400.0]
     sim.step([[0, 0, 0, 1.0, 0, 0, 0, 0]])
     assert sim.get_state()[-4:] == pytest.approx([0.09 / 0.02475] * 4)
-    sim.reset(AWAY, [[0, 0, 0]], [])
+    sim.reset(FAR_BALL, [[0, 0, 0]], [])
     assert sim.get_state()[-4:] == [0.0] * 4
 
 
@@ -104,9 +104,9 @@ def test_a_ball_at_the_kicker_starts_in_the_beam(distance: float, angle: float) 
     assert state[:2] == pytest.approx(FRONT * ahead, abs=1e-5)
 
 
-@pytest.mark.parametrize(("distance", "seen"), [(FRONT + 0.009, 1.0), (FRONT + 0.011, 0.0)])
-def test_the_beam_reaches_as_far_as_the_old_one(distance: float, seen: float) -> None:
-    assert ssl(0, [distance, 0, 0, 0]).get_state()[11] == seen
+@pytest.mark.parametrize(("distance", "infrared"), [(FRONT + 0.009, 1.0), (FRONT + 0.011, 0.0)])
+def test_the_beam_reaches_as_far_as_the_old_one(distance: float, infrared: float) -> None:
+    assert ssl(0, [distance, 0, 0, 0]).get_state()[11] == infrared
     assert ssl(180, [distance, 0, 0, 0]).get_state()[11] == 0.0
 
 
@@ -133,16 +133,16 @@ def test_a_chip_flies() -> None:
     assert max(heights) == pytest.approx(3.0**2 / 2 / 9.81 + 0.0215, abs=0.02)  # 0.44 m measured
 
 
-def test_a_kick_needs_the_ball_and_a_sign() -> None:
+def test_a_kick_needs_the_ball_and_a_positive_speed() -> None:
     for distance, kick in (FRONT + 0.05, 5.0), (FRONT, -5.0):
         state = state_after(ssl(0, [distance, 0, 0, 0]), [0, 0, 0, 0, 0, kick, 0, 0], 2)
         assert abs(state[3:5]).max() < 0.01
 
 
-def test_the_dribbler_holds_until_it_is_told_not_to() -> None:
+def test_the_dribbler_holds_until_it_is_off() -> None:
     back = [0, -0.5, 0, 0, 0, 0, 0]
     sim = ssl(0, [FRONT, 0, 0, 0])
-    for speed in np.linspace(0.0, -0.5, 20):  # gently, its grip is bounded
+    for speed in np.linspace(0.0, -0.5, 20):  # slowly, as its force is limited
         state = state_after(sim, [0, speed, 0, 0, 0, 0, 0, 1], 1)
     held = state_after(sim, [*back, 1], 20)
     assert held[11] == 1.0 and held[0] - held[5] == pytest.approx(FRONT, abs=0.003)
@@ -153,29 +153,29 @@ def test_the_dribbler_holds_until_it_is_told_not_to() -> None:
 
 
 @pytest.mark.parametrize("angle", [0.0, 30.0, 45.0, 90.0])
-@pytest.mark.parametrize(("kind", "decelerates"), [(VSS, 0.14), (SSL, 0.70)])
-def test_the_ball_rolls_alike_in_all_directions(
-    kind: type[VSS | SSL], decelerates: float, angle: float
+@pytest.mark.parametrize(("simulator", "deceleration"), [(VSS, 0.14), (SSL, 0.70)])
+def test_the_ball_rolls_equally_in_all_directions(
+    simulator: type[VSS | SSL], deceleration: float, angle: float
 ) -> None:
     ahead = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-    sim = kind(1, 0, 0, 25, [0, 0, *(0.6 * ahead)], [], [])
+    sim = simulator(1, 0, 0, 25, [0, 0, *(0.6 * ahead)], [], [])
     speeds = []
     for _ in range(20):
         sim.step([])
         v_x, v_y = sim.get_state()[3:5]
         speeds.append(np.hypot(v_x, v_y))
-    assert (speeds[-11] - speeds[-1]) / (10 * STEP) == pytest.approx(decelerates, rel=1e-2)
+    assert (speeds[-11] - speeds[-1]) / (10 * STEP) == pytest.approx(deceleration, rel=1e-2)
 
 
-def test_starts_as_old_environments_draw_them_are_taken() -> None:
+def test_starts_of_old_environments_are_accepted() -> None:
     """VSS: at least 0.1 m apart, which lets two squares overlap at their corners."""
     rng = np.random.default_rng(0)
     blue, yellow = ([[side * 0.2 * i, 0, 0] for i in (1, 2, 3)] for side in (-1, 1))
-    sim, moved = VSS(0, 3, 3, 25, AWAY, blue, yellow), 0
+    sim, moved = VSS(0, 3, 3, 25, FAR_BALL, blue, yellow), 0
     for _ in range(100):
         spots = np.cumsum(np.full(6, 0.1)) - 0.35
         robots = np.stack([spots, np.zeros(6), rng.uniform(0, 360, 6)], axis=1)
-        sim.reset(AWAY, robots[:3], robots[3:])
+        sim.reset(FAR_BALL, robots[:3], robots[3:])
         state = np.array(sim.get_state())[5:].reshape(6, 6)
         assert abs(state[:, :2] - robots[:, :2]).max() < 0.01
         moved += bool(abs(state[:, 0] - robots[:, 0]).max() > 1e-6)

@@ -1,4 +1,4 @@
-"""Whole episodes of environments that know the old interface only."""
+"""Whole episodes of environments written for the old interface."""
 
 import importlib
 import sys
@@ -25,13 +25,13 @@ def test_an_ssl_episode_ends_in_a_goal(seed: int) -> None:
     states, scored = play(FetchAndShoot(robosim, seed), turn_and_shoot)
     assert scored and len(states) < 300
     assert states.shape[1] == 5 + 11
-    assert states[0, 5 + 6] == 1.0, "it starts with the ball in its beam"
+    assert states[0, 5 + 6] == 1.0, "the robot starts with the ball in its beam"
     assert states[-1, 5 + 6] == 0.0
 
 
-def test_velocities_are_what_positions_do() -> None:
+def test_velocities_are_the_derivatives_of_positions() -> None:
     states, _ = play(PushBall(robosim, 1), to_goal)
-    steady = slice(4, 12)  # before the ball is met
+    steady = slice(4, 12)  # before contact with the ball
     moved = np.diff(states[:, 5], axis=0)[steady] / 0.025
     assert moved == pytest.approx(states[1:, 8][steady], abs=0.03)
     assert moved.max() > 0.5
@@ -43,7 +43,7 @@ def test_equal_calls_give_equal_bits(env: Builder, policy: Callable[[State], Sta
     states = play(first, policy)[0]
     assert states.tobytes() == play(again, policy)[0].tobytes()
     first.random.seed(3)
-    assert states.tobytes() == play(first, policy)[0].tobytes(), "a reset leaves nothing behind"
+    assert states.tobytes() == play(first, policy)[0].tobytes(), "a reset restores the state"
 
 
 def test_an_installed_robosim_is_found_by_name(monkeypatch: pytest.MonkeyPatch) -> None:

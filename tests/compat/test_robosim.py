@@ -11,7 +11,7 @@ import pytest
 from rsoccer.compat import robosim
 from rsoccer.compat.legacy_models import SSL_BALL, SSL_FIELDS, SSL_ROBOT, VSS_BALL, VSS_FIELDS
 from rsoccer.compat.robosim import SSL, VSS
-from rsoccer.compat.separation import DEPTH
+from rsoccer.compat.separation import MAX_OVERLAP
 
 Builder = Callable[..., VSS | SSL]
 
@@ -34,7 +34,7 @@ def poses(side: int, n: int) -> list[list[float]]:
 WORLDS = pytest.mark.parametrize("world", [vss, ssl])
 
 
-def test_field_parameters_are_what_the_page_says() -> None:
+def test_field_parameters_are_those_of_the_page() -> None:
     worlds = {f"VSS {kind}": vss(kind) for kind in (0, 1)}
     reported: dict[str, dict[str, float]] = {
         **{name: world.get_field_params() for name, world in worlds.items()},
@@ -44,25 +44,27 @@ def test_field_parameters_are_what_the_page_says() -> None:
     head, _, *lines = re.findall(r"^\|(.*)\|$", table, re.MULTILINE)
     columns = [cell.strip() for cell in head.split("|")][1:]
     rows = [[cell.strip() for cell in line.split("|")] for line in lines]
-    said = {column: {row[0]: float(row[i + 1]) for row in rows} for i, column in enumerate(columns)}
-    assert said == reported
+    documented = {
+        column: {row[0]: float(row[i + 1]) for row in rows} for i, column in enumerate(columns)
+    }
+    assert documented == reported
     assert len(rows) == 17
 
 
 def test_the_page_has_the_models_numbers() -> None:
     robot, text = SSL_ROBOT, PAGE.read_text()
-    for said in (
+    for phrase in (
         f"holds with {robot.grip:g} N",
         f"up to {robot.max_kick:g} m/s, then {robot.recharge:g} s",
         f"{robot.speed_up:.2f} m/s² up and {robot.brake:.2f} m/s² down",
         f"slides at {SSL_BALL.sliding_deceleration} m/s² (VSS: {VSS_BALL.sliding_deceleration})",
         f"{SSL_BALL.rolling_deceleration:.2f} m/s² (VSS: {VSS_BALL.rolling_deceleration:.2f})",
-        f"by up to {DEPTH * 100:g} cm",
+        f"by up to {MAX_OVERLAP * 100:g} cm",
         f"{VSS_FIELDS[0].wall_height:g} m high",
         f"corners of {VSS_FIELDS[0].corner:g} m",
         f"{VSS_FIELDS[0].max_robots} a side (VSS), {SSL_FIELDS[0].max_robots} (SSL)",
     ):
-        assert said in text
+        assert phrase in text
 
 
 @pytest.mark.parametrize("n", [(0, 0), (1, 0), (0, 2), (3, 1)])
@@ -77,11 +79,11 @@ def test_any_number_of_robots(world: Builder, n: tuple[int, int]) -> None:
     assert all(type(number) is float for number in state)
 
 
-def test_no_robots_may_be_written_in_any_way() -> None:
+def test_no_robots_may_be_any_empty_array() -> None:
     sim = ssl(2, 1, 0)
-    ways: list[object] = [[], (), np.array([]), np.zeros((0, 3))]
-    for nobody in ways:
-        sim.reset(BALL, ((0.5, 0, 90),), nobody)
+    empty: list[object] = [[], (), np.array([]), np.zeros((0, 3))]
+    for robots in empty:
+        sim.reset(BALL, ((0.5, 0, 90),), robots)
     assert sim.get_state()[5:8] == [0.5, 0.0, 90.0]
 
 
@@ -153,9 +155,7 @@ def test_arguments_are_not_changed(world: Builder) -> None:
         ((0, 1, 1, 0), "time_step_ms: expected at least 1, got 0"),
     ],
 )
-def test_worlds_that_cannot_be_are_refused(
-    arguments: tuple[int, int, int, int], message: str
-) -> None:
+def test_impossible_matches_are_refused(arguments: tuple[int, int, int, int], message: str) -> None:
     places = [poses(-1, 1), poses(1, max(arguments[2], 0))]
     with pytest.raises(ValueError, match=message):
         VSS(*arguments, BALL, *places)
@@ -213,16 +213,16 @@ def test_bad_actions_are_refused_and_nothing_moves(actions: object, message: str
     assert sim.get_state() == state
 
 
-def test_installing_gives_way_to_another_robosim(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_installing_does_not_replace_another_robosim(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "robosim", ModuleType("robosim"))
-    with pytest.raises(RuntimeError, match="robosim has been imported from a place unknown"):
+    with pytest.raises(RuntimeError, match="robosim has been imported from an unknown place"):
         robosim.install()
     assert robosim.install(force=True) is robosim
     assert sys.modules["robosim"] is robosim
     assert robosim.install() is robosim, "twice does no harm"
 
 
-def test_code_of_others_finds_it_by_the_old_name() -> None:
+def test_code_of_others_imports_it_by_the_old_name() -> None:
     program = (
         "from rsoccer.compat import robosim; robosim.install(); import robosim as found; "
         "print(found.VSS(0, 0, 0, 25, [0, 0, 0, 0], [], []).get_state())"

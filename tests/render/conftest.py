@@ -1,4 +1,4 @@
-"""Moments of play that every drawing test can use: all robots apart, a fast ball."""
+"""Configurations and states for the tests of pictures: robots apart, a fast ball."""
 
 import math
 
@@ -16,7 +16,7 @@ def config() -> SimConfig:
 
 @pytest.fixture
 def row(config: SimConfig) -> Floats:
-    return moment(config)
+    return example_row(config)
 
 
 @pytest.fixture(params=Field.PRESETS)
@@ -26,10 +26,10 @@ def any_config(request: pytest.FixtureRequest) -> SimConfig:
 
 @pytest.fixture
 def any_row(any_config: SimConfig) -> Floats:
-    return moment(any_config)
+    return example_row(any_config)
 
 
-def moment(config: SimConfig) -> Floats:
+def example_row(config: SimConfig) -> Floats:
     frame = Frame.empty(1, config.n_blue, config.n_yellow)
     x, y = config.field.half_length, config.field.half_width
     frame.ball.position[0] = 0.16 * x, 0.63 * y

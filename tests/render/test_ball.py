@@ -6,69 +6,69 @@ from rsoccer import SimConfig
 from rsoccer._core import BallModel, Field
 from rsoccer.render import palette
 from rsoccer.render.ball import (
-    LARGEST,
+    MAX_GROWTH,
     TRAIL_LENGTH,
     TRAIL_SPEED,
-    draw_ball,
-    draw_halo,
-    draw_shadow,
-    draw_trail,
+    ball_shapes,
+    halo_shapes,
+    shadow_shapes,
+    trail_shapes,
 )
 from rsoccer.render.scoreboard import scene_bounds
 from rsoccer.render.shapes import Circle, Line, Point, Polygon
 
 BALL = SimConfig().ball
-HERE = (0.1, 0.2)
+CENTER = (0.1, 0.2)
 
 
 def drawn_radius(height: float) -> float:
-    (ball,) = (s for s in draw_ball(BALL, HERE, height) if s.color == palette.ORANGE)
+    (ball,) = (s for s in ball_shapes(BALL, CENTER, height) if s.color == palette.ORANGE)
     assert isinstance(ball, Circle)
-    assert ball.center == HERE
+    assert ball.center == CENTER
     return ball.radius
 
 
 def shadow(height: float) -> Circle:
-    (disc,) = (s for s in draw_shadow(BALL, HERE, height) if isinstance(s, Circle))
+    (disc,) = (s for s in shadow_shapes(BALL, CENTER, height) if isinstance(s, Circle))
     return disc
 
 
 @pytest.mark.parametrize("name", BallModel.PRESETS)
 def test_a_ball_on_the_floor_has_its_true_size(name: str) -> None:
     model = BallModel(name)
-    balls = [s for s in draw_ball(model, HERE) if s.color == palette.ORANGE]
-    assert balls == [Circle(HERE, model.radius, palette.ORANGE)]
-    assert len(draw_shadow(model, HERE)) == 1
+    balls = [s for s in ball_shapes(model, CENTER) if s.color == palette.ORANGE]
+    assert balls == [Circle(CENTER, model.radius, palette.ORANGE)]
+    assert len(shadow_shapes(model, CENTER)) == 1
 
 
-def test_a_ball_grows_as_it_rises_up_to_a_bound() -> None:
+def test_a_ball_grows_with_its_height_up_to_a_bound() -> None:
     radii = [drawn_radius(height) for height in (0.0, 0.05, 0.4, 1.0, 50.0)]
     assert radii[0] < radii[1] < radii[2] < radii[3] <= radii[4]
-    assert radii[4] == LARGEST * BALL.radius
+    assert radii[4] == MAX_GROWTH * BALL.radius
 
 
-def test_the_shadow_of_a_ball_parts_from_it_as_it_rises() -> None:
-    assert shadow(0.0).center == HERE
-    ways = [math.dist(shadow(height).center, HERE) for height in (0.0, 0.05, 0.4, 1.0)]
-    assert ways == sorted(set(ways))
+def test_the_shadow_moves_away_from_a_rising_ball() -> None:
+    assert shadow(0.0).center == CENTER
+    offsets = [math.dist(shadow(height).center, CENTER) for height in (0.0, 0.05, 0.4, 1.0)]
+    assert offsets == sorted(set(offsets))
     blurs = [shadow(height).blur for height in (0.0, 0.05, 0.4, 1.0)]
     assert blurs == sorted(set(blurs))
-    assert ways[2] > drawn_radius(0.4) + shadow(0.4).radius  # seen apart
+    assert offsets[2] > drawn_radius(0.4) + shadow(0.4).radius  # visibly apart
 
 
-def test_a_stem_ties_a_ball_in_flight_to_its_shadow() -> None:
-    stems = [s for s in draw_shadow(BALL, HERE, 0.4) if isinstance(s, Line)]
-    assert [(stem.start, stem.end) for stem in stems] == [(shadow(0.4).center, HERE)]
+def test_a_line_joins_a_ball_in_flight_and_its_shadow() -> None:
+    stems = [s for s in shadow_shapes(BALL, CENTER, 0.4) if isinstance(s, Line)]
+    assert [(stem.start, stem.end) for stem in stems] == [(shadow(0.4).center, CENTER)]
 
 
 @pytest.mark.parametrize("name", Field.PRESETS)
-def test_a_ball_that_would_be_lost_on_a_large_field_has_a_glow(name: str) -> None:
+def test_a_small_ball_on_a_large_field_has_a_halo(name: str) -> None:
     config = SimConfig(name, 1, 1)
-    glow = draw_halo(config.ball, HERE, scene_bounds(config.field).width)
-    assert bool(glow) == name.startswith("ssl")
-    for disc in glow:
+    halo = halo_shapes(config.ball, CENTER, scene_bounds(config.field).width)
+    assert bool(halo) == name.startswith("ssl")
+    for disc in halo:
         assert isinstance(disc, Circle)
-        assert disc.center == HERE
+        assert disc.center == CENTER
         assert config.ball.radius < disc.radius <= config.robot.bounding_radius
 
 
@@ -80,7 +80,7 @@ def extent(trail: tuple[object, ...]) -> tuple[float, float]:
 def test_a_trail_lies_behind_a_fast_ball_and_is_bounded() -> None:
     lengths = []
     for speed in (0.5, 1.0, 100.0):
-        rear, front = extent(draw_trail(BALL, (0.0, 0.0), (0.0, speed)))
+        rear, front = extent(trail_shapes(BALL, (0.0, 0.0), (0.0, speed)))
         assert front == pytest.approx(0.0)
         lengths.append(-rear)
     assert lengths[0] < lengths[1] < lengths[2]
@@ -88,5 +88,5 @@ def test_a_trail_lies_behind_a_fast_ball_and_is_bounded() -> None:
 
 
 def test_a_slow_ball_has_no_trail() -> None:
-    assert draw_trail(BALL, (0.0, 0.0), (0.99 * TRAIL_SPEED, 0.0)) == ()
-    assert draw_trail(BALL, (0.0, 0.0), (0.0, 0.0)) == ()
+    assert trail_shapes(BALL, (0.0, 0.0), (0.99 * TRAIL_SPEED, 0.0)) == ()
+    assert trail_shapes(BALL, (0.0, 0.0), (0.0, 0.0)) == ()

@@ -2,7 +2,7 @@ import pytest
 
 from rsoccer._core import Field
 from rsoccer.render import palette
-from rsoccer.render.goals import draw_goals
+from rsoccer.render.goals import goal_shapes
 from rsoccer.render.shapes import Line, Polygon
 
 FIELDS = pytest.mark.parametrize(
@@ -15,7 +15,7 @@ ENDS = ((-1, palette.BLUE), (1, palette.YELLOW))
 @FIELDS
 def test_each_goal_has_the_colour_of_the_team_that_defends_it(field: Field) -> None:
     for side, color in ENDS:
-        coloured = [s for s in draw_goals(field, EDGE) if s.color == color]
+        coloured = [s for s in goal_shapes(field, EDGE) if s.color == color]
         assert len(coloured) == 3  # two sides and a back
         for part in coloured:
             xs = [x for x, _ in part.points] if isinstance(part, Polygon) else []
@@ -26,7 +26,7 @@ def test_each_goal_has_the_colour_of_the_team_that_defends_it(field: Field) -> N
 
 @FIELDS
 def test_a_pocket_is_as_wide_and_deep_as_its_goal(field: Field) -> None:
-    pockets = [s for s in draw_goals(field, EDGE) if isinstance(s, Polygon)]
+    pockets = [s for s in goal_shapes(field, EDGE) if isinstance(s, Polygon)]
     for side, color in ENDS:
         tint = palette.mix(palette.TABLE, color, 0.38)
         (pocket,) = (p for p in pockets if p.color == tint)
@@ -36,8 +36,8 @@ def test_a_pocket_is_as_wide_and_deep_as_its_goal(field: Field) -> None:
 
 
 @FIELDS
-def test_walls_of_a_goal_that_stands_free_reach_the_wall_behind(field: Field) -> None:
-    walls = [s for s in draw_goals(field, EDGE) if s.color == palette.YELLOW]
+def test_walls_of_a_free_standing_goal_reach_the_wall_behind(field: Field) -> None:
+    walls = [s for s in goal_shapes(field, EDGE) if s.color == palette.YELLOW]
     solid = [wall.points for wall in walls if isinstance(wall, Polygon)]
     assert len(solid) == (3 if field.goal_wall else 0)
     if not solid:

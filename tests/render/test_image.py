@@ -12,7 +12,7 @@ from rsoccer._core import Field, RobotModel
 from rsoccer.frame import Floats, Frame
 from rsoccer.render import Image, Renderer, draw_image, palette
 from rsoccer.render.image import DEFAULT_WIDTHS, WIDTHS, _renderer, default_width
-from rsoccer.render.overlay import draw_area
+from rsoccer.render.overlay import area_shapes
 from rsoccer.render.pitch import is_table, wall_thickness
 from rsoccer.render.scoreboard import scene_bounds
 from rsoccer.render.shapes import Bounds, Color, Point, Pose
@@ -34,18 +34,18 @@ def close(color: Color, other: Color, tolerance: int = 30) -> bool:
 
 
 def check_colors(config: SimConfig, row: Floats, width: int | None) -> None:
-    """Every robot shows the colour of its team, which was not there without it."""
+    """Every robot shows the colour of its team, and the empty field does not."""
     image, empty = draw_image(config, row, width=width), ground_image(config, width)
     frame = Frame(row[None], config.n_blue, config.n_yellow)
     colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
     robots = zip(frame.robots.position[0].tolist(), frame.robots.heading[0].tolist(), strict=True)
     for model, (position, heading), color in zip(config.robots, robots, colors, strict=True):
         pose = Pose((position[0], position[1]), *heading)
-        # Parts of the cover that neither number nor front reach.
+        # Parts of the cover beside number and front.
         x, y = (
             (-0.34 * model.side, 0.24 * model.side) if hasattr(model, "side") else (-0.012, 0.058)
         )
-        for place in pose.place(((x, y), (x, -y))):
+        for place in pose.to_world(((x, y), (x, -y))):
             assert close(pixel(image, config, place), color), (place, color)
             assert not close(pixel(empty, config, place), color)
 
@@ -119,7 +119,7 @@ def test_goals_and_lines_are_visible(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", Field.PRESETS)
-def test_corner_blocks_and_margins_look_like_what_they_are(name: str) -> None:
+def test_corner_blocks_have_the_walls_colour_and_margins_the_carpets(name: str) -> None:
     field = Field(name)
     image, config = ground_image(SimConfig(name, 1, 1), 1280), SimConfig(name, 1, 1)
     if field.corner:
@@ -132,12 +132,12 @@ def test_corner_blocks_and_margins_look_like_what_they_are(name: str) -> None:
     assert field.corner or field.touch_line_margin
 
 
-def test_extras_are_painted(config: SimConfig, row: Floats) -> None:
-    extras = draw_area(config.field, Bounds(-0.7, -0.6, -0.5, -0.4))
-    plain, marked = draw_image(config, row), draw_image(config, row, extras=extras)
+def test_extras_are_drawn(config: SimConfig, row: Floats) -> None:
+    extras = area_shapes(config.field, Bounds(-0.7, -0.6, -0.5, -0.4))
+    plain, with_extras = draw_image(config, row), draw_image(config, row, extras=extras)
     inside, outside = (-0.62, -0.48), (0.62, -0.48)
-    assert pixel(plain, config, inside) != pixel(marked, config, inside)
-    assert pixel(plain, config, outside) == pixel(marked, config, outside)
+    assert pixel(plain, config, inside) != pixel(with_extras, config, inside)
+    assert pixel(plain, config, outside) == pixel(with_extras, config, outside)
 
 
 def ground_image(config: SimConfig, width: int | None) -> Image:
@@ -212,7 +212,7 @@ def test_a_width_out_of_range_is_refused(config: SimConfig, width: int) -> None:
         Renderer(config, width)
 
 
-def test_drawing_needs_no_display_and_says_nothing() -> None:
+def test_drawing_needs_no_display_and_prints_nothing() -> None:
     code = """
 import sys
 from rsoccer import SimConfig, Simulator
@@ -238,7 +238,7 @@ sys.exit(not (image.std() > 10 and not pygame.display.get_init()))
 
 
 def test_a_missing_pygame_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("image", "paint", "library"):
+    for name in ("image", "rasterizer", "pygame_import"):
         monkeypatch.delitem(sys.modules, f"rsoccer.render.{name}", raising=False)
     monkeypatch.setitem(sys.modules, "pygame", None)
     with pytest.raises(ModuleNotFoundError, match=r"pip install 'rsoccer\[render\]'"):

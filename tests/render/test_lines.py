@@ -3,7 +3,7 @@ import math
 import pytest
 
 from rsoccer._core import Field
-from rsoccer.render.lines import draw_lines
+from rsoccer.render.lines import line_shapes
 from rsoccer.render.shapes import Arc, Circle, Line
 
 FIELDS = pytest.mark.parametrize(
@@ -12,7 +12,7 @@ FIELDS = pytest.mark.parametrize(
 
 
 def straight(field: Field) -> list[Line]:
-    return [shape for shape in draw_lines(field) if isinstance(shape, Line)]
+    return [shape for shape in line_shapes(field) if isinstance(shape, Line)]
 
 
 def across(field: Field) -> dict[float, float]:
@@ -25,7 +25,7 @@ def across(field: Field) -> dict[float, float]:
 
 
 @FIELDS
-def test_lines_across_are_where_the_field_says(field: Field) -> None:
+def test_lines_across_are_at_the_fields_distances(field: Field) -> None:
     goal_line = field.half_width if field.goal_line_margin else field.goal_width / 2
     expected = {
         0.0: field.half_width,
@@ -39,19 +39,19 @@ def test_lines_across_are_where_the_field_says(field: Field) -> None:
 
 
 @FIELDS
-def test_touch_lines_are_painted_where_no_wall_stands_on_them(field: Field) -> None:
-    whole = {
+def test_touch_lines_are_drawn_unless_a_wall_stands_on_them(field: Field) -> None:
+    touch_lines = {
         line.start[1]
         for line in straight(field)
         if (line.start[0], line.end[0]) == (-field.half_length, field.half_length)
     }
     sides = {-field.half_width, field.half_width}
-    assert whole == (sides if field.touch_line_margin else set())
+    assert touch_lines == (sides if field.touch_line_margin else set())
 
 
 @FIELDS
-def test_marks_are_where_the_field_says(field: Field) -> None:
-    marks = [shape.center for shape in draw_lines(field) if isinstance(shape, Circle)]
+def test_marks_are_at_the_fields_positions(field: Field) -> None:
+    marks = [shape.center for shape in line_shapes(field) if isinstance(shape, Circle)]
     expected = {(0.0, 0.0)}
     if field.penalty_mark:
         expected |= {(s * (field.half_length - field.penalty_mark), 0.0) for s in (-1, 1)}
@@ -64,7 +64,7 @@ def test_marks_are_where_the_field_says(field: Field) -> None:
 
 @FIELDS
 def test_an_arc_on_an_area_has_the_chord_and_height_of_the_field(field: Field) -> None:
-    center, *arcs = (shape for shape in draw_lines(field) if isinstance(shape, Arc))
+    center, *arcs = (shape for shape in line_shapes(field) if isinstance(shape, Arc))
     assert (center.center, center.radius) == ((0.0, 0.0), field.center_radius)
     assert len(arcs) == (2 if field.area_arc_width else 0)
     front = field.half_length - field.goal_area_depth
@@ -81,7 +81,7 @@ def test_an_arc_on_an_area_has_the_chord_and_height_of_the_field(field: Field) -
         assert middle == pytest.approx(side * (front - field.area_arc_depth))
 
 
-def test_every_part_that_only_some_leagues_have_is_looked_at() -> None:
+def test_every_part_that_only_some_leagues_have_is_tested() -> None:
     fields = list(map(Field, Field.PRESETS))
     for part in ("inner_area_depth", "area_arc_width", "penalty_mark", "free_ball_x"):
         assert {bool(getattr(field, part)) for field in fields} == {True, False}

@@ -11,7 +11,7 @@ from rsoccer import Matches
 from rsoccer.frame import Floats
 from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
-from rsoccer.render.record import GOAL_PAUSE, LEAST_WIDTH, _film
+from rsoccer.render.record import GOAL_PAUSE, MIN_WIDTH, _images
 from tests.policies.networks import network_for
 
 CHASE = {"all": "chase"}
@@ -21,24 +21,24 @@ SCORING_SEED = 3
 
 @dataclass
 class Spy:
-    """Takes the place of a renderer and notes what it is to draw."""
+    """A renderer that records its arguments."""
 
     drawn: list[dict[str, Any]] = field(default_factory=list)
     rows: list[Floats] = field(default_factory=list)
 
-    def draw(self, row: Floats, **told: Any) -> Image:  # noqa: ANN401
+    def draw(self, row: Floats, **arguments: Any) -> Image:  # noqa: ANN401
         self.rows.append(row.copy())
-        self.drawn.append({"score": (0, 0), "clock": 0.0, "caption": "", **told})
+        self.drawn.append({"score": (0, 0), "clock": 0.0, "caption": "", **arguments})
         return np.full((2, 2, 3), len(self.drawn) % 256, np.uint8)
 
 
 def film(seconds: float, spy: Spy) -> list[Image]:
     matches = Matches("VSSSelfPlay-v0", seed=SCORING_SEED, controllers=CHASE, autoreset="disabled")
     renderer: Any = spy
-    return list(_film(matches, renderer, seconds, ("A", "B")))
+    return list(_images(matches, renderer, seconds, ("A", "B")))
 
 
-def test_a_trained_policys_own_task_was_not_filmed(tmp_path: Path) -> None:
+def test_the_default_task_is_that_of_a_trained_policy(tmp_path: Path) -> None:
     file = tmp_path / "policy.safetensors"
     network_for(make_task("SSLPassEndurance-v0")).save(file)
     images, _ = film_match(controllers={"blue_0": f"{file}:mean"}, seconds=0.05)
@@ -50,24 +50,24 @@ def test_a_trained_policys_own_task_was_not_filmed(tmp_path: Path) -> None:
 def test_goals_are_counted_over_episodes_and_the_clock_runs_on() -> None:
     spy = Spy()
     images = film(60.0, spy)
-    scores = np.array([told["score"] for told in spy.drawn])
-    goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
+    scores = np.array([drawn["score"] for drawn in spy.drawn])
+    goals = [i for i, drawn in enumerate(spy.drawn) if drawn["caption"]]
     assert len(goals) >= 2, "too few goals to show that any is kept"
     assert scores[-1].sum() == len(goals)
     assert (np.flatnonzero(np.diff(scores.sum(axis=1))) + 1).tolist() == goals
-    clocks = [told["clock"] for told in spy.drawn]
+    clocks = [drawn["clock"] for drawn in spy.drawn]
     np.testing.assert_allclose(clocks, 0.025 * np.arange(2401))
     pause = round(GOAL_PAUSE / 0.025)
     assert len(images) == len(spy.drawn) + len(goals) * (pause - 1)
-    assert {told["names"] for told in spy.drawn} == {("A", "B")}
+    assert {drawn["names"] for drawn in spy.drawn} == {("A", "B")}
 
 
 def test_after_a_goal_a_new_episode_begins() -> None:
     spy = Spy()
     film(60.0, spy)
-    goals = [i for i, told in enumerate(spy.drawn) if told["caption"]]
+    goals = [i for i, drawn in enumerate(spy.drawn) if drawn["caption"]]
     moved = [float(np.abs(b[:2] - a[:2]).max()) for a, b in pairwise(spy.rows)]
-    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is put elsewhere
+    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed anew
 
 
 @pytest.mark.parametrize("name", ["match.gif"])
@@ -89,9 +89,9 @@ def test_the_same_seed_records_the_same_match(tmp_path: Path) -> None:
     assert videos[0] == videos[1] != videos[2]
 
 
-def test_a_video_is_wide_enough_to_read_without_being_told() -> None:
+def test_the_default_width_of_a_video_is_readable() -> None:
     images, fps = film_match(controllers=CHASE, seconds=0.1)
-    assert next(images).shape[1] == LEAST_WIDTH
+    assert next(images).shape[1] == MIN_WIDTH
     assert fps == pytest.approx(40.0)
 
 
@@ -108,13 +108,13 @@ def test_controllers_that_are_no_mapping_are_named(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("seconds", [0.0, -3.0, float("nan"), float("inf")])
-def test_a_senseless_length_is_refused(tmp_path: Path, seconds: float) -> None:
+def test_a_duration_that_is_not_positive_is_refused(tmp_path: Path, seconds: float) -> None:
     with pytest.raises(ValueError, match="seconds: expected a positive number, got"):
         record_match(tmp_path / "a.mp4", controllers=CHASE, seconds=seconds)
 
 
-def test_a_match_drawn_by_the_true_renderer_shows_the_start_first() -> None:
+def test_the_first_image_shows_the_start() -> None:
     matches = Matches("VSSSelfPlay-v0", seed=2, controllers=CHASE, autoreset="disabled")
     renderer = Renderer(matches.task.config, 96)
-    first = next(_film(matches, renderer, 1.0, ("A", "B")))
+    first = next(_images(matches, renderer, 1.0, ("A", "B")))
     np.testing.assert_array_equal(first, renderer.draw(matches.frame.rows[0], names=("A", "B")))

@@ -5,16 +5,16 @@ import pytest
 
 from rsoccer._core import RobotModel
 from rsoccer.render import palette
-from rsoccer.render.robot import draw_robot, robot_outlines
+from rsoccer.render.robot import robot_outlines, robot_shapes
 from rsoccer.render.shapes import Color, Point, Polygon, Pose, Shape, Text
 
 ORIGIN = Pose((0.0, 0.0), 1.0, 0.0)
 SQUARE, ROUND = RobotModel("vss_440rpm"), RobotModel("ssl_generic")
-TOOTHLESS = RobotModel.from_json(json.dumps({**json.loads(ROUND.to_json()), "mouth": None}))
-BITING = RobotModel.from_json(
+WITHOUT_MOUTH = RobotModel.from_json(json.dumps({**json.loads(ROUND.to_json()), "mouth": None}))
+WITH_MOUTH = RobotModel.from_json(
     json.dumps({**json.loads(SQUARE.to_json()), "mouth": json.loads(ROUND.to_json())["mouth"]})
 )
-MODELS = [*map(RobotModel, RobotModel.PRESETS), TOOTHLESS, BITING]
+MODELS = [*map(RobotModel, RobotModel.PRESETS), WITHOUT_MOUTH, WITH_MOUTH]
 
 
 def name(model: RobotModel) -> str:
@@ -26,13 +26,13 @@ def points(shapes: tuple[Shape, ...]) -> list[Point]:
 
 
 def reach(model: RobotModel) -> tuple[float, float, float]:
-    """How far a body reaches backwards, forwards and sideways."""
+    """Distances from the centre to the back, the front and a side."""
     if hasattr(model, "side"):
         return model.side / 2, model.side / 2, model.side / 2
     return model.radius, model.front, model.radius
 
 
-def test_all_kinds_of_robots_are_looked_at() -> None:
+def test_all_kinds_of_robots_are_tested() -> None:
     assert len(MODELS) > 10
     assert {(hasattr(m, "side"), m.has_mouth) for m in MODELS} == {
         (square, mouth) for square in (False, True) for mouth in (False, True)
@@ -41,25 +41,25 @@ def test_all_kinds_of_robots_are_looked_at() -> None:
 
 @pytest.mark.parametrize("model", MODELS, ids=name)
 def test_a_robot_covers_its_body_and_no_more(model: RobotModel) -> None:
-    drawn = points(draw_robot(model, ORIGIN, palette.BLUE, 0))
+    drawn = points(robot_shapes(model, ORIGIN, palette.BLUE, 0))
     back, front, side = reach(model)
     assert max(x for x, _ in drawn) == pytest.approx(front)
-    # A round outline is drawn by chords, whose corners need not lie at its very ends.
-    for got, expected in (
+    # A round outline is drawn by chords; their corners need not lie at its extremes.
+    for actual, expected in (
         (-min(x for x, _ in drawn), back),
         (max(y for _, y in drawn), side),
         (-min(y for _, y in drawn), side),
     ):
-        assert got <= expected + 1e-9
-        assert got == pytest.approx(expected, abs=2e-4)
+        assert actual <= expected + 1e-9
+        assert actual == pytest.approx(expected, abs=2e-4)
     assert max(math.hypot(*p) for p in drawn) <= model.bounding_radius + 1e-6
 
 
 @pytest.mark.parametrize("model", MODELS, ids=name)
-def test_what_marks_the_front_is_ahead(model: RobotModel) -> None:
+def test_the_mark_of_the_front_is_ahead(model: RobotModel) -> None:
     center, heading = (0.3, -0.2), (math.cos(2.0), math.sin(2.0))
-    shapes = draw_robot(model, Pose(center, *heading), palette.BLUE, 4)
-    marks = [s for s in shapes if s.color in (palette.WHITE, palette.BAR)]
+    shapes = robot_shapes(model, Pose(center, *heading), palette.BLUE, 4)
+    marks = [s for s in shapes if s.color in (palette.WHITE, palette.DRIBBLER)]
     fronts = points(tuple(marks))
     assert fronts
     _, front, side = reach(model)
@@ -69,15 +69,15 @@ def test_what_marks_the_front_is_ahead(model: RobotModel) -> None:
 
 
 @pytest.mark.parametrize("model", MODELS, ids=name)
-def test_a_mouth_is_as_wide_as_it_is_and_lights_up_with_the_ball(model: RobotModel) -> None:
-    dark = draw_robot(model, ORIGIN, palette.BLUE, 0)
-    alight = draw_robot(model, ORIGIN, palette.BLUE, 0, lit=True)
-    bars = [s.points for s in dark if isinstance(s, Polygon) and s.color == palette.BAR]
-    glowing = [s.points for s in alight if s.color == palette.LIT and isinstance(s, Polygon)]
-    assert not any(s.color == palette.LIT for s in dark)
+def test_a_dribbler_has_the_mouths_width_and_lights_up_with_the_ball(model: RobotModel) -> None:
+    unlit = robot_shapes(model, ORIGIN, palette.BLUE, 0)
+    lit = robot_shapes(model, ORIGIN, palette.BLUE, 0, has_ball=True)
+    bars = [s.points for s in unlit if isinstance(s, Polygon) and s.color == palette.DRIBBLER]
+    glowing = [s.points for s in lit if s.color == palette.DRIBBLER_LIT and isinstance(s, Polygon)]
+    assert not any(s.color == palette.DRIBBLER_LIT for s in unlit)
     if not model.has_mouth:
         assert bars == glowing == []
-        assert alight == dark
+        assert lit == unlit
         return
     assert set(glowing) == set(bars) != set()
     assert len(glowing) > len(bars)  # with a glow around it
@@ -87,8 +87,8 @@ def test_a_mouth_is_as_wide_as_it_is_and_lights_up_with_the_ball(model: RobotMod
 
 
 @pytest.mark.parametrize("model", MODELS, ids=name)
-def test_wheels_are_seen_only_where_they_stand_beside_the_cover(model: RobotModel) -> None:
-    shapes = draw_robot(model, ORIGIN, palette.YELLOW, 0)
+def test_only_wheels_beside_the_cover_are_visible(model: RobotModel) -> None:
+    shapes = robot_shapes(model, ORIGIN, palette.YELLOW, 0)
     wheels = [shape for shape in shapes if shape.color == palette.TYRE]
     assert len(wheels) == (2 if model.drive == "differential" else 0)
 
@@ -100,23 +100,23 @@ def test_wheels_are_seen_only_where_they_stand_beside_the_cover(model: RobotMode
 def test_the_number_stands_out_and_fits_on_the_cover(
     model: RobotModel, color: Color, ink: Color
 ) -> None:
-    texts = [s for s in draw_robot(model, ORIGIN, color, 10) if isinstance(s, Text)]
+    texts = [s for s in robot_shapes(model, ORIGIN, color, 10) if isinstance(s, Text)]
     assert [(text.text, text.color) for text in texts] == [("10", ink)]
     size = robot_outlines(model).size
     assert 0.3 * size < texts[0].height < texts[0].max_width < 0.7 * size
 
 
-def test_a_round_robot_is_set_off_from_its_carpet() -> None:
-    def light(color: Color) -> float:
+def test_a_round_robot_contrasts_with_the_carpet() -> None:
+    def luminance(color: Color) -> float:
         return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
 
     for color in (palette.BLUE, palette.YELLOW):
-        _, hull, *_ = draw_robot(ROUND, ORIGIN, color, 0)
-        assert light(hull.color) < 0.65 * light(palette.CARPET)
+        _, hull, *_ = robot_shapes(ROUND, ORIGIN, color, 0)
+        assert luminance(hull.color) < 0.65 * luminance(palette.CARPET)
 
 
-def test_a_round_robot_without_a_flat_front_still_shows_where_it_looks() -> None:
+def test_a_round_robot_without_a_flat_front_shows_its_heading() -> None:
     blunt = RobotModel("ssl_generic", front=ROUND.radius)
-    shapes = draw_robot(blunt, ORIGIN, palette.BLUE, 0)
+    shapes = robot_shapes(blunt, ORIGIN, palette.BLUE, 0)
     arrows = [s for s in shapes if isinstance(s, Polygon) and s.color == palette.WHITE]
     assert [arrow.points[0] > (0.0, 0.0) for arrow in arrows] == [True]

@@ -9,10 +9,10 @@ from rsoccer import SimConfig
 from rsoccer._core import RobotModel
 from rsoccer.frame import Floats, Frame
 from rsoccer.render import palette
-from rsoccer.render.overlay import draw_target
-from rsoccer.render.robot import draw_robot
-from rsoccer.render.scene import draw_ground, draw_play
-from rsoccer.render.scoreboard import Board, draw_score
+from rsoccer.render.overlay import target_shapes
+from rsoccer.render.robot import robot_shapes
+from rsoccer.render.scene import background_shapes, foreground_shapes
+from rsoccer.render.scoreboard import Board, score_shapes
 from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Pose, Shape, Text
 
 PLAIN = Board()
@@ -28,8 +28,8 @@ def mirrored_row(config: SimConfig, original: Floats, mirror: tuple[int, int]) -
     return row
 
 
-def looks(shape: Shape, mirror: tuple[int, int] = (1, 1)) -> tuple[object, Color]:
-    """What a shape covers once mirrored; the order of points and the way round do not count."""
+def appearance(shape: Shape, mirror: tuple[int, int] = (1, 1)) -> tuple[object, Color]:
+    """Points and colour of a mirrored shape, without the order and orientation of points."""
 
     def flip(points: tuple[Point, ...]) -> frozenset[Point]:
         i, j = mirror
@@ -49,10 +49,10 @@ def looks(shape: Shape, mirror: tuple[int, int] = (1, 1)) -> tuple[object, Color
 
 
 def bodies(config: SimConfig, row: Floats) -> list[Shape]:
-    """What moves; without the highlight, whose light comes from a fixed side."""
-    board = draw_score(config.field, PLAIN)
-    play = draw_play(config, row, PLAIN)
-    return [s for s in play if s not in board and s.color != palette.SHINE]
+    """Robots and ball, without the highlight, whose light comes from a fixed side."""
+    board = score_shapes(config.field, PLAIN)
+    play = foreground_shapes(config, row, PLAIN)
+    return [s for s in play if s not in board and s.color != palette.HIGHLIGHT]
 
 
 @pytest.mark.parametrize("mirror", MIRRORS)
@@ -62,17 +62,17 @@ def test_a_mirrored_row_gives_mirrored_shapes(
     original = bodies(any_config, any_row)
     assert len(original) > 5 * any_config.n_robots
     mirrored = bodies(any_config, mirrored_row(any_config, any_row, mirror))
-    expected = Counter(looks(s, mirror) for s in original)  # left wheels become right ones
-    assert Counter(looks(s) for s in mirrored) == expected
-    assert Counter(looks(s) for s in original) != expected
+    expected = Counter(appearance(s, mirror) for s in original)  # left wheels become right ones
+    assert Counter(appearance(s) for s in mirrored) == expected
+    assert Counter(appearance(s) for s in original) != expected
 
 
-def test_a_scene_depends_on_nothing_but_what_it_is_given(config: SimConfig, row: Floats) -> None:
+def test_a_scene_depends_on_its_arguments_only(config: SimConfig, row: Floats) -> None:
     before = row.copy()
-    first = draw_ground(config) + draw_play(config, row, PLAIN)
-    draw_play(SimConfig("vss_5v5", 1, 2), Frame.empty(1, 1, 2).rows[0], Board((9, 9), 99.0))
-    assert draw_ground(config) + draw_play(config, row, PLAIN) == first
-    assert hash(first)  # frozen all the way down
+    first = background_shapes(config) + foreground_shapes(config, row, PLAIN)
+    foreground_shapes(SimConfig("vss_5v5", 1, 2), Frame.empty(1, 1, 2).rows[0], Board((9, 9), 99.0))
+    assert background_shapes(config) + foreground_shapes(config, row, PLAIN) == first
+    assert hash(first)  # frozen, with all that it holds
     np.testing.assert_array_equal(row, before)
 
 
@@ -92,34 +92,40 @@ def test_each_robot_is_drawn_as_its_own_model() -> None:
     poses = [Pose((0.5 * i, 0.0), 1.0, 0.0) for i in range(4)]
     for i, pose in enumerate(poses):
         frame.robots.position[0, i] = pose.center
-    play = draw_play(config, frame.rows[0], PLAIN)
+    play = foreground_shapes(config, frame.rows[0], PLAIN)
     teams = [(palette.BLUE, i) for i in range(3)] + [(palette.YELLOW, 0)]
     for name, pose, (color, number) in zip(names, poses, teams, strict=True):
-        expected = draw_robot(RobotModel(name), pose, color, number)
+        expected = robot_shapes(RobotModel(name), pose, color, number)
         assert set(expected) <= set(play), name
 
 
-def test_the_mouth_that_has_the_ball_is_lit() -> None:
+def test_the_dribbler_that_has_the_ball_is_lit() -> None:
     config = SimConfig("ssl_b", 2, 2)
     frame = Frame.empty(1, 2, 2)
     frame.robots.position[0, :, 0] = np.arange(4)
-    assert not any(s.color == palette.LIT for s in draw_play(config, frame.rows[0], PLAIN))
+    assert not any(
+        s.color == palette.DRIBBLER_LIT for s in foreground_shapes(config, frame.rows[0], PLAIN)
+    )
     frame.robots.infrared[0, 2] = 1.0
-    lit = [s for s in draw_play(config, frame.rows[0], PLAIN) if s.color == palette.LIT]
+    lit = [
+        s
+        for s in foreground_shapes(config, frame.rows[0], PLAIN)
+        if s.color == palette.DRIBBLER_LIT
+    ]
     assert lit
     for shape in lit:
         assert isinstance(shape, Polygon)
         assert all(2.0 < x < 2.1 for x, _ in shape.points)  # ahead of the third robot
 
 
-def test_a_ball_in_flight_is_seen_to_fly(any_config: SimConfig, any_row: Floats) -> None:
-    def widths(row: Floats) -> list[float]:
-        play = draw_play(any_config, row, PLAIN)
+def test_a_ball_in_flight_is_drawn_larger(any_config: SimConfig, any_row: Floats) -> None:
+    def radii(row: Floats) -> list[float]:
+        play = foreground_shapes(any_config, row, PLAIN)
         return [s.radius for s in play if isinstance(s, Circle) and s.color == palette.ORANGE]
 
     flying = Frame(any_row[None].copy(), any_config.n_blue, any_config.n_yellow)
     flying.ball.height[0] = 0.4
-    (low,), (high,) = widths(any_row), widths(flying.rows[0])
+    (low,), (high,) = radii(any_row), radii(flying.rows[0])
     assert low == any_config.ball.radius < high
 
 
@@ -127,7 +133,7 @@ def test_a_shadow_lies_under_the_robots_and_the_ball_above_them() -> None:
     config = SimConfig("ssl_b", 1, 1)
     frame = Frame.empty(1, 1, 1)
     frame.ball.height[0] = 0.4
-    play = draw_play(config, frame.rows[0], PLAIN)
+    play = foreground_shapes(config, frame.rows[0], PLAIN)
     covers = [i for i, s in enumerate(play) if s.color in (palette.BLUE, palette.YELLOW)]
     discs = [(i, s) for i, s in enumerate(play) if isinstance(s, Circle)]
     (shadow,) = (i for i, s in discs if s.color == palette.SHADOW)
@@ -135,11 +141,11 @@ def test_a_shadow_lies_under_the_robots_and_the_ball_above_them() -> None:
     assert shadow < min(covers) < max(covers) < ball
 
 
-def test_extras_lie_under_everything_that_moves(any_config: SimConfig, any_row: Floats) -> None:
-    extras = [*draw_target(any_config.field, (0.0, 0.0), 0.1)]
-    play = draw_play(any_config, any_row, PLAIN, extras)
+def test_extras_lie_under_robots_and_ball(any_config: SimConfig, any_row: Floats) -> None:
+    extras = [*target_shapes(any_config.field, (0.0, 0.0), 0.1)]
+    play = foreground_shapes(any_config, any_row, PLAIN, extras)
     assert play[: len(extras)] == tuple(extras)
-    assert play[len(extras) :] == draw_play(any_config, any_row, PLAIN)
+    assert play[len(extras) :] == foreground_shapes(any_config, any_row, PLAIN)
 
 
 def test_teams_of_different_size_are_drawn() -> None:
@@ -151,16 +157,16 @@ def test_teams_of_different_size_are_drawn() -> None:
 
 def test_a_row_of_another_size_is_refused(config: SimConfig, row: Floats) -> None:
     with pytest.raises(ValueError, match=rf"row: expected shape \({config.row_size},\)"):
-        draw_play(config, row[:-1], PLAIN)
+        foreground_shapes(config, row[:-1], PLAIN)
     with pytest.raises(ValueError, match="row: expected shape"):
-        draw_play(config, row[None], PLAIN)
+        foreground_shapes(config, row[None], PLAIN)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_a_row_that_is_not_finite_is_refused(config: SimConfig, row: Floats, value: float) -> None:
     row[3] = value
     with pytest.raises(ValueError, match="row: expected finite values"):
-        draw_play(config, row, PLAIN)
+        foreground_shapes(config, row, PLAIN)
 
 
 def test_a_scene_needs_no_drawing_library() -> None:

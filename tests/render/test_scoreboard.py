@@ -5,11 +5,11 @@ from rsoccer._core import Field
 from rsoccer.render.pitch import arena_bounds
 from rsoccer.render.scoreboard import (
     Board,
+    board_shapes,
+    caption_shapes,
     clock_text,
-    draw_board,
-    draw_caption,
-    draw_score,
     scene_bounds,
+    score_shapes,
 )
 from rsoccer.render.shapes import Polygon, Text
 
@@ -25,7 +25,7 @@ def test_the_clock_counts_whole_seconds(seconds: float, text: str) -> None:
 
 
 def test_blue_is_on_the_left_and_yellow_on_the_right() -> None:
-    shapes = draw_score(FIELD, Board((3, 12), 61.0, ("home", "away")))
+    shapes = score_shapes(FIELD, Board((3, 12), 61.0, ("home", "away")))
     texts = [shape for shape in shapes if isinstance(shape, Text)]
     ordered = sorted(texts, key=lambda text: text.center[0])
     assert [text.text for text in ordered] == ["HOME", "3", "1:01", "12", "AWAY"]
@@ -35,7 +35,7 @@ def test_blue_is_on_the_left_and_yellow_on_the_right() -> None:
 def test_the_board_is_above_the_arena_and_within_the_picture(name: str) -> None:
     field = Field(name)
     bounds, arena = scene_bounds(field), arena_bounds(field)
-    points = [p for s in draw_board(field) if isinstance(s, Polygon) for p in s.points]
+    points = [p for s in board_shapes(field) if isinstance(s, Polygon) for p in s.points]
     assert points
     assert min(y for _, y in points) >= arena.top
     assert max(y for _, y in points) < bounds.top
@@ -43,6 +43,6 @@ def test_the_board_is_above_the_arena_and_within_the_picture(name: str) -> None:
 
 
 def test_a_caption_is_drawn_only_if_there_is_one() -> None:
-    assert draw_caption(FIELD, "") == ()
-    texts = [s.text for s in draw_caption(FIELD, "goal") if isinstance(s, Text)]
+    assert caption_shapes(FIELD, "") == ()
+    texts = [s.text for s in caption_shapes(FIELD, "goal") if isinstance(s, Text)]
     assert texts == ["GOAL"]

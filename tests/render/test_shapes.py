@@ -32,7 +32,7 @@ def test_chords_of_an_arc_stay_within_the_tolerance(radius: float) -> None:
     assert 0.0 < radius - middle <= ARC_TOLERANCE
 
 
-def test_an_arc_begins_and_ends_where_it_is_told() -> None:
+def test_an_arc_includes_both_ends() -> None:
     points = arc_points((0.0, 0.0), 2.0, 0.0, math.pi / 2)
     assert points[0] == (2.0, 0.0)
     assert points[-1] == pytest.approx((0.0, 2.0))
@@ -54,9 +54,9 @@ def test_a_radius_too_large_for_a_rectangle_is_reduced() -> None:
 
 def test_a_pose_turns_left_and_then_moves() -> None:
     quarter = Pose((3.0, 4.0), 0.0, 1.0)
-    assert quarter.place(((1.0, 0.0), (0.0, 1.0))) == ((3.0, 5.0), (2.0, 4.0))
+    assert quarter.to_world(((1.0, 0.0), (0.0, 1.0))) == ((3.0, 5.0), (2.0, 4.0))
 
 
-def test_a_stroke_joins_neighbours() -> None:
+def test_a_stroke_joins_consecutive_points() -> None:
     a, b, c = (0.0, 0.0), (1.0, 0.0), (1.0, 1.0)
     assert stroke((a, b, c), 0.1, RED) == (Line(a, b, 0.1, RED), Line(b, c, 0.1, RED))

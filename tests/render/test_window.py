@@ -16,16 +16,16 @@ RED: Image = np.full((60, 80, 3), (200, 30, 10), np.uint8)
 
 
 @pytest.fixture(autouse=True)
-def _unseen(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """SDL's dummy driver: windows in all but sight."""
+def _headless(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """SDL's dummy driver: windows without a screen."""
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     yield
     pygame.display.quit()
 
 
 def surface(window: Window) -> pygame.Surface:
-    assert window._frame is not None
-    return window._frame.get_surface()
+    assert window._window is not None
+    return window._window.get_surface()
 
 
 def test_a_window_shows_images_at_their_own_size() -> None:
@@ -50,14 +50,14 @@ def test_a_window_keeps_its_rate() -> None:
 
 
 @pytest.mark.parametrize("key", [None, pygame.K_ESCAPE])
-def test_its_user_closes_one_window_and_not_the_other(key: int | None) -> None:
+def test_the_user_closes_one_window_and_not_the_other(key: int | None) -> None:
     window, other = Window(fps=None), Window(fps=None)
     window.show(RED)
     other.show(RED)
     if key is None:
-        event = pygame.Event(pygame.WINDOWCLOSE, window=window._frame)
+        event = pygame.Event(pygame.WINDOWCLOSE, window=window._window)
     else:
-        event = pygame.Event(pygame.KEYDOWN, key=key, window=window._frame)
+        event = pygame.Event(pygame.KEYDOWN, key=key, window=window._window)
     pygame.event.post(event)
     assert other.show(RED)
     assert window.closed
@@ -77,7 +77,7 @@ def test_quitting_closes_all_windows() -> None:
 def test_other_keys_close_nothing() -> None:
     window = Window(fps=None)
     window.show(RED)
-    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, window=window._frame))
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, window=window._window))
     assert window.show(RED)
     window.close()
 
@@ -89,7 +89,7 @@ def test_closing_twice_or_before_the_first_image_is_fine() -> None:
     assert not window.show(RED)
 
 
-def test_where_there_is_no_display_a_window_says_so() -> None:
+def test_a_window_without_a_display_raises() -> None:
     code = """
 import os
 for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "SDL_VIDEO_DRIVER"):

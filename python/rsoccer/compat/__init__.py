@@ -1,1 +1,1 @@
-"""Interfaces of other simulators on top of this one, so that code written for them runs."""
+"""Compatibility: interfaces of other simulators on this one, for code written for them."""

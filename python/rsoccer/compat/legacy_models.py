@@ -1,4 +1,4 @@
-"""The old simulator's fields, balls and robots: its numbers, for this one's physics.
+"""Fields, balls and robots of the old simulator rSim, as models for this physics.
 
 Numbers: robocin/rSim at b413932 (release 1.2), as its `get_field_params` reports them or as its
 behaviour was measured.
@@ -9,14 +9,15 @@ from typing import Final
 
 from rsoccer._core import BallModel, Field, RobotModel
 
-# Division A's end walls have stood further back since 2026, and goals for five a side are deeper.
+# In the current rules the end walls of division A stand further back (since 2026), and the goals
+# for five a side are deeper.
 VSS_FIELDS: Final = (Field("vss_3v3"), Field("vss_5v5", goal_depth=0.10))
 SSL_FIELDS: Final = (Field("ssl_a", goal_line_margin=0.3), Field("ssl_b"), Field("ssl_challenge"))
 
 VSS_BALL: Final = BallModel("vss_rsim", radius=0.0215, mass=0.043)
 SSL_BALL: Final = BallModel("grsim", mass=0.043)
 
-VSS_ROBOT: Final = RobotModel("vss_440rpm")  # is the old one: 440 rpm, 120 g and two wheels of 15 g
+VSS_ROBOT: Final = RobotModel("vss_440rpm")  # same as in rSim: 440 rpm, 120 g, two wheels of 15 g
 
 SSL_ROBOT: Final = RobotModel(
     "ssl_generic",
@@ -27,26 +28,36 @@ SSL_ROBOT: Final = RobotModel(
     wheel_radius=0.02475,
     wheel_distance=0.09,
     max_wheel_speed=163.04868,  # 1557 rpm
-    # It had no limit but its wheels', which are reached before these: 5.7 m/s, 44.8 rad/s.
+    # rSim limits the wheels only, which reach their limit before these: 5.7 m/s, 44.8 rad/s.
     max_speed=6.0,
     max_turn_rate=50.0,
-    # Step responses as measured, forward; sideways it managed 2.41 m/s².
+    # Measured step responses, forward; sideways rSim reaches 2.41 m/s².
     speed_up=3.33,
     brake=3.80,
     turn_speed_up=96.0,
     turn_brake=96.0,
     mouth_width=0.08,
     beam_distance=0.01,
-    # It had no limit; this is the strongest kicker of the league.
+    # rSim has no limit; this is the strongest kicker of the league.
     max_kick=10.0,
     max_chip=10.0,
 )
 
-KICKER_THICKNESS: Final = 0.005  # m; reported only, the front is where its face is
+KICKER_THICKNESS: Final = (
+    0.005  # m; reported only: `front` is the distance to the face of the kicker
+)
 
 
 def vss_parameters(field: Field) -> dict[str, float]:
-    """What `get_field_params` says of a VSS field; what its robots have not is -1."""
+    """Return the result of `get_field_params` for VSS.
+
+    Args:
+        field: one of `VSS_FIELDS`.
+
+    Returns:
+        Parameters by rSim's names, metres, degrees and turns per minute; -1 for those of parts
+        that VSS robots do not have.
+    """
     return {
         **_field_parameters(field, VSS_BALL),
         "rbt_distance_center_kicker": -1.0,
@@ -58,7 +69,14 @@ def vss_parameters(field: Field) -> dict[str, float]:
 
 
 def ssl_parameters(field: Field) -> dict[str, float]:
-    """What `get_field_params` says of an SSL field."""
+    """Return the result of `get_field_params` for SSL.
+
+    Args:
+        field: one of `SSL_FIELDS`.
+
+    Returns:
+        Parameters by rSim's names, metres, degrees and turns per minute.
+    """
     return {
         **_field_parameters(field, SSL_BALL),
         "rbt_distance_center_kicker": SSL_ROBOT.front,

@@ -138,7 +138,7 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
 
     def state(self) -> Floats:
         """The whole game, absolute, (state,) float32: for critics that may see everything."""
-        state: Floats = self._scale.states(self._matches.frame.rows)[0]
+        state: Floats = self._scale.encode(self._matches.frame.rows)[0]
         return state
 
     @property

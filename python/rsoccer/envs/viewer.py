@@ -58,14 +58,14 @@ class Viewer:
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
         from rsoccer.render.image import draw_image
-        from rsoccer.render.markers import marked
+        from rsoccer.render.overlay import task_overlay
 
         return draw_image(
             matches.task.config,
             matches.frame.rows[world],
             score=matches.score(world),
             clock=matches.clock(world),
-            extras=marked(matches, world),
+            extras=task_overlay(matches, world),
         )
 
     def expect_open(self, call: str) -> None:

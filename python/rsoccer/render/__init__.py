@@ -1,6 +1,6 @@
-"""Pictures and videos of matches: a pure scene, painted off-screen, shown or written.
+"""Images and videos of matches: shapes of a scene, rasterized off-screen, shown or written.
 
-Names are looked up when first used, so reading a scene needs no pygame and an image no ffmpeg.
+Names are imported on first use, so building a scene needs no pygame and an image no ffmpeg.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ __all__ = [
     "write_video",
 ]
 
-_HOMES = {
+_MODULES = {
     "Image": "image",
     "Renderer": "image",
     "Window": "window",
@@ -36,6 +36,6 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> object:
-    if name not in _HOMES:
+    if name not in _MODULES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)

@@ -1,4 +1,4 @@
-"""Goals as seen from above: pockets in a table's walls, or boxes that stand on a carpet."""
+"""Goals seen from above: pockets in a table's walls, or boxes that stand on a carpet."""
 
 from __future__ import annotations
 
@@ -12,18 +12,26 @@ if TYPE_CHECKING:
     from rsoccer._core import Field
 
 TINT = 0.38
-"""How much of its team's colour the floor of a goal shows."""
+"""Share of the team's colour in the floor of a goal."""
 
 
-def draw_goals(field: Field, edge: float) -> tuple[Shape, ...]:
-    """Blue's at -x and yellow's at +x; `edge`: thickness of the rim of a goal in a wall, metres."""
+def goal_shapes(field: Field, edge: float) -> tuple[Shape, ...]:
+    """Return both goals: blue's at -x, yellow's at +x.
+
+    Args:
+        field: the field.
+        edge: width of the rim of a goal that is a pocket in a wall, metres.
+
+    Returns:
+        Floor, net and frame of each goal.
+    """
     return (
-        *_draw_goal(field, -1, palette.BLUE, edge),
-        *_draw_goal(field, 1, palette.YELLOW, edge),
+        *_goal(field, -1, palette.BLUE, edge),
+        *_goal(field, 1, palette.YELLOW, edge),
     )
 
 
-def _draw_goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shape, ...]:
+def _goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shape, ...]:
     """The goal at the end `side` (-1 or 1), in the colour of the team that defends it."""
     mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
     y = field.goal_width / 2
@@ -37,7 +45,7 @@ def _draw_goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shap
 
 
 def _frame(field: Field, side: int, color: Color) -> tuple[Shape, ...]:
-    """Walls of a goal that stands free: its sides reach the wall behind and shut off the gap."""
+    """Walls of a free-standing goal: its sides reach the wall behind and close the gap."""
     mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
     behind = side * (field.half_length + field.goal_line_margin)
     y, wall = field.goal_width / 2, field.goal_wall

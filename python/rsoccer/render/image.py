@@ -1,4 +1,4 @@
-"""A row as pixels, drawn off-screen: no display, no window, no OpenGL."""
+"""Images of state rows, drawn off-screen: no display, no window, no OpenGL."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.frame import Array
-from rsoccer.render.library import pygame
-from rsoccer.render.paint import Camera, Painter
+from rsoccer.render.pygame_import import pygame
+from rsoccer.render.rasterizer import Camera, Rasterizer
 from rsoccer.render.robot import robot_outlines
-from rsoccer.render.scene import draw_ground, draw_play
+from rsoccer.render.scene import background_shapes, foreground_shapes
 from rsoccer.render.scoreboard import Board, scene_bounds
 from rsoccer.render.shapes import Shape
 
@@ -22,31 +22,56 @@ if TYPE_CHECKING:
     from rsoccer._core import SimConfig
 
 Image: TypeAlias = NDArray[np.uint8]
-"""(height, width, 3), red, green and blue."""
+"""(height, width, 3), red, green and blue, 0 to 255."""
 
 WIDTHS = (64, 4096)
-"""Narrowest and widest image, pixels."""
+"""Smallest and largest width of an image, pixels."""
 DEFAULT_WIDTHS = (640, 1280)
-"""Narrowest and widest image where no width is asked for, pixels."""
+"""Smallest and largest default width of an image, pixels."""
 ROBOT_PIXELS = 18
-"""Pixels across the smallest robot that it takes to read its number."""
+"""Pixels across the smallest robot that make its number readable."""
 
 
-def default_width(config: SimConfig, least: int = DEFAULT_WIDTHS[0]) -> int:
-    """The width, pixels, at which robots can be told apart: `least`, or more on a large field."""
+def default_width(config: SimConfig, min_width: int = DEFAULT_WIDTHS[0]) -> int:
+    """Compute the width at which the robots' numbers are readable.
+
+    Args:
+        config: the configuration: its field and robots.
+        min_width: width to use where it is enough, pixels.
+
+    Returns:
+        `min_width`, or more on a large field, pixels; even, and at most 1280 unless `min_width`
+        is larger.
+    """
     sizes = (robot_outlines(robot).size for robot in config.robots)
     smallest = min(sizes, default=math.inf)
     width = scene_bounds(config.field).width / smallest * ROBOT_PIXELS
-    return max(least, min(2 * round(width / 2), DEFAULT_WIDTHS[1]))
+    return max(min_width, min(2 * round(width / 2), DEFAULT_WIDTHS[1]))
 
 
 class Renderer:
-    """Draws rows of one configuration at one size; keeps the field, which does not change."""
+    """A renderer of rows of one configuration at one size; draws the static background once.
+
+    Example:
+        >>> renderer = Renderer(matches.task.config, width=640)
+        >>> image = renderer.draw(matches.frame.rows[0], score=(1, 0), clock=12.5)
+
+    Attributes:
+        config: the configuration.
+        width: width of the images, pixels; even.
+        height: height of the images, pixels; even.
+    """
 
     def __init__(self, config: SimConfig, width: int | None = None) -> None:
-        """Draw the field once; `width` in pixels, the height follows and both are even.
+        """Draw the background: field and empty score board.
 
-        Without a `width` it is the one at which robots can be told apart.
+        Args:
+            config: the configuration of the rows to draw.
+            width: width of the images, 64 to 4096 pixels, rounded to an even number; the height
+                follows from the field. By default `default_width`.
+
+        Raises:
+            ValueError: the width is out of range.
         """
         low, high = WIDTHS
         width = default_width(config) if width is None else width
@@ -57,12 +82,12 @@ class Renderer:
         self.width = 2 * round(width / 2)
         self.height = 2 * round(self.width * bounds.height / bounds.width / 2)
         camera = Camera(self.width / bounds.width, bounds.left, bounds.top)
-        self._painter = Painter(camera)
-        self._ground = pygame.Surface((self.width, self.height), 0, 32)
-        self._painter.paint(self._ground, draw_ground(config))
+        self._rasterizer = Rasterizer(camera)
+        self._background = pygame.Surface((self.width, self.height), 0, 32)
+        self._rasterizer.draw(self._background, background_shapes(config))
 
     def __reduce__(self) -> tuple[type[Renderer], tuple[SimConfig, int]]:
-        # Surfaces do not pickle, but what holds a renderer, such as an environment, should.
+        # Surfaces do not pickle; an environment that holds a renderer must.
         return (Renderer, (self.config, self.width))
 
     def draw(
@@ -75,13 +100,25 @@ class Renderer:
         caption: str = "",
         extras: Sequence[Shape] = (),
     ) -> Image:
-        """A fresh image of one world's row (row,); pairs are blue's, yellow's; clock in seconds.
+        """Draw one world.
 
-        `extras` are further shapes on the floor, such as those of `rsoccer.render.overlay`.
+        Args:
+            row: state of the world (row,).
+            score: goals of blue and of yellow.
+            clock: seconds of play.
+            names: names of blue and of yellow on the score board.
+            caption: large text across the field; none if empty.
+            extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
+
+        Returns:
+            A new image (height, width, 3), uint8.
+
+        Raises:
+            ValueError: the row has another shape or is not finite.
         """
         board = Board(score, clock, names, caption)
-        canvas = self._ground.copy()
-        self._painter.paint(canvas, draw_play(self.config, row, board, extras))
+        canvas = self._background.copy()
+        self._rasterizer.draw(canvas, foreground_shapes(self.config, row, board, extras))
         return _pixels(canvas)
 
 
@@ -96,19 +133,36 @@ def draw_image(
     extras: Sequence[Shape] = (),
     width: int | None = None,
 ) -> Image:
-    """A fresh image of one row, `width` pixels wide; for many, keep a `Renderer`."""
+    """Draw one row; a `Renderer` is faster for many.
+
+    Args:
+        config: the configuration of the row.
+        row: state of one world (row,).
+        score: goals of blue and of yellow.
+        clock: seconds of play.
+        names: names of blue and of yellow on the score board.
+        caption: large text across the field; none if empty.
+        extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
+        width: width of the image, 64 to 4096 pixels; by default `default_width`.
+
+    Returns:
+        A new image (height, width, 3), uint8.
+
+    Raises:
+        ValueError: the width is out of range, or the row has another shape or is not finite.
+    """
     renderer = _renderer(config, width)
     return renderer.draw(row, score=score, clock=clock, names=names, caption=caption, extras=extras)
 
 
 @lru_cache(maxsize=4)
 def _renderer(config: SimConfig, width: int | None) -> Renderer:
-    """The last few renderers: the field costs more than what moves on it."""
+    """A renderer, cached: the background costs more than the rest of the picture."""
     return Renderer(config, width)
 
 
 def _pixels(canvas: pygame.Surface) -> Image:
-    """A copy of the canvas as an array; channel by channel is four times as fast as at once."""
+    """A copy of the canvas as an array; copying by channel is four times as fast as at once."""
     pixels = pygame.surfarray.pixels3d(canvas)  # (width, height, 3)
     image = np.empty((canvas.get_height(), canvas.get_width(), 3), np.uint8)
     for channel in range(3):

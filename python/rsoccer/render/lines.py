@@ -1,4 +1,4 @@
-"""What is painted on a field: lines, circle, areas and marks."""
+"""Field markings: lines, centre circle, goal areas and marks."""
 
 from __future__ import annotations
 
@@ -15,8 +15,15 @@ MARK_RADIUS = 2.2
 """Radius of a penalty or free-ball mark, by the width of a line."""
 
 
-def draw_lines(field: Field) -> tuple[Shape, ...]:
-    """All that is painted on the floor; what a league does not have is left out."""
+def line_shapes(field: Field) -> tuple[Shape, ...]:
+    """Return all markings of a field; markings that a league does not have are left out.
+
+    Args:
+        field: the field.
+
+    Returns:
+        Boundary lines, centre line and circle, goal areas, penalty and free-ball marks.
+    """
     return (
         *_boundary(field),
         *_center(field),
@@ -27,26 +34,26 @@ def draw_lines(field: Field) -> tuple[Shape, ...]:
 
 
 def _boundary(field: Field) -> tuple[Shape, ...]:
-    """Goal and touch lines; those that a wall stands on are left out, but for a goal's mouth."""
+    """Goal and touch lines; under a wall there is none, except across a goal's mouth."""
     x, y = field.half_length, field.half_width
-    reach = y if field.goal_line_margin > 0 else field.goal_width / 2
-    goal_lines = [((end, -reach), (end, reach)) for end in (-x, x)]
+    half_span = y if field.goal_line_margin > 0 else field.goal_width / 2
+    goal_lines = [((end, -half_span), (end, half_span)) for end in (-x, x)]
     touch_lines = [((-x, side), (x, side)) for side in (-y, y) if field.touch_line_margin > 0]
-    return tuple(line for ends in (*goal_lines, *touch_lines) for line in _painted(field, ends))
+    return tuple(line for ends in (*goal_lines, *touch_lines) for line in _lines(field, ends))
 
 
 def _center(field: Field) -> tuple[Shape, ...]:
-    """Centre line, circle and spot."""
+    """Centre line, circle and mark."""
     y, width = field.half_width, field.line_width
     return (
-        *_painted(field, ((0.0, -y), (0.0, y))),
+        *_lines(field, ((0.0, -y), (0.0, y))),
         Arc((0.0, 0.0), field.center_radius, 0.0, math.tau, width, palette.LINES),
         Circle((0.0, 0.0), MARK_RADIUS * width, palette.LINES),
     )
 
 
 def _areas(field: Field, side: int) -> tuple[Shape, ...]:
-    """The area before the goal at the end `side` (-1 or 1), the smaller one in it, its arc."""
+    """Goal area, inner area and arc at the end `side` (-1 or 1)."""
     return (
         *_area(field, side, field.goal_area_depth, field.goal_area_width),
         *_area(field, side, field.inner_area_depth, field.inner_area_width),
@@ -55,27 +62,26 @@ def _areas(field: Field, side: int) -> tuple[Shape, ...]:
 
 
 def _area(field: Field, side: int, depth: float, width: float) -> tuple[Shape, ...]:
-    """The three lines of an area."""
+    """The three lines of an area; nothing if it has no size."""
     if not depth * width:
         return ()
     back = side * field.half_length
     front = back - side * depth
     y = width / 2
-    return _painted(field, ((back, y), (front, y), (front, -y), (back, -y)))
+    return _lines(field, ((back, y), (front, y), (front, -y), (back, -y)))
 
 
 def _area_arc(field: Field, side: int) -> tuple[Shape, ...]:
-    """The arc on the front of the goal area, from the length of its chord and its height on it."""
+    """The arc on the front of the goal area, from its chord and its height above the chord."""
     half_chord, depth = field.area_arc_width / 2, field.area_arc_depth
     if not half_chord * depth:
         return ()
     radius = (half_chord**2 + depth**2) / (2 * depth)
-    reach = math.atan2(half_chord, radius - depth)
+    half_angle = math.atan2(half_chord, radius - depth)
     x = field.half_length - field.goal_area_depth - depth + radius
-    ahead = math.pi if side > 0 else 0.0
-    return (
-        Arc((side * x, 0.0), radius, ahead - reach, ahead + reach, field.line_width, palette.LINES),
-    )
+    middle = math.pi if side > 0 else 0.0
+    start, end = middle - half_angle, middle + half_angle
+    return (Arc((side * x, 0.0), radius, start, end, field.line_width, palette.LINES),)
 
 
 def _marks(field: Field) -> tuple[Shape, ...]:
@@ -87,6 +93,6 @@ def _marks(field: Field) -> tuple[Shape, ...]:
     return tuple(Circle(c, MARK_RADIUS * field.line_width, palette.LINES) for c in centers)
 
 
-def _painted(field: Field, points: tuple[Point, ...]) -> tuple[Line, ...]:
-    """A painted line from each point to the next."""
+def _lines(field: Field, points: tuple[Point, ...]) -> tuple[Line, ...]:
+    """A field line from each point to the next."""
     return stroke(points, field.line_width, palette.LINES)

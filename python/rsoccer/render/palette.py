@@ -1,4 +1,4 @@
-"""The colours of a picture, in one place."""
+"""Colours of pictures: red, green, blue and opacity, 0 to 255."""
 
 from __future__ import annotations
 
@@ -20,19 +20,28 @@ BOARD: Color = (36, 43, 53, 255)
 MUTED: Color = (172, 183, 197, 255)
 SHADOW: Color = (4, 6, 9, 150)
 TYRE: Color = (14, 16, 19, 255)
-SHINE: Color = (255, 226, 200, 150)
+HIGHLIGHT: Color = (255, 226, 200, 150)
 TRAIL: Color = (255, 112, 32, 42)
 HALO: Color = (255, 240, 222, 96)
-VEIL: Color = (14, 17, 22, 205)
-BAR: Color = (196, 205, 215, 255)
-LIT: Color = (88, 255, 168, 255)
+CAPTION_BAND: Color = (14, 17, 22, 205)
+DRIBBLER: Color = (196, 205, 215, 255)
+DRIBBLER_LIT: Color = (88, 255, 168, 255)
 
 PENDING: Color = (255, 92, 190, 255)
 DONE: Color = (126, 242, 176, 255)
 
 
 def mix(color: Color, other: Color, share: float) -> Color:
-    """`color` with a `share` (0 to 1) of `other` in it; keeps the opacity of `color`."""
+    """Mix two colours.
+
+    Args:
+        color: the colour to start from; its opacity is kept.
+        other: the colour to mix in.
+        share: share of `other`, 0 to 1.
+
+    Returns:
+        The mixed colour.
+    """
     red, green, blue = (
         round(a + (b - a) * share) for a, b in zip(color[:3], other[:3], strict=True)
     )
@@ -40,5 +49,13 @@ def mix(color: Color, other: Color, share: float) -> Color:
 
 
 def fade(color: Color, opacity: float) -> Color:
-    """`color` with its opacity multiplied by `opacity` (0 to 1)."""
+    """Make a colour more transparent.
+
+    Args:
+        color: the colour.
+        opacity: factor on its opacity, 0 to 1.
+
+    Returns:
+        The same red, green and blue with less opacity.
+    """
     return (*color[:3], round(color[3] * opacity))

@@ -1,12 +1,12 @@
-"""The field as seen from above: what stays the same in every picture of one configuration."""
+"""The field seen from above: walls, floor, goals and markings."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from rsoccer.render import palette
-from rsoccer.render.goals import draw_goals
-from rsoccer.render.lines import draw_lines
+from rsoccer.render.goals import goal_shapes
+from rsoccer.render.lines import line_shapes
 from rsoccer.render.shapes import Bounds, Point, Polygon, Shape, rounded_rectangle, stroke
 
 if TYPE_CHECKING:
@@ -15,36 +15,57 @@ if TYPE_CHECKING:
 WALL_SHARE = 0.5
 """Thickness of a wall by its height: the VSS rules ask for 0.025 m by 0.05 m."""
 BOARD_THICKNESS = 0.06
-"""Thickness of walls that have no height, such as the boards around a carpet, metres."""
+"""Thickness of walls without a height, such as the boards around a carpet, metres."""
 MARGIN = 0.02
 """Empty border around the walls, by the length of the field."""
 
 
 def wall_thickness(field: Field) -> float:
-    """Thickness of the walls as drawn, metres."""
+    """Return the thickness of the walls in pictures.
+
+    Args:
+        field: the field.
+
+    Returns:
+        Metres, from the height of the walls, or `BOARD_THICKNESS` without one.
+    """
     return WALL_SHARE * field.wall_height or BOARD_THICKNESS
 
 
 def arena_bounds(field: Field) -> Bounds:
-    """The field with its goals, walls and a margin around them."""
+    """Return the bounds of the field with its goals and walls.
+
+    Args:
+        field: the field.
+
+    Returns:
+        The rectangle, with a margin around the walls, metres.
+    """
     border = wall_thickness(field) + MARGIN * field.length
     x, y = field.reach_x + border, field.reach_y + border
     return Bounds(-x, -y, x, y)
 
 
-def draw_pitch(field: Field) -> tuple[Shape, ...]:
-    """Walls, floor, goals and lines, from the lowest to the topmost."""
+def pitch_shapes(field: Field) -> tuple[Shape, ...]:
+    """Return the field: walls, floor, goals and markings.
+
+    Args:
+        field: the field.
+
+    Returns:
+        Shapes in the order of drawing, the lowest first.
+    """
     return (
         *_walls(field),
-        *draw_goals(field, wall_thickness(field) / 3),
-        *draw_lines(field),
+        *goal_shapes(field, wall_thickness(field) / 3),
+        *line_shapes(field),
     )
 
 
 def _walls(field: Field) -> tuple[Shape, ...]:
-    """A slab under everything, then the floor, whose cut corners are the corner blocks."""
+    """A slab under the whole field, then the floor; its cut corners show the corner blocks."""
     wall = wall_thickness(field)
-    x, y = _inner(field)
+    x, y = _wall_distances(field)
     slab = rounded_rectangle(-x - wall, -y - wall, x + wall, y + wall, wall)
     floor = _floor(field)
     return (
@@ -57,12 +78,19 @@ def _walls(field: Field) -> tuple[Shape, ...]:
 
 
 def is_table(field: Field) -> bool:
-    """Whether the walls stand on the lines and the goals are gaps in them; else it is a carpet."""
+    """Return whether the field is a table, whose goals are gaps in its walls.
+
+    Args:
+        field: the field.
+
+    Returns:
+        True for a table, whose walls stand on the lines; False for a carpet.
+    """
     return field.goal_wall == 0
 
 
 def _pockets(field: Field) -> tuple[Shape, ...]:
-    """The walls around goals that are gaps in a table's wall."""
+    """Walls around the goals of a table."""
     if not is_table(field):
         return ()
     wall = wall_thickness(field)
@@ -70,17 +98,17 @@ def _pockets(field: Field) -> tuple[Shape, ...]:
     return (Polygon(rounded_rectangle(-x, -y, x, y, wall), palette.WALL),)
 
 
-def _inner(field: Field) -> Point:
-    """How far from the centre the walls stand, along x and y; goals are behind, or before them."""
+def _wall_distances(field: Field) -> Point:
+    """Distance of the walls from the centre along x and y, regardless of the goals."""
     return field.half_length + field.goal_line_margin, field.half_width + field.touch_line_margin
 
 
 def _floor(field: Field) -> tuple[Point, ...]:
-    """The floor between the walls: a rectangle less the corner blocks."""
-    x, y = _inner(field)
+    """Outline of the floor between the walls: a rectangle less the corner blocks."""
+    x, y = _wall_distances(field)
     leg = field.corner
     corners = (
         *((x, -y + leg), (x, y - leg), (x - leg, y), (-x + leg, y)),
         *((-x, y - leg), (-x, -y + leg), (-x + leg, -y), (x - leg, -y)),
     )
-    return tuple(dict.fromkeys(corners))  # without blocks each corner would be there twice
+    return tuple(dict.fromkeys(corners))  # without blocks each corner is listed twice

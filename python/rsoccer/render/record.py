@@ -1,4 +1,4 @@
-"""A match between policies as images, and one call that writes them to a video file."""
+"""Recording of matches between policies: their images, or a video file of them."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.lineup import task_for
 from rsoccer.matches import Matches
 from rsoccer.render.image import Image, Renderer, default_width
-from rsoccer.render.markers import marked
+from rsoccer.render.overlay import task_overlay
 from rsoccer.render.video import write_video
 from rsoccer.task import Task
 
 GOAL_PAUSE = 0.8
-"""Seconds that the picture stands still at a goal, before the next episode begins."""
-LEAST_WIDTH = 720
-"""Width of a video where no other is asked for and robots can be told apart at it, pixels."""
+"""Seconds of still picture at a goal, before the next episode begins."""
+MIN_WIDTH = 720
+"""Default width of a video, pixels; a large field has a wider one."""
 
 
 def record_match(
@@ -33,12 +33,27 @@ def record_match(
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
 ) -> Path:
-    """Play `seconds` of a match, episode after episode, into an .mp4 or .gif; the path written.
+    """Play a match, episode after episode, and write it to a video file.
 
-    `controllers` are those of `Matches` and must leave no robot to a learner; `lineup` makes them
-    of a policy and an opponent. Without a `task` it is that of the first trained policy among
-    them, or VSSSelfPlay-v0. `names` stand on the score board, blue's first. Without a `width`, in
-    pixels, it is one at which robots can be told apart.
+    Example:
+        >>> record_match("match.mp4", controllers={"blue": "chase", "yellow": "ou"}, seconds=10.0)
+
+    Args:
+        path: the file, ending in .mp4 or .gif.
+        task: the task or its id; by default the task of the first trained policy among
+            `controllers`, or VSSSelfPlay-v0.
+        controllers: policies as `Matches` takes them, for all robots; `lineup` makes them of a
+            policy and an opponent.
+        seed: seed of starts and policies.
+        seconds: duration of play, without pauses at goals.
+        names: names of blue and of yellow on the score board.
+        width: width of the video, 64 to 4096 pixels; by default 720, or more on a large field.
+
+    Returns:
+        The path of the file: a .gif where ffmpeg is missing, see `write_video`.
+
+    Raises:
+        ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
     images, fps = film_match(task, controllers, seed, seconds, names=names, width=width)
     return write_video(path, images, fps)
@@ -53,7 +68,23 @@ def film_match(
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
 ) -> tuple[Iterator[Image], float]:
-    """The images that `record_match` writes, played while they are drawn, and images a second."""
+    """Return the images of a match; the match is played while they are drawn.
+
+    Args:
+        task: the task or its id; by default the task of the first trained policy among
+            `controllers`, or VSSSelfPlay-v0.
+        controllers: policies as `Matches` takes them, for all robots.
+        seed: seed of starts and policies.
+        seconds: duration of play, without pauses at goals.
+        names: names of blue and of yellow on the score board.
+        width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
+
+    Returns:
+        An iterator over images (height, width, 3), and their rate in images per second.
+
+    Raises:
+        ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
+    """
     if not (math.isfinite(seconds) and seconds > 0):
         raise ValueError(f"seconds: expected a positive number, got {seconds}")
     task = task_for(*given_by_name(controllers).values()) if task is None else task
@@ -63,24 +94,24 @@ def film_match(
             f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
         )
     config = matches.task.config
-    width = default_width(config, LEAST_WIDTH) if width is None else width
-    return _film(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step
+    width = default_width(config, MIN_WIDTH) if width is None else width
+    return _images(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step
 
 
-def _film(
+def _images(
     matches: Matches, renderer: Renderer, seconds: float, names: tuple[str, str]
 ) -> Iterator[Image]:
     """An image for each control step, and a pause at each goal."""
     time_step = matches.task.config.time_step
-    nobody = np.zeros((1, 0, matches.action_size), np.float32)  # nobody learns
+    actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
     blue = yellow = 0
     matches.reset()
     row = matches.frame.rows[0]
-    yield renderer.draw(row, names=names, extras=marked(matches))
+    yield renderer.draw(row, names=names, extras=task_overlay(matches))
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
             matches.reset()
-        matches.step(nobody)
+        matches.step(actions)
         crossed = matches.frame.ball.crossed[0]
         blue, yellow = blue + int(crossed == GOAL_RIGHT), yellow + int(crossed == GOAL_LEFT)
         scored = crossed in (GOAL_RIGHT, GOAL_LEFT)
@@ -90,7 +121,7 @@ def _film(
             clock=step * time_step,
             names=names,
             caption="goal" if scored else "",
-            extras=marked(matches),
+            extras=task_overlay(matches),
         )
         for _ in range(math.ceil(GOAL_PAUSE / time_step) if scored else 1):
             yield image

@@ -1,4 +1,4 @@
-"""A robot as seen from above: whatever its model says that it is."""
+"""A robot seen from above: outlines from its model, shapes from its pose and team."""
 
 from __future__ import annotations
 
@@ -25,54 +25,85 @@ if TYPE_CHECKING:
 SHADOW_BLUR = 0.12
 """Softness of a shadow, by the size of the body."""
 GLOW = 0.09
-"""How far the light of a mouth with the ball in it spreads, by the size of the body."""
+"""Blur of the light around a dribbler that has the ball, by the size of the body."""
 SQUARE_SHADE, ROUND_SHADE = 0.5, 0.88
-"""Darkness of a hull: a square one shows its team, a round one stands out from the carpet."""
+"""Darkness of a hull, 0 to 1: a square one shows its team, a round one contrasts with carpet."""
 
 
 class Outlines(NamedTuple):
-    """The parts of a robot in its own frame, x forwards, metres; what it does not have is empty."""
+    """Outlines of a robot in its body frame, x forward, y left, metres; absent parts are empty.
 
-    size: float  # from side to side
-    shade: float  # darkness of the hull, 0 to 1
+    Attributes:
+        size: width of the body, metres.
+        shade: darkness of the hull, 0 to 1.
+        hull: outline of the body.
+        cover: outline of the plate in the team's colour.
+        wheels: outlines of the visible wheels.
+        arrow: outline of the arrow that marks the front of a robot without a dribbler.
+        dribbler: outline of the dribbler's bar.
+        number_x: x of the centre of the number, metres.
+        number_height: height of the number, metres.
+    """
+
+    size: float
+    shade: float
     hull: tuple[Point, ...]
     cover: tuple[Point, ...]
     wheels: tuple[tuple[Point, ...], ...]
     arrow: tuple[Point, ...]
-    mouth: tuple[Point, ...]
+    dribbler: tuple[Point, ...]
     number_x: float
     number_height: float
 
 
-def draw_robot(
-    model: RobotModel, pose: Pose, color: Color, number: int, *, lit: bool = False
+def robot_shapes(
+    model: RobotModel, pose: Pose, color: Color, number: int, *, has_ball: bool = False
 ) -> tuple[Shape, ...]:
-    """Hull, wheels, cover in its team's colour, front, upright number; `lit`: it has the ball."""
-    parts = robot_outlines(model)
+    """Return a robot: hull, wheels, cover in its team's colour, front and upright number.
+
+    Args:
+        model: the robot.
+        pose: position and heading.
+        color: colour of its team.
+        number: number of the robot in its team.
+        has_ball: the ball cuts the beam, which lights the dribbler.
+
+    Returns:
+        Shapes in the order of drawing, the lowest first.
+    """
+    outlines = robot_outlines(model)
     ink = palette.INK if _is_light(color) else palette.WHITE
-    hull = pose.place(parts.hull)
-    (middle,) = pose.place(((parts.number_x, 0.0),))
+    hull = pose.to_world(outlines.hull)
+    (number_center,) = pose.to_world(((outlines.number_x, 0.0),))
     return (
-        Polygon(hull, palette.SHADOW, blur=SHADOW_BLUR * parts.size),
-        Polygon(hull, palette.mix(color, palette.INK, parts.shade)),
-        *(Polygon(pose.place(wheel), palette.TYRE) for wheel in parts.wheels),
-        Polygon(pose.place(parts.cover), color),
-        *((Polygon(pose.place(parts.arrow), ink),) if parts.arrow else ()),
-        *(_draw_mouth(parts, pose, lit) if parts.mouth else ()),
-        Text(middle, parts.number_height, str(number), ink, 0.6 * parts.size),
+        Polygon(hull, palette.SHADOW, blur=SHADOW_BLUR * outlines.size),
+        Polygon(hull, palette.mix(color, palette.INK, outlines.shade)),
+        *(Polygon(pose.to_world(wheel), palette.TYRE) for wheel in outlines.wheels),
+        Polygon(pose.to_world(outlines.cover), color),
+        *((Polygon(pose.to_world(outlines.arrow), ink),) if outlines.arrow else ()),
+        *(_dribbler(outlines, pose, has_ball) if outlines.dribbler else ()),
+        Text(number_center, outlines.number_height, str(number), ink, 0.6 * outlines.size),
     )
 
 
-def _draw_mouth(parts: Outlines, pose: Pose, lit: bool) -> tuple[Shape, ...]:
-    """The dribbler's bar, alight while the ball cuts the beam before it."""
-    bar = pose.place(parts.mouth)
-    if not lit:
-        return (Polygon(bar, palette.BAR),)
-    return (Polygon(bar, palette.LIT, blur=GLOW * parts.size), Polygon(bar, palette.LIT))
+def _dribbler(outlines: Outlines, pose: Pose, has_ball: bool) -> tuple[Shape, ...]:
+    """The dribbler's bar, lit while the ball cuts the beam."""
+    bar = pose.to_world(outlines.dribbler)
+    if not has_ball:
+        return (Polygon(bar, palette.DRIBBLER),)
+    color = palette.DRIBBLER_LIT
+    return (Polygon(bar, color, blur=GLOW * outlines.size), Polygon(bar, color))
 
 
 def robot_outlines(model: RobotModel) -> Outlines:
-    """The parts of a robot, in proportion to its body."""
+    """Return the outlines of a robot, in proportion to its body.
+
+    Args:
+        model: the robot.
+
+    Returns:
+        Outlines of a square robot with its two wheels, or of a round one with a flat front.
+    """
     mouth = model.mouth_width if model.has_mouth else 0.0
     side: float | None = getattr(model, "side", None)
     if side is None:
@@ -82,7 +113,7 @@ def robot_outlines(model: RobotModel) -> Outlines:
 
 @lru_cache(maxsize=16)
 def _square(size: float, wheel_radius: float, mouth: float) -> Outlines:
-    """A square robot; two wheels beside its cover, if they have a radius."""
+    """A square robot, with a wheel on each side of its cover if `wheel_radius` is not 0."""
     half = size / 2
     wheels = tuple(
         rounded_rectangle(-wheel_radius, inner, wheel_radius, inner + 0.1 * size, 0.03 * size)
@@ -95,7 +126,7 @@ def _square(size: float, wheel_radius: float, mouth: float) -> Outlines:
         cover=rounded_rectangle(-0.44 * size, -0.35 * size, 0.44 * size, 0.35 * size, 0.12 * size),
         wheels=wheels if wheel_radius else (),
         arrow=((0.42 * size, 0.0), (0.25 * size, 0.24 * size), (0.25 * size, -0.24 * size)),
-        mouth=_bar(half, half, mouth, 0.06 * size),
+        dribbler=_bar(half, half, mouth, 0.06 * size),
         number_x=-0.08 * size,
         number_height=0.38 * size,
     )
@@ -103,9 +134,9 @@ def _square(size: float, wheel_radius: float, mouth: float) -> Outlines:
 
 @lru_cache(maxsize=16)
 def _round(radius: float, front: float, mouth: float) -> Outlines:
-    """A disc with a flat front; its wheels are under it.
+    """A disc with a flat front and hidden wheels.
 
-    With a mouth the cover ends before it, much as the pattern plates of the league do.
+    With a dribbler the cover ends before the dribbler, as the pattern plates of the league do.
     """
     bar = _bar(front, math.sqrt(radius**2 - front**2), mouth, 0.17 * radius)
     tip = 0.94 * front
@@ -116,25 +147,25 @@ def _round(radius: float, front: float, mouth: float) -> Outlines:
         cover=_cut_disc(0.88 * radius, front - (0.3 if bar else 0.06) * radius),
         wheels=(),
         arrow=() if bar else ((tip, 0.0), (0.55 * tip, 0.4 * tip), (0.55 * tip, -0.4 * tip)),
-        mouth=bar,
+        dribbler=bar,
         number_x=-0.14 * radius,
         number_height=(0.84 if bar else 0.7) * radius,
     )
 
 
 def _cut_disc(radius: float, front: float) -> tuple[Point, ...]:
-    """A disc cut off at `front`."""
+    """A disc cut off at x = `front`."""
     edge = math.acos(min(1.0, front / radius))
     return arc_points((0.0, 0.0), radius, edge, math.tau - edge)
 
 
 def _bar(front: float, half_flat: float, width: float, depth: float) -> tuple[Point, ...]:
-    """A bar of that width along a front, no wider than its flat part; empty without a width."""
+    """A bar along the front, no wider than its flat part; empty without a width."""
     half = min(width / 2, half_flat)
     return rectangle(front - depth, -half, front, half) if half else ()
 
 
 def _is_light(color: Color) -> bool:
-    """Whether dark ink reads better than white on the colour (relative luminance)."""
+    """Whether the colour needs dark text rather than white (relative luminance)."""
     red, green, blue = color[:3]
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue > 150

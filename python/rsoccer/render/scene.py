@@ -1,6 +1,6 @@
-"""One moment of a match as plain shapes, lowest first: pure, and without any drawing library.
+"""A scene: one world of a match as shapes, the lowest first, without any drawing library.
 
-A scene is its ground, which never changes and so can be kept, and its play on top.
+A scene has a static background, drawn once for a configuration, and a foreground that moves.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ import numpy as np
 
 from rsoccer.frame import Array, Frame, RobotColumns
 from rsoccer.render import palette
-from rsoccer.render.ball import draw_ball, draw_halo, draw_shadow, draw_trail
-from rsoccer.render.pitch import draw_pitch
-from rsoccer.render.robot import draw_robot
+from rsoccer.render.ball import ball_shapes, halo_shapes, shadow_shapes, trail_shapes
+from rsoccer.render.pitch import pitch_shapes
+from rsoccer.render.robot import robot_shapes
 from rsoccer.render.scoreboard import (
     Board,
-    draw_board,
-    draw_caption,
-    draw_score,
+    board_shapes,
+    caption_shapes,
     scene_bounds,
+    score_shapes,
 )
 from rsoccer.render.shapes import Color, Polygon, Pose, Shape, rectangle
 
@@ -28,60 +28,81 @@ if TYPE_CHECKING:
     from rsoccer._core import RobotModel, SimConfig
 
 
-def draw_ground(config: SimConfig) -> tuple[Shape, ...]:
-    """The field and the empty board: what every scene of a configuration shares."""
-    at = scene_bounds(config.field)
-    backdrop = Polygon(rectangle(at.left, at.bottom, at.right, at.top), palette.BACKDROP)
-    return (backdrop, *draw_pitch(config.field), *draw_board(config.field))
+def background_shapes(config: SimConfig) -> tuple[Shape, ...]:
+    """Return the field and the empty score board.
+
+    Args:
+        config: the configuration.
+
+    Returns:
+        Shapes in the order of drawing.
+    """
+    bounds = scene_bounds(config.field)
+    corners = rectangle(bounds.left, bounds.bottom, bounds.right, bounds.top)
+    backdrop = Polygon(corners, palette.BACKDROP)
+    return (backdrop, *pitch_shapes(config.field), *board_shapes(config.field))
 
 
-def draw_play(
+def foreground_shapes(
     config: SimConfig, row: Array, board: Board, extras: Sequence[Shape] = ()
 ) -> tuple[Shape, ...]:
-    """Robots, ball and board of one world's row (row,); `extras` lie on the floor under them."""
+    """Return robots, ball and the texts of the score board.
+
+    Args:
+        config: the configuration of the row.
+        row: state of one world (row,).
+        board: texts of the score board.
+        extras: shapes on the floor, under robots and ball.
+
+    Returns:
+        Shapes in the order of drawing.
+
+    Raises:
+        ValueError: the row has another shape or is not finite.
+    """
     frame = Frame(_checked(config, row)[None], config.n_blue, config.n_yellow)
     ball, velocity = _pair(frame.ball.position[0]), _pair(frame.ball.velocity[0])
     height = float(frame.ball.height[0])
     blue, yellow = config.robots[: config.n_blue], config.robots[config.n_blue :]
     return (
         *extras,
-        *draw_halo(config.ball, ball, scene_bounds(config.field).width),
-        *draw_trail(config.ball, ball, velocity),
-        *draw_shadow(config.ball, ball, height),
-        *_draw_team(blue, frame.blue, palette.BLUE),
-        *_draw_team(yellow, frame.yellow, palette.YELLOW),
-        *draw_ball(config.ball, ball, height),
-        *draw_score(config.field, board),
-        *draw_caption(config.field, board.caption),
+        *halo_shapes(config.ball, ball, scene_bounds(config.field).width),
+        *trail_shapes(config.ball, ball, velocity),
+        *shadow_shapes(config.ball, ball, height),
+        *_team_shapes(blue, frame.blue, palette.BLUE),
+        *_team_shapes(yellow, frame.yellow, palette.YELLOW),
+        *ball_shapes(config.ball, ball, height),
+        *score_shapes(config.field, board),
+        *caption_shapes(config.field, board.caption),
     )
 
 
-def _draw_team(
+def _team_shapes(
     models: Sequence[RobotModel], robots: RobotColumns, color: Color
 ) -> tuple[Shape, ...]:
-    """All robots of one team in the first world."""
+    """All robots of a team in world 0."""
     states = zip(models, robots.position[0], robots.heading[0], robots.infrared[0], strict=True)
     return tuple(
         shape
         for number, (model, position, (cos, sin), infrared) in enumerate(states)
-        for shape in draw_robot(
+        for shape in robot_shapes(
             model,
             Pose(_pair(position), float(cos), float(sin)),
             color,
             number,
-            lit=bool(infrared > 0),
+            has_ball=bool(infrared > 0),
         )
     )
 
 
 def _pair(values: Array) -> tuple[float, float]:
-    """Two Python floats, so that shapes compare and print plainly."""
+    """Two Python floats: shapes hold no NumPy numbers."""
     x, y = values.tolist()
     return x, y
 
 
 def _checked(config: SimConfig, row: Array) -> Array:
-    """The row as float32, or an error that says what is wrong with it."""
+    """The row as float32; ValueError for another shape or numbers that are not finite."""
     row = np.ascontiguousarray(row, np.float32)
     if row.shape != (config.row_size,):
         raise ValueError(f"row: expected shape ({config.row_size},), got {row.shape}")

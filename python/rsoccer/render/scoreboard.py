@@ -1,4 +1,4 @@
-"""The board above the field: names of the sides, score and clock."""
+"""The score board above the field: names of the teams, score and clock."""
 
 from __future__ import annotations
 
@@ -16,12 +16,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Board:
-    """What a picture tells beside the field; each pair is blue's, then yellow's."""
+    """Texts of a picture; pairs are blue's, then yellow's.
 
-    score: tuple[int, int] = (0, 0)  # goals
-    clock: float = 0.0  # seconds of play
+    Attributes:
+        score: goals.
+        clock: seconds of play.
+        names: names of the teams.
+        caption: large text over the field; none if empty.
+    """
+
+    score: tuple[int, int] = (0, 0)
+    clock: float = 0.0
     names: tuple[str, str] = ("BLUE", "YELLOW")
-    caption: str = ""  # large, over the field; none if empty
+    caption: str = ""
 
 
 WIDTH = 0.6
@@ -35,17 +42,31 @@ PLATE = 0.44
 
 
 def scene_bounds(field: Field) -> Bounds:
-    """The arena with the board above it."""
+    """Return the bounds of a picture: the arena with the board above it.
+
+    Args:
+        field: the field.
+
+    Returns:
+        The rectangle, metres.
+    """
     arena = arena_bounds(field)
     return Bounds(arena.left, arena.bottom, arena.right, arena.top + (HEIGHT + SPACE) * arena.width)
 
 
-def draw_board(field: Field) -> tuple[Shape, ...]:
-    """The empty board: a dark plate between the colours of the two sides."""
-    at = _board(field)
-    radius, edge = 0.22 * at.height, PLATE * at.right
-    plate = rounded_rectangle(at.left, at.bottom, at.right, at.top, radius)
-    yellow = _end_panel(edge, at.bottom, at.right, at.top, radius)
+def board_shapes(field: Field) -> tuple[Shape, ...]:
+    """Return the empty board: a dark plate between the colours of the teams.
+
+    Args:
+        field: the field.
+
+    Returns:
+        The plate and its two coloured ends.
+    """
+    bounds = _board_bounds(field)
+    radius, edge = 0.22 * bounds.height, PLATE * bounds.right
+    plate = rounded_rectangle(bounds.left, bounds.bottom, bounds.right, bounds.top, radius)
+    yellow = _end_panel(edge, bounds.bottom, bounds.right, bounds.top, radius)
     blue = tuple((-x, y) for x, y in yellow)
     return (
         Polygon(plate, palette.BOARD),
@@ -54,10 +75,18 @@ def draw_board(field: Field) -> tuple[Shape, ...]:
     )
 
 
-def draw_score(field: Field, board: Board) -> tuple[Shape, ...]:
-    """What is written on the board: blue on the left, yellow on the right, the clock between."""
-    at = _board(field)
-    y, height, half = (at.top + at.bottom) / 2, at.height, at.right
+def score_shapes(field: Field, board: Board) -> tuple[Shape, ...]:
+    """Return the texts on the board: blue on the left, yellow on the right, the clock between.
+
+    Args:
+        field: the field.
+        board: the texts.
+
+    Returns:
+        Names, goals and clock.
+    """
+    bounds = _board_bounds(field)
+    y, height, half = (bounds.top + bounds.bottom) / 2, bounds.height, bounds.right
     name_x, name_width = (1 + PLATE) / 2 * half, 0.86 * (1 - PLATE) * half
     goals_x, goals_width = 0.7 * PLATE * half, 0.45 * PLATE * half
     blue, yellow = (name.upper() for name in board.names)
@@ -71,8 +100,16 @@ def draw_score(field: Field, board: Board) -> tuple[Shape, ...]:
     )
 
 
-def draw_caption(field: Field, caption: str) -> tuple[Shape, ...]:
-    """A word across the middle of the field, on a dark band that lets the play through."""
+def caption_shapes(field: Field, caption: str) -> tuple[Shape, ...]:
+    """Return a word across the middle of the field, on a dark translucent band.
+
+    Args:
+        field: the field.
+        caption: the word.
+
+    Returns:
+        Band and text; nothing for an empty caption.
+    """
     if not caption:
         return ()
     half_length, half_height = 0.45 * field.half_length, 0.11 * field.half_width
@@ -80,12 +117,19 @@ def draw_caption(field: Field, caption: str) -> tuple[Shape, ...]:
         -half_length, -half_height, half_length, half_height, 0.3 * half_height
     )
     text = Text((0.0, 0.0), 0.9 * half_height, caption.upper(), palette.WHITE, 1.8 * half_length)
-    return (Polygon(plate, palette.VEIL), text)
+    return (Polygon(plate, palette.CAPTION_BAND), text)
 
 
 def clock_text(clock: float) -> str:
-    """Minutes and whole seconds of play, such as 1:05."""
-    # A sum of float time steps falls a hair short of the second it stands for.
+    """Return a time of play as minutes and whole seconds.
+
+    Args:
+        clock: seconds of play.
+
+    Returns:
+        Text such as "1:05".
+    """
+    # A sum of time steps in floating point falls slightly short of a whole second.
     minutes, seconds = divmod(int(clock + 1e-6), 60)
     return f"{minutes}:{seconds:02d}"
 
@@ -93,7 +137,7 @@ def clock_text(clock: float) -> str:
 def _end_panel(
     left: float, bottom: float, right: float, top: float, radius: float
 ) -> tuple[Point, ...]:
-    """A rectangle whose two corners on the right are round."""
+    """A rectangle with round corners on the right."""
     quarter = math.pi / 2
     lower, upper = (right - radius, bottom + radius), (right - radius, top - radius)
     return (
@@ -104,8 +148,8 @@ def _end_panel(
     )
 
 
-def _board(field: Field) -> Bounds:
-    """Where the board is: centred above the arena."""
+def _board_bounds(field: Field) -> Bounds:
+    """Bounds of the board: centred above the arena."""
     arena = arena_bounds(field)
     half = WIDTH * arena.width / 2
     return Bounds(-half, arena.top, half, arena.top + HEIGHT * arena.width)

@@ -1,4 +1,4 @@
-"""What a picture is made of: coloured shapes in metres, x to the right and y upwards.
+"""Shapes of a picture: coloured, in metres, x to the right and y upwards.
 
 A new kind of robot or mark needs no new shape, only another function that returns these.
 """
@@ -17,13 +17,20 @@ Color: TypeAlias = tuple[int, int, int, int]
 """Red, green, blue and opacity, each 0 to 255."""
 
 ARC_TOLERANCE = 1e-4
-"""Metres between a round outline and the chords drawn for it: below a pixel at any sensible size,
-and half the points mean half the time."""
+"""Largest distance between an arc and its chords, metres: below a pixel at any sensible size.
+
+Half the points take half the time."""
 
 
 @dataclass(frozen=True, slots=True)
 class Polygon:
-    """A filled polygon; `blur` metres soften its edge, for shadows."""
+    """A filled polygon.
+
+    Attributes:
+        points: corners, metres.
+        color: the colour.
+        blur: width of the soft edge, metres; for shadows.
+    """
 
     points: tuple[Point, ...]
     color: Color
@@ -32,7 +39,14 @@ class Polygon:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """A filled disc; `blur` metres soften its edge, for shadows."""
+    """A filled disc.
+
+    Attributes:
+        center: centre, metres.
+        radius: radius, metres.
+        color: the colour.
+        blur: width of the soft edge, metres; for shadows.
+    """
 
     center: Point
     radius: float
@@ -42,7 +56,16 @@ class Circle:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """A stroke along a circle, from angle `start` anticlockwise to `end`, in radians."""
+    """A stroke along a circle.
+
+    Attributes:
+        center: centre of the circle, metres.
+        radius: radius of the circle, metres.
+        start: first angle, radians from +x.
+        end: last angle, anticlockwise from `start`, radians.
+        width: width of the stroke, metres.
+        color: the colour.
+    """
 
     center: Point
     radius: float
@@ -54,7 +77,14 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight stroke with square ends, as long as its two points are apart."""
+    """A straight stroke with square caps.
+
+    Attributes:
+        start: one end, metres.
+        end: the other end, metres.
+        width: width of the stroke, metres; each cap adds half of it.
+        color: the colour.
+    """
 
     start: Point
     end: Point
@@ -64,7 +94,15 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Upright text centred on a point; `height` is that of its capitals, `max_width` shrinks it."""
+    """Upright text centred on a point.
+
+    Attributes:
+        center: centre of the text, metres.
+        height: height of a capital, metres.
+        text: the text, one line.
+        color: the colour.
+        max_width: width beyond which the text is shrunk, metres.
+    """
 
     center: Point
     height: float
@@ -78,7 +116,14 @@ Shape: TypeAlias = Polygon | Circle | Arc | Line | Text
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """The rectangle of the world that a picture shows, metres."""
+    """A rectangle along the axes.
+
+    Attributes:
+        left: smallest x, metres.
+        bottom: smallest y, metres.
+        right: largest x, metres.
+        top: largest y, metres.
+    """
 
     left: float
     bottom: float
@@ -98,21 +143,44 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where a body is and where it looks; turns points of the body into points of the world."""
+    """Position and heading of a body.
+
+    Attributes:
+        center: position, metres.
+        cos: cosine of the heading.
+        sin: sine of the heading.
+    """
 
     center: Point
     cos: float
     sin: float
 
-    def place(self, points: tuple[Point, ...]) -> tuple[Point, ...]:
-        """The same points, given in the body's frame (x forwards, y to its left), in the world."""
+    def to_world(self, points: tuple[Point, ...]) -> tuple[Point, ...]:
+        """Transform points from the body frame to the world.
+
+        Args:
+            points: points in the body frame, x forward, y left, metres.
+
+        Returns:
+            The same points in the world, metres.
+        """
         x_0, y_0 = self.center
         cos, sin = self.cos, self.sin
         return tuple([(x_0 + cos * x - sin * y, y_0 + sin * x + cos * y) for x, y in points])
 
 
 def arc_points(center: Point, radius: float, start: float, end: float) -> tuple[Point, ...]:
-    """Points along a circle, both ends included."""
+    """Return points along an arc, both ends included.
+
+    Args:
+        center: centre of the circle, metres.
+        radius: radius of the circle, metres.
+        start: first angle, radians from +x.
+        end: last angle, radians; clockwise if below `start`.
+
+    Returns:
+        At least three points; their chords are within `ARC_TOLERANCE` of the arc.
+    """
     chord = 2 * math.acos(max(0.0, 1.0 - ARC_TOLERANCE / max(radius, ARC_TOLERANCE)))
     steps = max(2, math.ceil(abs(end - start) / chord))
     angles = [start + (end - start) * i / steps for i in range(steps + 1)]
@@ -121,14 +189,35 @@ def arc_points(center: Point, radius: float, start: float, end: float) -> tuple[
 
 
 def rectangle(left: float, bottom: float, right: float, top: float) -> tuple[Point, ...]:
-    """The four corners of an upright rectangle, anticlockwise."""
+    """Return the corners of a rectangle along the axes.
+
+    Args:
+        left: smallest x, metres.
+        bottom: smallest y, metres.
+        right: largest x, metres.
+        top: largest y, metres.
+
+    Returns:
+        Four points, anticlockwise from the lower left.
+    """
     return ((left, bottom), (right, bottom), (right, top), (left, top))
 
 
 def rounded_rectangle(
     left: float, bottom: float, right: float, top: float, radius: float
 ) -> tuple[Point, ...]:
-    """The outline of an upright rectangle with round corners, anticlockwise."""
+    """Return the outline of a rectangle with round corners.
+
+    Args:
+        left: smallest x, metres.
+        bottom: smallest y, metres.
+        right: largest x, metres.
+        top: largest y, metres.
+        radius: radius of the corners, metres; at most half the shorter side is used.
+
+    Returns:
+        Points of the outline, anticlockwise.
+    """
     radius = min(radius, (right - left) / 2, (top - bottom) / 2)
     quarter = math.pi / 2
     centers = rectangle(left + radius, bottom + radius, right - radius, top - radius)
@@ -140,5 +229,14 @@ def rounded_rectangle(
 
 
 def stroke(points: tuple[Point, ...], width: float, color: Color) -> tuple[Line, ...]:
-    """Lines from each point to the next."""
+    """Return lines from each point to the next.
+
+    Args:
+        points: the points, metres.
+        width: width of the lines, metres.
+        color: the colour.
+
+    Returns:
+        One line fewer than there are points.
+    """
     return tuple(Line(a, b, width, color) for a, b in pairwise(points))

@@ -1,4 +1,4 @@
-"""Images as a video file: mp4 by ffmpeg, or an animated gif."""
+"""Video files: mp4 through ffmpeg, animated gif through Pillow."""
 
 from __future__ import annotations
 
@@ -16,37 +16,56 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from PIL.Image import Image as PillowImage
+
     from rsoccer.render.image import Image
 
-GIF_RATE = 50.0
-"""Most frames a second of a gif: browsers show anything faster at 10."""
+MAX_GIF_FPS = 50.0
+"""Largest frame rate of a gif: browsers show faster ones at 10 images per second."""
 
 
 def write_video(path: Path | str, frames: Iterable[Image], fps: float) -> Path:
-    """Write images (height, width, 3) as they come to an .mp4 or .gif; the path written.
+    """Write images to an .mp4 or .gif as they come.
 
-    Where imageio-ffmpeg is missing an .mp4 becomes a .gif beside it, with a warning. The file
-    appears when it is complete; until then one that was there before stays.
+    The file appears when it is complete; until then an older one of that name stays. An .mp4
+    takes little memory; of a .gif all images are held until the end, one byte per pixel.
+
+    Args:
+        path: the file. Where imageio-ffmpeg is missing, an .mp4 becomes a .gif beside it, with a
+            warning.
+        frames: images (height, width, 3), uint8, all of one shape.
+        fps: images per second; at most 50 for a .gif.
+
+    Returns:
+        The path of the file.
+
+    Raises:
+        ValueError: another suffix or rate, no images, or an image of another type or shape.
+        ModuleNotFoundError: neither imageio-ffmpeg nor Pillow is installed.
+        OSError: the folder cannot be written to.
+        RuntimeError: ffmpeg failed; the text has its messages.
     """
     path = Path(path)
     if path.suffix not in (".mp4", ".gif"):
         raise ValueError(f"path: expected a name ending in .mp4 or .gif, got {str(path)!r}")
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"fps: expected a positive number, got {fps}")
-    encoder = _find_ffmpeg() if path.suffix == ".mp4" else None
-    if path.suffix == ".mp4" and encoder is None:
+    ffmpeg = _find_ffmpeg() if path.suffix == ".mp4" else None
+    if path.suffix == ".mp4" and ffmpeg is None:
         path = path.with_suffix(".gif")
         warnings.warn(f"no imageio-ffmpeg to write mp4 with: writing {path}", stacklevel=2)
-    if encoder is None and find_spec("PIL") is None:
-        raise ModuleNotFoundError("videos need imageio-ffmpeg: pip install 'rsoccer[render]'")
-    if encoder is None and fps > GIF_RATE:
-        raise ValueError(f"fps: expected at most {GIF_RATE:g} for a gif, got {fps}")
-    _write_whole(path, frames, fps, encoder)
+    if ffmpeg is None and find_spec("PIL") is None:
+        raise ModuleNotFoundError(
+            "videos need imageio-ffmpeg or Pillow: pip install 'rsoccer[render]'"
+        )
+    if ffmpeg is None and fps > MAX_GIF_FPS:
+        raise ValueError(f"fps: expected at most {MAX_GIF_FPS:g} for a gif, got {fps}")
+    _write_atomically(path, frames, fps, ffmpeg)
     return path
 
 
-def _write_whole(path: Path, frames: Iterable[Image], fps: float, encoder: str | None) -> None:
-    """Write under another name first, so that `path` is never half a video."""
+def _write_atomically(path: Path, frames: Iterable[Image], fps: float, ffmpeg: str | None) -> None:
+    """Write under another name first, so that `path` is never an incomplete video."""
     partial = path.with_name(f".{path.name}.partial")
     try:
         partial.touch()
@@ -57,22 +76,22 @@ def _write_whole(path: Path, frames: Iterable[Image], fps: float, encoder: str |
         first = next(checked, None)
         if first is None:
             raise ValueError("frames: expected at least one image, got none")
-        if encoder is None:
+        if ffmpeg is None:
             _write_gif(partial, first, checked, fps)
         else:
-            _write_mp4(encoder, partial, first, checked, fps)
+            _write_mp4(ffmpeg, partial, first, checked, fps)
         partial.replace(path)
     finally:
         partial.unlink(missing_ok=True)
 
 
 def _checked(frames: Iterable[Image]) -> Iterator[Image]:
-    """The same images, each compared with the first in shape."""
+    """The same images; an error at the first of another type or shape."""
     shape: tuple[int, ...] | None = None
     for i, frame in enumerate(frames):
         shape = frame.shape if shape is None else shape
-        sound = frame.ndim == 3 and frame.shape[2] == 3 and frame.size > 0
-        if frame.dtype != np.uint8 or not sound:
+        is_rgb = frame.ndim == 3 and frame.shape[2] == 3 and frame.size > 0
+        if frame.dtype != np.uint8 or not is_rgb:
             raise ValueError(
                 f"frames[{i}]: expected uint8 (height, width, 3), got {frame.dtype} {frame.shape}"
             )
@@ -85,7 +104,7 @@ def _checked(frames: Iterable[Image]) -> Iterator[Image]:
 
 
 def _find_ffmpeg() -> str | None:
-    """The ffmpeg program that imageio-ffmpeg brings along, if there is one."""
+    """Path of the ffmpeg program in imageio-ffmpeg, or None."""
     try:
         import imageio_ffmpeg
 
@@ -94,42 +113,42 @@ def _find_ffmpeg() -> str | None:
         return None
 
 
-def _write_mp4(encoder: str, path: Path, first: Image, others: Iterator[Image], fps: float) -> None:
+def _write_mp4(ffmpeg: str, path: Path, first: Image, others: Iterator[Image], fps: float) -> None:
     """Feed images to ffmpeg as they come."""
-    command = _ffmpeg_command(encoder, path, first.shape, fps)
-    with tempfile.TemporaryFile() as complaints:
-        ffmpeg = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=complaints)
-        assert ffmpeg.stdin is not None
+    command = _ffmpeg_command(ffmpeg, path, first.shape, fps)
+    with tempfile.TemporaryFile() as stderr:
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stderr=stderr)
+        assert process.stdin is not None
         try:
-            # If ffmpeg gives up, the pipe breaks; its exit code and complaints say why.
-            with suppress(BrokenPipeError), ffmpeg.stdin as pipe:
+            # If ffmpeg stops early, the pipe breaks; its exit code and messages say why.
+            with suppress(BrokenPipeError), process.stdin as pipe:
                 for frame in chain([first], others):
                     pipe.write(np.ascontiguousarray(frame).data)
         except BaseException:
-            ffmpeg.kill()
+            process.kill()
             raise
         finally:
-            code = ffmpeg.wait()
+            code = process.wait()
         if code != 0:
-            complaints.seek(0)
-            said = complaints.read().decode(errors="replace").strip()
-            raise RuntimeError(f"ffmpeg could not write the video (exit code {code}): {said}")
+            stderr.seek(0)
+            text = stderr.read().decode(errors="replace").strip()
+            raise RuntimeError(f"ffmpeg could not write the video (exit code {code}): {text}")
 
 
-def _ffmpeg_command(encoder: str, path: Path, shape: tuple[int, ...], fps: float) -> list[str]:
-    """Raw images in, H.264 out: 4:2:0 colour, even sizes, index first: what all players take."""
+def _ffmpeg_command(ffmpeg: str, path: Path, shape: tuple[int, ...], fps: float) -> list[str]:
+    """Raw images in, H.264 out: 4:2:0 colour, even sizes, index first, as all players take it."""
     height, width = shape[:2]
-    given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(fps)]
+    source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(fps)]
     filters = (
         "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
-        # Untagged, players guess by size how colours were stored, and half guess wrong.
+        # Without tags, players guess the colour matrix by the image size, and half guess wrong.
         "scale=out_color_matrix=bt709:out_range=tv,"
         "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
     )
-    coded = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p"]
+    codec = ["-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p"]
     return [
-        *(encoder, "-v", "error", "-y", *given, "-i", "-", "-vf", filters),
-        *(*coded, "-movflags", "+faststart", "-f", "mp4", str(path)),
+        *(ffmpeg, "-v", "error", "-y", *source, "-i", "-", "-vf", filters),
+        *(*codec, "-movflags", "+faststart", "-f", "mp4", str(path)),
     ]
 
 
@@ -137,26 +156,21 @@ def _ffmpeg_command(encoder: str, path: Path, shape: tuple[int, ...], fps: float
 
 
 def _write_gif(path: Path, first: Image, others: Iterator[Image], fps: float) -> None:
-    """Write what changes from image to image, each change with colours of its own.
+    """Write an animation that repeats forever; equal images in a row become one.
 
-    Pillow's own way of saving an animation holds all of it in memory.
+    Through Pillow itself: imageio's plugin makes the same call, but first holds all images with
+    three bytes per pixel.
     """
-    from PIL import GifImagePlugin, ImageChops
+    images = _pillow_images(chain([first], others), fps)
+    with path.open("wb") as file:  # Pillow closes one of its own on an Exception only
+        next(images).save(file, "GIF", save_all=True, append_images=images, loop=0)
+
+
+def _pillow_images(frames: Iterable[Image], fps: float) -> Iterator[PillowImage]:
+    """Images with the durations that Pillow's writer reads, whole hundredths of a second."""
     from PIL import Image as Pillow
 
-    before = Pillow.fromarray(first)
-    header, _ = GifImagePlugin.getheader(before.quantize(), info={"loop": 0})
-    with path.open("wb") as file:
-        file.writelines(header)
-        for i, frame in enumerate(chain([first], others)):
-            now = Pillow.fromarray(frame)
-            # An image that repeats the last one still takes its time: rewrite one pixel.
-            box = ImageChops.difference(before, now).getbbox() or (0, 0, 1, 1)
-            box = box if i else (0, 0, *now.size)
-            duration = 10 * (round(100 * (i + 1) / fps) - round(100 * i / fps))  # gifs count 10 ms
-            change = now.crop(box).quantize()
-            file.writelines(
-                GifImagePlugin.getdata(change, box[:2], duration=duration, include_color_table=True)
-            )
-            before = now
-        file.write(b";")
+    for i, frame in enumerate(frames):
+        image = Pillow.fromarray(frame)
+        image.info["duration"] = 10 * (round(100 * (i + 1) / fps) - round(100 * i / fps))  # ms
+        yield image

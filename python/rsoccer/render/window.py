@@ -1,4 +1,4 @@
-"""A window on the screen that shows images, for watching a match as it is played."""
+"""A window on the screen that shows images of a match while it is played."""
 
 from __future__ import annotations
 
@@ -6,81 +6,105 @@ import os
 import weakref
 
 from rsoccer.render.image import Image
-from rsoccer.render.library import pygame
+from rsoccer.render.pygame_import import pygame
 
-BLIND_DRIVERS = ("dummy", "offscreen")
-"""SDL's video drivers that nobody can see; it falls back on them where there is no display."""
+HEADLESS_DRIVERS = ("dummy", "offscreen")
+"""SDL's video drivers without a screen; SDL falls back on them where there is no display."""
 
 _open_windows: weakref.WeakSet[Window] = weakref.WeakSet()
 
 
 class Window:
-    """Shows images one after another, at most `fps` a second; opens with the first.
+    """A window that shows images one after another; it opens with the first.
 
-    Once its user has closed it (or pressed Escape) it stays closed and ignores further images, so a
-    run goes on without it.
+    After the user has closed it (or pressed Escape) the window stays closed and ignores further
+    images, so a run goes on without it.
+
+    Attributes:
+        title: text of the title bar.
+        fps: largest number of images per second, or None.
+        closed: the window has been closed, by the user or by `close`.
     """
 
     def __init__(self, title: str = "rSoccer", fps: float | None = 40.0) -> None:
-        """Prepare a window; without `fps` it never waits."""
+        """Prepare a window without opening it.
+
+        Args:
+            title: text of the title bar.
+            fps: largest number of images per second; None never waits.
+        """
         self.title = title
         self.fps = fps
         self.closed = False
-        self._frame: pygame.Window | None = None
+        self._window: pygame.Window | None = None
         self._clock = pygame.time.Clock()
 
     def show(self, image: Image) -> bool:
-        """Show an image (height, width, 3); whether the window is still open."""
+        """Show an image, and wait as `fps` asks.
+
+        Args:
+            image: the image (height, width, 3), uint8; the window takes its size.
+
+        Returns:
+            True while the window is open.
+
+        Raises:
+            RuntimeError: there is no display.
+        """
         if self.closed:
             return False
-        if self._frame is None:
-            self._frame = _open_frame(self.title, image)
+        if self._window is None:
+            self._window = _open_window(self.title, image)
             _open_windows.add(self)
-        _hear_users()
+        _dispatch_events()
         if self.closed:
             return False
         height, width = image.shape[:2]
-        if self._frame.size != (width, height):
-            self._frame.size = (width, height)
+        if self._window.size != (width, height):
+            self._window.size = (width, height)
         picture = pygame.image.frombuffer(image.tobytes(), (width, height), "RGB")
-        self._frame.get_surface().blit(picture, (0, 0))
-        self._frame.flip()
+        self._window.get_surface().blit(picture, (0, 0))
+        self._window.flip()
         if self.fps is not None:
             self._clock.tick(self.fps)
         return True
 
     def close(self) -> None:
-        """Take the window off the screen; may be called again."""
+        """Close the window; may be called again."""
         self.closed = True
-        if self._frame is not None:
-            self._frame.destroy()
-            self._frame = None
+        if self._window is not None:
+            self._window.destroy()
+            self._window = None
 
-    def hear(self, event: pygame.Event) -> None:
-        """Close if that is what the user asked of this window."""
+    def handle_event(self, event: pygame.Event) -> None:
+        """Close the window if an event asks for it.
+
+        Args:
+            event: an event of any window.
+        """
         if event.type == pygame.QUIT:
             self.close()
         escaped = event.type == pygame.KEYDOWN and event.key == pygame.K_ESCAPE
-        if (escaped or event.type == pygame.WINDOWCLOSE) and event.window is self._frame:
+        if (escaped or event.type == pygame.WINDOWCLOSE) and event.window is self._window:
             self.close()
 
 
-def _hear_users() -> None:
-    """Hand events to all windows: SDL has one queue of them for the whole process."""
+def _dispatch_events() -> None:
+    """Hand events to all windows: SDL has one event queue for the whole process."""
     for event in pygame.event.get():
         for window in list(_open_windows):
-            window.hear(event)
+            window.handle_event(event)
 
 
-def _open_frame(title: str, image: Image) -> pygame.Window:
-    """A window of the image's size, or an error where there is no display to put it on."""
+def _open_window(title: str, image: Image) -> pygame.Window:
+    """A window of the image's size; RuntimeError where there is no display."""
     try:
         pygame.display.init()
     except pygame.error as error:
         raise RuntimeError(f"no display to open a window on: {error}") from error
     driver = pygame.display.get_driver()
-    asked = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER")
-    if driver in BLIND_DRIVERS and not asked:
+    requested = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER")
+    if driver in HEADLESS_DRIVERS and not requested:
         raise RuntimeError("no display to open a window on; an image or a video needs none")
     height, width = image.shape[:2]
     return pygame.Window(title, (width, height))

@@ -1,8 +1,8 @@
-"""pygame, quietly, or a word on how to get it: the rest of this package imports it from here."""
+"""The import of pygame: no greeting, and a clear error where pygame is missing."""
 
 import os
 
-# It greets on standard output when it is imported, which would spoil piped output.
+# The greeting on standard output would spoil piped output.
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 try:
     import pygame

@@ -1,0 +1,214 @@
+"""The rasterizer: antialiased pixels of shapes, through pygame and without a display."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+
+from rsoccer.render.pygame_import import pygame
+from rsoccer.render.shapes import (
+    Arc,
+    Circle,
+    Color,
+    Line,
+    Point,
+    Polygon,
+    Shape,
+    Text,
+    arc_points,
+)
+
+SUPERSAMPLING = 4
+"""Sub-pixels along each axis of a pixel."""
+MAX_SUBPIXELS = 4_000_000
+"""Largest number of sub-pixels of a layer, 4 bytes each: larger shapes are sampled less."""
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """An orthographic view from above: the map from metres to pixels.
+
+    Attributes:
+        scale: pixels per metre.
+        left: x of the image's left edge, metres.
+        top: y of the image's upper edge, metres; rows of pixels count downwards.
+    """
+
+    scale: float
+    left: float
+    top: float
+
+    def project(self, points: Iterable[Point]) -> list[Point]:
+        """Project points of the world into the image.
+
+        Args:
+            points: x and y of each, metres.
+
+        Returns:
+            Column and row of each, pixels, with fractions.
+        """
+        scale, left, top = self.scale, self.left, self.top
+        return [((x - left) * scale, (top - y) * scale) for x, y in points]
+
+
+class Rasterizer:
+    """A rasterizer of shapes through one camera.
+
+    Each shape is filled on a small layer of its own at `SUPERSAMPLING` times the size, averaged
+    down and blended over the canvas, so edges are smooth and move by fractions of a pixel. Layers
+    hold premultiplied colours: averaging then mixes in no colour of transparent pixels.
+    """
+
+    def __init__(self, camera: Camera) -> None:
+        """Prepare for one camera.
+
+        Args:
+            camera: the map from metres to pixels.
+        """
+        pygame.font.init()
+        self._camera = camera
+        self._text_layer = lru_cache(maxsize=64)(_text_layer)  # per object: freed with it
+
+    def draw(self, canvas: pygame.Surface, shapes: Iterable[Shape]) -> None:
+        """Draw shapes over a canvas, in their order.
+
+        Args:
+            canvas: the surface, changed in place.
+            shapes: shapes in metres, the lowest first.
+        """
+        for shape in shapes:
+            self._draw_one(canvas, shape)
+
+    def _draw_one(self, canvas: pygame.Surface, shape: Shape) -> None:
+        """Draw a shape by its kind."""
+        match shape:
+            case Polygon(points, color, blur):
+                self._fill(canvas, points, color, blur)
+            case Circle(center, radius, color, blur):
+                self._fill(canvas, arc_points(center, radius, 0.0, math.tau), color, blur)
+            case Arc():
+                self._fill(canvas, _arc_outline(shape), shape.color)
+            case Line():
+                self._fill(canvas, _line_outline(shape), shape.color)
+            case Text():
+                self._write(canvas, shape)
+
+    def _fill(
+        self, canvas: pygame.Surface, points: Iterable[Point], color: Color, blur: float = 0.0
+    ) -> None:
+        """Fill an outline given in metres."""
+        outline = self._camera.project(points)
+        blur_pixels = math.ceil(blur * self._camera.scale)
+        area = _pixel_bounds(outline, 2 * blur_pixels).clip(canvas.get_rect().inflate(2, 2))
+        if not area:  # outside the image
+            return
+        factor = _sampling(area)
+        layer = pygame.Surface((area.width * factor, area.height * factor), pygame.SRCALPHA)
+        corners = [((x - area.x) * factor, (y - area.y) * factor) for x, y in outline]
+        pygame.draw.polygon(layer, _premultiplied(color), corners)
+        _blend(canvas, layer, area, blur_pixels)
+
+    def _write(self, canvas: pygame.Surface, text: Text) -> None:
+        """Write a text at a sub-pixel position, so that a number glides with its robot."""
+        scale = self._camera.scale
+        glyphs = self._text_layer(
+            text.text, text.color, text.height * scale, text.max_width * scale
+        )
+        ((x, y),) = self._camera.project((text.center,))
+        half_width, half_height = (side / 2 / SUPERSAMPLING for side in glyphs.get_size())
+        corner = (x - half_width, y - half_height)
+        area = _pixel_bounds((corner, (x + half_width, y + half_height)), 0)
+        size = (area.width * SUPERSAMPLING, area.height * SUPERSAMPLING)
+        layer = pygame.Surface(size, pygame.SRCALPHA)
+        offset = [round((a - b) * SUPERSAMPLING) for a, b in zip(corner, area.topleft, strict=True)]
+        layer.blit(glyphs, offset, special_flags=pygame.BLEND_PREMULTIPLIED)
+        _blend(canvas, layer, area, 0)
+
+
+def _blend(
+    canvas: pygame.Surface, layer: pygame.Surface, area: pygame.Rect, blur_pixels: int
+) -> None:
+    """Average a layer down to its area, blur it and blend it over the canvas."""
+    if blur_pixels:
+        coarse = [max(1, round(side / blur_pixels)) for side in area.size]
+        layer = pygame.transform.smoothscale(layer, coarse)
+    if layer.get_size() != area.size:
+        layer = pygame.transform.smoothscale(layer, area.size)
+    canvas.blit(layer, area, special_flags=pygame.BLEND_PREMULTIPLIED)
+
+
+def _sampling(area: pygame.Rect) -> int:
+    """Sub-pixels along each axis of a pixel: fewer for areas of millions of pixels."""
+    affordable = math.isqrt(MAX_SUBPIXELS // (area.width * area.height + 1))
+    return min(SUPERSAMPLING, max(1, affordable))
+
+
+def _pixel_bounds(points: Iterable[Point], border: int) -> pygame.Rect:
+    """The whole pixels that hold the points, with a border around them."""
+    xs, ys = zip(*points, strict=True)
+    left, top = math.floor(min(xs)) - border, math.floor(min(ys)) - border
+    right, bottom = math.ceil(max(xs)) + border + 1, math.ceil(max(ys)) + border + 1
+    return pygame.Rect(left, top, right - left, bottom - top)
+
+
+def _premultiplied(color: Color) -> Color:
+    """The colour with red, green and blue multiplied by its opacity."""
+    red, green, blue, opacity = color
+    return (red * opacity // 255, green * opacity // 255, blue * opacity // 255, opacity)
+
+
+def _arc_outline(arc: Arc) -> tuple[Point, ...]:
+    """The outline of an arc: along the outer edge and back along the inner one."""
+    outer, inner = arc.radius + arc.width / 2, arc.radius - arc.width / 2
+    return (
+        *arc_points(arc.center, outer, arc.start, arc.end),
+        *arc_points(arc.center, inner, arc.end, arc.start),
+    )
+
+
+def _line_outline(line: Line) -> tuple[Point, ...]:
+    """The outline of a line, with square caps, which close the corners of polylines."""
+    (x_0, y_0), (x_1, y_1) = line.start, line.end
+    length = math.hypot(x_1 - x_0, y_1 - y_0) or 1.0
+    along_x, along_y = (
+        (x_1 - x_0) / length * line.width / 2,
+        (y_1 - y_0) / length * line.width / 2,
+    )
+    return (
+        (x_0 - along_x - along_y, y_0 - along_y + along_x),
+        (x_0 - along_x + along_y, y_0 - along_y - along_x),
+        (x_1 + along_x + along_y, y_1 + along_y - along_x),
+        (x_1 + along_x - along_y, y_1 + along_y + along_x),
+    )
+
+
+def _text_layer(text: str, color: Color, height: float, max_width: float) -> pygame.Surface:
+    """A text at `SUPERSAMPLING` times its size, centred on the middle of its capitals.
+
+    `height` is the cap height in pixels; a text wider than `max_width` pixels is shrunk.
+    """
+    size = max(1, round(height * SUPERSAMPLING / _cap_height_ratio()))
+    font = pygame.font.Font(None, size)
+    width = font.size(text)[0]
+    if width > max_width * SUPERSAMPLING:
+        font = pygame.font.Font(None, max(1, int(size * max_width * SUPERSAMPLING / width)))
+    drawn = font.render(text, True, color)
+    middle = _capital_bounds(font).centery
+    half = max(middle, drawn.get_height() - middle)
+    layer = pygame.Surface((drawn.get_width(), 2 * half), pygame.SRCALPHA)
+    layer.blit(drawn, (0, half - middle))
+    return layer.premul_alpha()
+
+
+@lru_cache(maxsize=1)
+def _cap_height_ratio() -> float:
+    """Cap height by the nominal size of pygame's default font."""
+    size = 200
+    return _capital_bounds(pygame.font.Font(None, size)).height / size
+
+
+def _capital_bounds(font: pygame.font.Font) -> pygame.Rect:
+    """Bounds of a capital within a line of text, pixels."""
+    return font.render("H", True, "white").get_bounding_rect()
