@@ -43,7 +43,11 @@ CHIP_UP = Criterion(
     "command, gravity",
 )
 MOVING = Criterion(
-    TOPIC, "kick of 4 m/s from a robot driving at 1 m/s: ball speed", "m/s", percent(2), "sum of both speeds"
+    TOPIC,
+    "kick of 4 m/s from a robot driving at 1 m/s: ball speed",
+    "m/s",
+    percent(2),
+    "sum of both speeds",
 )
 MAX_KICK = Criterion(
     TOPIC, "maximum kick speed of each preset", "m/s", percent(2), "`robot-specs.yaml`"
