@@ -124,8 +124,8 @@ def _slants(name: str, ball: Ball) -> Checks:
     speed, radians = np.array([s for s, _ in SLANTS]), np.radians([d for _, d in SLANTS])
     towards, along = speed * np.sin(radians), speed * np.cos(radians)
     after = at_wall(name, towards, along).ball
-    for world, (speed_there, degrees) in enumerate(SLANTS):
-        case = f"`{name}`, {speed_there:g} m/s at {degrees:g} degrees"
+    for world, (impact_speed, degrees) in enumerate(SLANTS):
+        case = f"`{name}`, {impact_speed:g} m/s at {degrees:g} degrees"
         velocity, spin = off_wall(ball, towards[world], along[world])
         yield NORMAL(case, -velocity[1], -after.velocity[-1, world, 1])
         yield TANGENTIAL(case, velocity[0], after.velocity[-1, world, 0])
@@ -137,8 +137,8 @@ def _front(name: str, ball: Ball) -> Checks:
     config = SimConfig("ssl_b", 1, 0, ball=frictionless_floor(name))
     scene = Scene(config)
     velocity = np.array([-2.0, 2.0, 0.0])
-    reach = GENERIC.front + ball.radius
-    scene.ball.position[:] = (reach + 0.1, -0.1)
+    distance = GENERIC.front + ball.radius
+    scene.ball.position[:] = (distance + 0.1, -0.1)
     scene.ball.velocity[:] = velocity[:2]
     after = scene.play(4 * STEP).ball
     inertia = GENERIC.mass * GENERIC.radius**2 / 2  # of a uniform disc

@@ -12,7 +12,7 @@ import numpy as np
 from rsoccer.frame import Array
 from tools.physics.ball_bounces import at_wall, off_wall
 from tools.physics.ball_flight import chip
-from tools.physics.ball_rolling import roll_out
+from tools.physics.ball_rolling import simulate_kicks
 from tools.physics.cited import BALLS, GENERIC
 from tools.physics.closed_form import StraightKick
 
@@ -47,7 +47,7 @@ def draw_roll() -> Figure:
     made, [axes] = figure()
     for name, ball in BALLS.items():
         form = StraightKick(ball, KICK)
-        trajectory = roll_out(name, (KICK,), form.stop_time + 0.5).ball
+        trajectory = simulate_kicks(name, (KICK,), form.stop_time + 0.5).ball
         distance = np.append(0.0, trajectory.position[:, 0, 0])
         speed = np.append(KICK, trajectory.velocity[:, 0, 0])
         axes.plot(distance, speed, color=COLOURS[name], linewidth=2, label=name)

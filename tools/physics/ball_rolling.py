@@ -61,7 +61,7 @@ def checks() -> Checks:
     yield from _grazes()
 
 
-def roll_out(
+def simulate_kicks(
     name: str,
     kicks: tuple[float, ...],
     seconds: float,
@@ -77,8 +77,8 @@ def roll_out(
 
 def _kicks(name: str, ball: Ball) -> Checks:
     forms = [StraightKick(ball, kick) for kick in KICKS]
-    slides = roll_out(name, KICKS, 1.0, time_step=TICK)
-    trajectory = roll_out(name, KICKS, max(form.stop_time for form in forms) + 1)
+    slides = simulate_kicks(name, KICKS, 1.0, time_step=TICK)
+    trajectory = simulate_kicks(name, KICKS, max(form.stop_time for form in forms) + 1)
     for world, form in enumerate(forms):
         case = f"`{name}`, {form.kick:g} m/s"
         slide_time, slide_distance = _end_of_sliding(slides, world)
@@ -129,7 +129,7 @@ def _ticks(name: str, ball: Ball) -> Checks:
     distance, speed = StraightKick(ball, 4.0).after(2.0)
     for tick in TICKS:
         case = f"`{name}`, {1000 * tick:g} ms"
-        last = roll_out(name, (4.0,), 2.0, tick).ball
+        last = simulate_kicks(name, (4.0,), 2.0, tick).ball
         yield DISTANCE_BY_TICK(case, distance, last.position[-1, 0, 0])
         yield SPEED_BY_TICK(case, speed, last.velocity[-1, 0, 0])
 

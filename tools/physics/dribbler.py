@@ -72,14 +72,14 @@ NO_SLOWER = Criterion(
 BACK_SPIN = Criterion(
     TOPIC, "surface speed of the ball after 1 s", "m/s", absolute(0.1), "dribbler bar speed"
 )
-BENDS = Criterion(
+TURN_CHANGE = Criterion(
     TOPIC,
     "held while turning: ball's velocity change per tick",
     "m/s",
     percent(5),
     "circular motion",
 )
-RELEASE = Criterion(
+RELEASE_CHANGE = Criterion(
     TOPIC,
     "dribbler turned off: ball's velocity change in each of the next 3 ticks",
     "m/s",
@@ -239,12 +239,12 @@ def _releasing() -> Checks:
     scene = turning_scene(FAST, time_step=TICK)
     match = scene.begin()
     bend = np.diff(match.run(1.0).ball.velocity[-2:, 0], axis=0)[0]
-    yield BENDS(f"at {FAST:g} rad/s", FAST**2 * front_offset() * TICK, length(*bend))
+    yield TURN_CHANGE(f"at {FAST:g} rad/s", FAST**2 * front_offset() * TICK, length(*bend))
     held = match.frame.ball.velocity.copy()
     scene.command(0, dribbler=0.0)
     velocity = np.concatenate([held[None], match.run(3 * TICK).ball.velocity])[:, 0]
     for tick, change in enumerate(np.diff(velocity, axis=0), start=1):
-        yield RELEASE(f"tick {tick}", BALL.sliding_deceleration * TICK, length(*change))
+        yield RELEASE_CHANGE(f"tick {tick}", BALL.sliding_deceleration * TICK, length(*change))
     yield LEAVES("while turning", 0.0, match.run(1.0).robots.infrared[-1, 0, 0])
 
 

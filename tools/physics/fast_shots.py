@@ -30,9 +30,9 @@ SPINNING = Criterion(TOPIC, "shots through a spinning robot", "of 1000", EXACT, 
 SPIN_TOUCHED = Criterion(
     TOPIC, "shots aimed at a spinning robot: contacts", "of 1000", EXACT, "aim"
 )
-BENT = Criterion(TOPIC, "shots 2 mm beside a robot: deflection", "mm", absolute(0.001), CLEAR)
-GHOSTS = Criterion(TOPIC, "shots 2 mm beside a robot: contacts", "of 1000", EXACT, CLEAR)
-WALL_BENT = Criterion(
+DEFLECTION = Criterion(TOPIC, "shots 2 mm beside a robot: deflection", "mm", absolute(0.001), CLEAR)
+FALSE_CONTACTS = Criterion(TOPIC, "shots 2 mm beside a robot: contacts", "of 1000", EXACT, CLEAR)
+WALL_DEFLECTION = Criterion(
     TOPIC, "shots 2 mm beside a goal's side or a wall: deflection", "mm", absolute(0.001), CLEAR
 )
 CORNER = Criterion(
@@ -149,8 +149,8 @@ def _near_robots() -> Checks:
         start[::2, 1] *= -1
         ball = _shoot_along_x(field, 1, start, 0.05).ball
         deflection = abs(ball.position[..., 1] - start.astype(np.float32)[:, 1]).max()
-        yield BENT(f"`{field}`", 0.0, 1000 * deflection)
-        yield GHOSTS(f"`{field}`", 0, (ball.last_touch[-1] != -1).sum())
+        yield DEFLECTION(f"`{field}`", 0.0, 1000 * deflection)
+        yield FALSE_CONTACTS(f"`{field}`", 0, (ball.last_touch[-1] != -1).sum())
 
 
 def _near_walls() -> Checks:
@@ -158,7 +158,7 @@ def _near_walls() -> Checks:
         start = _uniform([3.9, y], [0.025, 0.0])
         x, across = np.moveaxis(_shoot_along_x("ssl_b", 0, start, 0.075).ball.position, -1, 0)
         deflection = abs(across - np.float32(y))[x < 4.7].max()
-        yield WALL_BENT(obstacle, 0.0, 1000 * deflection)
+        yield WALL_DEFLECTION(obstacle, 0.0, 1000 * deflection)
 
 
 def _corners() -> Checks:

@@ -29,7 +29,7 @@ BEAM_HEIGHT = Criterion(
     TOPIC, "break beam: maximum detected height", "mm", absolute(0.2), "section of the ball"
 )
 SPEED = Criterion(TOPIC, "kick speed one tick later, four headings", "m/s", percent(2), "command")
-ASIDE = Criterion(
+DIRECTION = Criterion(
     TOPIC, "kick direction relative to the heading", "degrees", absolute(0.5), "command"
 )
 CHIP_ALONG = Criterion(
@@ -58,10 +58,10 @@ MAX_CHIP = Criterion(
 MISSES = Criterion(
     TOPIC, "kicks without the ball in the mouth: ball moved", "of 4", EXACT, "beam not broken"
 )
-TWO = Criterion(
+TWO_KICKERS = Criterion(
     TOPIC, "two robots kick one ball at 8 m/s: ball speed", "m/s", percent(2), "two kicker plates"
 )
-TWO_ASIDE = Criterion(
+TWO_KICKERS_DIRECTION = Criterion(
     TOPIC,
     "two robots kick one ball at 8 m/s: direction off the bisector",
     "degrees",
@@ -131,7 +131,7 @@ def _headings() -> Checks:
             case = f"{kick:g} m/s at {degrees:g} degrees"
             along, across = x * forward[0] + y * forward[1], y * forward[0] - x * forward[1]
             yield SPEED(case, kick, along)
-            yield ASIDE(case, 0.0, np.degrees(np.arctan2(across, along)))
+            yield DIRECTION(case, 0.0, np.degrees(np.arctan2(across, along)))
 
 
 def _chip() -> Checks:
@@ -203,5 +203,5 @@ def _two_kickers() -> Checks:
             scene.command(index, kick_v_x=8.0)
         velocity = scene.play(TICK).ball.velocity[-1, 0]
         cosine, case = np.cos(radians(degrees / 2)), f"{degrees:g} degrees apart"
-        yield TWO(case, 8.0 * min(1 / cosine, 2 * cosine), length(*velocity))
-        yield TWO_ASIDE(case, 0.0, np.degrees(np.arctan2(velocity[1], velocity[0])))
+        yield TWO_KICKERS(case, 8.0 * min(1 / cosine, 2 * cosine), length(*velocity))
+        yield TWO_KICKERS_DIRECTION(case, 0.0, np.degrees(np.arctan2(velocity[1], velocity[0])))

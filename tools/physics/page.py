@@ -72,7 +72,7 @@ def summary() -> str:
     return table(("topic", "checks", "largest share of a tolerance used"), rows)
 
 
-def roll_outs() -> str:
+def kick_table() -> str:
     """Return a table of straight kicks: end of sliding, speeds and stopping distance."""
     found = {(check.case, check.quantity): check for check in checks(ball_rolling.TOPIC)}
     criteria = (
@@ -98,7 +98,7 @@ def _pair(check: Check) -> str:
 PARTS: dict[str, Callable[[], str]] = {
     **{topic: partial(topic_table, topic) for topic in TOPICS},
     "summary": summary,
-    "roll_outs": roll_outs,
+    "straight_kicks": kick_table,
     "fields": presets.field_table,
     "balls": presets.ball_table,
     "ssl_robots": presets.ssl_table,

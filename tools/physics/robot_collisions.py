@@ -15,7 +15,7 @@ RESTITUTION = Criterion(
     TOPIC, "head-on collision: separation speed by closing speed", "", absolute(0.02)
 )
 TURNS = Criterion(TOPIC, "squares face to face: turn rate", "rad/s", absolute(0.01), "symmetry")
-ASIDE = Criterion(
+LATERAL = Criterion(
     TOPIC,
     "squares face to face: lateral displacement after 2 s of pushing",
     "mm",
@@ -29,7 +29,7 @@ ENERGY = Criterion(
     EXACT,
     "friction",
 )
-MET = Criterion(TOPIC, "random collisions: more than half made contact", "", EXACT, "aim")
+CONTACT = Criterion(TOPIC, "random collisions: more than half made contact", "", EXACT, "aim")
 
 
 def checks() -> Checks:
@@ -69,7 +69,7 @@ def _squares(name: str, speed: float) -> Checks:
     robots = scene.play(2.0).robots
     case = f"`{name}`, {speed:g} m/s each"
     yield TURNS(case, 0.0, abs(robots.spin).max())
-    yield ASIDE(case, 0.0, 1000 * abs(robots.position[-1, ..., 1]).max())
+    yield LATERAL(case, 0.0, 1000 * abs(robots.position[-1, ..., 1]).max())
 
 
 def _random_collisions(name: str) -> Checks:
@@ -93,7 +93,7 @@ def _random_collisions(name: str) -> Checks:
     gains = (np.diff(energy, axis=0) > 1e-3 * energy[0]).any(axis=0)
     yield ENERGY(f"`{name}`, {COLLISIONS} collisions", 0, gains.sum())
     met = (trajectory.robots.touched_foe > 0).any(axis=(0, 2)).sum()
-    yield MET(f"`{name}`", 1, met > COLLISIONS / 2)
+    yield CONTACT(f"`{name}`", 1, met > COLLISIONS / 2)
 
 
 def _energy(source: Scene | Trajectory, mass: float, inertia: float) -> Array:

@@ -18,7 +18,7 @@ PUSH_SPEED = 2.0  # m/s
 
 SOLID = "bound: solid bodies"
 NO_GAIN = "no energy gain"
-WALL_DEEP = Criterion(
+WALL_DEPTH = Criterion(
     TOPIC,
     "ball between robot and wall, up to 1.2 m/s: penetration depth",
     "mm",
@@ -28,7 +28,7 @@ WALL_DEEP = Criterion(
 WALL_FAST = Criterion(
     TOPIC, "ball between robot and wall, 3.7 m/s: penetration depth", "mm", absolute(5), SOLID
 )
-WALL_BACK = Criterion(
+WALL_REBOUND = Criterion(
     TOPIC,
     "ball between robot and wall: rebound speed of the robot by its impact speed",
     "",
@@ -42,10 +42,10 @@ WALL_ENERGY = Criterion(
     EXACT,
     NO_GAIN,
 )
-MEET_DEEP = Criterion(
+MEET_DEPTH = Criterion(
     TOPIC, "ball between two SSL robots: penetration depth", "mm", absolute(3), SOLID
 )
-MEET_BACK = Criterion(
+MEET_REBOUND = Criterion(
     TOPIC,
     "ball between two SSL robots: rebound speed by impact speed",
     "",
@@ -59,7 +59,7 @@ MEET_ENERGY = Criterion(
     EXACT,
     NO_GAIN,
 )
-RANDOM_DEEP = Criterion(
+RANDOM_DEPTH = Criterion(
     TOPIC,
     "random collisions with the ball in between: 95th percentile of penetration depth",
     "mm",
@@ -155,9 +155,9 @@ def _at_wall(name: str, speed: float, tick: float) -> Checks:
     ball_x, robot_x = trajectory.ball.position[:, 0, 0], trajectory.robots.position[:, 0, 0, 0]
     depth = _penetration(wall - ball_x - ball.radius, ball_x - robot_x - front - ball.radius)
     case = f"`{name}` at {speed:g} m/s, {1000 * tick:g} ms"
-    yield (WALL_FAST if speed > 1.2 else WALL_DEEP)(case, 0.0, depth)
+    yield (WALL_FAST if speed > 1.2 else WALL_DEPTH)(case, 0.0, depth)
     rebound = -float(trajectory.robots.velocity[:, 0, 0, 0].min()) / speed
-    yield WALL_BACK(case, 0.0, max(rebound, 0.0))
+    yield WALL_REBOUND(case, 0.0, max(rebound, 0.0))
     gained = _energy(trajectory, scene, mass, ball.mass) > 1.001
     yield WALL_ENERGY(case, 0, gained.sum())
 
@@ -183,9 +183,9 @@ def _collision(speed: float, tick: float) -> Checks:
     scene = _approach(speed, tick)
     trajectory = scene.play(0.5)
     case = f"{speed:g} m/s each, {1000 * tick:g} ms"
-    yield MEET_DEEP(case, 0.0, _penetration(gaps(trajectory)))
+    yield MEET_DEPTH(case, 0.0, _penetration(gaps(trajectory)))
     rebound = -float(trajectory.robots.velocity[:, 0, 0, 0].min()) / speed
-    yield MEET_BACK(case, 0.0, max(rebound, 0.0))
+    yield MEET_REBOUND(case, 0.0, max(rebound, 0.0))
     gained = _energy(trajectory, scene, GENERIC.mass, BALL.mass) > 1.001
     yield MEET_ENERGY(case, 0, gained.sum())
 
@@ -199,7 +199,7 @@ def _random_collisions(speed: float) -> Checks:
     scene.ball.position[:, 0] = rng.uniform(-0.05, 0.05, COLLISIONS)
     smallest = gaps(scene.play(0.5)).min(axis=(0, 2))
     case = f"{speed:g} m/s each, {COLLISIONS} collisions"
-    yield RANDOM_DEEP(case, 0.0, _penetration(np.percentile(smallest, [5])))
+    yield RANDOM_DEPTH(case, 0.0, _penetration(np.percentile(smallest, [5])))
 
 
 def _pinned(robots: int) -> Checks:

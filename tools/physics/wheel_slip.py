@@ -29,24 +29,24 @@ STRAIGHT = Criterion(
     FRICTION,
 )
 STRAIGHT_SHORT = Criterion(TOPIC, "the same with ticks of 1 ms", "s", percent(2), FRICTION)
-ASIDE = Criterion(
+LATERAL = Criterion(
     TOPIC,
     "1 m/s sideways, full speed ahead commanded: lateral speed",
     "m/s",
     absolute(0.01),
     FRICTION,
 )
-AHEAD = Criterion(
+FORWARD = Criterion(
     TOPIC,
     "1 m/s sideways, full speed ahead commanded: forward speed",
     "m/s",
     absolute(0.01),
     FRICTION,
 )
-LOCKED_AHEAD = Criterion(
+LOCKED_FORWARD = Criterion(
     TOPIC, "1 m/s at 45 degrees, locked wheels: forward speed", "m/s", absolute(0.01), FRICTION
 )
-LOCKED_ASIDE = Criterion(
+LOCKED_LATERAL = Criterion(
     TOPIC, "1 m/s at 45 degrees, locked wheels: lateral speed", "m/s", absolute(0.01), FRICTION
 )
 RIM = Criterion(
@@ -91,8 +91,8 @@ def _straight(name: str, spin: float, tick: float) -> float:
 def _skids(name: str, robot: VssRobot) -> Checks:
     diagonal = Motion(cos(pi / 4), sin(pi / 4))
     for wheel_speed, start, criteria in (
-        (1e3, Motion(left=1.0), (AHEAD, ASIDE)),
-        (0.0, diagonal, (LOCKED_AHEAD, LOCKED_ASIDE)),
+        (1e3, Motion(left=1.0), (FORWARD, LATERAL)),
+        (0.0, diagonal, (LOCKED_FORWARD, LOCKED_LATERAL)),
     ):
         scene = lone_robot(name)
         scene.robots.velocity[:, 0] = (start.forward, start.left)
