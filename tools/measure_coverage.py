@@ -18,7 +18,7 @@ FOLDER: Final = ROOT / "target" / "coverage"
 PAGES: Final = ROOT / "out" / "coverage"
 COUNTS: Final = FOLDER / "counts"
 """Folder to which every process with counters writes its counts."""
-MODULES: Final = (".so", ".dylib")
+MODULES: Final = (".so", ".dylib")  # suffixes of compiled modules
 CARGO: Final = os.environ.get("CARGO", "cargo")
 
 # Third-party code, tests, examples, and the scenes used by tests.
@@ -122,9 +122,7 @@ def artifacts(messages: str) -> list[Path]:
         if message["executable"]:
             found.append(Path(message["executable"]))
         elif message["target"]["kind"] == ["cdylib"]:
-            found += [
-                Path(name) for name in message["filenames"] if name.endswith((".so", ".dylib"))
-            ]
+            found += [Path(name) for name in message["filenames"] if name.endswith(MODULES)]
     return found
 
 
