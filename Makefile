@@ -1,21 +1,21 @@
-# `make demo` and `make test` do all set-up themselves; `make help` lists the rest.
+# `make demo` and `make test` include all set-up; `make help` lists all targets.
 
-PYTHON ?= # the interpreter to build .venv from; chosen when empty
+PYTHON ?= # interpreter for .venv; found automatically if empty
 CARGO ?= cargo
 
 VENV := .venv
 BIN := $(VENV)/bin
-# Without bytecode: what is imported is compiled then, the rest of torch and sympy never.
+# --no-compile: modules are compiled when imported; most of torch and sympy never is.
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --no-compile --constraint constraints.txt
 RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 
 export PYTHON CARGO
-export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build: nothing compiles twice
+export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build, so that nothing compiles twice
 
-# Lines of targets that run at the same time are not mixed, where make is new enough (4.0).
+# Keeps the output of parallel targets apart, with make 4.0 or newer.
 WHOLE := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 
-# Make's own flags are for make: cargo takes what it finds there for a jobserver that it may use.
+# Make's flags are hidden from cargo, which would take them for a jobserver of its own.
 ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
@@ -23,23 +23,23 @@ endif
 .PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python format docs physics golden soak coverage bench clean
 .DEFAULT_GOAL := help
 
-help: ## list these targets
+help: ## list all targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
-venv: $(VENV)/made ## make the empty environment, for putting a PyTorch of your choice into it
+venv: $(VENV)/made ## create the empty virtual environment, to install a PyTorch of your choice first
 
-demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, film a match
+demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, record a match
 	$(BIN)/python -m rsoccer.demo
 
-test: ## every check: formatting, lints, types, all tests
-	@echo "two things are done at a time; each shows what it says when it is done"
+test: ## run every check: formatting, lints, types, all tests
+	@echo "running two checks at a time; each prints its output when it has finished"
 	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) check-python check-rust check-lint check-format
 
-check-format: $(VENV)/tools ## is everything formatted?
+check-format: $(VENV)/tools ## check the formatting
 	$(CARGO) fmt --all --check
 	$(BIN)/ruff format --check
 
-check-lint: lint-rust lint-python ## lints, types and the stub of the compiled module
+check-lint: lint-rust lint-python ## check lints, types and the stub of the compiled module
 
 lint-rust: $(VENV)/tools
 	$(CARGO) clippy --locked --workspace --all-targets -- -D warnings
@@ -50,43 +50,43 @@ lint-python: $(VENV)/built
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest rsoccer._core --mypy-config-file tools/stubtest.ini
 
-check-rust: $(VENV)/tools ## tests of the physics
+check-rust: $(VENV)/tools ## run the tests of the physics
 	$(CARGO) test --locked
 
-check-python: $(VENV)/built ## tests of the package, the README and the examples
+check-python: $(VENV)/built ## run the tests of the package, the README and the examples
 	$(BIN)/python -m pytest --numprocesses auto
 
-format: $(VENV)/tools ## format everything
+format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
-docs: $(VENV)/built ## write the README's tables and pictures again from code and results
+docs: $(VENV)/built ## regenerate the tables and pictures of the README from code and results
 	$(BIN)/python -m tools.task_pictures
 	$(BIN)/python -m tools.write_readme
 
-physics: $(VENV)/built ## measure the physics again; write its page and draw its pictures
+physics: $(VENV)/built ## measure the physics and regenerate docs/physics.md with its pictures
 	$(BIN)/python -m tools.physics
 
-golden: $(VENV)/tools ## renew the hashes that guard the physics, once PHYSICS_VERSION is raised
+golden: $(VENV)/tools ## renew the golden hashes of the physics after a raise of PHYSICS_VERSION
 	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test all golden::
 
-soak: $(VENV)/built ## ten million ticks of random play, a million steps of crowds in each task (many minutes)
+soak: $(VENV)/built ## run ten million ticks of random play and a million steps of crowds per task (many minutes)
 	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/testing/test_pressure.py --numprocesses auto
 
-coverage: $(VENV)/built ## which lines the tests run, of Python and Rust (some minutes)
+coverage: $(VENV)/built ## measure the line coverage of Python and Rust (some minutes)
 	$(BIN)/python -m tools.measure_coverage
 
-bench: $(VENV)/built ## measure speed on this machine (some minutes; needs it quiet)
+bench: $(VENV)/built ## measure the speed of this machine (some minutes; no other load)
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
 
-clean: ## remove everything that make made, downloads of Python packages included
+clean: ## remove all outputs of make, installed Python packages included
 	rm -rf $(VENV) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	rm -f python/rsoccer/_core*.so
 
-# Stamps: each says that a step is done, so that a second `make` starts at once.
+# Stamp files mark completed steps, so that a second `make` skips them.
 
 $(VENV)/made: tools/make_venv.sh
 	@sh tools/make_venv.sh $(VENV)
@@ -98,10 +98,10 @@ $(VENV)/tools: pyproject.toml constraints.txt $(VENV)/made
 	@touch $@
 
 $(VENV)/built: $(VENV)/tools $(RUST)
-	@echo "building rSoccer and fetching what it needs (torch alone may be a 3 GB download)"
+	@echo "building rSoccer and downloading its dependencies (torch alone may be 3 GB)"
 	@if [ -f $(VENV)/torch.pth ]; then cp $(VENV)/torch.pth $(VENV)/lib/python3*/site-packages/; fi
-# The compiler does not wait for the downloads; when pip calls it, it has done its work or is
-# waited for, and repeats what it had to say.
+# The build starts in parallel to the downloads. When pip calls the compiler, the build is complete
+# or pip waits for it, and the compiler repeats its messages.
 	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
 	maturin develop --release --skip-install >/dev/null 2>&1 & \
 	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status

@@ -1,8 +1,8 @@
-"""Measuring by rounds: everything is measured once a round, and what is compared, side by side.
+"""Measurement in rounds: each round measures every variant once, compared variants in turn.
 
-A busy moment of the machine then hits all alike. Absolute figures are medians over the rounds; a
-ratio is taken within each round first, so that a machine that speeds up or slows down over the run
-does not enter it.
+A busy moment of the machine then affects all variants alike. Absolute figures are medians over the
+rounds. Ratios are taken within each round first, so that a change of the machine's speed during the
+run does not affect them.
 """
 
 import statistics
@@ -15,7 +15,7 @@ from benches.table import Figure
 
 
 class Quantity(NamedTuple):
-    """What a number says."""
+    """Name and unit of a measured number."""
 
     name: str
     unit: str
@@ -24,132 +24,146 @@ class Quantity(NamedTuple):
 SPEED: Final = Quantity("speed", "world-steps/s")
 RATIO: Final = Quantity("ratio", "x")
 
-Values = dict[Quantity, float]  # the first is what ratios are taken of
-Measure = Callable[[float], Values]  # measures for about so many seconds; 0 is a warm-up
+Values = dict[Quantity, float]  # ratios are taken of the first quantity
+Measure = Callable[[float], Values]  # measures for about that many seconds; 0 is a warm-up
 
 
 @dataclass(frozen=True)
-class Entrant:
-    """One of those that do the same work."""
+class Variant:
+    """One implementation or configuration of a benchmark's work."""
 
-    who: str
+    name: str
     worlds: int
     threads: int
     start: Callable[[], Measure]
 
 
 @dataclass(frozen=True)
-class Contest:
-    """Work, who does it, and which of them are compared: the first of a pair by the second."""
+class Benchmark:
+    """Workload with its variants, and pairs of indices (numerator, denominator) to compare."""
 
     group: str
-    game: str
-    entrants: tuple[Entrant, ...]
+    scenario: str
+    variants: tuple[Variant, ...]
     pairs: tuple[tuple[int, int], ...] = ()
 
     @property
     def title(self) -> str:
-        """By which it can be chosen."""
-        return f"{self.group}: {self.game}"
+        """Title for selection by `--only`."""
+        return f"{self.group}: {self.scenario}"
 
 
-class LeftOut(Exception):
-    """Why this machine cannot measure something."""
+class UnavailableError(Exception):
+    """Raised if this machine cannot run a benchmark; the message gives the reason."""
 
 
-Rounds = list[list[Values]]  # (rounds, entrants)
+Rounds = list[list[Values]]  # (rounds, variants)
 
 
 def measure(
-    contests: Sequence[Contest], rounds: int, seconds: float, tell: Callable[[str], None]
+    benchmarks: Sequence[Benchmark], rounds: int, seconds: float, log: Callable[[str], None]
 ) -> list[Figure]:
-    """Figures of all contests. `tell` hears what is going on."""
-    fields = list(ready(contests, tell))
-    played: list[Rounds] = [[] for _ in fields]
+    """Run all benchmarks and return their figures.
+
+    Args:
+        benchmarks: Benchmarks to run.
+        rounds: Number of rounds.
+        seconds: Approximate duration of one measurement.
+        log: Receives progress messages.
+
+    Returns:
+        Figures of the benchmarks that this machine can run.
+    """
+    prepared = list(prepare(benchmarks, log))
+    results: list[Rounds] = [[] for _ in prepared]
     for n in range(rounds):
-        for (contest, measures), seen in zip(fields, played, strict=True):
-            tell(f"round {n + 1} of {rounds}, {contest.title}")
-            seen.append(play_round(measures, seconds, backward=n % 2 == 1))
-    pairs = zip(fields, played, strict=True)
-    return [figure for (contest, _), seen in pairs for figure in summary(contest, seen)]
+        for (benchmark, measures), values in zip(prepared, results, strict=True):
+            log(f"round {n + 1} of {rounds}, {benchmark.title}")
+            values.append(measure_round(measures, seconds, backward=n % 2 == 1))
+    pairs = zip(prepared, results, strict=True)
+    return [figure for (benchmark, _), values in pairs for figure in summarize(benchmark, values)]
 
 
-def ready(
-    contests: Sequence[Contest], tell: Callable[[str], None]
-) -> Iterator[tuple[Contest, list[Measure]]]:
-    """Contests that this machine can hold, their entrants warmed up."""
-    for contest in contests:
-        tell(f"getting ready, {contest.title}")
+def prepare(
+    benchmarks: Sequence[Benchmark], log: Callable[[str], None]
+) -> Iterator[tuple[Benchmark, list[Measure]]]:
+    """Start and warm up the variants; yield the benchmarks that this machine can run."""
+    for benchmark in benchmarks:
+        log(f"preparing, {benchmark.title}")
         try:
-            measures = [entrant.start() for entrant in contest.entrants]
-        except LeftOut as reason:
-            tell(f"left out, {contest.title}: {reason}")
+            measures = [variant.start() for variant in benchmark.variants]
+        except UnavailableError as reason:
+            log(f"skipped, {benchmark.title}: {reason}")
             continue
         for warm_up in measures:
             warm_up(0.0)
-        yield contest, measures
+        yield benchmark, measures
 
 
-def play_round(measures: Sequence[Measure], seconds: float, *, backward: bool) -> list[Values]:
-    """What each measures, in the order given; every second round is measured from the back."""
+def measure_round(measures: Sequence[Measure], seconds: float, *, backward: bool) -> list[Values]:
+    """Run each measure once, last to first if `backward`; return values in the order given."""
     order = range(len(measures))
     values = {i: measures[i](seconds) for i in (reversed(order) if backward else order)}
     return [values[i] for i in order]
 
 
-def summary(contest: Contest, played: Rounds) -> Iterator[Figure]:
-    """Medians of what was measured, and of the ratios."""
-    for i, entrant in enumerate(contest.entrants):
-        for quantity in played[0][i]:
-            values = [values[i][quantity] for values in played]
-            yield figure(contest, entrant, entrant.who, quantity, values)
-    for one, other in contest.pairs:
-        entrant, by = contest.entrants[one], contest.entrants[other]
-        ratios = [_first(values[one]) / _first(values[other]) for values in played]
-        yield figure(contest, entrant, f"{entrant.who} / {by.who}", RATIO, ratios)
+def summarize(benchmark: Benchmark, rounds: Rounds) -> Iterator[Figure]:
+    """Yield a figure per measured quantity and per ratio."""
+    for i, variant in enumerate(benchmark.variants):
+        for quantity in rounds[0][i]:
+            values = [values[i][quantity] for values in rounds]
+            yield figure(benchmark, variant, variant.name, quantity, values)
+    for numerator, denominator in benchmark.pairs:
+        variant, reference = benchmark.variants[numerator], benchmark.variants[denominator]
+        ratios = [_first(values[numerator]) / _first(values[denominator]) for values in rounds]
+        yield figure(benchmark, variant, f"{variant.name} / {reference.name}", RATIO, ratios)
 
 
 def figure(
-    contest: Contest, entrant: Entrant, who: str, quantity: Quantity, values: Sequence[float]
+    benchmark: Benchmark, variant: Variant, name: str, quantity: Quantity, values: Sequence[float]
 ) -> Figure:
-    """The median of some rounds, with its extremes."""
+    """Return median, minimum and maximum of the values of all rounds."""
     return Figure(
-        group=contest.group,
-        game=contest.game,
-        who=who,
-        worlds=entrant.worlds,
-        threads=entrant.threads,
+        group=benchmark.group,
+        scenario=benchmark.scenario,
+        variant=name,
+        worlds=variant.worlds,
+        threads=variant.threads,
         quantity=quantity.name,
         unit=quantity.unit,
         median=statistics.median(values),
-        least=min(values),
-        most=max(values),
+        minimum=min(values),
+        maximum=max(values),
         rounds=len(values),
     )
 
 
-def calls(step: Callable[[], object], seconds: float) -> float:
-    """Calls per second; one call at least."""
-    made, start, spent = 0, time.perf_counter(), 0.0
-    while not made or spent < seconds:
+def calls_per_second(step: Callable[[], object], seconds: float) -> float:
+    """Call `step` for some seconds, at least once, and return the rate."""
+    calls, start, spent = 0, time.perf_counter(), 0.0
+    while not calls or spent < seconds:
         step()
-        made += 1
+        calls += 1
         spent = time.perf_counter() - start
-    return made / spent
+    return calls / spent
 
 
-def repeated(step: Callable[[], object], worlds: int) -> Measure:
-    """World-steps per second of what steps so many worlds in one call."""
-    return lambda seconds: {SPEED: worlds * calls(step, seconds)}
+def world_steps_per_second(step: Callable[[], object], worlds: int) -> Measure:
+    """Return a measure of the speed of `step`, which steps `worlds` worlds per call."""
+    return lambda seconds: {SPEED: worlds * calls_per_second(step, seconds)}
 
 
-def chosen(contests: Iterable[Contest], pattern: str) -> list[Contest]:
-    """Those whose title has the pattern in it, whatever the case; ValueError if none has."""
-    listed = list(contests)
-    found = [contest for contest in listed if pattern.lower() in contest.title.lower()]
+def select(benchmarks: Iterable[Benchmark], pattern: str) -> list[Benchmark]:
+    """Return the benchmarks whose title contains a pattern, ignoring case.
+
+    Raises:
+        ValueError: No title contains the pattern.
+    """
+    candidates = list(benchmarks)
+    found = [benchmark for benchmark in candidates if pattern.lower() in benchmark.title.lower()]
     if not found:
-        titles = "\n  ".join(contest.title for contest in listed)
-        raise ValueError(f"nothing to measure has {pattern!r} in its title:\n  {titles}")
+        titles = "\n  ".join(benchmark.title for benchmark in candidates)
+        raise ValueError(f"no benchmark has {pattern!r} in its title; titles are:\n  {titles}")
     return found
 
 

@@ -1,4 +1,4 @@
-"""The simulators that play the games: ours, and whatever has the old one's interface."""
+"""Simulators of the physics benchmarks: `rsoccer.Simulator`, and all with rSim's interface."""
 
 import time
 from collections.abc import Callable
@@ -8,105 +8,106 @@ from typing import Any, Final, Protocol
 
 import numpy as np
 
-from benches.games import Driver, Game, Seen
 from benches.measuring import SPEED, Measure, Quantity, Values
+from benches.scenarios import Driver, Positions, Scenario
 from rsoccer import Frame, Simulator, WorldRng
 from rsoccer.frame import Floats
 
-TOUCHING: Final = Quantity("robots touching", "share")
-LEAST_TOUCHING: Final = {"random": 0.0, "crowd": 0.1}
-"""Share of robots at the ball or at another one that makes the scene what it is called: more than
-this."""
-SAMPLES: Final = 10  # looks at an episode, to see whether robots touch
-ENOUGH: Final = 6000  # looks at single robots; one match of random play may see no contact for long
-OLD_FIELDS: Final = {"vss_3v3": 0, "vss_5v5": 1, "ssl_a": 0, "ssl_b": 1}
+CONTACTS: Final = Quantity("robots in contact", "share")
+MIN_CONTACT_SHARE: Final = {"random": 0.0, "crowd": 0.1}
+"""Share of robots in contact that a kind of play must exceed."""
+SAMPLES: Final = 10  # samples of contacts per episode
+MIN_SAMPLES: Final = 6000  # sampled robots before a random scenario must show contacts
+ROBOSIM_FIELDS: Final = {"vss_3v3": 0, "vss_5v5": 1, "ssl_a": 0, "ssl_b": 1}
 
 
-class Player(Protocol):
-    """Plays a game in n worlds at once."""
+class BenchmarkedSimulator(Protocol):
+    """Simulator of a scenario in n worlds."""
 
     def place(self, start: Frame) -> None:
-        """Begin anew."""
+        """Place a start and read the state."""
 
-    def prepared(self, commands: Floats) -> Any:  # noqa: ANN401  (whatever its `step` takes)
-        """Commands (n, robots, command) in the form that it steps with."""
+    def prepare(self, commands: Floats) -> Any:  # noqa: ANN401  (type of argument of `step`)
+        """Convert commands (n, robots, command) to the argument of `step`."""
 
     def step(self, commands: Any) -> None:  # noqa: ANN401
-        """One control step; the state has been read when it returns."""
+        """Simulate one control step and read the state."""
 
-    def seen(self) -> Seen:
-        """Where everything is."""
+    def positions(self) -> Positions:
+        """Return the positions of the current state."""
 
 
-class Ours:
-    """`rsoccer.Simulator`."""
+class SimulatorAdapter:
+    """Adapter of `rsoccer.Simulator`."""
 
-    def __init__(self, game: Game, worlds: int, threads: int = 1) -> None:
-        """Build the worlds."""
-        config = game.config
+    def __init__(self, scenario: Scenario, worlds: int, threads: int = 1) -> None:
+        """Create the worlds."""
+        config = scenario.config
         self._simulator = Simulator(config, worlds=worlds, threads=threads)
         self._frame = Frame.empty(worlds, config.n_blue, config.n_yellow)
         self._all = np.ones(worlds, np.bool_)
 
     def place(self, start: Frame) -> None:
-        """Begin anew."""
+        """Place a start and read the state."""
         self._simulator.place(self._all, start.rows, self._frame.rows)
 
-    def prepared(self, commands: Floats) -> Floats:
-        """As they are."""
+    def prepare(self, commands: Floats) -> Floats:
+        """Return the commands as a contiguous array."""
         return np.ascontiguousarray(commands, np.float32)
 
     def step(self, commands: Floats) -> None:
-        """One control step; the state is in the frame."""
+        """Simulate one control step and read the state."""
         self._simulator.step(commands, self._frame.rows)
 
-    def seen(self) -> Seen:
-        """Views of the frame."""
+    def positions(self) -> Positions:
+        """Return views of the frame."""
         frame = self._frame
-        return Seen(frame.ball.position, frame.robots.position, frame.robots.heading)
+        return Positions(frame.ball.position, frame.robots.position, frame.robots.heading)
 
 
-class Old:
-    """One match by the old simulator's interface: `robosim` itself, or our `compat.robosim`."""
+class RobosimAdapter:
+    """Adapter of rSim's interface for one match: `robosim` itself, or `rsoccer.compat.robosim`."""
 
-    def __init__(self, game: Game, module: ModuleType) -> None:
-        """Build the match, and one like any start."""
-        self._blue, self._on_wheels = game.robots, game.on_wheels
-        self._columns = 6 if game.on_wheels else 11
-        league = module.VSS if game.on_wheels else module.SSL
-        placed = self._poses(game.start(WorldRng.seeded(0, 1)))
-        self._sim = league(OLD_FIELDS[game.field], game.robots, game.robots, 25, *placed)
+    def __init__(self, scenario: Scenario, module: ModuleType) -> None:
+        """Create the match at an arbitrary start."""
+        self._blue, self._has_wheel_commands = scenario.robots, scenario.has_wheel_commands
+        self._columns = 6 if scenario.has_wheel_commands else 11
+        league = module.VSS if scenario.has_wheel_commands else module.SSL
+        placed = self._poses(scenario.start(WorldRng.seeded(0, 1)))
+        self._sim = league(
+            ROBOSIM_FIELDS[scenario.field], scenario.robots, scenario.robots, 25, *placed
+        )
         self._state: list[float] = self._sim.get_state()
 
     def place(self, start: Frame) -> None:
-        """Begin anew."""
+        """Place a start and read the state."""
         self._sim.reset(*self._poses(start))
         self._state = self._sim.get_state()
 
-    def prepared(self, commands: Floats) -> list[list[float]]:
-        """Lists, which it takes fastest; an SSL robot's are by body velocity."""
-        told = commands[0]
-        if not self._on_wheels:
-            none = np.zeros_like(told[:, :1])
-            told = np.concatenate([none, told[:, :3], none, told[:, 3:]], axis=1)
-        rows: list[list[float]] = told.tolist()
-        return rows
+    def prepare(self, commands: Floats) -> list[list[float]]:
+        """Return lists, the fastest argument type; SSL commands are body velocities."""
+        rows = commands[0]
+        if not self._has_wheel_commands:
+            none = np.zeros_like(rows[:, :1])
+            rows = np.concatenate([none, rows[:, :3], none, rows[:, 3:]], axis=1)
+        lists: list[list[float]] = rows.tolist()
+        return lists
 
     def step(self, commands: list[list[float]]) -> None:
-        """One control step, and the state that comes of it."""
+        """Simulate one control step and read the state."""
         self._sim.step(commands)
         self._state = self._sim.get_state()
 
-    def seen(self) -> Seen:
-        """Parsed from the state."""
+    def positions(self) -> Positions:
+        """Parse the positions from the state."""
         numbers = np.array(self._state, np.float32)
         robots = numbers[5:].reshape(1, -1, self._columns)
         angles = np.radians(robots[..., 2])
         headings = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-        return Seen(numbers[None, :2], robots[..., :2], headings)
+        return Positions(numbers[None, :2], robots[..., :2], headings)
 
     def _poses(self, start: Frame) -> tuple[list[float], list[list[float]], list[list[float]]]:
-        """Ball, blue and yellow robots as it wants to be told."""
+        """Return ball, blue and yellow robots as arguments of rSim's `reset`."""
         cos, sin = start.robots.heading[0].T
         robots = np.column_stack([start.robots.position[0], np.degrees(np.arctan2(sin, cos))])
         rows: list[list[float]] = robots.tolist()
@@ -114,23 +115,33 @@ class Old:
         return ball, rows[: self._blue], rows[self._blue :]
 
 
-def bout(
-    game: Game,
-    player: Callable[[], Player],
+def timed_episodes(
+    scenario: Scenario,
+    create: Callable[[], BenchmarkedSimulator],
     worlds: int = 1,
     starts: int | None = None,
     timed: range | None = None,
 ) -> Measure:
-    """Whole episodes of a game, or these steps of it.
+    """Return a measure of speed and contacts over episodes of a scenario.
 
-    A round has so many starts (one a world, if not told), the same for all who play it. Who plays
-    fewer matches at once plays them one after the other, and who has time left begins again. Steps
-    alone are timed, neither placing nor deciding.
+    All simulators of a scenario get the same starts in a round. A simulator with fewer worlds than
+    starts simulates them one after the other, and repeats them if time is left. Only steps are
+    timed, neither placing nor the computation of commands.
+
+    Args:
+        scenario: Scenario to simulate.
+        create: Creates the simulator.
+        worlds: Number of worlds of the simulator.
+        starts: Number of starts per round; default: one per world.
+        timed: Steps of an episode to time; default: all.
+
+    Returns:
+        Measure of SPEED and CONTACTS.
     """
-    timed, rounds = timed or range(game.episode), count()
-    playing, driver = player(), Driver(game, worlds)
-    turns = range(0, starts or worlds, worlds)
-    touching: list[float] = []  # in all rounds
+    timed, rounds = timed or range(scenario.episode), count()
+    simulator, driver = create(), Driver(scenario, worlds)
+    batches = range(0, starts or worlds, worlds)
+    contact_shares: list[float] = []  # of all rounds
 
     def measure(seconds: float) -> Values:
         if not seconds:
@@ -138,42 +149,57 @@ def bout(
         seed = 1000 * next(rounds)
         took: list[float] = []
         while sum(took) < seconds:
-            first = turns[len(took) % len(turns)]
-            playing.place(game.start(WorldRng.seeded(seed + first, worlds)))
-            spent, shares = play(game, playing, driver, timed)
-            touching.extend(shares if len(took) < len(turns) else ())
+            first = batches[len(took) % len(batches)]
+            simulator.place(scenario.start(WorldRng.seeded(seed + first, worlds)))
+            spent, shares = run_episode(scenario, simulator, driver, timed)
+            contact_shares.extend(shares if len(took) < len(batches) else ())
             took.append(spent)
         speed = {SPEED: worlds * len(timed) * len(took) / sum(took)}
-        share = float(np.mean(touching))
-        expect_contacts(game, share, len(touching) * worlds * game.config.n_robots)
-        return {**speed, TOUCHING: share}
+        share = float(np.mean(contact_shares))
+        check_contacts(scenario, share, len(contact_shares) * worlds * scenario.config.n_robots)
+        return {**speed, CONTACTS: share}
 
     return measure
 
 
-def play(game: Game, player: Player, driver: Driver, timed: range) -> tuple[float, list[float]]:
-    """Seconds that these steps took, and shares of robots that touched, at a few moments of them.
+def run_episode(
+    scenario: Scenario, simulator: BenchmarkedSimulator, driver: Driver, timed: range
+) -> tuple[float, list[float]]:
+    """Simulate an episode up to the last timed step.
 
-    The steps before are played and not timed.
+    Args:
+        scenario: Scenario to simulate.
+        simulator: Simulator with a placed start.
+        driver: Source of commands.
+        timed: Steps to time; earlier steps are simulated without timing.
+
+    Returns:
+        Duration of the timed steps (s), and the share of robots in contact at a few of them.
     """
-    spent, touching, looks = 0.0, [], max(len(timed) // SAMPLES, 1)
+    spent, contact_shares, interval = 0.0, [], max(len(timed) // SAMPLES, 1)
     for first in range(0, timed.stop, driver.held):
-        commands = player.prepared(driver.commands(first, player.seen()))
+        commands = simulator.prepare(driver.commands(first, simulator.positions()))
         held = min(driver.held, timed.stop - first)
         start = time.perf_counter()
         for _ in range(held):
-            player.step(commands)
+            simulator.step(commands)
         took = time.perf_counter() - start
         if first < timed.start:
             continue
         spent += took
-        if (first + held) % looks == 0:
-            touching.append(game.touching(player.seen()))
-    return spent, touching
+        if (first + held) % interval == 0:
+            contact_shares.append(scenario.contact_share(simulator.positions()))
+    return spent, contact_shares
 
 
-def expect_contacts(game: Game, touching: float, looked_at: int) -> None:
-    """Refuse figures of a scene in which nothing happened."""
-    enough = looked_at >= ENOUGH or game.scene == "crowd"
-    if enough and touching <= LEAST_TOUCHING[game.scene]:
-        raise RuntimeError(f"{game.name}: only {touching:.1%} of the robots touched anything")
+def check_contacts(scenario: Scenario, share: float, samples: int) -> None:
+    """Check that a scenario had the contacts that it is meant to have.
+
+    Raises:
+        RuntimeError: The share of robots in contact is too small.
+    """
+    enough = samples >= MIN_SAMPLES or scenario.play == "crowd"
+    limit = MIN_CONTACT_SHARE[scenario.play]
+    if enough and share <= limit:
+        expected = f"expected more than {limit:.1%} of the robots in contact"
+        raise RuntimeError(f"{scenario.name}: {expected}, got {share:.1%}")

@@ -1,4 +1,4 @@
-"""Tables of measured figures: one CSV file a machine, each row with how it came about."""
+"""Tables of measured figures: one CSV file per machine, with machine and build in each row."""
 
 import csv
 import datetime
@@ -18,28 +18,28 @@ RESULTS = ROOT / "benches" / "results"
 
 @dataclass(frozen=True)
 class Figure:
-    """What was measured of one thing."""
+    """Measured values of one quantity of one variant."""
 
     group: str
-    """What it belongs to: core, threads, growth, many, one, training, memory, hosting, start or
-    rust."""
-    game: str
-    """What was played: a scene, or a task."""
-    who: str
-    """By whom; a ratio is of the first by the second."""
+    """Group of benchmarks: core, threads, scaling, batched, single, training, memory, capacity,
+    startup or rust."""
+    scenario: str
+    """Physics scenario or id of a task."""
+    variant: str
+    """Name of the variant; for a ratio, numerator / denominator."""
     worlds: int
     threads: int
     quantity: str
     unit: str
     median: float
-    least: float
-    most: float
+    minimum: float
+    maximum: float
     rounds: int
 
 
 @dataclass(frozen=True)
 class Machine:
-    """Where, when and of what build: the same in every row."""
+    """Machine, date and build, the same in every row."""
 
     machine: str
     cores: int
@@ -50,7 +50,7 @@ class Machine:
 
 
 def this_machine() -> Machine:
-    """The machine and build at hand."""
+    """Return this machine, today's date and the installed build."""
     build = build_info()
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return Machine(
@@ -64,7 +64,7 @@ def this_machine() -> Machine:
 
 
 def store(figures: Iterable[Figure], machine: Machine, folder: Path) -> Path:
-    """Write the table of this machine, in place of an older one; its path."""
+    """Write the table of a machine, replacing an older one, and return its path."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{file_name(machine)}.csv"
     rows = [{**_rounded(figure), **asdict(machine)} for figure in figures]
@@ -76,17 +76,21 @@ def store(figures: Iterable[Figure], machine: Machine, folder: Path) -> Path:
 
 
 def file_name(machine: Machine) -> str:
-    """The machine as part of a path."""
+    """Return the file name of a machine's table, without suffix."""
     name = re.sub(r"[^a-z0-9]+", "-", f"{machine.machine} {machine.cores} cores".lower())
     return name.strip("-")
 
 
 def load(path: Path) -> tuple[Machine, list[Figure]]:
-    """What `store` wrote."""
+    """Read a table written by `store`.
+
+    Raises:
+        ValueError: The file has no rows.
+    """
     with path.open(newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:
-        raise ValueError(f"{path} holds no figures")
+        raise ValueError(f"expected at least one row in {path}, got none")
     first = rows[0]
     machine = Machine(
         **{name: first[name] for name in ("machine", "date", "commit", "version", "profile")},
@@ -95,20 +99,20 @@ def load(path: Path) -> tuple[Machine, list[Figure]]:
     return machine, [_parsed(row) for row in rows]
 
 
-def digits(value: float, most: int = 3) -> str:
-    """A number with no more digits than repeat."""
-    if float(f"{value:.{most}g}") >= 10**most:
-        return f"{float(f'{value:.{most}g}'):,.0f}"
-    return f"{value:.{most}g}"
+def format_number(value: float, digits: int = 3) -> str:
+    """Format a number with the digits that repeat between runs."""
+    if float(f"{value:.{digits}g}") >= 10**digits:
+        return f"{float(f'{value:.{digits}g}'):,.0f}"
+    return f"{value:.{digits}g}"
 
 
-def times(ratio: float) -> str:
-    """A ratio for people."""
-    return f"{digits(ratio, 2 if 10 <= ratio < 100 else 3)}x"
+def format_ratio(ratio: float) -> str:
+    """Format a ratio, such as 1.99x."""
+    return f"{format_number(ratio, 2 if 10 <= ratio < 100 else 3)}x"
 
 
 def _rounded(figure: Figure) -> dict[str, object]:
-    """Fields of a row; four digits are more than repeat."""
+    """Return the fields of a row with numbers rounded to four digits."""
     values = asdict(figure).items()
     return {name: float(f"{x:.4g}") if isinstance(x, float) else x for name, x in values}
 
@@ -119,7 +123,7 @@ def _parsed(row: dict[str, str]) -> Figure:
 
 
 def _processor() -> str:
-    """The processor's own name, where the system tells."""
+    """Return the model name of the processor if the system has it."""
     info = Path("/proc/cpuinfo")
     if info.exists() and (found := re.search(r"model name\s*:\s*(.+)", info.read_text())):
         return found[1]
@@ -127,12 +131,12 @@ def _processor() -> str:
 
 
 def _commit() -> str:
-    """Short id of the commit; marked where the tree differs from it, "unknown" outside git."""
-    told = subprocess.run(
+    """Return the short commit id, marked if the tree is dirty; "unknown" outside git."""
+    ran = subprocess.run(
         ["git", "describe", "--always", "--dirty", "--exclude", "*"],
         cwd=ROOT,
         capture_output=True,
         text=True,
         check=False,
     )
-    return told.stdout.strip() or "unknown"
+    return ran.stdout.strip() or "unknown"

@@ -1,71 +1,87 @@
-"""How fast this machine plays: `make bench`, or `python -m benches.throughput`.
+"""Measure the speed of rSoccer on this machine: `make bench`, or `python -m benches.throughput`.
 
-Physics, every front door, training, memory, very many worlds and start, beside whatever peers are
-installed. Leaves a table and a picture. A debug build is refused.
+The suite covers physics, every interface, training, memory, capacity and start-up time, compared
+with the third-party simulators that are installed. It writes a table and a picture. A debug build
+is refused.
 """
 
 import argparse
 import sys
 from pathlib import Path
 
-from benches.contests import Sizes, contests
-from benches.criterion import physics_alone
-from benches.measuring import chosen, measure
-from benches.peers import PACKAGES, peer
+from benches.criterion import core_figures
+from benches.measuring import measure, select
 from benches.plot import draw
-from benches.table import RESULTS, ROOT, Figure, digits, file_name, store, this_machine
+from benches.suite import Sizes, benchmarks
+from benches.table import RESULTS, ROOT, Figure, file_name, format_number, store, this_machine
+from benches.third_party import PACKAGES, import_optional
 
-PART = ROOT / "out" / "bench"
+PARTIAL = ROOT / "out" / "bench"
 
 
 def main(arguments: list[str] | None = None, sizes: Sizes | None = None) -> Path:
-    """Measure, print, store and draw; the path of the table."""
-    options = parsed(arguments)
+    """Measure, print, store and draw; return the path of the table.
+
+    Args:
+        arguments: Command line without the program name; default: that of the process.
+        sizes: Numbers of worlds per benchmark; default: those of `Sizes`.
+
+    Returns:
+        Path of the CSV table.
+    """
+    options = parse_arguments(arguments)
     machine = this_machine()
     if machine.profile != "release":
-        sys.exit(f"this is a {machine.profile} build; its speed says nothing: build in release")
+        sys.exit(f"this is a {machine.profile} build; expected a release build")
     try:
-        picked = chosen(contests(sizes or Sizes()), options.only or "")
+        selected = select(benchmarks(sizes or Sizes()), options.only or "")
     except ValueError as error:
         sys.exit(str(error))
     for name, package in PACKAGES.items():
-        tell(f"{package} is {'not ' if peer(name) is None else ''}there to be measured beside")
-    figures = measure(picked, options.rounds, options.seconds, tell)
+        state = "not installed" if import_optional(name) is None else "installed"
+        log(f"{package}, for comparison: {state}")
+    figures = measure(selected, options.rounds, options.seconds, log)
     if not options.only:
-        figures += physics_alone()
+        figures += core_figures()
     if not figures:
-        sys.exit("nothing was measured")
-    folder = options.out or (PART if options.only else RESULTS)
+        sys.exit("no benchmark was measured")
+    folder = options.out or (PARTIAL if options.only else RESULTS)
     path = store(figures, machine, folder)
     draw(figures, machine, folder / f"{file_name(machine)}.png")
-    sys.stdout.write("".join(line(figure) for figure in figures) + f"{path}\n")
+    sys.stdout.write("".join(format_line(figure) for figure in figures) + f"{path}\n")
     return path
 
 
-def parsed(arguments: list[str] | None) -> argparse.Namespace:
-    """What the command line says."""
+def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
+    """Return the parsed command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", metavar="TEXT", help="measure what has this in its title")
-    parser.add_argument("--rounds", type=int, default=5, help="times that all is measured")
-    parser.add_argument("--seconds", type=float, default=0.4, help="length of a measurement")
-    out = "folder of table and picture: benches/results, or, with --only, out/bench"
+    parser.add_argument(
+        "--only", metavar="TEXT", help="run only benchmarks with this text in their title"
+    )
+    parser.add_argument("--rounds", type=int, default=5, help="number of rounds")
+    parser.add_argument("--seconds", type=float, default=0.4, help="duration of one measurement")
+    out = "output folder; default: benches/results, with --only out/bench"
     parser.add_argument("--out", type=Path, help=out)
     options = parser.parse_args(arguments)
     if options.rounds < 1 or options.seconds <= 0:
-        parser.error("rounds and seconds have to be above 0")
+        parser.error(
+            f"rounds and seconds must be above 0, got {options.rounds} and {options.seconds}"
+        )
     return options
 
 
-def line(figure: Figure) -> str:
-    """A figure for people."""
-    title = f"{figure.group}: {figure.game}, {figure.who}"
+def format_line(figure: Figure) -> str:
+    """Return a figure as one line of text."""
+    title = f"{figure.group}: {figure.scenario}, {figure.variant}"
     case = f"{title}, {figure.worlds} worlds, {figure.threads} threads"
-    spread = f"({digits(figure.least)} to {digits(figure.most)})"
-    return f"{case:<84} {digits(figure.median):>9} {figure.unit} {figure.quantity} {spread}\n"
+    spread = f"({format_number(figure.minimum)} to {format_number(figure.maximum)})"
+    return (
+        f"{case:<84} {format_number(figure.median):>9} {figure.unit} {figure.quantity} {spread}\n"
+    )
 
 
-def tell(text: str) -> None:
-    """Say what is going on."""
+def log(text: str) -> None:
+    """Write a progress message to the error stream."""
     sys.stderr.write(f"{text}\n")
 
 

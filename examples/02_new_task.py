@@ -1,4 +1,4 @@
-"""A new task by its four methods, and a robot that learns it: drive to the ball, from anywhere."""
+"""A new task defined by four methods, and its training: one robot drives to the ball."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,37 +11,37 @@ from rsoccer.frame import Floats, Mask
 
 @dataclass(frozen=True)
 class Reach(Task):
-    """One robot, one ball: touch it before the time is up."""
+    """One robot has to reach the ball within the time limit."""
 
     max_steps: int = 120  # 3 s
     action_size = 2
 
     @cached_property
     def config(self) -> SimConfig:
-        """The field for three a side, with one robot on it."""
+        """Simulator configuration: the VSSS field for three a side with one robot."""
         return SimConfig(n_blue=1, n_yellow=0)
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Ball and robot anywhere, at least 30 cm apart."""
+        """Draw random positions of ball and robot, at least 0.3 m apart."""
         frame = Frame.empty(len(rng), 1, 0)
-        places = spawn.positions(rng, self.config.field, [0.03, 0.06], min_distance=0.3)
-        frame.ball.position[:], frame.robots.position[:, 0] = places[:, 0], places[:, 1]
+        positions = spawn.positions(rng, self.config.field, [0.03, 0.06], min_distance=0.3)
+        frame.ball.position[:], frame.robots.position[:, 0] = positions[:, 0], positions[:, 1]
         frame.robots.heading[:] = spawn.headings(rng, 1)
         return frame
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
-        """Wheel speeds, rad/s."""
+        """Convert actions in [-1, 1] to wheel speeds, rad/s."""
         return actions * np.float32(self.config.robot.max_wheel_speed)
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """Where the ball is as the robot faces, and how it turns."""
+        """Return the ball's position in the robot's frame (m) and the robot's scaled turn rate."""
         ego, offset = play.view.ego, play.view.ball.position - play.view.ego.position
         ahead = (offset * ego.heading).sum(axis=-1)
         left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
         return {"ball_polar": np.stack([ahead, left], axis=-1), "spin": ego.spin / 10}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Metres gained on the ball, and 1 for getting there, which ends it."""
+        """Reward the distance gained (m), and 1 for reaching the ball, which ends the episode."""
         before, now = (
             np.linalg.norm(view.ball.position - view.ego.position, axis=-1)
             for view in (play.last_view, play.view)
@@ -55,17 +55,17 @@ register("Reach-v0", Reach)
 
 
 def share_reached(policy: str, matches: int = 200) -> float:
-    """Share of matches in which the policy gets to the ball in time."""
+    """Return the share of matches in which the policy reaches the ball in time."""
     from rsoccer import Matches
 
-    played = Matches("Reach-v0", matches, controllers={"blue": policy}, autoreset="disabled")
-    played.reset()
-    nobody = np.zeros((matches, 0, 2), np.float32)  # no robot is driven from outside
-    return float(sum(played.step(nobody).terminated.sum() for _ in range(120))) / matches
+    batch = Matches("Reach-v0", matches, controllers={"blue": policy}, autoreset="disabled")
+    batch.reset()
+    actions = np.zeros((matches, 0, 2), np.float32)  # the controller drives the only robot
+    return float(sum(batch.step(actions).terminated.sum() for _ in range(120))) / matches
 
 
 def main(samples: int = 150_000) -> None:
-    """Train for some seconds, and compare with the network as it was before."""
+    """Train for some seconds and compare with the untrained network."""
     from pathlib import Path
 
     from rsoccer.train import Args, train  # needs torch; the task does not
@@ -73,7 +73,7 @@ def main(samples: int = 150_000) -> None:
     out = Path("out/reach")
     policy = train(Args("Reach-v0", out, samples, threads=1, worlds=128, overwrite=True))
     before, after = share_reached(str(out / "untrained.safetensors")), share_reached(str(policy))
-    print(f"gets to the ball in {before:.0%} of matches untrained, in {after:.0%} trained")
+    print(f"reaches the ball in {before:.0%} of matches untrained, in {after:.0%} trained")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,14 @@
-"""One robot through Gymnasium: it drives straight to the ball, turning its mouth towards it."""
+"""One robot through Gymnasium: a scripted policy drives to the ball and faces it."""
 
 import gymnasium
 import numpy as np
 
-import rsoccer  # makes the ids known
+import rsoccer  # registers the environment ids
 
 env = gymnasium.make("rsoccer/SSLGoToBall-v0")
-blocks = rsoccer.make_task("SSLGoToBall-v0").blocks  # where each part of what is seen lies
+blocks = rsoccer.make_task("SSLGoToBall-v0").blocks  # columns of each observation block
 ego, ball = blocks["ego"].columns.start, blocks["ball"].columns.start
-sine = blocks["ball_polar"].columns.start + 2  # of the angle between the ball and straight ahead
+sine = blocks["ball_polar"].columns.start + 2  # sine of the ball's bearing
 
 reached = 0
 for episode in range(20):
@@ -23,5 +23,5 @@ for episode in range(20):
         observation, reward, terminated, truncated, info = env.step(action)
         ended = terminated or truncated
     reached += int(info["reached"])
-print(f"got to the ball in {reached} of 20 episodes")
+print(f"reached the ball in {reached} of 20 episodes")
 env.close()

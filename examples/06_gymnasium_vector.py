@@ -1,17 +1,17 @@
-"""Many matches through Gymnasium's vector interface, with episodes begun anew where they ended."""
+"""Many matches through Gymnasium's vector interface, with explicit resets of ended episodes."""
 
 import gymnasium
 import numpy as np
 from gymnasium.vector import AutoresetMode
 
-import rsoccer  # noqa: F401  (makes the ids known)
+import rsoccer  # noqa: F401  (registers the environment ids)
 
 envs = gymnasium.make_vec(
     "rsoccer/VSS-v0",
     num_envs=64,
     vectorization_mode="vector_entry_point",
     threads=2,
-    autoreset_mode=AutoresetMode.DISABLED,  # the default begins them by itself, one step later
+    autoreset_mode=AutoresetMode.DISABLED,  # the default resets automatically, one step later
     max_steps=200,
     opponent="chase",
 )

@@ -1,4 +1,4 @@
-"""PettingZoo's other interface: robots act one after the other, in turns (AEC)."""
+"""PettingZoo's AEC interface: agents act one after the other, in turns."""
 
 import rsoccer
 

@@ -20,7 +20,7 @@ QUICK = {
 
 
 def run(name: str, arguments: list[str], folder: Path) -> str:
-    """What an example prints, run from an empty folder with warnings as errors."""
+    """Run an example in an empty folder with warnings as errors and return its output."""
     command = [sys.executable, "-W", "error", str(EXAMPLES / name), *arguments]
     ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr
@@ -28,12 +28,12 @@ def run(name: str, arguments: list[str], folder: Path) -> str:
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_examples_run_and_say_something(name: str, tmp_path: Path) -> None:
+def test_examples_run_and_print(name: str, tmp_path: Path) -> None:
     assert run(name, QUICK[name], tmp_path).strip()
 
 
-def test_no_example_is_forgotten() -> None:
-    # One trains for a minute, its parts are tested in tests/train; one needs what only
-    # tests/wrappers has.
-    elsewhere = {"04_self_play.py", "10_stable_baselines3.py"}
-    assert {path.name for path in EXAMPLES.glob("*.py")} == {*QUICK, *elsewhere}
+def test_every_example_is_tested() -> None:
+    # 04 trains for a minute, and tests/train covers its parts. 10 needs the dependencies of
+    # tests/wrappers.
+    tested_elsewhere = {"04_self_play.py", "10_stable_baselines3.py"}
+    assert {path.name for path in EXAMPLES.glob("*.py")} == {*QUICK, *tested_elsewhere}

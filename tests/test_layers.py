@@ -1,4 +1,4 @@
-"""Modules import only from the layers before theirs: the order in which to read them."""
+"""Layers of the package: a module imports only from earlier layers."""
 
 import ast
 import subprocess
@@ -10,8 +10,8 @@ import rsoccer
 
 ROOT = Path(rsoccer.__file__).parent
 
-# A name stands for a module, or for a package and all in it that has no entry of its own.
-# Modules of one layer do not import each other.
+# An entry is a module, or a package with all of its modules that have no entry of their own.
+# Modules of the same layer do not import each other. The order is also a reading order.
 LAYERS = [
     {"_core"},
     {"files", "frame", "markers", "matches.consistency"},
@@ -38,7 +38,7 @@ LAYERS = [
 ]
 KNOWN = set().union(*LAYERS)
 
-# The environments draw only when asked to: what draws is imported then.
+# Environments import the renderer when they first render.
 LATE = {("envs.viewer", "render")}
 
 
@@ -48,7 +48,7 @@ def module_of(path: Path) -> str:
 
 
 def entry_of(parts: Sequence[str]) -> str:
-    """The entry of LAYERS with the longest name that a module begins with."""
+    """Return the longest entry of LAYERS that is a prefix of the module's name."""
     names = [".".join(parts[:end]) for end in range(len(parts), 0, -1)]
     return next((name for name in names if name in KNOWN), "__init__")
 
@@ -58,7 +58,7 @@ def rank(module: str) -> int:
 
 
 def imported(node: ast.AST) -> list[str]:
-    """Modules of the package that a statement imports."""
+    """Return the modules of the package that a statement imports."""
     if isinstance(node, ast.Import):
         names = [alias.name for alias in node.names]
     elif isinstance(node, ast.ImportFrom) and node.module:
@@ -70,13 +70,13 @@ def imported(node: ast.AST) -> list[str]:
 
 
 def imports() -> Iterator[tuple[str, str, bool]]:
-    """Importing module, imported module, and whether the import is at the module's top."""
+    """Yield importing module, imported module, and whether the import is at top level."""
     for path in ROOT.rglob("*.py"):
         tree = ast.parse(path.read_text())
-        at_once = set(map(id, tree.body))
+        at_top_level = set(map(id, tree.body))
         for node in ast.walk(tree):
             for name in imported(node):
-                yield module_of(path), name, id(node) in at_once
+                yield module_of(path), name, id(node) in at_top_level
 
 
 def test_every_module_has_a_layer() -> None:
@@ -88,14 +88,14 @@ def test_modules_import_only_from_earlier_layers() -> None:
     found = list(imports())
     backward = {
         f"{importer} imports {name}"
-        for importer, name, at_once in found
+        for importer, name, at_top_level in found
         if importer != name
         and rank(name) >= rank(importer)
-        and (at_once or (importer, name) not in LATE)
+        and (at_top_level or (importer, name) not in LATE)
     }
     assert not backward
-    assert len(found) > 100, "imports were found at all"
-    assert {(importer, name) for importer, name, _ in found} >= LATE, "every exception is needed"
+    assert len(found) > 100, "imports are found"
+    assert {(importer, name) for importer, name, _ in found} >= LATE, "every exception is used"
 
 
 def test_importing_the_package_loads_no_heavy_library() -> None:

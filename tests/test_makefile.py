@@ -1,4 +1,4 @@
-"""What people meet who lack something that the build needs."""
+"""Error messages of the build for missing requirements."""
 
 import os
 import shutil
@@ -11,7 +11,7 @@ SCRIPT = ROOT / "tools" / "make_venv.sh"
 
 
 def make_venv(folder: Path, **settings: str) -> subprocess.CompletedProcess[str]:
-    """Run the script that makes the environment, into `folder`."""
+    """Run the script that creates a virtual environment in `folder`."""
     return subprocess.run(
         [shutil.which("sh") or "/bin/sh", str(SCRIPT), str(folder)],
         env={**os.environ, "PYTHON": sys.executable, **settings},
@@ -22,13 +22,13 @@ def make_venv(folder: Path, **settings: str) -> subprocess.CompletedProcess[str]
 
 
 def fake_python(path: Path, body: str) -> str:
-    """An executable that stands in for an interpreter."""
+    """Write an executable that replaces an interpreter and return its path."""
     path.write_text(f"#!/bin/sh\n{body}\n")
     path.chmod(0o755)
     return str(path)
 
 
-def test_missing_cargo_is_told_with_what_to_install(tmp_path: Path) -> None:
+def test_missing_cargo_is_reported_with_install_instructions(tmp_path: Path) -> None:
     ran = make_venv(tmp_path / "venv", CARGO="no-such-cargo")
     assert ran.returncode != 0
     assert "cargo is missing" in ran.stderr
@@ -40,16 +40,16 @@ def test_an_old_python_is_refused(tmp_path: Path) -> None:
     old = fake_python(tmp_path / "python3", "exit 1")
     ran = make_venv(tmp_path / "venv", PYTHON=old, CARGO="true")
     assert ran.returncode != 0
-    assert f"PYTHON={old} is no Python 3.11 or newer" in ran.stderr
+    assert f"PYTHON must be Python 3.11 or newer, got {old}" in ran.stderr
 
 
-def test_no_python_at_all_is_told(tmp_path: Path) -> None:
+def test_missing_python_is_reported(tmp_path: Path) -> None:
     ran = make_venv(tmp_path / "venv", PYTHON="", CARGO="true", PATH=str(tmp_path))
     assert ran.returncode != 0
     assert "no Python 3.11 or newer found" in ran.stderr
 
 
-def test_a_python_without_venv_leaves_nothing_half_made(tmp_path: Path) -> None:
+def test_a_python_without_venv_leaves_no_partial_environment(tmp_path: Path) -> None:
     body = f'case "$1" in -m) mkdir -p "$3"; exit 1;; *) exec "{sys.executable}" "$@";; esac'
     ran = make_venv(tmp_path / "venv", PYTHON=fake_python(tmp_path / "python3", body), CARGO="true")
     assert ran.returncode != 0
@@ -57,12 +57,12 @@ def test_a_python_without_venv_leaves_nothing_half_made(tmp_path: Path) -> None:
     assert not (tmp_path / "venv").exists()
 
 
-def test_a_torch_that_is_there_is_found(tmp_path: Path) -> None:
+def test_an_installed_torch_is_found(tmp_path: Path) -> None:
     packages = tmp_path / "packages"
     (packages / "torch").mkdir(parents=True)
     (packages / "torch" / "__init__.py").write_text("borrowed = True")
-    # -S hides the packages of the environment that runs this test, its own torch among them. Pip,
-    # which takes long to install, is not asked for.
+    # -S hides the packages of the environment that runs this test, which may include torch. Pip is
+    # not installed because that is slow.
     body = f"""[ "$1" = -c ] && set -- -S "$@"; [ "$1" = -m ] && set -- "$@" --without-pip
     PYTHONPATH="{packages}" exec "{sys.executable}" "$@\""""
     python = fake_python(tmp_path / "python3", body)

@@ -23,7 +23,7 @@ def test_markers_of_each_task_are_drawn(name: str) -> None:
     matches.reset()
     for world in range(2):
         markers = matches.task.markers(matches.play, world)
-        assert {type(marker) for marker in markers} == SHOWN.get(name, set())
+        assert {type(marker) for marker in markers} == MARKERS.get(name, set())
         shapes = task_overlay(matches, world)
         assert shapes == marker_shapes(matches.task.config.field, markers)
         assert bool(shapes) == bool(markers)

@@ -1,6 +1,6 @@
-"""Keeps what the last `make demo` reached, for the README: `python -m tools.keep_demo`.
+"""Keep the results of the last `make demo` for the README: `python -m tools.keep_demo`.
 
-Copies the figures to benches/results/demo.json and the pictures to docs/.
+The figures go to benches/results/demo.json, the pictures to docs/.
 """
 
 import json
@@ -22,7 +22,7 @@ DOCS = ROOT / "docs"
 
 
 def main() -> None:
-    """Keep the figures, the curve and a short match."""
+    """Keep the figures, the learning curve and a short match."""
     metrics = json.loads((DEMO / "metrics.json").read_text())
     kept = {**metrics, "training": training(DEMO), "machine": asdict(this_machine())}
     RESULTS.mkdir(exist_ok=True)
@@ -33,14 +33,14 @@ def main() -> None:
 
 
 def film(task: str, policy: str, seconds: float = 10.0) -> None:
-    """Keep a match against drifting robots, small enough for a page: every second image."""
+    """Record a match against drifting robots as a GIF of every second image."""
     teams = {"blue": policy, "yellow": "ou"}
     images, fps = film_match(task, teams, 1, seconds, names=("LEARNED", "DRIFTING"), width=480)
     write_video(DOCS / "match.gif", islice(images, 0, None, 2), fps / 2)
 
 
 def training(folder: Path) -> dict[str, Any]:
-    """Speed of a run and where its time went: medians over its updates."""
+    """Return the speed of a training run and the shares of its time, medians over updates."""
     progress = read_progress(folder)
     settings = json.loads((folder / "args.json").read_text())
     samples = float(np.median(progress["samples_per_second"]))

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes a virtual environment from a Python that is new enough, having checked what a build needs.
-# Usage: make_venv.sh FOLDER; PYTHON chooses the interpreter, CARGO the build tool of Rust.
+# Checks the build requirements and creates a virtual environment from Python 3.11 or newer.
+# Usage: make_venv.sh FOLDER; the variable PYTHON selects the interpreter, CARGO the cargo command.
 set -eu
 venv=$1
 
@@ -23,27 +23,27 @@ choose_python() {
 }
 
 command -v "${CARGO:-cargo}" >/dev/null || fail \
-    "cargo is missing: the physics is written in Rust." \
+    "cargo is missing; the physics is written in Rust." \
     "Install Rust 1.86 or newer (rustup is the usual way), open a new shell and try again."
 
 python=${PYTHON:-$(choose_python)}
 [ -n "$python" ] || fail \
     "no Python 3.11 or newer found." \
-    "Install one, or name one that is elsewhere: make PYTHON=/path/to/python3 ..."
+    "Install it, or give the path of an interpreter: make PYTHON=/path/to/python3 ..."
 is_new_enough "$python" || fail \
-    "PYTHON=$python is no Python 3.11 or newer that runs here."
+    "PYTHON must be Python 3.11 or newer, got $python."
 
 "$python" -m venv "$venv" || {
     rm -rf "$venv"
     fail "$python cannot make a virtual environment (on Debian and Ubuntu, install python3-venv)."
 }
 
-# A torch that is there already saves a download of gigabytes. Its folder is put on the path only
-# once the tools are installed, and last: the environment's own packages win, and pip judges
-# whether that torch will do.
+# An installed torch saves a download of gigabytes. Its folder is added to the path after the tools
+# are installed, and last, so that the environment's own packages take precedence. Pip decides
+# whether that torch meets the requirement.
 find_torch='import pathlib, torch; print(pathlib.Path(torch.__file__).parents[1])'
 if "$python" -c "$find_torch" >"$venv/torch.pth" 2>/dev/null; then
-    echo "rSoccer: there is a torch in $(cat "$venv/torch.pth")"
+    echo "rSoccer: using torch from $(cat "$venv/torch.pth")"
 else
     rm "$venv/torch.pth"
 fi

@@ -1,7 +1,7 @@
-"""Measures which lines the tests run, of Python and of Rust: `make coverage`.
+"""Measure the line coverage of the tests, for Python and Rust: `make coverage`.
 
-Rust's tests and the Python tests count together. For the latter the compiled module is built
-with counters, into a copy of the package, so that the environment's own stays as it is.
+The coverage of Rust includes the Rust tests and the Python tests. For the Python tests the compiled
+module is built with counters into a copy of the package, so that the installed one does not change.
 """
 
 import json
@@ -17,37 +17,43 @@ ROOT: Final = Path(__file__).parents[1]
 FOLDER: Final = ROOT / "target" / "coverage"
 PAGES: Final = ROOT / "out" / "coverage"
 COUNTS: Final = FOLDER / "counts"
-"""Where every process that runs counting code leaves what it counted."""
-MODULES: Final = (".so", ".dylib")
+"""Folder to which every process with counters writes its counts."""
+MODULES: Final = (".so", ".dylib")  # suffixes of compiled modules
 CARGO: Final = os.environ.get("CARGO", "cargo")
 
-# Others' code, tests, examples, and scenes, which are for tests.
+# Third-party code, tests, examples, and the scenes used by tests.
 NOT_MEASURED: Final = r"(/\.cargo/|/rustc/|/rustlib/|/tests/|/benches/|/examples/|/scenes/)"
 
 
 @dataclass(frozen=True)
 class LlvmTools:
-    """The two tools that read what counting Rust code writes."""
+    """The two LLVM tools that read the counts of Rust code."""
 
     profdata: Path
     cov: Path
 
     @classmethod
-    def found(cls) -> "LlvmTools | None":
-        """Those of the toolchain, or those that LLVM_PROFDATA and LLVM_COV name; else None."""
-        paths = [tool("llvm-profdata"), tool("llvm-cov")]
+    def find(cls) -> "LlvmTools | None":
+        """Find the tools of the toolchain, or those named by LLVM_PROFDATA and LLVM_COV.
+
+        Returns:
+            The tools, or None if one is missing.
+        """
+        paths = [tool_path("llvm-profdata"), tool_path("llvm-cov")]
         return cls(*paths) if all(path.is_file() for path in paths) else None
 
 
 def main() -> int:
-    """Run all tests with counting, print both reports, write the pages; the tests' status."""
+    """Run all tests with counters, report the coverage, and return the tests' status."""
     for old in (FOLDER, PAGES):
         shutil.rmtree(old, ignore_errors=True)
     COUNTS.mkdir(parents=True)
-    tools = LlvmTools.found()
+    tools = LlvmTools.find()
     if tools is None:
-        print("Rust will not be measured, only Python: llvm-profdata and llvm-cov are missing.")
-        print("`rustup component add llvm-tools` installs them; or set LLVM_PROFDATA and LLVM_COV.")
+        print("Rust coverage is skipped: llvm-profdata and llvm-cov are missing.")
+        print(
+            "Install them by `rustup component add llvm-tools`, or set LLVM_PROFDATA and LLVM_COV."
+        )
     shutil.copytree(ROOT / "python", FOLDER / "python", symlinks=True)
     objects = build() if tools else []
     status = run_rust_tests() if tools else 0
@@ -55,56 +61,60 @@ def main() -> int:
     if tools:
         report_rust(tools, objects)
     report_python()
-    print(f"pages with every line: {PAGES}")
+    print(f"coverage pages: {PAGES}")
     return status
 
 
-def tool(name: str) -> Path:
-    """Where one of LLVM's tools is, or would be."""
+def tool_path(name: str) -> Path:
+    """Return the path of an LLVM tool, which may not exist."""
     if given := os.environ.get(name.replace("-", "_").upper()):
         return Path(given)
     rustc = os.environ.get("RUSTC", "rustc")
-    root = said_by([rustc, "--print", "sysroot"]).strip()
-    about = said_by([rustc, "-vV"]).splitlines()
-    host = next(line.split()[1] for line in about if line.startswith("host:"))
+    root = output_of([rustc, "--print", "sysroot"]).strip()
+    version = output_of([rustc, "-vV"]).splitlines()
+    host = next(line.split()[1] for line in version if line.startswith("host:"))
     return Path(root) / "lib" / "rustlib" / host / "bin" / name
 
 
-def said_by(command: list[str], environment: dict[str, str] | None = None) -> str:
-    """What a command writes; its complaints go to the terminal."""
+def output_of(command: list[str], environment: dict[str, str] | None = None) -> str:
+    """Return the output of a command; its error stream goes to the terminal."""
     ran = subprocess.run(
         command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True, check=True
     )
     return ran.stdout
 
 
-def counting() -> dict[str, str]:
-    """The environment in which our crates, and no others, are built with counters."""
+def counting_environment() -> dict[str, str]:
+    """Return the environment variables that build this workspace's crates with counters."""
     wrapper = str(ROOT / "tools" / "rustc_counting.sh")
-    # %m keeps programs apart, %p processes that end at the same moment.
+    # %m separates programs, %p processes that end at the same moment.
     counts = {"LLVM_PROFILE_FILE": str(COUNTS / "%m-%p.profraw")}
     return {**os.environ, **counts, "RUSTC_WORKSPACE_WRAPPER": wrapper}
 
 
 def build() -> list[Path]:
-    """Build tests and module with counters, put the module into the copy; what was built."""
-    tests = built(["test", "--no-run"])
-    # What measures speed refuses modules with assertions.
-    fast = {"CARGO_PROFILE_TEST_DEBUG_ASSERTIONS": "false"}
-    (module,) = built(["build", "--profile", "test", "--package", "rsim-py"], **fast)
+    """Build tests and module with counters and install the module into the copy.
+
+    Returns:
+        Paths of the built programs and of the installed module.
+    """
+    tests = run_cargo(["test", "--no-run"])
+    # Tests of the benchmarks refuse modules with assertions.
+    settings = {"CARGO_PROFILE_TEST_DEBUG_ASSERTIONS": "false"}
+    (module,) = run_cargo(["build", "--profile", "test", "--package", "rsim-py"], **settings)
     (target,) = (FOLDER / "python" / "rsoccer").glob("_core*.so")
     shutil.copyfile(module, target)
     return [*tests, target]
 
 
-def built(command: list[str], **settings: str) -> list[Path]:
-    """What programs and modules a command of cargo makes, under more settings."""
+def run_cargo(command: list[str], **settings: str) -> list[Path]:
+    """Run a cargo command with extra variables; return the programs and modules it built."""
     line = [CARGO, *command, "--locked", "--message-format", "json-render-diagnostics"]
-    return list(made(said_by(line, counting() | settings)))
+    return list(artifacts(output_of(line, counting_environment() | settings)))
 
 
-def made(messages: str) -> list[Path]:
-    """Programs and modules in cargo's messages, libraries between them left out."""
+def artifacts(messages: str) -> list[Path]:
+    """Return the programs and modules in cargo's messages, without libraries."""
     found: list[Path] = []
     for message in map(json.loads, messages.splitlines()):
         if message["reason"] != "compiler-artifact":
@@ -112,41 +122,41 @@ def made(messages: str) -> list[Path]:
         if message["executable"]:
             found.append(Path(message["executable"]))
         elif message["target"]["kind"] == ["cdylib"]:
-            found += [
-                Path(name) for name in message["filenames"] if name.endswith((".so", ".dylib"))
-            ]
+            found += [Path(name) for name in message["filenames"] if name.endswith(MODULES)]
     return found
 
 
 def run_rust_tests() -> int:
-    """Run the physics tests with counting; their status."""
-    return subprocess.run([CARGO, "test", "--locked"], cwd=ROOT, env=counting()).returncode
+    """Run the Rust tests with counters; return their status."""
+    return subprocess.run(
+        [CARGO, "test", "--locked"], cwd=ROOT, env=counting_environment()
+    ).returncode
 
 
 def run_python_tests() -> int:
-    """Run the tests of the package with counting, on the copy; their status."""
-    environment = {**counting(), "PYTHONPATH": str(FOLDER / "python")}
+    """Run the Python tests with counters on the copy of the package; return their status."""
+    environment = {**counting_environment(), "PYTHONPATH": str(FOLDER / "python")}
     command = ["coverage", "run", "-m", "pytest", "--numprocesses", "auto"]
     return subprocess.run([sys.executable, "-m", *command], cwd=ROOT, env=environment).returncode
 
 
 def report_python() -> None:
-    """Print what of Python was not run, and write the pages."""
+    """Print the Python lines without coverage and write the pages."""
     for command in (["combine", "--quiet"], ["report"], ["html", "--quiet"]):
         subprocess.run([sys.executable, "-m", "coverage", *command], cwd=ROOT, check=True)
 
 
 def report_rust(tools: LlvmTools, objects: list[Path]) -> None:
-    """Print how much of each Rust file was run, and write the pages."""
+    """Print the coverage of each Rust file and write the pages."""
     merged = FOLDER / "rust.profdata"
     counts = [str(path) for path in COUNTS.glob("*.profraw")]
     command = [str(tools.profdata), "merge", "--sparse", "--output", str(merged), *counts]
     subprocess.run(command, check=True)
-    named = [word for path in objects for word in ("--object", str(path))]
-    what = ["--instr-profile", str(merged), "--ignore-filename-regex", NOT_MEASURED, *named]
+    arguments = [word for path in objects for word in ("--object", str(path))]
+    options = ["--instr-profile", str(merged), "--ignore-filename-regex", NOT_MEASURED, *arguments]
     pages = ["--format", "html", "--output-dir", str(PAGES / "rust")]
-    subprocess.run([str(tools.cov), "report", *what], cwd=ROOT, check=True)
-    subprocess.run([str(tools.cov), "show", *pages, *what], cwd=ROOT, check=True)
+    subprocess.run([str(tools.cov), "report", *options], cwd=ROOT, check=True)
+    subprocess.run([str(tools.cov), "show", *pages, *options], cwd=ROOT, check=True)
 
 
 if __name__ == "__main__":

@@ -1,3 +1,4 @@
 #!/bin/sh
-# Compiles one of our crates with counters; tools/measure_coverage.py has cargo call it.
+# Compiles a crate of this workspace with coverage counters; cargo calls it for
+# tools/measure_coverage.py.
 exec "$@" -C instrument-coverage

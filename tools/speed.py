@@ -1,199 +1,214 @@
-"""The README's part on speed, from the tables that `make bench` left."""
+"""README section on speed, generated from the tables of `make bench`."""
 
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
-from benches.fresh import BUILT, HOSTED
-from benches.sharing import TIMED
-from benches.table import RESULTS, ROOT, Figure, Machine, digits, load, times
+from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
+from benches.table import RESULTS, ROOT, Figure, Machine, format_number, format_ratio, load
+from benches.thread_scaling import TIMED
 from tools.parts import table
 
 SPEED = "speed"
-DOORS = {
+INTERFACES = {
     "Matches": "`Matches`",
     "ParallelEnv": "PettingZoo, `parallel_env`",
     "AECEnv": "PettingZoo, `env`",
-    "empty ParallelEnv": "an empty ParallelEnv of that shape",
+    "no-op ParallelEnv": "no-op ParallelEnv of equal shape",
     "Env": "Gymnasium, `single_env`",
-    "empty Env": "an empty Env of that shape",
+    "no-op Env": "no-op Env of equal shape",
     "VectorEnv": "Gymnasium, `vector_env`",
-    "trainer": "the trainer, in decisions",
+    "trainer": "trainer, decisions",
 }
 
 
 def speed() -> str:
-    """What each measured machine does."""
+    """Return the results of every measured machine."""
     return "\n\n".join(
         machine_speed(path.stem, *load(path)) for path in sorted(RESULTS.glob("*.csv"))
     )
 
 
 def machine_speed(name: str, machine: Machine, figures: Sequence[Figure]) -> str:
-    """Tables and facts of one machine; what was not measured is left out."""
-    place = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
+    """Return tables and remarks for one machine; missing measurements are omitted."""
+    build = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
     rounds = max(figure.rounds for figure in figures)
     picture = RESULTS / f"{name}.png"
-    shown = f"![Speed on this machine]({picture.relative_to(ROOT)})" if picture.exists() else ""
-    intro = f"{place} of commit {machine.commit}; medians of {rounds} rounds."
-    parts = (intro, shown, physics(figures), doors(figures), facts(figures))
+    image = f"![Speed on this machine]({picture.relative_to(ROOT)})" if picture.exists() else ""
+    intro = f"{build} of commit {machine.commit}; medians of {rounds} rounds."
+    parts = (intro, image, physics(figures), interfaces(figures), remarks(figures))
     return "\n\n".join(part for part in parts if part)
 
 
 def physics(figures: Sequence[Figure]) -> str:
-    """The simulator alone, by game, beside the old one where that was measured."""
+    """Return the table of physics speed by scenario, compared with rSim if that was measured."""
     core = [figure for figure in figures if figure.group == "core"]
     if not core:
         return ""
-    old = next((f.who.split(" / ")[1] for f in core if f.quantity == "ratio"), None)
+    reference = next((f.variant.split(" / ")[1] for f in core if f.quantity == "ratio"), None)
     sizes = sorted({figure.worlds for figure in core})
-    header = ["steps a second on one thread"]
-    if old:
-        header.append(old)
+    header = ["steps per second on one thread"]
+    if reference:
+        header.append(reference)
     for worlds in sizes:
-        header.append(f"{worlds} at once" if worlds > 1 else "one match")
-        header += ["times as fast"] if old else []
+        header.append(f"{worlds} worlds" if worlds > 1 else "1 world")
+        header += ["speed-up"] if reference else []
     rows = []
-    for game, group in groupby(core, key=lambda figure: figure.game):
+    for scenario, group in groupby(core, key=lambda figure: figure.scenario):
         mine = list(group)
-        cells = [game, *([_cell(mine, old, 1)] if old else [])]
+        cells = [scenario, *([_cell(mine, reference, 1)] if reference else [])]
         for worlds in sizes:
             cells.append(_cell(mine, "Simulator", worlds))
-            cells += [_cell(mine, f"Simulator / {old}", worlds)] if old else []
+            cells += [_cell(mine, f"Simulator / {reference}", worlds)] if reference else []
         rows.append(tuple(cells))
-    return table(tuple(header), rows) + (f"\n\n{beside(old, core)}" if old else "")
+    return table(tuple(header), rows) + (f"\n\n{comparison(reference, core)}" if reference else "")
 
 
-def beside(old: str, core: Sequence[Figure]) -> str:
-    """How the comparison was made."""
-    interface = [f for f in core if f.who == f"compat.robosim / {old}"]
+def comparison(reference: str, core: Sequence[Figure]) -> str:
+    """Return the description of the comparison with rSim."""
+    interface = [f for f in core if f.variant == f"compat.robosim / {reference}"]
     slowest = min((figure.median for figure in interface), default=0.0)
     text = (
-        f"{old} is the simulator of robocin's rSoccer (package rc-robosim), built here in its own "
-        "release mode and stepped in the same process, round about with ours: the same teams and "
-        "fields, starts (who plays one match at a time plays those of the many one after the "
-        "other, as far as the time goes) and kinds of command, 25 ms a step in five ticks. Ratios "
-        "are medians over rounds (slowest and fastest round in brackets): every round has other "
-        "starts, and this machine is small and does other things besides."
+        f"{reference} is the simulator of robocin's rSoccer (package rc-robosim), built here "
+        "in its own release mode. Both simulators run in turn in the same process, with the same "
+        "teams, fields, starts and kinds of command, and steps of 25 ms in five ticks. "
+        "A simulator with one world runs the starts of the larger batch one after the other, as "
+        "far as time permits. Ratios are medians over rounds, with the slowest and the fastest "
+        "round in brackets. Every round has different starts, and this machine is small and shared."
     )
     if not interface:
         return text
-    gain = f"{digits(slowest, 2)}x or more"
-    return f"{text} Code that only changes its import to `compat.robosim` runs {gain} as fast."
+    gain = f"at least {format_number(slowest, 2)}x as fast"
+    return f"{text} Code that only replaces its import by `compat.robosim` runs {gain}."
 
 
-def doors(figures: Sequence[Figure]) -> str:
-    """Whole environments."""
-    rates = [f for f in figures if f.group in ("many", "one", "training") and f.quantity == SPEED]
+def interfaces(figures: Sequence[Figure]) -> str:
+    """Return the table of complete environments."""
+    rates = [
+        f for f in figures if f.group in ("batched", "single", "training") and f.quantity == SPEED
+    ]
     if not rates:
         return ""
-    rows = [_door(figure, figures) for figure in rates]
-    header = ("whole environments", "task", "at once", "threads", "steps a second", "not physics")
+    rows = [_interface_row(figure, figures) for figure in rates]
+    header = (
+        "environment",
+        "task",
+        "worlds",
+        "threads",
+        "steps per second",
+        "time outside physics",
+    )
     return table(header, rows) + football(figures)
 
 
 def football(figures: Sequence[Figure]) -> str:
-    """`Matches` beside VMAS at its better number of threads, where that was measured."""
-    ratios = [f for f in figures if f.who.startswith("Matches / vmas")]
+    """Return the comparison of `Matches` with VMAS at its faster number of threads, if measured."""
+    ratios = [f for f in figures if f.variant.startswith("Matches / vmas")]
     if not ratios:
         return ""
     sizes = sorted({figure.worlds for figure in ratios})
     closest = [min((f for f in ratios if f.worlds == n), key=lambda f: f.median) for n in sizes]
-    told = ", ".join(f"{ratio(f)} at {f.worlds:,}" for f in closest)
-    peer = ratios[0].who.split(" / ")[1]
+    listed = ", ".join(f"{ratio(f)} at {f.worlds:,} worlds" for f in closest)
+    vmas = ratios[0].variant.split(" / ")[1]
     return (
-        f"\n\nSteps of `Matches` on two threads by those of {peer}'s football on one or two, "
-        f"whichever is faster, three a side, all six robots controlled: {told}. A step of football "
-        "is 0.1 s in two ticks."
+        f"\n\nSpeed of `Matches` on two threads relative to {vmas}'s football on one or two "
+        f"threads (the faster one), with three robots a side, all controlled: {listed}. A step of "
+        "football is 0.1 s in two ticks."
     )
 
 
-def _door(figure: Figure, figures: Sequence[Figure]) -> tuple[str, ...]:
-    task = "football" if figure.who.startswith("vmas") else f"`{figure.game}`"
-    key = (figure.group, figure.game, figure.who, figure.worlds, figure.threads)
+def _interface_row(figure: Figure, figures: Sequence[Figure]) -> tuple[str, ...]:
+    task = "football" if figure.variant.startswith("vmas") else f"`{figure.scenario}`"
+    key = (figure.group, figure.scenario, figure.variant, figure.worlds, figure.threads)
     outside = [
-        f"{digits(f.median, 2)} us a world-step"
+        f"{format_number(f.median, 2)} us per world-step"
         for f in figures
-        if (f.group, f.game, f.who, f.worlds, f.threads) == key and f.quantity == "outside physics"
+        if (f.group, f.scenario, f.variant, f.worlds, f.threads) == key
+        and f.quantity == "time outside physics"
     ]
     return (
-        DOORS.get(figure.who, figure.who),
+        INTERFACES.get(figure.variant, figure.variant),
         task,
         f"{figure.worlds:,}",
         str(figure.threads),
-        digits(figure.median),
+        format_number(figure.median),
         *(outside or [""]),
     )
 
 
-def facts(figures: Sequence[Figure]) -> str:
-    """What needs no table, as a list."""
+def remarks(figures: Sequence[Figure]) -> str:
+    """Return results that need no table, as a list."""
     groups: dict[str, Callable[[list[Figure]], str]] = {
         "threads": _threads,
-        "growth": _growth,
+        "scaling": _scaling,
         "memory": _memory,
-        "hosting": _hosting,
-        "start": _start,
+        "capacity": _capacity,
+        "startup": _startup,
     }
     found = []
-    for group, told in groups.items():
+    for group, describe in groups.items():
         if mine := [figure for figure in figures if figure.group == group]:
-            found.append(f"- {told(mine)}")
+            found.append(f"- {describe(mine)}")
     return "\n".join(found)
 
 
 def _threads(figures: list[Figure]) -> str:
-    ratios = {f.who.split(" / ")[0]: f for f in figures if f.quantity == "ratio"}
-    ours, beside, hashing = (
-        ratio(ratios[who]) for who in ("Simulator", "Simulators, one a thread", "hashing")
+    ratios = {f.variant.split(" / ")[0]: f for f in figures if f.quantity == "ratio"}
+    shared, separate, hashing = (
+        ratio(ratios[name]) for name in ("Simulator", "Simulators, one per thread", "hashing")
     )
     worlds = ratios["Simulator"].worlds
     return (
-        f"Two threads step {worlds:,} worlds ({_opening(figures)}) {ours} as fast as one. This "
-        f"machine's own ceiling: {beside} for two simulators that share nothing, {hashing} for "
-        "hashing."
+        f"Speed-up by a second thread with {worlds:,} worlds ({_timed_steps(figures)}): {shared}. "
+        f"Upper bounds on this machine: {separate} for two simulators that share nothing, "
+        f"{hashing} for hashing."
     )
 
 
-def _growth(figures: list[Figure]) -> str:
+def _scaling(figures: list[Figure]) -> str:
     ratios = [f for f in figures if f.quantity == "ratio"]
     base = min(figure.worlds for figure in figures)
-    told = ", ".join(f"{f.median:.2f}x at {f.worlds:,}" for f in ratios)
-    return f"Steps a second of a batch, by those at {base} worlds ({_opening(figures)}): {told}."
+    listed = ", ".join(f"{f.median:.2f}x at {f.worlds:,}" for f in ratios)
+    return f"Speed of a batch relative to {base} worlds ({_timed_steps(figures)}): {listed} worlds."
 
 
-def _opening(figures: Sequence[Figure]) -> str:
-    """What is played where many worlds are: too many for whole episodes."""
-    return f"{figures[0].game}, steps {TIMED.start} to {TIMED.stop} of it"
+def _timed_steps(figures: Sequence[Figure]) -> str:
+    """Return scenario and timed steps, for batches too large for complete episodes."""
+    return f"{figures[0].scenario}, steps {TIMED.start} to {TIMED.stop}"
 
 
 def _memory(figures: list[Figure]) -> str:
-    told = " and ".join(f"{digits(f.median, 2)} KiB for {f.game}" for f in figures)
-    return f"Memory of a world that has seen contacts: {told}."
+    listed = " and ".join(f"{format_number(f.median, 2)} KiB for {f.scenario}" for f in figures)
+    return f"Memory of a world that has had contacts: {listed}."
 
 
-def _hosting(figures: list[Figure]) -> str:
-    told = {figure.quantity: figure for figure in figures}
-    one = told[SPEED]
+def _capacity(figures: list[Figure]) -> str:
+    by_quantity = {figure.quantity: figure for figure in figures}
+    speed = by_quantity[SPEED]
+    build = format_number(by_quantity[BUILD_TIME.name].median, 2)
+    memory = format_number(by_quantity[PROCESS_MEMORY.name].median, 2)
     return (
-        f"{one.worlds:,} worlds ({one.game}) in one process, on {one.threads} threads: built in "
-        f"{digits(told[BUILT.name].median, 2)} s, {digits(told[HOSTED.name].median, 2)} GiB of "
-        f"memory in all once some touch, {digits(one.median)} steps a second."
+        f"{speed.worlds:,} worlds ({speed.scenario}) in one process on {speed.threads} threads: "
+        f"build time {build} s, process memory {memory} GiB after first contacts, "
+        f"{format_number(speed.median)} steps per second."
     )
 
 
-def _start(figures: list[Figure]) -> str:
-    told = ", ".join(f"{f.quantity} {digits(f.median, 2)} s" for f in figures)
-    return f"Start, in a fresh process: {told}."
+def _startup(figures: list[Figure]) -> str:
+    listed = ", ".join(f"{f.quantity} {format_number(f.median, 2)} s" for f in figures)
+    return f"Start-up in a fresh process: {listed}."
 
 
 def ratio(figure: Figure) -> str:
-    """A ratio with its extremes."""
-    return f"{times(figure.median)} ({times(figure.least)} to {times(figure.most)})"
+    """Format a ratio with minimum and maximum."""
+    minimum, maximum = format_ratio(figure.minimum), format_ratio(figure.maximum)
+    return f"{format_ratio(figure.median)} ({minimum} to {maximum})"
 
 
-def _cell(figures: Sequence[Figure], who: str | None, worlds: int) -> str:
-    """Speed or ratio in a table; empty where not measured."""
+def _cell(figures: Sequence[Figure], variant: str | None, worlds: int) -> str:
+    """Return a speed or ratio for a table cell; empty if not measured."""
     for figure in figures:
-        if (figure.who, figure.worlds) == (who, worlds) and figure.quantity in (SPEED, "ratio"):
-            return ratio(figure) if figure.quantity == "ratio" else digits(figure.median)
+        if (figure.variant, figure.worlds) != (variant, worlds):
+            continue
+        if figure.quantity in (SPEED, "ratio"):
+            return ratio(figure) if figure.quantity == "ratio" else format_number(figure.median)
     return ""

@@ -1,59 +1,63 @@
-"""Figures such as a machine's table holds, made up."""
+"""Made-up figures in the form of a machine's result table."""
 
 from benches.table import Figure, Machine
 
 MACHINE = Machine("Some CPU @ 2.5GHz", 2, "2026-01-31", "abc1234-dirty", "0.1.0", "release")
-OLD = "robosim 1.2"
+ROBOSIM = "robosim 1.2"
 TASK = "VSSSelfPlay-v0"
 RANDOM = "VSSS 3 v 3 random"
 
 
 def made_up(
     group: str,
-    game: str,
-    who: str,
+    scenario: str,
+    variant: str,
     median: float,
     worlds: int = 1,
     threads: int = 1,
     quantity: str = "speed",
     unit: str = "world-steps/s",
 ) -> Figure:
-    """A figure of three rounds, the others a tenth off."""
+    """Return a figure of three rounds, with minimum and maximum 10% off the median."""
     extremes = (round(0.9 * median, 4), round(1.1 * median, 4))
-    return Figure(group, game, who, worlds, threads, quantity, unit, median, *extremes, 3)
+    return Figure(group, scenario, variant, worlds, threads, quantity, unit, median, *extremes, 3)
 
 
-def ratio(group: str, game: str, who: str, median: float, worlds: int, threads: int = 1) -> Figure:
-    """A ratio of three rounds."""
-    return made_up(group, game, who, median, worlds, threads, "ratio", "x")
+def ratio(
+    group: str, scenario: str, variant: str, median: float, worlds: int, threads: int = 1
+) -> Figure:
+    """Return a ratio of three rounds."""
+    return made_up(group, scenario, variant, median, worlds, threads, "ratio", "x")
 
 
-OURS = [
+RSOCCER = [
     made_up("core", RANDOM, "Simulator", 25_000.0),
     made_up("core", RANDOM, "Simulator", 50_000.0, 64),
-    made_up("core", RANDOM, "Simulator", 0.02, 64, 1, "robots touching", "share"),
-    made_up("many", TASK, "Matches", 40_000.0, 1024, 2),
-    made_up("many", TASK, "Matches", 3.96, 1024, 2, "outside physics", "us a world-step"),
-    made_up("one", TASK, "empty ParallelEnv", 150_000.0),
-    made_up("memory", "SSL 11 v 11", "Simulator", 58.83, 512, 1, "memory", "KiB a world"),
-    made_up("hosting", RANDOM, "Simulator", 45_678.0, 100_000, 2),
-    made_up("hosting", RANDOM, "Simulator", 2.61, 100_000, 2, "memory of the process", "GiB"),
-    made_up("hosting", RANDOM, "Simulator", 1.234, 100_000, 2, "worlds built", "s"),
-    made_up("start", TASK, "fresh process", 0.131, 1, 1, "first env and reset", "s"),
+    made_up("core", RANDOM, "Simulator", 0.02, 64, 1, "robots in contact", "share"),
+    made_up("batched", TASK, "Matches", 40_000.0, 1024, 2),
+    made_up("batched", TASK, "Matches", 3.96, 1024, 2, "time outside physics", "us per world-step"),
+    made_up("single", TASK, "no-op ParallelEnv", 150_000.0),
+    made_up("memory", "SSL 11 v 11", "Simulator", 58.83, 512, 1, "memory", "KiB per world"),
+    made_up("capacity", RANDOM, "Simulator", 45_678.0, 100_000, 2),
+    made_up("capacity", RANDOM, "Simulator", 2.61, 100_000, 2, "process memory", "GiB"),
+    made_up("capacity", RANDOM, "Simulator", 1.234, 100_000, 2, "build time", "s"),
+    made_up("startup", TASK, "fresh process", 0.131, 1, 1, "first environment and reset", "s"),
 ]
-PEERS = [
-    made_up("core", RANDOM, OLD, 500.0),
-    ratio("core", RANDOM, f"Simulator / {OLD}", 50.0, 1),
-    ratio("core", RANDOM, f"Simulator / {OLD}", 100.0, 64),
-    ratio("core", RANDOM, f"compat.robosim / {OLD}", 20.0, 1),
-    made_up("many", TASK, "vmas 1.5.2", 20_000.0, 1024, 2),
-    ratio("many", TASK, "Matches / vmas 1.5.2", 2.0, 1024, 2),
-    ratio("many", TASK, "Matches / vmas 1.5.2", 8.0, 1024, 2),  # to its second number of threads
+THIRD_PARTY = [
+    made_up("core", RANDOM, ROBOSIM, 500.0),
+    ratio("core", RANDOM, f"Simulator / {ROBOSIM}", 50.0, 1),
+    ratio("core", RANDOM, f"Simulator / {ROBOSIM}", 100.0, 64),
+    ratio("core", RANDOM, f"compat.robosim / {ROBOSIM}", 20.0, 1),
+    made_up("batched", TASK, "vmas 1.5.2", 20_000.0, 1024, 2),
+    ratio("batched", TASK, "Matches / vmas 1.5.2", 2.0, 1024, 2),
+    ratio("batched", TASK, "Matches / vmas 1.5.2", 8.0, 1024, 2),  # with two threads of VMAS
 ]
-SHARED = [
+SCALING = [
     ratio("threads", RANDOM, "Simulator / Simulator", 1.9, 1024, 2),
-    ratio("threads", RANDOM, "Simulators, one a thread / Simulators, one a thread", 1.95, 1024, 2),
+    ratio(
+        "threads", RANDOM, "Simulators, one per thread / Simulators, one per thread", 1.95, 1024, 2
+    ),
     ratio("threads", RANDOM, "hashing / hashing", 1.98, 1, 2),
-    made_up("growth", RANDOM, "Simulator", 50_000.0, 64),
-    ratio("growth", RANDOM, "Simulator / Simulator", 0.97, 16384),
+    made_up("scaling", RANDOM, "Simulator", 50_000.0, 64),
+    ratio("scaling", RANDOM, "Simulator / Simulator", 0.97, 16384),
 ]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from benches.criterion import physics_alone
+from benches.criterion import core_figures
 
 CASE = {
     "group_id": "vss_3v3_step",
@@ -15,8 +15,8 @@ CASE = {
 }
 
 
-def leave(folder: Path, case: Mapping[str, object], nanoseconds: float) -> None:
-    """What criterion leaves of one case."""
+def write_case(folder: Path, case: Mapping[str, object], nanoseconds: float) -> None:
+    """Write the files of one criterion benchmark."""
     folder.mkdir(parents=True)
     interval = {"lower_bound": 0.8 * nanoseconds, "upper_bound": 1.6 * nanoseconds}
     median = {"point_estimate": nanoseconds, "confidence_interval": interval}
@@ -25,19 +25,19 @@ def leave(folder: Path, case: Mapping[str, object], nanoseconds: float) -> None:
 
 
 def test_figures_of_the_core_are_read(tmp_path: Path) -> None:
-    leave(tmp_path / "vss_3v3_step" / "random" / "256x2" / "new", CASE, 1e7)
-    leave(tmp_path / "place" / "new", {"function_id": None, "throughput": None}, 5e3)
-    [figure] = physics_alone(tmp_path, since=0.0)
-    assert (figure.game, figure.worlds, figure.threads) == ("VSSS 3 v 3 random", 256, 2)
+    write_case(tmp_path / "vss_3v3_step" / "random" / "256x2" / "new", CASE, 1e7)
+    write_case(tmp_path / "place" / "new", {"function_id": None, "throughput": None}, 5e3)
+    [figure] = core_figures(tmp_path, since=0.0)
+    assert (figure.scenario, figure.worlds, figure.threads) == ("VSSS 3 v 3 random", 256, 2)
     assert figure.median == pytest.approx(25_600)
-    assert (figure.least, figure.most) == pytest.approx((16_000, 32_000))
-    assert list(physics_alone(tmp_path / "nothing")) == []
+    assert (figure.minimum, figure.maximum) == pytest.approx((16_000, 32_000))
+    assert list(core_figures(tmp_path / "nothing")) == []
 
 
-def test_figures_of_an_older_build_are_left_out(tmp_path: Path) -> None:
+def test_figures_of_an_older_build_are_skipped(tmp_path: Path) -> None:
     folder = tmp_path / "vss_3v3_step" / "random" / "256x2" / "new"
-    leave(folder, CASE, 1e7)
+    write_case(folder, CASE, 1e7)
     os.utime(folder / "benchmark.json", (1e9, 1e9))
-    assert len(list(physics_alone(tmp_path, since=1e9))) == 1
-    assert not list(physics_alone(tmp_path, since=1e9 + 1))
-    assert not list(physics_alone(tmp_path)), "the build at hand is younger"
+    assert len(list(core_figures(tmp_path, since=1e9))) == 1
+    assert not list(core_figures(tmp_path, since=1e9 + 1))
+    assert not list(core_figures(tmp_path)), "the installed build is newer"

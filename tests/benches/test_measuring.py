@@ -3,29 +3,29 @@ import pytest
 from benches.measuring import (
     RATIO,
     SPEED,
-    Contest,
-    Entrant,
-    LeftOut,
+    Benchmark,
     Measure,
     Quantity,
+    UnavailableError,
     Values,
-    calls,
-    chosen,
+    Variant,
+    calls_per_second,
     measure,
+    select,
 )
 
 LOAD = Quantity("load", "share")
 
 
-class Told:
-    """Says what it was told to, a value a round, and notes its turns."""
+class ScriptedMeasure:
+    """Reorder given values, one per round, and records the order of calls."""
 
-    def __init__(self, name: str, values: list[float], turns: list[str]) -> None:
-        self.name, self.values, self.turns = name, values, turns
+    def __init__(self, name: str, values: list[float], order: list[str]) -> None:
+        self.name, self.values, self.order = name, values, order
 
     def __call__(self, seconds: float) -> Values:
         if seconds:
-            self.turns.append(self.name)
+            self.order.append(self.name)
             return {SPEED: self.values.pop(0), LOAD: 0.5}
         return {}
 
@@ -33,15 +33,18 @@ class Told:
         return self
 
 
-def contest(turns: list[str]) -> Contest:
-    fast, slow = Told("fast", [10, 40, 60], turns), Told("slow", [5, 10, 20], turns)
-    entrants = (Entrant("fast", 4, 1, fast.start), Entrant("slow", 1, 1, slow.start))
-    return Contest("core", "game", entrants, ((0, 1),))
+def benchmark(order: list[str]) -> Benchmark:
+    fast, slow = (
+        ScriptedMeasure("fast", [10, 40, 60], order),
+        ScriptedMeasure("slow", [5, 10, 20], order),
+    )
+    variants = (Variant("fast", 4, 1, fast.start), Variant("slow", 1, 1, slow.start))
+    return Benchmark("core", "play", variants, ((0, 1),))
 
 
 def test_ratios_are_taken_within_a_round() -> None:
-    figures = measure([contest([])], 3, 0.1, lambda _: None)
-    found = {(f.who, f.quantity): (f.median, f.least, f.most) for f in figures}
+    figures = measure([benchmark([])], 3, 0.1, lambda _: None)
+    found = {(f.variant, f.quantity): (f.median, f.minimum, f.maximum) for f in figures}
     assert found == {
         ("fast", SPEED.name): (40, 10, 60),
         ("fast", LOAD.name): (0.5, 0.5, 0.5),
@@ -50,43 +53,43 @@ def test_ratios_are_taken_within_a_round() -> None:
         ("fast / slow", RATIO.name): (3, 2, 4),
     }
     [ratio] = [figure for figure in figures if figure.unit == "x"]
-    assert (ratio.group, ratio.game, ratio.worlds, ratio.rounds) == ("core", "game", 4, 3)
+    assert (ratio.group, ratio.scenario, ratio.worlds, ratio.rounds) == ("core", "play", 4, 3)
 
 
 def test_every_second_round_goes_backward() -> None:
-    turns: list[str] = []
-    measure([contest(turns)], 3, 0.1, lambda _: None)
-    assert turns == ["fast", "slow", "slow", "fast", "fast", "slow"]
+    order: list[str] = []
+    measure([benchmark(order)], 3, 0.1, lambda _: None)
+    assert order == ["fast", "slow", "slow", "fast", "fast", "slow"]
 
 
-def test_what_goes_on_is_told() -> None:
-    heard: list[str] = []
-    measure([contest([])], 2, 0.1, heard.append)
-    assert heard == [
-        *("getting ready, core: game", "round 1 of 2, core: game", "round 2 of 2, core: game"),
+def test_progress_is_logged() -> None:
+    messages: list[str] = []
+    measure([benchmark([])], 2, 0.1, messages.append)
+    assert messages == [
+        *("preparing, core: play", "round 1 of 2, core: play", "round 2 of 2, core: play"),
     ]
 
 
-def test_what_a_machine_cannot_hold_is_left_out() -> None:
+def test_unavailable_benchmarks_are_skipped() -> None:
     def start() -> Measure:
-        raise LeftOut("too little memory")
+        raise UnavailableError("too little memory")
 
-    heard: list[str] = []
-    huge = Contest("hosting", "game", (Entrant("huge", 9, 1, start),))
-    figures = measure([huge, contest([])], 1, 0.1, heard.append)
+    messages: list[str] = []
+    huge = Benchmark("capacity", "play", (Variant("huge", 9, 1, start),))
+    figures = measure([huge, benchmark([])], 1, 0.1, messages.append)
     assert {figure.group for figure in figures} == {"core"}
-    assert "left out, hosting: game: too little memory" in heard
+    assert "skipped, capacity: play: too little memory" in messages
 
 
-def test_contests_are_chosen_by_their_titles() -> None:
-    one, other = contest([]), Contest("memory", "Game", ())
-    assert chosen([one, other], "CORE") == [one]
-    assert chosen([one, other], "game") == [one, other]
-    with pytest.raises(ValueError, match=r"(?s)'nobody' in its title.*core: game.*memory: Game"):
-        chosen([one, other], "nobody")
+def test_benchmarks_are_selected_by_title() -> None:
+    one, other = benchmark([]), Benchmark("memory", "Play", ())
+    assert select([one, other], "CORE") == [one]
+    assert select([one, other], "play") == [one, other]
+    with pytest.raises(ValueError, match=r"(?s)'nobody' in its title.*core: play.*memory: Play"):
+        select([one, other], "nobody")
 
 
-def test_one_call_at_least_is_measured() -> None:
-    made: list[int] = []
-    assert calls(lambda: made.append(1), 0.0) > 0
-    assert len(made) == 1
+def test_at_least_one_call_is_measured() -> None:
+    called: list[int] = []
+    assert calls_per_second(lambda: called.append(1), 0.0) > 0
+    assert len(called) == 1

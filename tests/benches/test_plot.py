@@ -2,28 +2,32 @@ from pathlib import Path
 
 import pytest
 
-from benches.plot import core_ratios, draw, front_doors
+from benches.plot import core_ratios, draw, environment_rates
 from benches.table import Figure
-from tests.benches.figures import MACHINE, OURS, PEERS, SHARED
+from tests.benches.figures import MACHINE, RSOCCER, SCALING, THIRD_PARTY
 
 SIGNATURE = b"\x89PNG\r\n"
 
 
-@pytest.mark.parametrize("figures", [OURS, OURS + PEERS + SHARED], ids=["alone", "beside peers"])
+@pytest.mark.parametrize(
+    "figures",
+    [RSOCCER, RSOCCER + THIRD_PARTY + SCALING],
+    ids=["alone", "with third-party simulators"],
+)
 def test_a_picture_is_drawn(figures: list[Figure], tmp_path: Path) -> None:
     path = draw(figures, MACHINE, tmp_path / "speed.png")
     assert path is not None
     assert path.read_bytes().startswith(SIGNATURE)
 
 
-def test_only_figures_that_compare_are_drawn() -> None:
-    assert {f.who for f in core_ratios(OURS + PEERS)} == {"Simulator / robosim 1.2"}
-    assert not core_ratios(OURS)
-    assert [f.who for f in front_doors(OURS + PEERS)] == [
-        *("Matches", "empty ParallelEnv", "vmas 1.5.2"),
+def test_only_comparable_figures_are_drawn() -> None:
+    assert {f.variant for f in core_ratios(RSOCCER + THIRD_PARTY)} == {"Simulator / robosim 1.2"}
+    assert not core_ratios(RSOCCER)
+    assert [f.variant for f in environment_rates(RSOCCER + THIRD_PARTY)] == [
+        *("Matches", "no-op ParallelEnv", "vmas 1.5.2"),
     ]
 
 
-def test_nothing_to_draw_leaves_no_file(tmp_path: Path) -> None:
-    assert draw(SHARED, MACHINE, tmp_path / "speed.png") is None
+def test_no_figures_leave_no_file(tmp_path: Path) -> None:
+    assert draw(SCALING, MACHINE, tmp_path / "speed.png") is None
     assert not list(tmp_path.iterdir())

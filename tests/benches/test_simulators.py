@@ -5,63 +5,74 @@ import numpy as np
 import pytest
 
 from benches import simulators
-from benches.games import CROWD, RANDOM, Game
 from benches.measuring import SPEED
-from benches.simulators import ENOUGH, TOUCHING, Old, Ours, Player, bout, expect_contacts
+from benches.scenarios import CROWD, RANDOM, Scenario
+from benches.simulators import (
+    CONTACTS,
+    MIN_SAMPLES,
+    BenchmarkedSimulator,
+    RobosimAdapter,
+    SimulatorAdapter,
+    check_contacts,
+    timed_episodes,
+)
 from rsoccer import Frame, WorldRng
 from rsoccer.compat import robosim
 from rsoccer.frame import Floats
 
-SHORT = [replace(game, episode=40) for game in (RANDOM[0], RANDOM[2])]
+SHORT = [replace(scenario, episode=40) for scenario in (RANDOM[0], RANDOM[2])]
 
 
-@pytest.mark.parametrize("game", [*RANDOM, *CROWD], ids=lambda game: game.name)
-def test_both_interfaces_start_and_see_alike(game: Game) -> None:
-    start = game.start(WorldRng.seeded(5, 1))
-    ours, old = Ours(game, 1), Old(game, robosim)
-    for player in (ours, old):
-        player.place(start)
-    for one, other in zip(ours.seen(), old.seen(), strict=True):
+@pytest.mark.parametrize("scenario", [*RANDOM, *CROWD], ids=lambda scenario: scenario.name)
+def test_both_adapters_start_alike(scenario: Scenario) -> None:
+    start = scenario.start(WorldRng.seeded(5, 1))
+    native, robosim_adapter = SimulatorAdapter(scenario, 1), RobosimAdapter(scenario, robosim)
+    for adapter in (native, robosim_adapter):
+        adapter.place(start)
+    for one, other in zip(native.positions(), robosim_adapter.positions(), strict=True):
         np.testing.assert_allclose(one, other, atol=1e-5)
 
 
-@pytest.mark.parametrize("game", SHORT, ids=lambda game: game.name)
-def test_both_are_told_the_same(game: Game) -> None:
-    columns = len(game.config.command_columns)
-    commands = np.zeros((1, game.config.n_robots, columns), np.float32)
+@pytest.mark.parametrize("scenario", SHORT, ids=lambda scenario: scenario.name)
+def test_both_adapters_interpret_commands_alike(scenario: Scenario) -> None:
+    columns = len(scenario.config.command_columns)
+    commands = np.zeros((1, scenario.config.n_robots, columns), np.float32)
     commands[..., 0] = 1.0
-    commands[..., 1] = 1.0 if game.on_wheels else 0.0
-    players: tuple[Player, ...] = (Ours(game, 1), Old(game, robosim))
-    start = game.start(WorldRng.seeded(5, 1))
+    commands[..., 1] = 1.0 if scenario.has_wheel_commands else 0.0
+    adapters: tuple[BenchmarkedSimulator, ...] = (
+        SimulatorAdapter(scenario, 1),
+        RobosimAdapter(scenario, robosim),
+    )
+    start = scenario.start(WorldRng.seeded(5, 1))
     moved = []
-    for player in players:
-        player.place(start)
+    for adapter in adapters:
+        adapter.place(start)
         for _ in range(20):
-            player.step(player.prepared(commands))
-        moved.append(player.seen().robots[0] - start.robots.position[0])
+            adapter.step(adapter.prepare(commands))
+        moved.append(adapter.positions().robots[0] - start.robots.position[0])
     assert np.abs(moved[0]).max() > 0.01
-    ahead = [(way * start.robots.heading[0]).sum(axis=-1) for way in moved]
+    ahead = [(offset * start.robots.heading[0]).sum(axis=-1) for offset in moved]
     assert np.median(ahead[0]) > 0.01
     assert np.median(ahead[1]) == pytest.approx(np.median(ahead[0]), rel=0.3)
 
 
-@pytest.mark.parametrize("game", SHORT, ids=lambda game: game.name)
-def test_a_bout_is_measured(game: Game) -> None:
+@pytest.mark.parametrize("scenario", SHORT, ids=lambda scenario: scenario.name)
+def test_episodes_are_measured(scenario: Scenario) -> None:
     for measure in (
-        bout(game, partial(Ours, game, 3), 3),
-        bout(game, partial(Old, game, robosim)),
+        timed_episodes(scenario, partial(SimulatorAdapter, scenario, 3), 3),
+        timed_episodes(scenario, partial(RobosimAdapter, scenario, robosim)),
     ):
         assert measure(0.0) == {}
         values = measure(1e-6)
-        assert list(values) == [SPEED, TOUCHING]
+        assert list(values) == [SPEED, CONTACTS]
         assert values[SPEED] > 0
 
 
-class Noting(Ours):
-    """Notes where its robots are placed."""
+class RecordingAdapter(SimulatorAdapter):
+    """Records the positions at which robots are placed."""
 
-    def __init__(self, game: Game, worlds: int, placed: list[Floats]) -> None:
-        super().__init__(game, worlds)
+    def __init__(self, scenario: Scenario, worlds: int, placed: list[Floats]) -> None:
+        super().__init__(scenario, worlds)
         self.placed = placed
 
     def place(self, start: Frame) -> None:
@@ -69,30 +80,30 @@ class Noting(Ours):
         super().place(start)
 
 
-def test_one_match_after_the_other_has_the_starts_of_many(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(simulators, "play", lambda *_: (1.0, [0.5]))  # a second each
-    game, one, many = RANDOM[0], list[Floats](), list[Floats]()
-    singly = bout(game, lambda: Noting(game, 1, one), starts=3)
-    at_once = bout(game, lambda: Noting(game, 3, many), 3)
+def test_sequential_and_batched_matches_have_equal_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(simulators, "run_episode", lambda *_: (1.0, [0.5]))  # a second each
+    scenario, one, many = RANDOM[0], list[Floats](), list[Floats]()
+    singly = timed_episodes(scenario, lambda: RecordingAdapter(scenario, 1, one), starts=3)
+    at_once = timed_episodes(scenario, lambda: RecordingAdapter(scenario, 3, many), 3)
     for _ in range(2):
         singly(4.0)
         at_once(2.0)
     first, second = np.array(many[:6]), np.array(many[6:])
     np.testing.assert_array_equal(one, [*first[:4], *second[:4]])
     np.testing.assert_array_equal(first[:3], first[3:])
-    assert len(np.unique(many, axis=0)) == 6, "every round has starts of its own"
+    assert len(np.unique(many, axis=0)) == 6, "every round has different starts"
 
 
-def test_a_crowd_touches() -> None:
-    game = replace(CROWD[0], episode=80)
-    values = bout(game, partial(Ours, game, 2), 2)(1e-6)
-    assert values[TOUCHING] > 0.3
+def test_a_crowd_has_contacts() -> None:
+    scenario = replace(CROWD[0], episode=80)
+    values = timed_episodes(scenario, partial(SimulatorAdapter, scenario, 2), 2)(1e-6)
+    assert values[CONTACTS] > 0.3
 
 
-def test_a_scene_without_contacts_is_refused() -> None:
-    game = replace(CROWD[4], episode=2)
-    with pytest.raises(RuntimeError, match=r"SSL 11 v 11 crowd: only 0\.0% of the robots"):
-        bout(game, partial(Ours, game, 1))(1e-6)
-    expect_contacts(RANDOM[0], 0.0, ENOUGH - 1)
+def test_a_scenario_without_contacts_is_refused() -> None:
+    scenario = replace(CROWD[4], episode=2)
+    with pytest.raises(RuntimeError, match=r"SSL 11 v 11 crowd: expected .* got 0\.0%"):
+        timed_episodes(scenario, partial(SimulatorAdapter, scenario, 1))(1e-6)
+    check_contacts(RANDOM[0], 0.0, MIN_SAMPLES - 1)
     with pytest.raises(RuntimeError, match="VSSS 3 v 3 random"):
-        expect_contacts(RANDOM[0], 0.0, ENOUGH)
+        check_contacts(RANDOM[0], 0.0, MIN_SAMPLES)

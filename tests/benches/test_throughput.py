@@ -5,24 +5,24 @@ from pathlib import Path
 
 import pytest
 
-from benches import contests, fresh, throughput
-from benches.contests import Sizes
-from benches.games import CROWD, RANDOM
+from benches import process_cost, suite, throughput
+from benches.scenarios import CROWD, RANDOM
+from benches.suite import Sizes
 from benches.table import ROOT, load, this_machine
 
 QUICK = ["--rounds", "2", "--seconds", "0.001"]
-SMALL = Sizes(2, many=(3, 4), shared=4, growing=(1, 3), trained=4, weighed=64, hosted=8)
+SMALL = Sizes(2, batched=(3, 4), threads=4, scaling=(1, 3), training=4, memory=64, capacity=8)
 
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without peers, and with few games."""
+    """Use few, small scenarios and no third-party simulators."""
     # Short, but long enough for a crowd to gather.
     short = dataclasses.replace(CROWD[0], episode=120)
-    monkeypatch.setattr(contests, "GAMES", (RANDOM[0], RANDOM[2], short, RANDOM[3], RANDOM[4]))
-    monkeypatch.setattr(contests, "peer", lambda name: None)
-    monkeypatch.setattr(throughput, "peer", lambda name: None)
-    monkeypatch.setattr(throughput, "physics_alone", list)
+    monkeypatch.setattr(suite, "SCENARIOS", (RANDOM[0], RANDOM[2], short, RANDOM[3], RANDOM[4]))
+    monkeypatch.setattr(suite, "import_optional", lambda name: None)
+    monkeypatch.setattr(throughput, "import_optional", lambda name: None)
+    monkeypatch.setattr(throughput, "core_figures", list)
 
 
 def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
@@ -30,36 +30,48 @@ def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
     assert machine.profile == "release"
     assert len(list(tmp_path.glob("*.png"))) == 1
     assert {figure.group for figure in figures} == {
-        *("core", "threads", "growth", "many", "one", "training", "memory", "hosting", "start"),
+        *(
+            "core",
+            "threads",
+            "scaling",
+            "batched",
+            "single",
+            "training",
+            "memory",
+            "capacity",
+            "startup",
+        ),
     }
-    assert {(f.who, f.worlds, f.threads) for f in figures if f.group == "many"} == {
+    assert {(f.variant, f.worlds, f.threads) for f in figures if f.group == "batched"} == {
         *(("Matches", 3, 1), ("Matches", 3, 2), ("Matches", 4, 1), ("Matches", 4, 2)),
     }
-    assert {f.who for f in figures if f.group == "one" and f.quantity == "speed"} == {
-        *("ParallelEnv", "AECEnv", "empty ParallelEnv", "Env", "empty Env", "VectorEnv"),
+    assert {f.variant for f in figures if f.group == "single" and f.quantity == "speed"} == {
+        *("ParallelEnv", "AECEnv", "no-op ParallelEnv", "Env", "no-op Env", "VectorEnv"),
     }
     for figure in figures:
         assert figure.rounds == 2
-        assert figure.least <= figure.median <= figure.most
-        # A few looks at random play may see nobody touch; little memory may have been there.
-        assert figure.median > 0 or figure.quantity in ("robots touching", "memory")
+        assert figure.minimum <= figure.median <= figure.maximum
+        # Few samples of random play may have no contact; memory may already have been allocated.
+        assert figure.median > 0 or figure.quantity in ("robots in contact", "memory")
 
 
-def test_some_can_be_picked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(throughput, "PART", tmp_path)
+def test_a_part_can_be_selected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(throughput, "PARTIAL", tmp_path)
     path = throughput.main([*QUICK, "--only", "gotoball"], SMALL)
-    assert path.parent == tmp_path, "a part does not replace the whole table"
-    assert {figure.game for figure in load(path)[1]} == {"SSLGoToBall-v0"}
+    assert path.parent == tmp_path, "a partial run does not replace the table"
+    assert {figure.scenario for figure in load(path)[1]} == {"SSLGoToBall-v0"}
 
 
-def test_nothing_to_measure_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(SystemExit, match=r"(?s)nothing to measure.*core: VSSS 3 v 3 random"):
+def test_a_run_without_benchmarks_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(SystemExit, match=r"(?s)no benchmark has.*core: VSSS 3 v 3 random"):
         throughput.main([*QUICK, "--only", "chess", "--out", str(tmp_path)], SMALL)
     with pytest.raises(SystemExit):
         throughput.main(["--rounds", "0"], SMALL)
-    monkeypatch.setattr(fresh, "free_memory", lambda: 0)
-    with pytest.raises(SystemExit, match="nothing was measured"):
-        throughput.main([*QUICK, "--only", "hosting", "--out", str(tmp_path)], SMALL)
+    monkeypatch.setattr(process_cost, "free_memory", lambda: 0)
+    with pytest.raises(SystemExit, match="no benchmark was measured"):
+        throughput.main([*QUICK, "--only", "capacity", "--out", str(tmp_path)], SMALL)
     assert not list(tmp_path.iterdir())
 
 

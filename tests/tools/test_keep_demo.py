@@ -29,7 +29,7 @@ def test_speed_and_shares_are_medians_over_updates(tmp_path: Path) -> None:
     assert found["shares"] == {"physics": 0.3, "learning": 0.6}
 
 
-def test_the_readme_shows_what_was_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_readme_shows_the_kept_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = {
         "samples": 4_000_000,
         "seconds": {"training": 151.7},

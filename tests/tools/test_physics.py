@@ -1,4 +1,4 @@
-"""The acceptance of the physics, measured through Python, and the page that shows it."""
+"""Acceptance tests of the physics through Python, and of the page that shows them."""
 
 import math
 import re
@@ -9,17 +9,17 @@ import pytest
 from rsoccer._core import BallModel, Field, RobotModel
 from tools.physics import cited
 from tools.physics.__main__ import PICTURES
-from tools.physics.check import EXACT, Check, Line, Tolerance, percent, within
-from tools.physics.closed_form import RollOut, Surface, bounce, floor
-from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, fastest_turn
-from tools.physics.kicker import reach
-from tools.physics.page import PAGE, alike, shown, written
+from tools.physics.check import EXACT, Check, Criterion, Tolerance, absolute, percent
+from tools.physics.closed_form import StraightKick, Surface, bounce, floor
+from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, max_turn_rate
+from tools.physics.kicker import front_offset
+from tools.physics.page import PAGE, format_value, pages_equal, render_page
 from tools.physics.topics import MODULES, TOPICS, checks
-from tools.physics.tyres import Motion, slid
+from tools.physics.tyre_friction import Motion, motion_after
 
 TEXT = PAGE.read_text()
 
-# Section 3.4 of the facts: slide end (m), speed at 3 m and 6 m, stop (m).
+# Sliding distance (m), speed at 3 m and 6 m (m/s), stopping distance (m).
 TABULATED = {
     ("ssl_tigers", 6.5): (3.9, 4.92, 4.21, 40),
     ("ssl_tigers", 4.0): (1.48, 2.51, 2.18, 15.2),
@@ -36,49 +36,53 @@ TABULATED = {
 def test_every_number_is_within_its_tolerance(topic: str) -> None:
     found = checks(topic)
     assert len(found) >= 10
-    assert not [str(check) for check in found if not check.holds]
+    assert not [str(check) for check in found if not check.passed]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.TOPIC)
-def test_every_line_of_a_topic_is_measured(module: object) -> None:
-    lines = [value for value in vars(module).values() if isinstance(value, Line)]
-    topic = lines[0].topic
-    assert {line.what for line in lines} == {check.what for check in checks(topic)}
-    assert len({line.what for line in lines}) == len(lines), "lines are told apart by `what`"
+def test_every_criterion_of_a_topic_is_measured(module: object) -> None:
+    criteria = [value for value in vars(module).values() if isinstance(value, Criterion)]
+    topic = criteria[0].topic
+    assert {criterion.quantity for criterion in criteria} == {
+        check.quantity for check in checks(topic)
+    }
+    assert len({criterion.quantity for criterion in criteria}) == len(criteria), (
+        "quantities identify criteria"
+    )
 
 
-def test_a_number_that_is_off_would_be_noticed() -> None:
+def test_a_deviation_above_the_tolerance_fails() -> None:
     def off(tolerance: Tolerance, reference: float, measured: float) -> Check:
-        return Line("topic", "what", "m", tolerance)("case", reference, measured)
+        return Criterion("topic", "what", "m", tolerance)("case", reference, measured)
 
-    assert off(percent(3), 2.0, 2.05).holds
-    assert not off(percent(3), 2.0, 2.07).holds
-    assert off(within(0.01), 0.3, 0.309).holds
-    assert not off(within(0.01), 0.3, 0.311).holds
-    assert off(EXACT, 6, 6).holds
-    assert not off(EXACT, 6, 5).holds
-    assert off(percent(1), 0.0, 0.0).holds
-    assert not off(percent(1), 0.0, 1e-6).holds, "a share of nothing is nothing"
-    assert not off(within(0.01), 0.3, math.nan).holds
-    assert not off(EXACT, 0.0, math.nan).holds
+    assert off(percent(3), 2.0, 2.05).passed
+    assert not off(percent(3), 2.0, 2.07).passed
+    assert off(absolute(0.01), 0.3, 0.309).passed
+    assert not off(absolute(0.01), 0.3, 0.311).passed
+    assert off(EXACT, 6, 6).passed
+    assert not off(EXACT, 6, 5).passed
+    assert off(percent(1), 0.0, 0.0).passed
+    assert not off(percent(1), 0.0, 1e-6).passed, "a relative tolerance of zero is zero"
+    assert not off(absolute(0.01), 0.3, math.nan).passed
+    assert not off(EXACT, 0.0, math.nan).passed
 
 
 @pytest.mark.parametrize(("name", "kick"), TABULATED)
 def test_the_closed_form_gives_the_tabulated_rows(name: str, kick: float) -> None:
-    form = RollOut(cited.BALLS[name], kick)
+    form = StraightKick(cited.BALLS[name], kick)
     slide, at_3, at_6, stop = TABULATED[name, kick]
-    assert form.slide_way == pytest.approx(slide, rel=0.02)
-    assert form.stop == pytest.approx(stop, rel=0.01)
-    for way, expected in ((3.0, at_3), (6.0, at_6)):
-        speed = form.speed_at(way)
+    assert form.slide_distance == pytest.approx(slide, rel=0.02)
+    assert form.stop_distance == pytest.approx(stop, rel=0.01)
+    for distance, expected in ((3.0, at_3), (6.0, at_6)):
+        speed = form.speed_at(distance)
         assert speed == (None if expected is None else pytest.approx(expected, abs=0.006))
 
 
 def test_both_closed_forms_of_the_floor_agree() -> None:
     ball = cited.BALLS["ssl_tigers"]
     for time in (0.2, 1.0, 5.0):
-        way, velocity, _ = floor(ball, np.array([4.0, 0, 0]), np.zeros(3), time)
-        assert (way[0], velocity[0]) == pytest.approx(RollOut(ball, 4.0).after(time))
+        displacement, velocity, _ = floor(ball, np.array([4.0, 0, 0]), np.zeros(3), time)
+        assert (displacement[0], velocity[0]) == pytest.approx(StraightKick(ball, 4.0).after(time))
 
 
 def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
@@ -86,30 +90,32 @@ def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
     normal = np.array([0.0, -1.0, 0.0])
     steep, spin = bounce(ball, wall, np.array([0.5, 4.0, 0.0]), np.zeros(3), normal)
     assert steep == pytest.approx([0.5 * 5 / 7, -1.2, 0.0])
-    assert spin[2] * ball.radius == pytest.approx(0.5 * 5 / 7), "it rolls along the wall"
+    assert spin[2] * ball.radius == pytest.approx(0.5 * 5 / 7), "the ball rolls along the wall"
     flat, _ = bounce(ball, wall, np.array([4.0, 1.0, 0.0]), np.zeros(3), normal)
     assert flat == pytest.approx([4.0 - 0.35 * 1.3, -0.3, 0.0])
 
 
-def test_sliding_tyres_agree_with_what_has_a_closed_form() -> None:
+def test_sliding_tyres_agree_with_closed_forms() -> None:
     robot = cited.VSS_ROBOTS["vss_440rpm"]
-    ahead = slid(robot, 1.0, Motion(), 0.1)
-    assert ahead.forward == pytest.approx(robot.forward_grip * 0.1, rel=1e-3), "speeding up"
-    assert slid(robot, 1.0, Motion(), 0.3).forward == pytest.approx(1.0), "then its wheels roll"
-    aside = slid(robot, 0.0, Motion(left=1.0), 0.05)
+    ahead = motion_after(robot, 1.0, Motion(), 0.1)
+    assert ahead.forward == pytest.approx(robot.forward_grip * 0.1, rel=1e-3), "acceleration"
+    assert motion_after(robot, 1.0, Motion(), 0.3).forward == pytest.approx(1.0), (
+        "then the wheels roll"
+    )
+    aside = motion_after(robot, 0.0, Motion(left=1.0), 0.05)
     assert aside.left == pytest.approx(1.0 - robot.side_grip * 0.05, rel=1e-3)
     inertia = robot.side**2 / 6
-    turned = slid(robot, 0.0, Motion(spin=20.0), 0.05)
+    turned = motion_after(robot, 0.0, Motion(spin=20.0), 0.05)
     lost = robot.forward_grip * robot.track / 2 / inertia * 0.05
     assert turned.spin == pytest.approx(20.0 - lost, rel=1e-3)
 
 
-def test_a_dribblers_fastest_turn_balances_grip_and_floor_against_the_circle() -> None:
-    turn = fastest_turn()
-    slip = math.hypot(turn * reach(), BAR_SPEED)
+def test_maximum_turn_rate_balances_grip_floor_and_centripetal_force() -> None:
+    turn = max_turn_rate()
+    slip = math.hypot(turn * front_offset(), BAR_SPEED)
     floor = BALL.mass * BALL.sliding_deceleration
-    along = floor * turn * reach() / slip
-    across = BALL.mass * turn**2 * reach() - floor * BAR_SPEED / slip
+    along = floor * turn * front_offset() / slip
+    across = BALL.mass * turn**2 * front_offset() - floor * BAR_SPEED / slip
     assert math.hypot(along, across) == pytest.approx(GRIP)
 
 
@@ -119,29 +125,31 @@ def test_every_preset_is_cited() -> None:
     assert set(Field.PRESETS) == set(cited.FIELDS)
 
 
-def test_the_page_shows_every_topic_as_it_is_measured_now() -> None:
+def test_the_page_shows_the_current_measurements_of_every_topic() -> None:
     parts = re.findall(r"<!-- begin:(\w+) -->", TEXT)
     assert set(TOPICS) <= set(parts)
-    assert alike(TEXT, written(TEXT)), "docs/physics.md is stale: run `make physics`"
+    assert pages_equal(TEXT, render_page(TEXT)), "docs/physics.md is stale: run `make physics`"
 
 
-def test_a_stale_page_would_be_noticed() -> None:
+def test_a_stale_page_is_detected() -> None:
     row = "| top speed | 2 | `vss_440rpm` | 1.198 m/s | 1.198 m/s |"
     assert row in TEXT
-    assert alike(row, row.replace("1.198 m/s |", "1.199 m/s |")), "another processor's last digit"
-    assert not alike(TEXT, TEXT.replace(row, row.replace("1.198", "1.190")))
-    assert not alike("| 3 / 0.26 |", "| 3 / 0.27 |"), "presets are exact"
-    assert not alike(TEXT, TEXT.replace("top speed", "topmost speed"))
+    assert pages_equal(row, row.replace("1.198 m/s |", "1.199 m/s |")), (
+        "another processor's last digit"
+    )
+    assert not pages_equal(TEXT, TEXT.replace(row, row.replace("1.198", "1.190")))
+    assert not pages_equal("| 3 / 0.26 |", "| 3 / 0.27 |"), "presets are exact"
+    assert not pages_equal(TEXT, TEXT.replace("top speed", "maximum speed"))
 
 
-def test_numbers_show_as_many_digits_as_they_are_worth() -> None:
-    assert shown(1.19799, percent(1)) == "1.198"
-    assert shown(-1e-7, within(0.01)) == "0.000"
-    assert shown(0.30001, within(0.01)) == "0.300"
-    assert shown(1000.0, EXACT) == "1000"
+def test_numbers_show_their_significant_digits() -> None:
+    assert format_value(1.19799, percent(1)) == "1.198"
+    assert format_value(-1e-7, absolute(0.01)) == "0.000"
+    assert format_value(0.30001, absolute(0.01)) == "0.300"
+    assert format_value(1000.0, EXACT) == "1000"
 
 
-def test_the_page_shows_every_picture_and_none_is_large() -> None:
+def test_the_page_shows_every_picture_and_all_are_small() -> None:
     shown_pictures = re.findall(r"\]\((physics_\w+\.png)\)", TEXT)
     assert sorted(shown_pictures) == sorted(f"physics_{name}.png" for name in PICTURES)
     for name in shown_pictures:
@@ -149,7 +157,7 @@ def test_the_page_shows_every_picture_and_none_is_large() -> None:
 
 
 @pytest.mark.parametrize("name", PICTURES)
-def test_pictures_are_drawn_from_what_happens(name: str) -> None:
+def test_pictures_draw_finite_lines(name: str) -> None:
     lines = [line for axes in PICTURES[name]().axes for line in axes.get_lines()]
     assert len(lines) >= 3
     for line in lines:

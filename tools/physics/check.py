@@ -1,4 +1,4 @@
-"""A measurement beside what it should be."""
+"""Checks: a measured number, its expected value and a tolerance."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ CLOSED_FORM = "closed form"
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far a measurement may be off: by a share of what is expected, or by so much."""
+    """Allowed deviation: a share of the expected value if `relative`, else in the value's unit."""
 
     value: float
     relative: bool = False
@@ -22,12 +22,12 @@ class Tolerance:
 
 
 def percent(value: float) -> Tolerance:
-    """Off by at most so many hundredths of what is expected."""
+    """Return a tolerance of `value` percent of the expected value."""
     return Tolerance(value / 100, relative=True)
 
 
-def within(value: float) -> Tolerance:
-    """Off by at most so much, in the unit of the measurement."""
+def absolute(value: float) -> Tolerance:
+    """Return a tolerance of `value` in the unit of the measurement."""
     return Tolerance(value)
 
 
@@ -36,12 +36,12 @@ EXACT = Tolerance(0.0)
 
 @dataclass(frozen=True)
 class Check:
-    """One number: what it should be, who says so, and what the simulator does."""
+    """One measured number with its expected value, tolerance and source."""
 
     topic: str
-    what: str
+    quantity: str
     case: str
-    reference: float
+    expected: float
     measured: float
     unit: str
     tolerance: Tolerance
@@ -49,15 +49,15 @@ class Check:
 
     @property
     def error(self) -> float:
-        """How far off it is: a share of the reference, or in its unit."""
-        error = abs(self.measured - self.reference)
+        """Deviation: a share of the expected value if the tolerance is relative, else in `unit`."""
+        error = abs(self.measured - self.expected)
         if not self.tolerance.relative or error == 0.0:
             return error
-        return error / abs(self.reference) if self.reference else float("inf")
+        return error / abs(self.expected) if self.expected else float("inf")
 
     @property
-    def used(self) -> float:
-        """Share of the tolerance that the error takes up; above 1 it does not hold."""
+    def tolerance_used(self) -> float:
+        """Deviation as a share of the tolerance; above 1 the check fails."""
         if isnan(self.error):
             return float("inf")
         if self.tolerance.value == 0.0:
@@ -65,34 +65,37 @@ class Check:
         return self.error / self.tolerance.value
 
     @property
-    def holds(self) -> bool:
-        """Whether the simulator does what it should."""
-        return self.used <= 1.0
+    def passed(self) -> bool:
+        """True if the deviation is within the tolerance."""
+        return self.tolerance_used <= 1.0
 
     def __str__(self) -> str:
         return (
-            f"{self.topic}, {self.what}, {self.case}: {self.measured:.6g} {self.unit}, "
-            f"expected {self.reference:.6g} ± {self.tolerance} ({self.source})"
+            f"{self.topic}, {self.quantity}, {self.case}: {self.measured:.6g} {self.unit}, "
+            f"expected {self.expected:.6g} ± {self.tolerance} ({self.source})"
         )
 
 
 @dataclass(frozen=True)
-class Line:
-    """A line of the acceptance: what is compared, in what unit, how closely, with whose number."""
+class Criterion:
+    """Acceptance criterion: the quantity compared, its unit, tolerance and source of expectation.
+
+    Calling it with a case, the expected and the measured value returns a `Check`.
+    """
 
     topic: str
-    what: str
+    quantity: str
     unit: str
     tolerance: Tolerance
     source: str = CLOSED_FORM
 
-    def __call__(self, case: str, reference: SupportsFloat, measured: SupportsFloat) -> Check:
-        """The check of one case."""
+    def __call__(self, case: str, expected: SupportsFloat, measured: SupportsFloat) -> Check:
+        """Return the check of one case."""
         return Check(
             self.topic,
-            self.what,
+            self.quantity,
             case,
-            float(reference),
+            float(expected),
             float(measured),
             self.unit,
             self.tolerance,

@@ -1,17 +1,18 @@
-"""Numbers of the literature, written down once more: what the presets are held against.
+"""Published numbers of balls, robots and fields: the reference for the presets.
 
-Nothing here is read from the simulator, so that a slip in a preset shows.
+This module copies them from the sources and reads nothing from the simulator, so that a wrong
+number in a preset shows.
 """
 
 from dataclasses import dataclass, field, replace
 
 G = 9.81  # m/s²
-SOLID_SPHERE = 2 / 5  # moment of inertia, of m r²
+SOLID_SPHERE = 2 / 5  # moment of inertia of a solid sphere divided by m r²
 
 
 @dataclass(frozen=True)
 class Ball:
-    """A ball model as published. The names are those of `BallModel`."""
+    """Published ball model in SI units. Field names are those of `BallModel`."""
 
     source: str
     radius: float = 0.0215
@@ -45,7 +46,7 @@ ERFORCE = replace(
 )
 VISION = replace(
     ERFORCE,
-    source="ssl-vision, `field.cpp`: before a venue sets its own",
+    source="ssl-vision, `field.cpp`: default before calibration at a venue",
     sliding_deceleration=3.0,
     rolling_deceleration=0.40,
     hop_later=0.95,
@@ -79,7 +80,7 @@ BALLS = {
 
 @dataclass(frozen=True)
 class SslRobot:
-    """A robot of the official virtual tournament, `robot-specs.yaml`. SI units."""
+    """Robot of the official virtual tournament (`robot-specs.yaml`) in SI units."""
 
     radius: float
     height: float
@@ -113,37 +114,42 @@ GENERIC = SSL_ROBOTS["ssl_generic"]
 
 @dataclass(frozen=True)
 class Number:
-    """One number, its unit, and who says so."""
+    """One number with its unit and source."""
 
     value: float
     unit: str
     source: str
 
 
+SPECS = "`robot-specs.yaml`, all listed teams"
 SSL_SHARED = {
-    "max_speed": Number(3.7, "m/s", "`robot-specs.yaml`, all listed teams"),
-    "max_turn_rate": Number(26.2, "rad/s", "likewise"),
-    "speed_up": Number(4.7, "m/s²", "likewise"),
-    "brake": Number(5.9, "m/s²", "likewise"),
-    "turn_speed_up": Number(50.8, "rad/s²", "likewise"),
-    "turn_brake": Number(51.6, "rad/s²", "likewise"),
-    "traction": Number(6.9, "m/s²", "SSL-A-Team: a wheel on carpet, 0.7 g"),
-    "beam_distance": Number(0.010, "m", "rSim: the ball within 10 mm of the plate"),
-    "beam_height": Number(0.0215, "m", "ours: through the middle of a ball on the floor"),
-    "recharge": Number(0.1, "s", "ER-Force's simulator asks for at least that"),
-    "kick_keeps": Number(0.35, "", "TIGERs: speed kept across the front in a redirect"),
-    "jerk": Number(0.0, "m/s³", "no limit; TIGERs estimate 20 of other teams' robots"),
-    "grip": Number(0.12, "N", "ours, by how TIGERs drive with the ball: 1.2 m/s² and 5 rad/s"),
-    "bar_force": Number(0.5, "N", "TIGERs: least force of their bar on the ball"),
-    "bar_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s at the bar's surface"),
+    "max_speed": Number(3.7, "m/s", SPECS),
+    "max_turn_rate": Number(26.2, "rad/s", SPECS),
+    "speed_up": Number(4.7, "m/s²", SPECS),
+    "brake": Number(5.9, "m/s²", SPECS),
+    "turn_speed_up": Number(50.8, "rad/s²", SPECS),
+    "turn_brake": Number(51.6, "rad/s²", SPECS),
+    "traction": Number(6.9, "m/s²", "SSL-A-Team: wheel on carpet, 0.7 g"),
+    "beam_distance": Number(0.010, "m", "rSim: ball within 10 mm of the kicker plate"),
+    "beam_height": Number(0.0215, "m", "own choice: height of a resting ball's centre"),
+    "recharge": Number(0.1, "s", "ER-Force's simulator: minimum"),
+    "kick_keeps": Number(0.35, "", "TIGERs: share of the tangential speed kept in a redirect"),
+    "jerk": Number(0.0, "m/s³", "no limit; TIGERs estimate 20 m/s³ for other teams' robots"),
+    "grip": Number(
+        0.12, "N", "own choice, fitted to the limits of TIGERs with the ball: 1.2 m/s² and 5 rad/s"
+    ),
+    "bar_force": Number(0.5, "N", "TIGERs: minimum force of the dribbler bar on the ball"),
+    "bar_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s surface speed of the bar"),
     "bar_restitution": Number(0.2, "", "ER-Force: ball on dribbler bar"),
-    "bar_friction": Number(1.5, "", "likewise"),
+    "bar_friction": Number(1.5, "", "ER-Force: ball on dribbler bar"),
     "restitution": Number(0.2, "", "TIGERs' simulator, robot on robot"),
-    "friction": Number(0.2, "", "none published for two robots; ER-Force's for ball on robot"),
+    "friction": Number(
+        0.2, "", "no published value for two robots; ER-Force's value for ball on robot"
+    ),
 }
 
-# What TIGERs' Sumatra says of driving: its estimate of other teams' robots (`botParamsDatabase`),
-# and how it drives with the ball (DragBallSkill, ProtectiveGetBallSkill).
+# From TIGERs' Sumatra: its jerk estimate for other teams' robots (`botParamsDatabase`) and its
+# limits for driving with the ball (DragBallSkill, ProtectiveGetBallSkill).
 JERK = 20.0  # m/s³
 WITH_BALL = 1.2  # m/s²
 TURN_WITH_BALL = 5.0  # rad/s
@@ -151,7 +157,7 @@ TURN_WITH_BALL = 5.0  # rad/s
 
 @dataclass(frozen=True)
 class VssRobot:
-    """A robot on two wheels. SI units."""
+    """Differential-drive robot in SI units."""
 
     source: str
     side: float
@@ -171,7 +177,7 @@ VSS_ROBOTS = {
         *(0.075, 0.15, 0.026, 0.0782, 440, 6.85, G, 0.075, 0.0725),
     ),
     "vss_650rpm": VssRobot(
-        "TraveSim, from CAD; Pololu 50:1 motors; field friction 0.6",
+        "TraveSim, from CAD; Pololu 50:1 motors; friction coefficient of the field 0.6",
         *(0.078, 0.18, 0.025, 0.071, 650, 0.6 * G, 0.6 * G, 0.062, 0.073),
     ),
 }
@@ -179,18 +185,18 @@ VSS_ROBOTS = {
 
 @dataclass(frozen=True)
 class Pitch:
-    """A field by its rules. Metres."""
+    """Field dimensions by the rules, m."""
 
     source: str
     numbers: dict[str, float] = field(default_factory=dict)
 
 
-def _pitch(source: str, *sizes: float, **more: float) -> Pitch:
+def _pitch(source: str, *sizes: float, **others: float) -> Pitch:
     names = ("length", "width", "goal_width", "goal_depth", "goal_height")
-    return Pitch(source, dict(zip(names, sizes, strict=True)) | more)
+    return Pitch(source, dict(zip(names, sizes, strict=True)) | others)
 
 
-# What both VSSS and all SSL fields share, by their rules.
+# Numbers that all SSL fields and both VSSS fields share, by their rules.
 _SSL = {"touch_line_margin": 0.3, "goal_wall": 0.02, "center_radius": 0.5, "line_width": 0.01}
 _VSS = {"corner": 0.07, "wall_height": 0.05, "penalty_mark": 0.375, "line_width": 0.003}
 FIELDS = {

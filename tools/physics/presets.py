@@ -1,11 +1,11 @@
-"""The presets as tables, and whether they carry the numbers that are cited."""
+"""Tables of the presets, and checks of the presets against the cited numbers."""
 
 from dataclasses import asdict
 from math import pi
 
 from rsoccer._core import BallModel, Field, RobotModel
 from tools.parts import table
-from tools.physics.check import Checks, Line, percent
+from tools.physics.check import Checks, Criterion, percent
 from tools.physics.cited import (
     BALLS,
     FIELDS,
@@ -18,12 +18,12 @@ from tools.physics.cited import (
 )
 
 TOPIC = "presets"
-CITED = Line(TOPIC, "number of a preset", "", percent(0.01), "cited")
-LIMITED = {"ssl_unknown"}  # has limits of its own
+CITED = Criterion(TOPIC, "preset number", "", percent(0.01), "cited source")
+LIMITED = {"ssl_unknown"}  # has its own limits
 
 
 def checks() -> Checks:
-    """Every number that is cited of a preset."""
+    """Yield one check per cited number of a preset."""
     for name, ball in BALLS.items():
         yield from _compared("ball", name, BallModel(name), _fields(ball))
     for name, robot in SSL_ROBOTS.items():
@@ -49,20 +49,20 @@ def _compared(kind: str, name: str, preset: object, cited: dict[str, float]) -> 
 
 
 def _numbers(model: object, *names: str) -> str:
-    """Numbers of a model, three digits, with slashes between them."""
+    """Return attributes of a model, four digits each, separated by slashes."""
     return " / ".join(f"{getattr(model, name):.4g}" for name in names)
 
 
 def field_table() -> str:
-    """Fields and where their numbers are from."""
+    """Return the table of fields with their sources."""
     header = (
         "field",
         "length / width (m)",
         "goal width / depth / height (m)",
-        "beyond goal / touch lines (m)",
-        "corner, walls' height (m)",
-        "robots a side, at most",
-        "from",
+        "margin behind goal / touch lines (m)",
+        "corner block, wall height (m)",
+        "maximum robots per team",
+        "source",
     )
     rows = []
     for name in Field.PRESETS:
@@ -82,24 +82,24 @@ def field_table() -> str:
 
 
 def ball_table() -> str:
-    """Balls and where their numbers are from."""
+    """Return the table of balls with their sources."""
     header = (
         "ball",
         "radius (mm)",
-        "slide / roll (m/s²)",
-        "rolls at",
-        "hop: first / later / up",
+        "sliding / rolling deceleration (m/s²)",
+        "rolling share",
+        "hop ratios: first / later / vertical",
         "robot: restitution / friction",
-        "wall",
-        "goal's back",
-        "from",
+        "wall: restitution / friction",
+        "goal back: restitution / friction",
+        "source",
     )
     rows = []
     for name in BallModel.PRESETS:
         ball = BallModel(name)
         surfaces = (
-            _numbers(ball, f"{what}_restitution", f"{what}_friction")
-            for what in ("robot", "wall", "goal_back")
+            _numbers(ball, f"{surface}_restitution", f"{surface}_friction")
+            for surface in ("robot", "wall", "goal_back")
         )
         rows.append(
             (
@@ -116,26 +116,26 @@ def ball_table() -> str:
 
 
 def ssl_table() -> str:
-    """SSL robots: what sets them apart."""
+    """Return the table of the numbers in which SSL robots differ."""
     header = (
         "robot",
-        "told",
+        "command",
         "radius / front / height (mm)",
         "mass (kg)",
-        "mouth (mm)",
-        "kick / chip (m/s)",
+        "mouth width (mm)",
+        "maximum kick / chip (m/s)",
         "top speed, turn rate (m/s, rad/s)",
-        "wheels (degrees)",
+        "wheel angles (degrees)",
     )
     rows = []
     for name in SSL_ROBOTS:
         robot = RobotModel(name)
-        told = "wheel speeds" if robot.drive == "omni_wheels" else "body velocity"
+        command = "wheel speeds" if robot.drive == "omni_wheels" else "body velocity"
         sizes = (1000 * size for size in (robot.radius, robot.front, robot.height))
         rows.append(
             (
                 f"`{name}`",
-                told,
+                command,
                 " / ".join(f"{size:.4g}" for size in sizes),
                 f"{robot.mass:.4g}",
                 f"{1000 * robot.mouth_width:.4g}",
@@ -148,26 +148,26 @@ def ssl_table() -> str:
 
 
 def shared_table() -> str:
-    """Numbers that SSL robots share, with their sources."""
+    """Return the table of the parameters that SSL robots share, with their sources."""
     robot = RobotModel("ssl_generic")
     rows = []
     for name, cited in SSL_SHARED.items():
         value = f"{getattr(robot, name):.4g} {cited.unit}".strip()
         rows.append((f"`{name}`", value, cited.source))
-    return table(("number", "value", "from"), rows)
+    return table(("parameter", "value", "source"), rows)
 
 
 def vss_table() -> str:
-    """VSSS robots and where their numbers are from."""
+    """Return the table of VSSS robots with their sources."""
     header = (
         "robot",
         "side / height (mm)",
         "mass (g)",
         "wheel radius / track (mm)",
         "top speed, turn rate (m/s, rad/s)",
-        "torque a wheel (N m)",
-        "grip forward / aside (m/s²)",
-        "from",
+        "torque per wheel (N m)",
+        "grip forward / sideways (m/s²)",
+        "source",
     )
     rows = []
     for name, cited in VSS_ROBOTS.items():

@@ -1,4 +1,4 @@
-"""Situations to measure: a start in one or more worlds, commands, and what comes of it."""
+"""Scenes to simulate: a start in one or more worlds, commands, and the resulting trajectory."""
 
 import numpy as np
 
@@ -6,12 +6,12 @@ from rsoccer import Frame, SimConfig, Simulator
 from rsoccer._core import BALL_COLUMNS, BALL_PARAMETERS, ROBOT_COLUMNS, ROBOT_PARAMETERS
 from rsoccer.frame import Array, BallColumns, Floats, RobotColumns
 
-TICK = 0.005
-STEP = 0.025
+TICK = 0.005  # s
+STEP = 0.025  # s
 
 
-class Track:
-    """What happened: rows (steps, worlds, row), one after each control step, by name."""
+class Trajectory:
+    """State rows after each control step, with named columns."""
 
     def __init__(self, rows: Floats, config: SimConfig) -> None:
         """Name the columns of `rows` (steps, worlds, row)."""
@@ -24,10 +24,13 @@ class Track:
 
 
 class Scene:
-    """A start in each of `worlds` worlds: all at rest at the centre and facing +x, until set."""
+    """Start state and commands of `worlds` worlds.
+
+    Initially everything is at rest at the centre, and robots face +x.
+    """
 
     def __init__(self, config: SimConfig, worlds: int = 1) -> None:
-        """Nothing is placed yet: set `ball` and `robots`, then play."""
+        """Allocate the start; set `ball`, `robots` and commands before `play`."""
         self.config = config
         self.start = Frame.empty(worlds, config.n_blue, config.n_yellow)
         self.ball, self.robots = self.start.ball, self.start.robots
@@ -36,60 +39,60 @@ class Scene:
         self.factors = np.ones((worlds, config.parameters_size), np.float32)
 
     def face(self, robot: int, degrees: float | Array) -> None:
-        """Turn a robot, in each world to its own heading or in all to the same."""
+        """Set a robot's heading (degrees), one for all worlds or one per world."""
         radians = np.radians(degrees)
         self.robots.heading[:, robot, 0] = np.cos(radians)
         self.robots.heading[:, robot, 1] = np.sin(radians)
 
-    def tell(self, robot: int, **command: float | Array) -> None:
-        """Command a robot, by names of columns; in each world its own or in all the same."""
+    def command(self, robot: int, **command: float | Array) -> None:
+        """Set a robot's command by column names, one value for all worlds or one per world."""
         for name, value in command.items():
             column = self.config.robots[robot].command_columns.index(name)
             self.commands[:, robot, column] = value
 
     def vary_ball(self, name: str, factor: float | Array) -> None:
-        """Multiply a number of the ball model in these worlds."""
+        """Scale a parameter of the ball model, one factor for all worlds or one per world."""
         self.factors[:, BALL_PARAMETERS.index(name)] = factor
 
     def vary_robot(self, robot: int, name: str, factor: float | Array) -> None:
-        """Multiply a number of a robot's model in these worlds."""
+        """Scale a parameter of a robot's model, one factor for all worlds or one per world."""
         robots = len(BALL_PARAMETERS) + robot * len(ROBOT_PARAMETERS)
         self.factors[:, robots + ROBOT_PARAMETERS.index(name)] = factor
 
     def begin(self) -> "Match":
-        """Matches at this start."""
+        """Return matches placed at this start."""
         return Match(self)
 
-    def play(self, seconds: float) -> Track:
-        """What comes of it."""
+    def play(self, seconds: float) -> Trajectory:
+        """Simulate some seconds from the start and return the trajectory."""
         return self.begin().run(seconds)
 
 
 class Match:
-    """A scene that is being played."""
+    """Running simulation of a scene."""
 
     def __init__(self, scene: Scene) -> None:
         """Place every world."""
         self.config = scene.config
         self.commands = scene.commands
-        self.frame = scene.start.copy()  # as it now reads
+        self.frame = scene.start.copy()  # current state
         worlds = len(scene.start)
         self.simulator = Simulator(scene.config, worlds)
         every = np.ones(worlds, np.bool_)
         varied = scene.factors if (scene.factors != 1.0).any() else None
         self.simulator.place(every, scene.start.rows, self.frame.rows, varied)
 
-    def run(self, seconds: float) -> Track:
-        """Play on with the commands as they are."""
+    def run(self, seconds: float) -> Trajectory:
+        """Simulate some seconds with the current commands."""
         steps = round(seconds / self.config.time_step)
         rows = np.empty((steps, *self.frame.rows.shape), np.float32)
         for row in rows:
             self.simulator.step(self.commands, row)
         self.frame.rows[:] = rows[-1]
-        return Track(rows, self.config)
+        return Trajectory(rows, self.config)
 
 
-def first(reached: Array) -> Array:
-    """Position of the first True along the first axis; -1 where there is none."""
-    positions: Array = np.where(reached.any(axis=0), reached.argmax(axis=0), -1)
+def first_true(mask: Array) -> Array:
+    """Return the index of the first True along the first axis; -1 where there is none."""
+    positions: Array = np.where(mask.any(axis=0), mask.argmax(axis=0), -1)
     return positions

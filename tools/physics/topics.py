@@ -1,42 +1,42 @@
-"""All that is checked, by topic."""
+"""All checks by topic."""
 
 from functools import cache
 
 from tools.physics import (
-    air,
-    bounces,
-    crashes,
-    differential,
+    ball_bounces,
+    ball_flight,
+    ball_rolling,
+    differential_drive,
     dribbler,
-    floor,
+    fast_shots,
     kicker,
-    mirror,
-    omni,
+    omni_drive,
     parameters,
-    placing,
+    placement,
     presets,
     pushing,
-    shots,
-    skids,
-    squeezes,
+    robot_collisions,
+    symmetry,
+    trapped_ball,
+    wheel_slip,
 )
 from tools.physics.check import Check
 
 MODULES = (
-    floor,
-    air,
-    bounces,
-    omni,
-    differential,
-    skids,
+    ball_rolling,
+    ball_flight,
+    ball_bounces,
+    omni_drive,
+    differential_drive,
+    wheel_slip,
     kicker,
     dribbler,
     pushing,
-    squeezes,
-    crashes,
-    shots,
-    mirror,
-    placing,
+    trapped_ball,
+    robot_collisions,
+    fast_shots,
+    symmetry,
+    placement,
     parameters,
     presets,
 )
@@ -45,5 +45,5 @@ TOPICS = {module.TOPIC: module.checks for module in MODULES}
 
 @cache
 def checks(topic: str) -> tuple[Check, ...]:
-    """What is measured of a topic; measured once."""
+    """Return the checks of a topic; the first call measures them."""
     return tuple(TOPICS[topic]())

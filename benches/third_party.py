@@ -1,4 +1,4 @@
-"""Others to be measured beside, where they are installed. Nothing else imports them."""
+"""Optional third-party simulators for comparison: rSim and VMAS. Only this module imports them."""
 
 import os
 import warnings
@@ -9,15 +9,15 @@ from importlib import import_module, metadata
 from types import ModuleType
 from typing import Final
 
-from benches.doors import drawn, held
-from benches.measuring import Measure, Values, repeated
+from benches.interfaces import held_actions, random_actions
+from benches.measuring import Measure, Values, world_steps_per_second
 
 PACKAGES: Final = {"robosim": "rc-robosim", "vmas": "vmas"}
 
 
 @cache
-def peer(module: str) -> ModuleType | None:
-    """A peer's module, or None where it cannot be imported."""
+def import_optional(module: str) -> ModuleType | None:
+    """Import a module by name; return None if that fails."""
     with silence(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -26,28 +26,28 @@ def peer(module: str) -> ModuleType | None:
             return None
 
 
-def named(module: str) -> str:
-    """A peer with its version."""
+def name_with_version(module: str) -> str:
+    """Return a module's name with the version of its package."""
     return f"{module} {metadata.version(PACKAGES[module])}"
 
 
 @contextmanager
 def silence() -> Iterator[None]:
-    """Let nothing be printed, by compiled code neither: the old simulator talks as it steps."""
-    kept = [(stream, os.dup(stream)) for stream in (1, 2)]
-    with open(os.devnull, "w") as nowhere:
-        for stream, _ in kept:
-            os.dup2(nowhere.fileno(), stream)
+    """Suppress output, also of compiled code: rSim prints while it steps."""
+    saved = [(stream, os.dup(stream)) for stream in (1, 2)]
+    with open(os.devnull, "w") as null:
+        for stream, _ in saved:
+            os.dup2(null.fileno(), stream)
     try:
         yield
     finally:
-        for stream, copy in kept:
+        for stream, copy in saved:
             os.dup2(copy, stream)
             os.close(copy)
 
 
 def silent(measure: Measure) -> Measure:
-    """The same without a word."""
+    """Return the same measure with its output suppressed."""
 
     def quietly(seconds: float) -> Values:
         with silence():
@@ -57,10 +57,13 @@ def silent(measure: Measure) -> Measure:
 
 
 def vmas_football(vmas: ModuleType, worlds: int, threads: int) -> Measure:
-    """Three a side, all six robots controlled. A step of it is 0.1 s."""
+    """Return a measure of VMAS' football, three a side with all six robots controlled.
+
+    A step of football is 0.1 s.
+    """
     import torch
 
-    # Of torch's threads there is one setting for all, and whoever was measured before has set it.
+    # The number of torch's threads is global, and an earlier measurement may have changed it.
     torch.set_num_threads(threads)
     with silence(), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -76,8 +79,8 @@ def vmas_football(vmas: ModuleType, worlds: int, threads: int) -> Measure:
             ai_red_agents=False,
         )
         env.reset()
-    arrays = [torch.from_numpy(array) for array in drawn((6, worlds, 2))]
-    step = repeated(held([list(array) for array in arrays], env.step), worlds)
+    arrays = [torch.from_numpy(array) for array in random_actions((6, worlds, 2))]
+    step = world_steps_per_second(held_actions([list(array) for array in arrays], env.step), worlds)
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(threads)

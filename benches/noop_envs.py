@@ -1,4 +1,4 @@
-"""Environments that do nothing but hand over zeros: none of their shape is faster."""
+"""No-op environments that return zeros: an upper bound of speed for an interface."""
 
 from typing import Any
 
@@ -12,34 +12,34 @@ Bools = dict[str, bool]
 Infos = dict[str, Any]
 
 
-class EmptyParallelEnv(ParallelEnv[str, Floats, Floats]):
-    """Nothing but the dictionaries that PettingZoo asks for."""
+class NoOpParallelEnv(ParallelEnv[str, Floats, Floats]):
+    """PettingZoo environment that returns zeros in dictionaries by agent."""
 
-    def __init__(self, like: ParallelEnv[str, Floats, Floats]) -> None:
-        """Have the agents and spaces of another env."""
-        self.possible_agents = like.possible_agents
-        self._like = like
-        self._shape = like.observation_space(like.possible_agents[0]).shape or ()
+    def __init__(self, template: ParallelEnv[str, Floats, Floats]) -> None:
+        """Copy agents and spaces of another environment."""
+        self.possible_agents = template.possible_agents
+        self._template = template
+        self._shape = template.observation_space(template.possible_agents[0]).shape or ()
 
     def observation_space(self, agent: str) -> gymnasium.Space[Any]:
-        """The other env's."""
-        return self._like.observation_space(agent)
+        """Return the space of the other environment."""
+        return self._template.observation_space(agent)
 
     def action_space(self, agent: str) -> gymnasium.Space[Any]:
-        """The other env's."""
-        return self._like.action_space(agent)
+        """Return the space of the other environment."""
+        return self._template.action_space(agent)
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Floats], Infos]:
-        """Zeros."""
+        """Return zeros."""
         self.agents = list(self.possible_agents)
         return self._zeros(), {agent: {} for agent in self.agents}
 
     def step(
         self, actions: dict[str, Floats]
     ) -> tuple[dict[str, Floats], dict[str, float], Bools, Bools, Infos]:
-        """Zeros."""
+        """Return zeros."""
         agents = self.agents
         return (
             self._zeros(),
@@ -53,20 +53,23 @@ class EmptyParallelEnv(ParallelEnv[str, Floats, Floats]):
         return {agent: np.zeros(self._shape, np.float32) for agent in self.agents}
 
 
-class EmptyEnv(gymnasium.Env[Floats, Any]):
-    """Nothing but what Gymnasium asks for."""
+class NoOpEnv(gymnasium.Env[Floats, Any]):
+    """Gymnasium environment that returns zeros."""
 
-    def __init__(self, like: gymnasium.Env[Floats, Any]) -> None:
-        """Have the spaces of another env."""
-        self.observation_space, self.action_space = like.observation_space, like.action_space
-        self._shape = like.observation_space.shape or ()
+    def __init__(self, template: gymnasium.Env[Floats, Any]) -> None:
+        """Copy the spaces of another environment."""
+        self.observation_space, self.action_space = (
+            template.observation_space,
+            template.action_space,
+        )
+        self._shape = template.observation_space.shape or ()
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Floats, Infos]:
-        """Zeros."""
+        """Return zeros."""
         return np.zeros(self._shape, np.float32), {}
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, Infos]:
-        """Zeros."""
+        """Return zeros."""
         return np.zeros(self._shape, np.float32), 0.0, False, False, {}

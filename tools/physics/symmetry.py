@@ -1,4 +1,4 @@
-"""Turn a start half round, or reflect it: its future turns or reflects with it."""
+"""Symmetry: a rotated or mirrored start leads to the rotated or mirrored trajectory."""
 
 from dataclasses import dataclass
 
@@ -7,26 +7,27 @@ import numpy as np
 from rsoccer import SimConfig
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
 from rsoccer.frame import Floats
-from tools.physics.check import EXACT, Checks, Line, within
+from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.scene import Scene
 
-TOPIC = "mirror"
-FREE = Line(TOPIC, "largest difference without contact", "m, m/s", EXACT, "symmetry")
-CONTACT = Line(TOPIC, "largest difference through one contact", "m, m/s", within(1e-4), "symmetry")
-CAME_BACK = Line(TOPIC, "that contact sent the ball back", "of 1", EXACT, "it met a robot")
+TOPIC = "symmetry"
+UNIT = "m, m/s"
+FREE = Criterion(TOPIC, "without contact: largest difference", UNIT, EXACT, "symmetry")
+CONTACT = Criterion(TOPIC, "with one contact: largest difference", UNIT, absolute(1e-4), "symmetry")
+CAME_BACK = Criterion(TOPIC, "with one contact: ball rebounds", "of 1", EXACT, "hits a robot")
 
 
 @dataclass(frozen=True)
 class Symmetry:
-    """Which columns it flips, and whether it swaps the teams."""
+    """Transformation of states and commands: sign flips of columns, and a swap of the teams."""
 
     name: str
-    ball: frozenset[str]
-    robot: frozenset[str]
+    ball: frozenset[str]  # ball columns that change sign
+    robot: frozenset[str]  # robot columns that change sign
     swaps_teams: bool
 
     def rows(self, rows: Floats, config: SimConfig) -> Floats:
-        """The image of rows (..., row)."""
+        """Return the image of state rows (..., row)."""
         split = len(BALL_COLUMNS)
         robots = rows[..., split:].reshape(*rows.shape[:-1], config.n_robots, len(ROBOT_COLUMNS))
         robots = robots * np.array([-1.0 if c in self.robot else 1.0 for c in ROBOT_COLUMNS])
@@ -40,7 +41,7 @@ class Symmetry:
         return np.ascontiguousarray(image, np.float32)
 
     def commands(self, commands: Floats, config: SimConfig) -> Floats:
-        """The image of commands (worlds, robots, command)."""
+        """Return the image of commands (worlds, robots, command)."""
         if self.swaps_teams:
             return np.roll(commands, config.n_blue, axis=1)
         if config.command_columns == ("left", "right"):
@@ -49,7 +50,8 @@ class Symmetry:
         return commands * np.array(signs, np.float32)
 
 
-# Spin is an axial vector: a half turn about z flips x and y, a reflection what lies in its plane.
+# Spin is an axial vector: a half turn about z flips its x and y components, a reflection the
+# components within the mirror plane.
 HALF_TURN = Symmetry(
     "half turn",
     frozenset({"x", "y", "v_x", "v_y", "spin_x", "spin_y", "crossed_x", "crossed_y"}),
@@ -65,7 +67,7 @@ REFLECTION = Symmetry(
 
 
 def checks() -> Checks:
-    """Every line of the acceptance about symmetry."""
+    """Yield all checks of symmetry."""
     free = (_drive_vss(), _drive_ssl(), _chip())
     for name, scene in zip(("VSSS drive", "SSL drive", "flight"), free, strict=True):
         for symmetry in (HALF_TURN, REFLECTION):
@@ -77,20 +79,20 @@ def checks() -> Checks:
 
 
 def difference(symmetry: Symmetry, scene: Scene, seconds: float) -> float:
-    """Largest difference between the image of what happens and what happens to the image."""
+    """Return the largest difference between the trajectory's image and the image's trajectory."""
     image = Scene(scene.config, len(scene.start))
     image.start.rows[:] = symmetry.rows(scene.start.rows, scene.config)
     image.commands[:] = symmetry.commands(scene.commands, scene.config)
     expected = symmetry.rows(scene.play(seconds).rows, scene.config)
     apart = abs(expected - image.play(seconds).rows)
-    # Spin as speed of the rim, so that all columns are of one size.
+    # Spin is compared as surface speed, so that all columns have similar magnitudes.
     spin = BALL_COLUMNS.index("spin_x")
     apart[..., spin : spin + 3] *= scene.config.ball.radius
     return float(apart.max())
 
 
 def _posed(field: str, poses: list[tuple[float, float, float]]) -> Scene:
-    """Half of the robots blue, at x and y (m), facing (degrees)."""
+    """Return robots at poses (m, m, degrees); the first half of them is blue."""
     scene = Scene(SimConfig(field, len(poses) // 2, len(poses) // 2))
     for index, (x, y, degrees) in enumerate(poses):
         scene.robots.position[:, index] = (x, y)
@@ -102,7 +104,7 @@ def _drive_vss() -> Scene:
     poses = [(-0.5, 0.1, 10.0), (-0.4, -0.4, 80.0), (0.5, 0.2, 200.0), (0.4, -0.3, 120.0)]
     scene = _posed("vss_3v3", poses)
     scene.commands[0] = [(20, 17), (5, -5), (9, 9.5), (3, 2)]
-    _roll(scene)
+    _set_rolling_ball(scene)
     return scene
 
 
@@ -110,11 +112,11 @@ def _drive_ssl() -> Scene:
     poses = [(-2.5, 0.1, 10.0), (-2.0, -2.0, 80.0), (2.5, 0.2, 200.0), (2.0, -1.0, 120.0)]
     scene = _posed("ssl_b", poses)
     scene.commands[0, :, :3] = [(1, 0.5, 2), (-0.5, 0.2, 0), (0.3, -0.8, -3), (3.7, 3.7, 9)]
-    _roll(scene)
+    _set_rolling_ball(scene)
     return scene
 
 
-def _roll(scene: Scene) -> None:
+def _set_rolling_ball(scene: Scene) -> None:
     scene.ball.position[:], scene.ball.velocity[:] = (0.05, 0.1), (-0.4, 0.3)
     scene.ball.spin[:, 2] = 3.0
 
@@ -127,7 +129,7 @@ def _chip() -> Scene:
 
 
 def _contact(field: str, speed: float) -> Scene:
-    """The ball comes at a robot that stands a little aslant."""
+    """Return a ball that rolls at a slightly turned robot."""
     scene = _posed(field, [(-0.3, 0.02, 5.0), (0.6, 0.0, 180.0)])
     scene.ball.velocity[:, 0] = -speed
     return scene
