@@ -3,7 +3,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.markers import Area, Gate, Target, Segment
+from rsoccer.markers import Area, Gate, Segment, Target
 from rsoccer.render.overlay import marker_shapes, task_overlay
 from rsoccer.tasks.courses import COURSES, Course
 

@@ -76,7 +76,9 @@ def test_after_a_failed_step_nothing_goes_on_until_it_is_mended(what: str) -> No
         matches.state_dict,
     ]
     for call in calls:
-        with pytest.raises(RuntimeError, match=rf"step 8 failed with Broken: {what} fails; call reset"):
+        with pytest.raises(
+            RuntimeError, match=rf"step 8 failed with Broken: {what} fails; call reset"
+        ):
             call()
     matches.load_state_dict(kept)
     control, _ = fragile()
