@@ -95,3 +95,20 @@ def test_noise_does_not_depend_on_the_batch(name: str) -> None:
     batch = run(policy, 9, 30, seed=5)
     for i in (0, 4, 8):
         assert same(batch[:, i : i + 1], run(policy, 1, 30, seed=5 + i))
+
+
+@pytest.mark.parametrize("name", rsoccer.list_tasks())
+def test_each_policy_plays_each_task_that_accepts_it(name: str) -> None:
+    played = []
+    for policy in policies.names():
+        try:
+            matches = rsoccer.Matches(name, 2, controllers={"all": policy})
+        except ValueError as error:
+            assert policy in str(error)
+            continue
+        matches.reset()
+        for _ in range(5):
+            matches.step(np.zeros((2, 0, matches.action_size), np.float32))
+        assert np.isfinite(matches.play.actions).all()
+        played.append(policy)
+    assert {"zero", "ou", "uniform"} < set(played)

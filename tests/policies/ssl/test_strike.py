@@ -2,7 +2,14 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
-from rsoccer.tasks import SslContestedPossession, SslSelfPlay, SslStaticDefenders
+from rsoccer.task import Task
+from rsoccer.tasks import (
+    SslContestedPossession,
+    SslGoToBall,
+    SslPassEndurance,
+    SslSelfPlay,
+    SslStaticDefenders,
+)
 from tests.policies.ssl.ssl_policies import (
     expect_independent_worlds,
     expect_view_needed,
@@ -44,6 +51,16 @@ def test_worlds_are_independent(
     task: SslStaticDefenders | SslContestedPossession | SslSelfPlay,
 ) -> None:
     expect_independent_worlds("strike", task, 120)
+
+
+@pytest.mark.parametrize("task", [SslGoToBall(), SslPassEndurance(), SslSelfPlay(n_yellow=0)])
+def test_it_plays_without_opponents(task: Task) -> None:
+    matches = Matches(task, 4, 0, controllers={"all": "strike"})
+    matches.reset()
+    start = matches.frame.robots.position.copy()
+    for _ in range(40):
+        matches.step(np.zeros((4, 0, 5), np.float32))
+    assert np.abs(matches.frame.robots.position - start).max() > 0.1
 
 
 def test_it_needs_a_view() -> None:

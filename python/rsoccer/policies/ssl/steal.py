@@ -34,7 +34,7 @@ def opponent_has_ball(view: View) -> Mask:
     Args:
         view: view of the robots.
     """
-    held: Mask = view.opponents.infrared.max(axis=-1) > 0.5
+    held: Mask = np.any(view.opponents.infrared > 0.5, axis=-1)  # False without opponents
     return held
 
 
