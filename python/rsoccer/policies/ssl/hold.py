@@ -26,7 +26,7 @@ class Hold(Policy):
             task: a task of robots with a dribbler.
         """
         super().__init__(task)
-        require_dribbler("hold", task)
+        require_dribbler(type(self).__name__.lower(), task)
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions (n, robots, 5): no motion, no kick, dribbler on."""
