@@ -28,7 +28,7 @@ impl Match {
         let scene = lanes(config, ahead, pairs);
         let mut world = scene.world();
         // Without contacts a match would go without the solver.
-        world.never_skip();
+        world.disable_contact_free_ticks();
         let commands = scene.commands(&scene.start, 0, 0);
         for _ in 0..SETTLING {
             world.step(&commands).expect("the state stays finite");

@@ -70,7 +70,7 @@ fn between_discs(row: &[f32]) -> Vec<f32> {
 /// How deep two square robots that push head on are in each other.
 fn between_two(row: &[f32]) -> Vec<f32> {
     let [a, b] = [0, 1].map(|index| robots(row).nth(index).expect("two robots")[0]);
-    vec![2.0 * RobotModel::VSS_440RPM.front() - (b - a)]
+    vec![2.0 * RobotModel::VSS_440RPM.front_distance() - (b - a)]
 }
 
 fn head_on(config: SimConfig) -> Scene {

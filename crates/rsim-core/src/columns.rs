@@ -43,8 +43,8 @@ pub const ROBOT_COLUMNS: [&str; 11] = [
     "v_theta",
     "infrared",
     "touched_ball",
-    "touched_foe",
-    "crash_speed",
+    "touched_opponent",
+    "collision_speed",
 ];
 
 /// What a differential robot is told: wheel speeds, rad/s, positive is forward.
@@ -90,6 +90,12 @@ pub const BALL_PARAMETERS: [&str; 8] = [
 /// in every direction (omnidirectional), or along the axle (differential).
 pub const ROBOT_PARAMETERS: [&str; 7] =
     ["mass", "height", "acceleration", "speed", "traction", "kick", "grip"];
+
+/// Maximum speed of a body in a start row, m/s. Kicks reach 14 m/s with the robot's own speed.
+pub const MAX_PLACED_SPEED: f32 = 20.0;
+
+/// Bound on commanded velocities before any limit of the robot, m/s: its square is still finite.
+pub(crate) const MAX_COMMAND: f32 = 1e9;
 
 /// Meaning of a value of the ball's `crossed` column.
 ///

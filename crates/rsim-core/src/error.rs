@@ -1,6 +1,6 @@
 //! Everything that can be wrong, in one place; the binding maps these to Python exceptions.
 
-use crate::placement::FASTEST;
+use crate::columns::MAX_PLACED_SPEED;
 
 /// A configuration that no match can be played with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,6 +54,14 @@ pub enum ConfigError {
         /// What came.
         got: usize,
     },
+    /// A field whose name belongs to no league, so that an argument has no default.
+    #[error("{needed_for} must be given for a field of no known league, got field {field:?}")]
+    UnknownLeague {
+        /// The argument without a default.
+        needed_for: &'static str,
+        /// Name of the field.
+        field: String,
+    },
     /// The operating system refused to start threads.
     #[error("could not start {threads} threads: {reason}")]
     Threads {
@@ -104,7 +112,7 @@ pub enum PlaceError {
         who: String,
     },
     /// A body that is faster than anything in the game, and than what contacts are looked for.
-    #[error("{who} moves at {speed:.1} m/s; at most {FASTEST} m/s can be placed")]
+    #[error("{who} moves at {speed:.1} m/s; at most {MAX_PLACED_SPEED} m/s can be placed")]
     TooFast {
         /// Which body.
         who: String,

@@ -15,6 +15,7 @@ mod happened;
 mod input;
 mod jerk;
 mod kickers;
+mod layers;
 mod mirror;
 mod mouth;
 mod omni;
@@ -25,6 +26,7 @@ mod shots;
 mod soak;
 mod spinning;
 mod squeeze;
+mod stub;
 mod trains;
 mod tyres;
 

@@ -4,7 +4,7 @@
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
-use rsim_core::{BallModel, SimConfig, Surface};
+use rsim_core::{BallModel, SimConfig};
 
 /// A floor that does nothing, so that only the bounce changes the ball.
 fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
@@ -19,10 +19,11 @@ fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
 
 /// What Coulomb's law makes of a ball that hits a wall: speeds back and along it, and the spin about
 /// the vertical axis (rad/s), from its speeds towards and along it.
-fn coulomb(surface: Surface, radius: f32, towards: f32, along: f32) -> (f32, f32, f32) {
+fn coulomb(ball: &BallModel, towards: f32, along: f32) -> (f32, f32, f32) {
     // A solid sphere stops slipping when friction has taken 2/7 of the slip.
-    let taken = (surface.friction * (1.0 + surface.restitution) * towards).min(2.0 / 7.0 * along);
-    (surface.restitution * towards, along - taken, 2.5 * taken / radius)
+    let taken =
+        (ball.wall_friction * (1.0 + ball.wall_restitution) * towards).min(2.0 / 7.0 * along);
+    (ball.wall_restitution * towards, along - taken, 2.5 * taken / ball.radius)
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn a_wall_gives_back_its_restitution_at_every_speed() {
                 let config = SimConfig { tick, ..slippery(&ball, 0) };
                 let row = lone_ball(config, [0.1, 3.1], [0.0, speed]).after(20);
                 let back = -row[ball_column("v_y")] / speed;
-                let expected = ball.wall.restitution;
+                let expected = ball.wall_restitution;
                 assert!((back - expected).abs() < 0.01, "{} {speed} m/s: {back}", ball.name);
             }
         }
@@ -48,7 +49,7 @@ fn steep_and_grazing_bounces_obey_coulomb() {
             let (towards, along) = (speed * towards, speed * along);
             let scene = lone_ball(slippery(&ball, 0), [-2.0, 3.1], [along, towards]);
             let row = scene.after(20);
-            let (back, left, spin) = coulomb(ball.wall, ball.radius, towards, along);
+            let (back, left, spin) = coulomb(&ball, towards, along);
             for (what, got, expected) in [
                 ("back", -row[ball_column("v_y")], back),
                 ("along", row[ball_column("v_x")], left),
@@ -100,7 +101,7 @@ fn a_robot_gives_back_its_restitution_at_front_and_side() {
                 let model = &scene.config.blue[0];
                 let given = ball.mass * (ball_speed + speed) / model.mass;
                 let back = (ball_speed + given) / speed;
-                let expected = ball.robot.restitution;
+                let expected = ball.robot_restitution;
                 assert!(
                     (back - expected).abs() < 0.01,
                     "{} {speed} m/s at {degrees}: {back}, not {expected}",
@@ -123,7 +124,7 @@ fn a_wall_takes_spin_from_a_rolling_ball_by_the_same_law() {
         scene.config.ball.sliding_deceleration = 0.0;
         scene.set_ball_column("spin_x", -speed / ball.radius);
         let row = scene.after(8);
-        let taken = 2.5 * ball.wall.friction * (1.0 + ball.wall.restitution);
+        let taken = 2.5 * ball.wall_friction * (1.0 + ball.wall_restitution);
         let expected = -speed / ball.radius * (1.0 - taken.min(5.0 / 7.0));
         let got = row[ball_column("spin_x")];
         assert!((got / expected - 1.0).abs() < 0.05, "{}: {got}, not {expected}", ball.name);

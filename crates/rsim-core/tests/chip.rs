@@ -64,12 +64,16 @@ fn hops_shrink_by_the_presets_ratios() {
         let hops = hops(&flight(chip(&ball, 6.5, 45.0), 4.0));
         assert!(hops.len() >= 3, "{}: {hops:?}", ball.name);
         for (nth, pair) in hops.windows(2).enumerate() {
-            let along = if nth == 0 { ball.hop.first } else { ball.hop.later };
+            let along = if nth == 0 { ball.first_hop_factor } else { ball.later_hop_factor };
             let [[before, _, v_before], [after, _, v_after]] = [pair[0], pair[1]];
             assert!((v_after / v_before - along).abs() < 0.01, "{} along: {pair:?}", ball.name);
             if after > 0.02 {
                 let up = (after / before).sqrt();
-                assert!((up - ball.hop.up).abs() < 0.02, "{} up: {pair:?}", ball.name);
+                assert!(
+                    (up - ball.vertical_restitution).abs() < 0.02,
+                    "{} up: {pair:?}",
+                    ball.name
+                );
             }
         }
     }

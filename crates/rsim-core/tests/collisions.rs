@@ -11,7 +11,7 @@ fn face_to_face(model: &RobotModel, tick: f32, speed: f32, gap: f32, told: f32) 
     let config = SimConfig::vss(1, 1);
     let team = vec![model.clone()];
     let config = SimConfig { tick, blue: team.clone(), yellow: team, ..config };
-    let away = model.front() + gap / 2.0;
+    let away = model.front_distance() + gap / 2.0;
     let poses = [[-away, 0.0, 0.0], [away, 0.0, 180.0]];
     let driver = Driver::Constant(vec![vec![told; 2]; 2]);
     let mut scene = Scene::at("face_to_face", config, &poses, driver);
@@ -98,13 +98,14 @@ fn crash(config: SimConfig, nth: u64) -> Scene {
 
 /// Plays crashes and counts those in which robots met.
 fn check_crashes(config: &SimConfig, check: impl Fn(&Scene, &[Vec<f32>], &str)) {
-    let (mut met, crash_speed) = (0, robot_column("crash_speed"));
+    let (mut met, collision_speed) = (0, robot_column("collision_speed"));
     for nth in 0..200 {
         let tick = TICKS[usize::from(nth % 2 == 1)];
         let scene = crash(SimConfig { tick, ..config.clone() }, nth);
         let rows = scene.every_tick(0.3);
-        met +=
-            usize::from(rows.iter().any(|row| robots(row).any(|robot| robot[crash_speed] > 0.3)));
+        met += usize::from(
+            rows.iter().any(|row| robots(row).any(|robot| robot[collision_speed] > 0.3)),
+        );
         check(&scene, &rows, &format!("{} {nth}", scene.config.blue[0].name));
     }
     assert!(met > 120, "only {met} met");
@@ -133,11 +134,11 @@ fn robots_told_to_stand_gained_energy_after_a_crash() {
 #[test]
 fn the_load_of_a_crash_came_again_in_the_next_tick() {
     // Whom nobody touches and who is told to stand only slows down.
-    let touched_foe = robot_column("touched_foe");
+    let touched_opponent = robot_column("touched_opponent");
     for config in both_leagues() {
         check_crashes(&config, |_, rows, label| {
             for (tick, pair) in rows.windows(2).enumerate() {
-                if robots(&pair[1]).any(|robot| robot[touched_foe] > 0.0) {
+                if robots(&pair[1]).any(|robot| robot[touched_opponent] > 0.0) {
                     continue;
                 }
                 for (before, after) in robots(&pair[0]).zip(robots(&pair[1])) {

@@ -29,13 +29,13 @@ impl Corner {
         let diagonal = std::f32::consts::FRAC_1_SQRT_2;
         let (field, clear) = (&config.field, 0.002);
         // The ball lies at both walls, or at the middle of the block in the corner.
-        let inset = if field.corner > 0.0 {
-            field.corner / 2.0 + (radius + clear) * diagonal
+        let inset = if field.corner_leg > 0.0 {
+            field.corner_leg / 2.0 + (radius + clear) * diagonal
         } else {
             radius + clear
         };
         let end = field.half_length() + field.goal_line_margin;
-        let ball = [end - inset, field.reach_y() - inset];
+        let ball = [end - inset, field.max_y() - inset];
         let length = 2.0 * behind(&model) + 0.01;
         let [x, y] = self.signs;
         let turned = if matches!(model.body, Body::Round { .. }) { TURNED } else { 0.0 };
@@ -85,7 +85,7 @@ impl Corner {
 fn behind(model: &RobotModel) -> f32 {
     match model.body {
         Body::Round { radius, .. } => radius,
-        Body::Square { side } => side / 2.0,
+        Body::Square { side_length: side } => side / 2.0,
     }
 }
 

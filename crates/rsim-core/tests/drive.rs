@@ -52,7 +52,8 @@ fn unequal_wheels_drive_the_arc_of_the_closed_form() {
         let scene = lone_robot([left, right]);
         scene.play(&mut scene.world(), 60)
     };
-    let radius = wheels(&RobotModel::VSS_440RPM).track / 2.0 * (right + left) / (right - left);
+    let radius =
+        wheels(&RobotModel::VSS_440RPM).track_width / 2.0 * (right + left) / (right - left);
     // The curvature, from three positions of the steady part.
     let at = |step: usize| {
         let size = SimConfig::vss(1, 0).row_size();
@@ -72,7 +73,7 @@ fn wheels_that_differ_by_2_percent_drive_the_arc_of_the_closed_form() {
     let mut scene = lone_robot([left, right]);
     scene.set_robot_column(0, "x", -0.65);
     let drive = wheels(&RobotModel::VSS_440RPM);
-    let radius = drive.track / 2.0 * (right + left) / (right - left); // 3.95 m
+    let radius = drive.track_width / 2.0 * (right + left) / (right - left); // 3.95 m
     let [early, late] = [8, 88].map(|steps| after(&scene, steps));
     // On a circle the chord between two places bends by half the angle between their headings.
     let chord = (late[0] - early[0]).hypot(late[1] - early[1]);
@@ -99,7 +100,7 @@ fn the_faster_preset_responds_as_its_numbers_say() {
     let top = drive.wheel_radius * drive.max_wheel_speed; // 1.7 m/s, after 0.289 s
     close(preset(full, 11)[4], 0.6 * 9.81 * 0.275, 0.01);
     close(preset(full, 13)[4], top, 1e-3);
-    close(preset([-20.0, 20.0], 20)[6], 2.0 * 20.0 * drive.wheel_radius / drive.track, 0.05);
+    close(preset([-20.0, 20.0], 20)[6], 2.0 * 20.0 * drive.wheel_radius / drive.track_width, 0.05);
 }
 
 #[test]

@@ -18,7 +18,7 @@ struct RollOut {
 
 /// The closed form, written as a textbook does: two uniformly decelerated parts.
 fn closed_form(ball: &BallModel, kick: f32) -> RollOut {
-    let rolls = ball.rolling_share * kick;
+    let rolls = ball.slide_to_roll_ratio * kick;
     let slide_way = (kick * kick - rolls * rolls) / (2.0 * ball.sliding_deceleration);
     let speed_at = |way: f32| {
         let square = if way < slide_way {

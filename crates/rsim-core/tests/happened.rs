@@ -41,14 +41,17 @@ fn a_crash_is_as_fast_as_the_robots_came_together() {
     scene.set_ball([0.0, -2.0], [0.0, 0.0]);
     let (rows, _) = scene.play(&mut scene.world(), 60);
     let rows: Vec<&[f32]> = rows.chunks_exact(scene.config.row_size()).collect();
-    let worst =
-        |robot: usize| rows.iter().map(|row| column(row, robot, "crash_speed")).fold(0.0, f32::max);
-    let touched_foe =
-        |robot: usize| rows.iter().any(|row| column(row, robot, "touched_foe") == 1.0);
+    let worst = |robot: usize| {
+        rows.iter().map(|row| column(row, robot, "collision_speed")).fold(0.0, f32::max)
+    };
+    let touched_opponent =
+        |robot: usize| rows.iter().any(|row| column(row, robot, "touched_opponent") == 1.0);
     assert!((worst(0) - 3.0).abs() < 0.1, "2 and 1 m/s: {}", worst(0));
     assert_eq!(worst(0), worst(3));
-    assert!((worst(1) - 1.0).abs() < 0.05, "1 m/s into a mate: {}", worst(1));
-    assert!(touched_foe(0) && touched_foe(3) && !touched_foe(1) && !touched_foe(2));
+    assert!((worst(1) - 1.0).abs() < 0.05, "1 m/s into a teammate: {}", worst(1));
+    assert!(
+        touched_opponent(0) && touched_opponent(3) && !touched_opponent(1) && !touched_opponent(2)
+    );
 }
 
 #[test]

@@ -25,9 +25,14 @@ fn configurations_are_checked_by_name() {
     assert!(message(&SimConfig::ssl(3, 12)).contains("n_yellow must be at most 11"));
     assert!(spoilt(&|config| config.yellow[1].mass = -1.0).contains("robot.mass"));
     assert!(spoilt(&|config| config.field.goal_width = 2.0).contains("field.goal_width"));
-    assert!(spoilt(&|config| config.field.goal_wall = 0.02).contains("field.goal_wall"));
-    assert!(spoilt(&|config| config.ball.wall.restitution = 1.2).contains("wall_restitution"));
-    assert!(spoilt(&|config| config.ball.rolling_share = 1.0).contains("rolling_share"));
+    assert!(
+        spoilt(&|config| config.field.goal_wall_thickness = 0.02)
+            .contains("field.goal_wall_thickness")
+    );
+    assert!(spoilt(&|config| config.ball.wall_restitution = 1.2).contains("wall_restitution"));
+    assert!(
+        spoilt(&|config| config.ball.slide_to_roll_ratio = 1.0).contains("slide_to_roll_ratio")
+    );
 }
 
 #[test]

@@ -8,7 +8,7 @@ const TICKS: [f32; 2] = [0.005, 0.0025];
 fn with_jerk(jerk: f32) -> RobotModel {
     let model = RobotModel::SSL_GENERIC;
     let Drive::Omni(drive) = model.drive else { panic!("{} has other wheels", model.name) };
-    RobotModel { drive: Drive::Omni(OmniDrive { jerk, ..drive }), ..model }
+    RobotModel { drive: Drive::Omni(OmniDrive { max_jerk: jerk, ..drive }), ..model }
 }
 
 /// A robot alone, told to drive with a velocity.
@@ -84,7 +84,7 @@ fn without_a_limit_acceleration_starts_at_once() {
     for tick in TICKS {
         let got = velocities(&driven(0.0, tick, [2.0, 0.0]), 0.5);
         for (nth, [x, y]) in got.iter().enumerate() {
-            let expected = (drive.speed_up * tick * nth as f32).min(2.0);
+            let expected = (drive.max_acceleration * tick * nth as f32).min(2.0);
             assert!((x - expected).abs() < 1e-4 && y.abs() < 1e-5, "{nth}: {x}, {expected}");
         }
     }

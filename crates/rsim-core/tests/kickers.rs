@@ -7,7 +7,7 @@ use rsim_core::{Body, RobotModel, SimConfig};
 /// A robot so small that two have the ball in their mouths from nearly one direction.
 fn small() -> RobotModel {
     let model = RobotModel::SSL_GENERIC;
-    RobotModel { body: Body::Round { radius: 0.03, front: 0.028 }, ..model }
+    RobotModel { body: Body::Round { radius: 0.03, front_distance: 0.028 }, ..model }
 }
 
 fn heading(degrees: f32) -> [f32; 2] {
@@ -22,7 +22,7 @@ fn kicked(model: &RobotModel, middle: f32, degrees: f32, speeds: [f32; 2]) -> [f
     (config.blue, config.yellow) = (vec![model.clone()], vec![model.clone()]);
     config.time_step = config.tick;
     let told = speeds.map(|speed| vec![0.0, 0.0, 0.0, speed, 0.0, 0.0]).to_vec();
-    let away = model.front() + config.ball.radius + 1e-3;
+    let away = model.front_distance() + config.ball.radius + 1e-3;
     let half = degrees / 2.0;
     let (sin, cos) = half.to_radians().sin_cos();
     // Beside each other as far as they must be, which takes the ball from the middle of the mouth.

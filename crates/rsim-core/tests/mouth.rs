@@ -20,7 +20,7 @@ fn robot(row: &[f32], index: usize) -> &[f32] {
 fn gap(scene: &Scene, row: &[f32], index: usize) -> f32 {
     let (model, robot) = (&scene.config.blue[0], robot(row, index));
     let (x, y) = (row[0] - robot[0], row[1] - robot[1]);
-    x * robot[2] + y * robot[3] - model.front() - scene.config.ball.radius
+    x * robot[2] + y * robot[3] - model.front_distance() - scene.config.ball.radius
 }
 
 /// Whether the beam sees the ball after each step.
@@ -39,7 +39,7 @@ fn a_kick_has_the_speed_that_it_was_told_in_the_robots_direction() {
             scene.config.time_step = scene.config.tick;
             scene.set_robot_column(0, "cos", cos);
             scene.set_robot_column(0, "sin", sin);
-            let away = scene.config.blue[0].front() + scene.config.ball.radius;
+            let away = scene.config.blue[0].front_distance() + scene.config.ball.radius;
             scene.set_ball([away * cos, away * sin], [0.0, 0.0]);
             let row = scene.after(1);
             let (v_x, v_y) = (row[ball_column("v_x")], row[ball_column("v_y")]);
@@ -82,7 +82,7 @@ fn a_kicker_that_is_not_charged_waits() {
     let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);
     scene.config.time_step = scene.config.tick;
     let (recharge, tick) =
-        (scene.config.blue[0].mouth.expect("a mouth").recharge, scene.config.tick);
+        (scene.config.blue[0].mouth.expect("a mouth").kicker_recharge_time, scene.config.tick);
     scene.set_robot_column(0, "x", 4.52);
     scene.set_ball([4.52 + 0.0715 + 0.0215, 0.0], [0.0, 0.0]);
     let (rows, _) = scene.play(&mut scene.world(), 120);
@@ -188,7 +188,7 @@ fn holding_the_ball_does_not_slow_the_robot() {
 
 #[test]
 fn a_ball_that_nobody_holds_is_pulled_away() {
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
     let told = vec![vec![0.0; 6], dribbling([-0.3, 0.0, 0.0])];
     let mut scene = Scene::at("pull", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
@@ -200,7 +200,7 @@ fn a_ball_that_nobody_holds_is_pulled_away() {
 #[test]
 fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
     // It comes from the side and drives through where the ball is.
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     for speed in [0.5, 1.0, 2.0] {
         let poses = [[0.0, 0.0, 0.0], [front, 0.17, -90.0]];
         let told = vec![dribbling([0.0; 3]), dribbling([speed, 0.0, 0.0])];
@@ -214,7 +214,7 @@ fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
 #[test]
 fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
     // Nose to nose, both dribbling; the thief turns away with the ball between its bar and theirs.
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
     let told = vec![dribbling([0.0; 3]), dribbling([-0.5, 0.0, 0.0])];
     let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
@@ -251,7 +251,7 @@ fn a_robot_that_brakes_with_all_it_has_loses_the_ball_that_it_dribbles() {
 
 #[test]
 fn two_that_kick_one_ball_at_once_stop_each_other() {
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[-front, 0.0, 0.0], [front, 0.0, 180.0]];
     let told = vec![vec![0.0, 0.0, 0.0, 6.0, 0.0, 0.0]; 2];
     let mut scene = Scene::at("both", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
@@ -278,7 +278,7 @@ fn a_chip_too_weak_to_fly_is_a_flat_kick() {
 #[test]
 fn a_kick_at_a_robot_right_before_it_does_not_get_into_it() {
     for (speed, gap) in [(8.0, 0.021), (10.0, 0.024), (6.0, 0.01)] {
-        let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+        let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
         let poses = [[0.0, 0.0, 0.0], [front + 0.0215 + gap + 0.09, 0.0, 0.0]];
         let told = vec![vec![0.0, 0.0, 0.0, speed, 0.0, 0.0], vec![0.0; 6]];
         let mut scene = Scene::at("wall", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));

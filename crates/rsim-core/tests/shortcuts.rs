@@ -32,7 +32,7 @@ fn difference(a: &[f32], b: &[f32]) -> f32 {
 /// Steps a world into `row`, and a copy of it that never goes without the solver; how they differ.
 fn step_both(world: &mut World, commands: &[f32], row: &mut [f32]) -> f32 {
     let (mut solved, mut other) = (world.clone(), row.to_vec());
-    solved.never_skip();
+    solved.disable_contact_free_ticks();
     solved.step(commands).expect("finite");
     world.step(commands).expect("finite");
     solved.write_row(&mut other);
@@ -61,7 +61,7 @@ fn a_tick_with_the_solver_is_a_tick_without_but_for_rounding() {
             .filter(|(_, error)| *error > ROUNDING)
             .collect();
         assert!(differing.len() <= CORNERS, "{}: {differing:?}", scene.name);
-        let skipped = world.skipped_ticks();
+        let skipped = world.contact_free_ticks();
         assert!((10..1990).contains(&skipped), "{}: {skipped} ticks skipped", scene.name);
     }
 }
@@ -100,7 +100,7 @@ fn a_fast_ball_grazes_with_and_without_the_solver() {
 fn a_whole_scene_without_contacts_is_the_same_but_for_rounding() {
     let scene = scenes::lone_omni(&[1.0, 0.4, 3.0]);
     let mut solved = scene.world();
-    solved.never_skip();
+    solved.disable_contact_free_ticks();
     let (rows, contacts) = scene.play(&mut scene.world(), 80);
     let (other, _) = scene.play(&mut solved, 80);
     assert_eq!(contacts, 0);

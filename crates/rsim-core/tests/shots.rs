@@ -160,10 +160,10 @@ fn an_oblique_shot_comes_off_a_round_robot_as_coulomb_says() {
         let (closing, along) = (-speed * normal[0], speed * tangent[0]);
         let (ball, robot) = (&config.ball, &config.blue[0]);
         let yields = 1.0 / (1.0 / ball.mass + 1.0 / robot.mass);
-        let pressing = (1.0 + ball.robot.restitution) * closing * yields;
+        let pressing = (1.0 + ball.robot_restitution) * closing * yields;
         let inertia = robot.mass * 0.09 * 0.09 / 2.0;
         let slip = 3.5 / ball.mass + 1.0 / robot.mass + 0.09 * 0.09 / inertia;
-        let friction = (along.abs() / slip).min(ball.robot.friction * pressing);
+        let friction = (along.abs() / slip).min(ball.robot_friction * pressing);
         let back = -closing + pressing / ball.mass;
         let left = along - friction.copysign(along) / ball.mass;
         let expected = [0, 1].map(|axis| normal[axis] * back + tangent[axis] * left);

@@ -29,8 +29,8 @@ fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
 /// Radius of the circle that the body always fills, however it turns.
 fn inner(model: &RobotModel) -> f32 {
     match model.body {
-        Body::Square { side } => side / 2.0,
-        Body::Round { front, .. } => front,
+        Body::Square { side_length: side } => side / 2.0,
+        Body::Round { front_distance, .. } => front_distance,
     }
 }
 

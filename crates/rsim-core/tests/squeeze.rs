@@ -31,7 +31,7 @@ impl Outcome {
 fn reach(model: &RobotModel, back: bool) -> f32 {
     match model.body {
         Body::Round { radius, .. } if back => radius,
-        _ => model.front(),
+        _ => model.front_distance(),
     }
 }
 
@@ -78,7 +78,7 @@ impl Press {
     }
 
     fn wall(&self, field: &Field) -> f32 {
-        if self.end { field.half_length() + field.goal_line_margin } else { field.reach_y() }
+        if self.end { field.half_length() + field.goal_line_margin } else { field.max_y() }
     }
 
     fn outcome(&self, config: &SimConfig) -> Outcome {

@@ -10,14 +10,14 @@ const BOUNCE: f32 = 0.25;
 
 /// From a robot's centre to its back.
 fn behind(model: &RobotModel) -> f32 {
-    if model.mouth.is_some() { model.bounding_radius() } else { model.front() }
+    if model.mouth.is_some() { model.bounding_radius() } else { model.front_distance() }
 }
 
 /// Robots nose to tail that drive at a wall, `clear` before the first.
 fn train(config: &SimConfig, speed: f32, [gap, clear]: [f32; 2]) -> Scene {
     let model = &config.blue[0];
     let half = behind(model);
-    let first = config.field.reach_y() - half - clear;
+    let first = config.field.max_y() - half - clear;
     let place = |nth: usize| [0.3, first - (2.0 * half + gap) * nth as f32, 90.0];
     let poses: Vec<_> = (0..config.blue.len()).map(place).collect();
     let told = driving(model, 90.0, [0.0, speed]);
@@ -81,10 +81,10 @@ fn check_chains(clear: f32) {
 
 fn check_chain(config: &SimConfig, speed: f32, [clear, gap]: [f32; 2]) {
     let (model, radius) = (config.blue[0].clone(), config.ball.radius);
-    let first = config.field.reach_y() - behind(&model) - clear;
+    let first = config.field.max_y() - behind(&model) - clear;
     // The first shows the ball its front; the other comes with its own.
-    let ball = first - model.front() - radius - 1e-3;
-    let last = ball - radius - model.front() - gap;
+    let ball = first - model.front_distance() - radius - 1e-3;
+    let last = ball - radius - model.front_distance() - gap;
     let told = vec![vec![], driving(&model, 90.0, [0.0, speed])];
     let poses = [[0.1, first, 270.0], [0.1, last, 90.0]];
     let mut scene = Scene::at("chain", config.clone(), &poses, Driver::Constant(told));
@@ -94,7 +94,7 @@ fn check_chain(config: &SimConfig, speed: f32, [clear, gap]: [f32; 2]) {
     for row in scene.every_tick(0.3) {
         let all: Vec<&[f32]> = robots(&row).collect();
         let inside = deepest_ball(config, &row);
-        let into_wall = all[0][1] + behind(&model) - config.field.reach_y();
+        let into_wall = all[0][1] + behind(&model) - config.field.max_y();
         let back = -all[1][5] / speed;
         assert!(inside < 3e-3, "{label}: the ball is {inside} m in a robot");
         assert!(into_wall < 2e-3, "{label}: a robot is {into_wall} m in the wall");

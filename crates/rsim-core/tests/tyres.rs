@@ -43,9 +43,15 @@ fn motions(scene: &Scene, seconds: f32) -> Vec<[f32; 3]> {
 /// The law itself, in steps of 10 microseconds: each tyre is pulled against its slip.
 fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f64) -> [f64; 3] {
     const STEP: f64 = 1e-5;
-    let DifferentialDrive { wheel_radius, track, max_wheel_speed, forward_grip, side_grip, .. } =
-        drive(model);
-    let half_track = f64::from(track) / 2.0;
+    let DifferentialDrive {
+        wheel_radius,
+        track_width,
+        max_wheel_speed,
+        longitudinal_grip,
+        lateral_grip,
+        ..
+    } = drive(model);
+    let half_track = f64::from(track_width) / 2.0;
     let Some(side) = side(model) else { panic!("{} is not square", model.name) };
     // What a force at a wheel does to the turn rate, by what it does to the speed.
     let lever = half_track * 6.0 / (side * side);
@@ -56,7 +62,8 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
         let pulls = [(-1.0, rims[0]), (1.0, rims[1])].map(|(sign, rim)| {
             let along = ahead + sign * spin * half_track - rim;
             let slip = along.hypot(aside).max(1e-4);
-            let [forward, sideways] = [forward_grip, side_grip].map(|grip| f64::from(grip) / 2.0);
+            let [forward, sideways] =
+                [longitudinal_grip, lateral_grip].map(|grip| f64::from(grip) / 2.0);
             (-forward * along / slip, -sideways * aside / slip)
         });
         let [(left_pull, a), (right_pull, b)] = pulls;
@@ -71,7 +78,7 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
 }
 
 fn side(model: &RobotModel) -> Option<f64> {
-    let rsim_core::Body::Square { side } = model.body else { return None };
+    let rsim_core::Body::Square { side_length: side } = model.body else { return None };
     Some(f64::from(side))
 }
 

@@ -2,7 +2,7 @@
 
 use super::uniform;
 use crate::columns::{OMNI_COLUMNS, ROBOT_COLUMNS};
-use crate::{Drive, RobotModel};
+use crate::models::robot::{Drive, RobotModel};
 
 /// How the robots of a scene are driven.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,7 +2,8 @@
 
 use super::{Scene, robots, steps};
 use crate::columns::{ball_column, robot_column};
-use crate::{Body, RobotModel, SimConfig};
+use crate::models::config::SimConfig;
+use crate::models::robot::{Body, RobotModel};
 
 /// From the outline of a robot to the surface of a ball on the floor, m; negative inside.
 ///
@@ -12,8 +13,8 @@ pub fn ball_gap(model: &RobotModel, robot: &[f32], center: [f32; 2], radius: f32
     let (ahead, aside) = (x * robot[2] + y * robot[3], (y * robot[2] - x * robot[3]).abs());
     let outside = |x: f32, y: f32| if x > 0.0 && y > 0.0 { x.hypot(y) } else { x.max(y) };
     let gap = match model.body {
-        Body::Square { side } => outside(ahead.abs() - side / 2.0, aside - side / 2.0),
-        Body::Round { radius, front } => {
+        Body::Square { side_length: side } => outside(ahead.abs() - side / 2.0, aside - side / 2.0),
+        Body::Round { radius, front_distance: front } => {
             let half = (radius * radius - front * front).sqrt();
             // Before the flat front nearest is the front or its corner; elsewhere the arc is.
             if ahead * half > aside * front {
@@ -36,7 +37,7 @@ pub fn robot_depth(a: (&RobotModel, &[f32]), b: (&RobotModel, &[f32])) -> f32 {
         (Body::Round { radius, .. }, Body::Round { radius: other, .. }) => {
             radius + other - (a.1[0] - b.1[0]).hypot(a.1[1] - b.1[1])
         }
-        (Body::Square { side }, Body::Square { side: other }) => {
+        (Body::Square { side_length: side }, Body::Square { side_length: other }) => {
             // The least overlap over the directions of both bodies' sides.
             let directions =
                 [a, b].into_iter().flat_map(|(_, at)| [[at[2], at[3]], [-at[3], at[2]]]);

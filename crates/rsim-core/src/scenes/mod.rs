@@ -5,7 +5,9 @@ mod measures;
 mod setup;
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
-use crate::{Batch, SimConfig, World};
+use crate::models::config::SimConfig;
+use crate::world::World;
+use crate::world::batch::Batch;
 
 pub use driver::{Driver, driving};
 pub use measures::{ball_gap, deepest_ball, deepest_robots, kinetic_energy, robot_depth};
@@ -83,7 +85,7 @@ pub fn lone_omni(command: &[f32]) -> Scene {
 /// An SSL robot at the centre, facing +x, with the ball at rest at its front.
 pub fn ball_in_mouth(command: &[f32]) -> Scene {
     let mut scene = Scene { name: "ball_in_mouth", ..lone_omni(command) };
-    let touching = scene.config.blue[0].front() + scene.config.ball.radius;
+    let touching = scene.config.blue[0].front_distance() + scene.config.ball.radius;
     scene.set_ball([touching, 0.0], [0.0, 0.0]);
     scene
 }

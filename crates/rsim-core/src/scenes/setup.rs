@@ -1,7 +1,7 @@
 //! Starts of scenes beyond robots at given poses.
 
 use super::{Scene, robots_mut, uniform};
-use crate::RobotModel;
+use crate::models::robot::RobotModel;
 
 impl Scene {
     /// Sets the velocity of a robot, in the field's frame.

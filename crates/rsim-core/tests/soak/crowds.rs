@@ -90,23 +90,24 @@ fn robots_that_spin_at_each_other_and_the_ball_stay_sound() {
 #[test]
 fn a_flying_ball_in_every_corner_is_as_solid_as_on_the_floor() {
     for config in [SimConfig::ssl(4, 0), SimConfig::vss(4, 0)] {
-        let vss = config.field.corner > 0.0;
+        let vss = config.field.corner_leg > 0.0;
         play("flying ball in a corner", [0.2, 0.5, 3.0], [0.3, 1.0, 3.0], |episode| {
             let sign = |odd: u64| if odd % 2 == 0 { 1.0_f32 } else { -1.0 };
             let (end, side) = (sign(episode), sign(episode / 2));
-            let inset = config.ball.radius + if vss { config.field.corner / 2.0 } else { 0.0 };
+            let inset = config.ball.radius + if vss { config.field.corner_leg / 2.0 } else { 0.0 };
             let out = |inset: f32| {
-                [end * (config.field.reach_x() - inset), side * (config.field.reach_y() - inset)]
+                [end * (config.field.max_x() - inset), side * (config.field.max_y() - inset)]
             };
-            let (reach_x, step) = if vss {
+            let (max_x, step) = if vss {
                 (config.field.half_length(), 0.062)
             } else {
-                (config.field.reach_x(), 0.135)
+                (config.field.max_x(), 0.135)
             };
-            let corner = [end * (reach_x - inset - 0.005), out(inset + 0.005)[1]];
+            let corner = [end * (max_x - inset - 0.005), out(inset + 0.005)[1]];
             let heading = side.atan2(end).to_degrees();
             let back = |nth: usize| {
-                let away = config.blue[0].front() * 0.75 + config.ball.radius + step * nth as f32;
+                let away =
+                    config.blue[0].front_distance() * 0.75 + config.ball.radius + step * nth as f32;
                 [corner[0] - end * away, corner[1] - side * away, heading]
             };
             let told = if vss { vec![46.0, 46.0] } else { vec![2.0, 0.0, 0.0, 0.0, 0.0, 0.0] };

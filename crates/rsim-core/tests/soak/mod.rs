@@ -48,7 +48,7 @@ fn fault(config: &SimConfig, row: &[f32], apart: &mut [u32], moments: u32) -> Op
     let field = &config.field;
     let bodies = std::iter::once(row).chain(robots(row));
     for (who, at) in bodies.enumerate() {
-        if at[0].abs() > field.reach_x() || at[1].abs() > field.reach_y() {
+        if at[0].abs() > field.max_x() || at[1].abs() > field.max_y() {
             return Some(format!("body {who} left the arena, to {:?}", &at[..2]));
         }
     }

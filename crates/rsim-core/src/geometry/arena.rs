@@ -1,0 +1,194 @@
+//! The solid parts of a field: walls, goals, corner blocks, and the fence that ends the world.
+
+use crate::math::{Pose, Vector};
+
+use crate::geometry::outline::{Outline, PlacedOutline};
+use crate::models::ball::BallModel;
+use crate::models::ball::Surface;
+use crate::models::field::Field;
+
+/// A fixed block that stands on the floor, or a bar above it.
+#[derive(Debug, Clone)]
+pub(crate) struct Wall {
+    pub(crate) pose: Pose,
+    /// Half sides, m.
+    pub(crate) half: Vector,
+    /// Heights between which it is, m.
+    pub(crate) bottom: f32,
+    pub(crate) top: f32,
+    part: Part,
+}
+
+/// What a wall is part of: it decides how the ball comes off it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Wall,
+    GoalBack,
+}
+
+impl Wall {
+    pub(crate) fn outline(&self) -> Outline {
+        Outline::Box { half: self.half }
+    }
+
+    /// Its outline, where it stands.
+    pub(crate) fn placed(&self) -> PlacedOutline {
+        let (position, heading) = (self.pose.translation, self.pose.rotation);
+        PlacedOutline { outline: self.outline(), position, heading }
+    }
+
+    /// Whether a ball on the floor can meet it.
+    pub(crate) fn stands_on_floor(&self) -> bool {
+        self.bottom == 0.0
+    }
+
+    /// How a ball comes off it.
+    pub(crate) fn surface(&self, ball: &BallModel) -> Surface {
+        match self.part {
+            Part::Wall => ball.wall_surface(),
+            Part::GoalBack => ball.goal_back_surface(),
+        }
+    }
+}
+
+/// How far walls reach outward. More than anything travels in a tick, so that nothing that is
+/// pushed into a wall comes out of its far side.
+const THICKNESS: f32 = 0.3;
+
+/// Higher than anything flies.
+const SKY: f32 = f32::INFINITY;
+
+/// The walls of a field. Rectangles only: the cheapest shape after the disc, and all that the
+/// fields need.
+pub(crate) fn walls(field: &Field) -> Vec<Wall> {
+    let mut walls = Vec::new();
+    for side in [1.0, -1.0] {
+        walls.push(side_wall(field, side));
+        for end in [1.0, -1.0] {
+            walls.push(goal_side(field, end, side));
+            if field.corner_leg > 0.0 {
+                walls.push(corner_block(field, end, side));
+            }
+        }
+    }
+    for end in [1.0, -1.0] {
+        walls.push(goal_back(field, end));
+        if field.goal_wall_thickness > 0.0 {
+            walls.push(end_wall(field, end));
+            walls.push(goal_bar(field, end));
+        }
+    }
+    if field.wall_height > 0.0 {
+        walls.extend(fence(field));
+    }
+    walls
+}
+
+/// Whatever the walls around the field end in.
+fn wall_top(field: &Field) -> f32 {
+    if field.wall_height > 0.0 { field.wall_height } else { SKY }
+}
+
+/// Where the walls around the field end outward.
+fn outer(field: &Field) -> Vector {
+    Vector::new(field.max_x(), field.max_y()) + Vector::splat(THICKNESS)
+}
+
+fn side_wall(field: &Field, side: f32) -> Wall {
+    let outer = outer(field);
+    between([-outer.x, side * field.max_y()], [outer.x, side * outer.y], wall_top(field))
+}
+
+/// The wall behind a goal that stands free.
+fn end_wall(field: &Field, end: f32) -> Wall {
+    let (inner, outer) = (field.max_x(), outer(field));
+    between([end * inner, -outer.y], [end * outer.x, outer.y], wall_top(field))
+}
+
+/// What is beside a goal's mouth: the table's end wall, or the goal's own side, which reaches back
+/// to the wall behind it.
+fn goal_side(field: &Field, end: f32, side: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let near = [end * field.half_length(), side * mouth];
+    if field.goal_wall_thickness > 0.0 {
+        let far = [end * field.max_x(), side * (mouth + field.goal_wall_thickness)];
+        between(near, far, field.goal_height + field.goal_wall_thickness)
+    } else {
+        between(near, [end * outer(field).x, side * field.half_width()], wall_top(field))
+    }
+}
+
+fn goal_back(field: &Field, end: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let (back, top) = (field.half_length() + field.goal_depth, wall_top(field));
+    let (far, top) = if field.goal_wall_thickness > 0.0 {
+        (field.max_x(), field.goal_height + field.goal_wall_thickness)
+    } else {
+        (outer(field).x, top)
+    };
+    let wall = between([end * back, -mouth], [end * far, mouth], top);
+    Wall { part: Part::GoalBack, ..wall }
+}
+
+/// The bar above a goal's mouth, and the net that covers the goal, as one plate.
+fn goal_bar(field: &Field, end: f32) -> Wall {
+    let mouth = field.goal_width / 2.0;
+    let near = [end * field.half_length(), -mouth];
+    let far = [end * (field.half_length() + field.goal_depth), mouth];
+    let wall = between(near, far, field.goal_height + field.goal_wall_thickness);
+    Wall { bottom: field.goal_height, ..wall }
+}
+
+/// Around walls that can be flown over: nothing gets farther.
+fn fence(field: &Field) -> [Wall; 4] {
+    let inner = outer(field);
+    let outer = inner + Vector::splat(THICKNESS);
+    [
+        between([-outer.x, inner.y], [outer.x, outer.y], SKY),
+        between([-outer.x, -outer.y], [outer.x, -inner.y], SKY),
+        between([inner.x, -outer.y], [outer.x, outer.y], SKY),
+        between([-outer.x, -outer.y], [-inner.x, outer.y], SKY),
+    ]
+    // It stands on the walls: who is on the floor never meets it.
+    .map(|wall| Wall { bottom: field.wall_height, ..wall })
+}
+
+/// The axis-aligned block with these opposite corners.
+fn between(a: [f32; 2], b: [f32; 2], top: f32) -> Wall {
+    let (a, b) = (Vector::from(a), Vector::from(b));
+    Wall {
+        pose: Pose::from_translation((a + b) / 2.0),
+        half: (b - a).abs() / 2.0,
+        bottom: 0.0,
+        top,
+        part: Part::Wall,
+    }
+}
+
+/// A rectangle turned by 45 degrees, whose inner face cuts the corner off.
+fn corner_block(field: &Field, end: f32, side: f32) -> Wall {
+    let face = field.corner_leg * std::f32::consts::SQRT_2;
+    let inset = field.corner_leg / 2.0;
+    let corner = Vector::new(field.half_length() + field.goal_line_margin, field.max_y());
+    let middle = corner - Vector::splat(inset);
+    let outward = Vector::splat(std::f32::consts::FRAC_1_SQRT_2);
+    // As deep as the corner is far from the face: it ends inside the walls.
+    let half_depth = face / 2.0;
+    let center = middle + outward * half_depth;
+    Wall {
+        pose: Pose::new(
+            Vector::new(end * center.x, side * center.y),
+            end * side * std::f32::consts::FRAC_PI_4,
+        ),
+        half: Vector::new(half_depth, face / 2.0),
+        bottom: 0.0,
+        top: wall_top(field),
+        part: Part::Wall,
+    }
+}
+
+/// How far from the centre a body at height `z` can be: over a low wall it can be beyond it.
+pub(crate) fn position_limit(field: &Field, z: f32) -> Vector {
+    let walls = Vector::new(field.max_x(), field.max_y());
+    if z < wall_top(field) { walls } else { walls + Vector::splat(THICKNESS) }
+}
