@@ -1,4 +1,4 @@
-//! What nobody can play with is refused, by name, and changes nothing.
+//! Invalid input is refused with the name of the argument, and changes nothing.
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
@@ -36,7 +36,7 @@ fn configurations_are_checked_by_name() {
 }
 
 #[test]
-fn ticks_too_long_to_be_true_were_taken() {
+fn ticks_too_long_to_be_accurate_were_accepted() {
     for (tick, time_step) in [(0.006, 0.024), (0.01, 0.02), (0.0125, 0.025), (0.025, 0.025)] {
         for config in [SimConfig::vss(1, 1), SimConfig::ssl(1, 1)] {
             let error = message(&SimConfig { tick, time_step, ..config });
@@ -130,7 +130,7 @@ fn impossible_starts_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn an_impossible_start_in_one_world_leaves_all_worlds() {
+fn an_impossible_start_in_one_world_changes_no_world() {
     let scene = scenes::random_play();
     let (mut batch, mut rows) = scene.batch(3, 1);
     let before = rows.clone();

@@ -1,4 +1,4 @@
-//! The solid parts of a field: walls, goals, corner blocks, and the fence that ends the world.
+//! Solid parts of a field: walls, goals, corner blocks, and an outer fence.
 
 use crate::math::{Pose, Vector};
 
@@ -13,13 +13,13 @@ pub(crate) struct Wall {
     pub(crate) pose: Pose,
     /// Half sides, m.
     pub(crate) half: Vector,
-    /// Heights between which it is, m.
+    /// Heights of the lower and the upper edge, m.
     pub(crate) bottom: f32,
     pub(crate) top: f32,
     part: Part,
 }
 
-/// What a wall is part of: it decides how the ball comes off it.
+/// Kind of a wall, which decides the ball's contact coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
     Wall,
@@ -31,18 +31,18 @@ impl Wall {
         Outline::Box { half: self.half }
     }
 
-    /// Its outline, where it stands.
+    /// The outline at its place.
     pub(crate) fn placed(&self) -> PlacedOutline {
         let (position, heading) = (self.pose.translation, self.pose.rotation);
         PlacedOutline { outline: self.outline(), position, heading }
     }
 
-    /// Whether a ball on the floor can meet it.
+    /// Whether a ball on the floor can touch the wall.
     pub(crate) fn stands_on_floor(&self) -> bool {
         self.bottom == 0.0
     }
 
-    /// How a ball comes off it.
+    /// Contact coefficients of the ball against the wall.
     pub(crate) fn surface(&self, ball: &BallModel) -> Surface {
         match self.part {
             Part::Wall => ball.wall_surface(),
@@ -51,15 +51,14 @@ impl Wall {
     }
 }
 
-/// How far walls reach outward. More than anything travels in a tick, so that nothing that is
-/// pushed into a wall comes out of its far side.
+/// Thickness of the outer walls, m: more than the maximum motion in a tick, so that a body pushed into a
+/// wall does not come out on the far side.
 const THICKNESS: f32 = 0.3;
 
-/// Higher than anything flies.
+/// Upper edge of a wall that no ball can fly over.
 const SKY: f32 = f32::INFINITY;
 
-/// The walls of a field. Rectangles only: the cheapest shape after the disc, and all that the
-/// fields need.
+/// The walls of a field. All are rectangles, the cheapest shape after the disc.
 pub(crate) fn walls(field: &Field) -> Vec<Wall> {
     let mut walls = Vec::new();
     for side in [1.0, -1.0] {
@@ -84,12 +83,12 @@ pub(crate) fn walls(field: &Field) -> Vec<Wall> {
     walls
 }
 
-/// Whatever the walls around the field end in.
+/// Height of the upper edge of the outer walls, m.
 fn wall_top(field: &Field) -> f32 {
     if field.wall_height > 0.0 { field.wall_height } else { SKY }
 }
 
-/// Where the walls around the field end outward.
+/// Outer corner of the outer walls, m.
 fn outer(field: &Field) -> Vector {
     Vector::new(field.max_x(), field.max_y()) + Vector::splat(THICKNESS)
 }
@@ -99,14 +98,14 @@ fn side_wall(field: &Field, side: f32) -> Wall {
     between([-outer.x, side * field.max_y()], [outer.x, side * outer.y], wall_top(field))
 }
 
-/// The wall behind a goal that stands free.
+/// The wall behind a free-standing goal.
 fn end_wall(field: &Field, end: f32) -> Wall {
     let (inner, outer) = (field.max_x(), outer(field));
     between([end * inner, -outer.y], [end * outer.x, outer.y], wall_top(field))
 }
 
-/// What is beside a goal's mouth: the table's end wall, or the goal's own side, which reaches back
-/// to the wall behind it.
+/// The wall beside a goal's opening: the table's end wall, or the goal's own side, up to the wall behind
+/// the goal.
 fn goal_side(field: &Field, end: f32, side: f32) -> Wall {
     let mouth = field.goal_width / 2.0;
     let near = [end * field.half_length(), side * mouth];
@@ -130,7 +129,7 @@ fn goal_back(field: &Field, end: f32) -> Wall {
     Wall { part: Part::GoalBack, ..wall }
 }
 
-/// The bar above a goal's mouth, and the net that covers the goal, as one plate.
+/// The crossbar of a goal and the net above it, as one plate.
 fn goal_bar(field: &Field, end: f32) -> Wall {
     let mouth = field.goal_width / 2.0;
     let near = [end * field.half_length(), -mouth];
@@ -139,7 +138,7 @@ fn goal_bar(field: &Field, end: f32) -> Wall {
     Wall { bottom: field.goal_height, ..wall }
 }
 
-/// Around walls that can be flown over: nothing gets farther.
+/// The fence around walls that a ball can fly over.
 fn fence(field: &Field) -> [Wall; 4] {
     let inner = outer(field);
     let outer = inner + Vector::splat(THICKNESS);
@@ -149,7 +148,7 @@ fn fence(field: &Field) -> [Wall; 4] {
         between([inner.x, -outer.y], [outer.x, outer.y], SKY),
         between([-outer.x, -outer.y], [-inner.x, outer.y], SKY),
     ]
-    // It stands on the walls: who is on the floor never meets it.
+    // The fence stands on the walls: bodies on the floor never touch it.
     .map(|wall| Wall { bottom: field.wall_height, ..wall })
 }
 
@@ -165,14 +164,14 @@ fn between(a: [f32; 2], b: [f32; 2], top: f32) -> Wall {
     }
 }
 
-/// A rectangle turned by 45 degrees, whose inner face cuts the corner off.
+/// A rectangle rotated by 45 degrees, whose inner face cuts off the corner.
 fn corner_block(field: &Field, end: f32, side: f32) -> Wall {
     let face = field.corner_leg * std::f32::consts::SQRT_2;
     let inset = field.corner_leg / 2.0;
     let corner = Vector::new(field.half_length() + field.goal_line_margin, field.max_y());
     let middle = corner - Vector::splat(inset);
     let outward = Vector::splat(std::f32::consts::FRAC_1_SQRT_2);
-    // As deep as the corner is far from the face: it ends inside the walls.
+    // Its depth is the distance from the face to the corner, so it ends inside the walls.
     let half_depth = face / 2.0;
     let center = middle + outward * half_depth;
     Wall {
@@ -187,7 +186,8 @@ fn corner_block(field: &Field, end: f32, side: f32) -> Wall {
     }
 }
 
-/// How far from the centre a body at height `z` can be: over a low wall it can be beyond it.
+/// Maximum distance of a body at height `z` from the centre, m; above a low wall it can be beyond the
+/// wall.
 pub(crate) fn position_limit(field: &Field, z: f32) -> Vector {
     let walls = Vector::new(field.max_x(), field.max_y());
     if z < wall_top(field) { walls } else { walls + Vector::splat(THICKNESS) }

@@ -1,4 +1,4 @@
-//! Outlines seen from above: how far a point is from one, and in which direction.
+//! Outlines from above: distance and direction to a point, and distance of two outlines.
 
 use crate::math::{Rotation, Vector};
 use serde::{Deserialize, Serialize};
@@ -8,20 +8,20 @@ use crate::models::robot::Body;
 /// A convex outline, around the origin of its own frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Outline {
-    /// A rectangle with these half sides.
+    /// A rectangle with these half sides, m.
     Box { half: Vector },
-    /// A disc cut off at `front` along x, so that its flat front is twice `half_flat` wide.
+    /// A disc cut off at `front` along x, with a flat front of width 2 `half_flat`, m.
     CutDisc { radius: f32, front: f32, half_flat: f32 },
-    /// The ball, and round robots among themselves.
+    /// A disc: the ball, and round robots among themselves.
     Disc { radius: f32 },
 }
 
 /// The point of an outline that is nearest to another point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NearestPoint {
-    /// m; negative when the other point is inside.
+    /// Distance of the two points, m; negative inside the outline.
     pub(crate) distance: f32,
-    /// From the outline outward, a unit vector.
+    /// Unit vector from the outline outward.
     pub(crate) normal: Vector,
 }
 
@@ -36,7 +36,7 @@ impl Outline {
         }
     }
 
-    /// From the origin to the farthest point that moves the outline when it turns, m.
+    /// Distance from the origin to the farthest point that moves in a rotation, m; 0 for a disc.
     pub(crate) fn turning_radius(&self) -> f32 {
         match *self {
             Self::Box { half } => half.length(),
@@ -45,7 +45,7 @@ impl Outline {
         }
     }
 
-    /// Nearest to `point`, in the outline's own frame.
+    /// The point nearest to `point`, in the outline's own frame.
     pub(crate) fn nearest(&self, point: Vector) -> NearestPoint {
         match *self {
             Self::Box { half } => nearest_of_box(half, point),
@@ -60,8 +60,7 @@ impl Outline {
         }
     }
 
-    /// Nearest to `point` of the field, for an outline that stands at `position` and faces
-    /// `heading`.
+    /// The point nearest to `point` of the field, for an outline at `position` with `heading`.
     pub(crate) fn nearest_at(
         &self,
         position: Vector,
@@ -73,7 +72,7 @@ impl Outline {
     }
 }
 
-/// An outline at a place.
+/// An outline with position and heading.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlacedOutline {
     pub(crate) outline: Outline,
@@ -82,8 +81,8 @@ pub(crate) struct PlacedOutline {
 }
 
 impl PlacedOutline {
-    /// Distance to another, m, or less: of two that are no discs it is the widest strip between
-    /// them along one of their sides. Not positive if they touch.
+    /// Lower bound of the distance to another outline, m: exact if one is a disc, otherwise the widest
+    /// strip between the two along one of their sides. Not positive if they touch.
     pub(crate) fn gap(&self, other: &Self) -> f32 {
         match (self.outline, other.outline) {
             (Outline::Disc { radius }, _) => other.nearest(self.position).distance - radius,
@@ -104,7 +103,7 @@ impl PlacedOutline {
         strip(side).max(strip(side.perp()))
     }
 
-    /// From the middle to the farthest point in a direction; the cut of a disc is not seen.
+    /// Distance from the middle to the farthest point in a direction, m; a flat front is ignored.
     fn extent(&self, direction: Vector) -> f32 {
         match self.outline {
             Outline::Box { half } => half.dot((self.heading.inverse() * direction).abs()),
@@ -133,7 +132,7 @@ fn nearest_of_cut_disc(radius: f32, front: f32, half_flat: f32, point: Vector) -
     let to_flat = point.x - front;
     let faces_arc = point.x * radius <= from_center * front;
     if to_arc <= 0.0 && to_flat <= 0.0 {
-        // Inside: out by the shorter way.
+        // Inside: the nearer of arc and front.
         return if to_flat > to_arc || from_center == 0.0 {
             NearestPoint { distance: to_flat, normal: Vector::X }
         } else {
@@ -160,7 +159,7 @@ mod tests {
     const CUT_DISC: Body = Body::Round { radius: 0.09, front_distance: 0.0715 };
 
     #[test]
-    fn front_corner_and_back_of_a_robot_are_where_they_are() {
+    fn distances_to_front_corner_and_back_of_a_robot_are_exact() {
         let outline = Outline::of(CUT_DISC);
         let close = |at: [f32; 2], distance: f32, normal: [f32; 2]| {
             let found = outline.nearest(at.into());
@@ -184,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_are_what_a_ruler_shows() {
+    fn gaps_are_the_measured_distances() {
         let square = Outline::of(Body::Square { side_length: 0.075 });
         let disc = Outline::Disc { radius: 0.09 };
         let wall = Outline::Box { half: Vector::new(1.0, 0.1) };

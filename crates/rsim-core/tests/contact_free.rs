@@ -1,4 +1,4 @@
-//! Ticks in which nothing touches go without the contact solver. That changes rounding, no more.
+//! Ticks without contacts go without the contact solver, which changes rounding only.
 
 use rsim_core::columns::{BALL_COLUMNS, ball_column};
 use rsim_core::scenes::{self, Driver, Scene, uniform};
@@ -17,7 +17,7 @@ fn all() -> Vec<Scene> {
     ]
 }
 
-/// Largest difference of two rows; spins as speeds of the ball's rim.
+/// Maximum difference of two rows, with spins as surface speeds.
 fn difference(a: &[f32], b: &[f32]) -> f32 {
     let spin = ball_column("spin_x")..=ball_column("spin_z");
     let pairs = a.iter().zip(b).enumerate();
@@ -29,7 +29,7 @@ fn difference(a: &[f32], b: &[f32]) -> f32 {
     scaled.fold(0.0, f32::max)
 }
 
-/// Steps a world into `row`, and a copy of it that never goes without the solver; how they differ.
+/// Steps a world into `row`, and a copy of it that always uses the solver. Returns their difference.
 fn step_both(world: &mut World, commands: &[f32], row: &mut [f32]) -> f32 {
     let (mut solved, mut other) = (world.clone(), row.to_vec());
     solved.disable_contact_free_ticks();
@@ -40,15 +40,15 @@ fn step_both(world: &mut World, commands: &[f32], row: &mut [f32]) -> f32 {
     difference(row, &other)
 }
 
-/// What rounding makes of it.
+/// Difference by rounding.
 const ROUNDING: f32 = 2e-5;
 
-/// Ticks of a scene that may differ by more, in 2,000: the solver, which looks ahead along straight
-/// lines, stops corners that pass each other at a hair's breadth.
+/// Maximum number of ticks, of 2,000, with a larger difference: the solver predicts along straight lines
+/// and stops corners that pass each other very closely.
 const CORNERS: usize = 2;
 
 #[test]
-fn a_tick_with_the_solver_is_a_tick_without_but_for_rounding() {
+fn a_tick_without_the_solver_differs_by_rounding_only() {
     for mut scene in all() {
         scene.config.time_step = scene.config.tick;
         let mut world = scene.world();
@@ -61,8 +61,8 @@ fn a_tick_with_the_solver_is_a_tick_without_but_for_rounding() {
             .filter(|(_, error)| *error > ROUNDING)
             .collect();
         assert!(differing.len() <= CORNERS, "{}: {differing:?}", scene.name);
-        let skipped = world.contact_free_ticks();
-        assert!((10..1990).contains(&skipped), "{}: {skipped} ticks skipped", scene.name);
+        let free = world.contact_free_ticks();
+        assert!((10..1990).contains(&free), "{}: {free} ticks without the solver", scene.name);
     }
 }
 
@@ -97,7 +97,7 @@ fn a_fast_ball_grazes_with_and_without_the_solver() {
 }
 
 #[test]
-fn a_whole_scene_without_contacts_is_the_same_but_for_rounding() {
+fn a_whole_scene_without_contacts_differs_by_rounding_only() {
     let scene = scenes::lone_omni(&[1.0, 0.4, 3.0]);
     let mut solved = scene.world();
     solved.disable_contact_free_ticks();

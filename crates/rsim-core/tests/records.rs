@@ -1,5 +1,5 @@
-//! What a row says that happened during a step: touches, crashes, lines.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Records of a control step in a row: touches, collisions, crossed lines.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::SimConfig;
 use rsim_core::columns::{ball_column, crossing_name, robot_column};
@@ -10,7 +10,7 @@ fn column(row: &[f32], robot: usize, name: &str) -> f32 {
 }
 
 #[test]
-fn a_touch_is_told_in_its_step_and_the_last_toucher_stays() {
+fn a_touch_is_recorded_in_its_step_and_the_last_touch_is_kept() {
     let poses = [[0.5, 0.0, 180.0], [-0.5, 0.0, 0.0]];
     let mut scene = Scene::at("touches", SimConfig::ssl(1, 1), &poses, Driver::STILL);
     scene.set_ball([0.2, 0.0], [3.0, 0.0]);
@@ -32,12 +32,12 @@ fn a_touch_is_told_in_its_step_and_the_last_toucher_stays() {
 }
 
 #[test]
-fn a_crash_is_as_fast_as_the_robots_came_together() {
+fn the_collision_speed_is_the_closing_speed() {
     // Blue 0 meets yellow 0 head on; blue 1 runs into blue 2.
     let config = SimConfig::ssl(3, 1);
     let poses = [[-0.5, 0.0, 0.0], [-0.5, 1.0, 0.0], [0.2, 1.0, 0.0], [0.5, 0.0, 180.0]];
-    let told = [2.0, 1.0, 0.0, 1.0].map(|forward| vec![forward, 0.0, 0.0]).to_vec();
-    let mut scene = Scene::at("crash", config, &poses, Driver::Constant(told));
+    let commands = [2.0, 1.0, 0.0, 1.0].map(|forward| vec![forward, 0.0, 0.0]).to_vec();
+    let mut scene = Scene::at("crash", config, &poses, Driver::Constant(commands));
     scene.set_ball([0.0, -2.0], [0.0, 0.0]);
     let (rows, _) = scene.play(&mut scene.world(), 60);
     let rows: Vec<&[f32]> = rows.chunks_exact(scene.config.row_size()).collect();
@@ -55,7 +55,7 @@ fn a_crash_is_as_fast_as_the_robots_came_together() {
 }
 
 #[test]
-fn lines_are_told_with_place_and_height() {
+fn crossings_have_line_point_and_height() {
     for (from, velocity, line, at) in [
         ([4.0, 0.2], [4.0, 0.0], "goal_right", [4.5, 0.2]),
         ([-4.0, 0.2], [-4.0, 0.0], "goal_left", [-4.5, 0.2]),
@@ -70,7 +70,7 @@ fn lines_are_told_with_place_and_height() {
             .chunks_exact(scene.config.row_size())
             .filter(|row| row[ball_column("crossed")] != 0.0)
             .collect();
-        assert_eq!(crossed.len(), 1, "{line}: told in one step only");
+        assert_eq!(crossed.len(), 1, "{line}: recorded in one step only");
         assert_eq!(crossing_name(crossed[0][ball_column("crossed")]), line);
         let crossed_x = ball_column("crossed_x");
         let [x, y, z] = [0, 1, 2].map(|part| crossed[0][crossed_x + part]);
