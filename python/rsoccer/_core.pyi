@@ -820,8 +820,8 @@ class Potential:
             last_ball: Ball of the earlier view (n, observers, ball columns), float32, as
                 `Viewpoint.fill` writes it.
             last_robots: Robots of the earlier view (n, observers, slots, robot columns), float32.
-            ball: Ball of the later view, likewise shaped.
-            robots: Robots of the later view, likewise shaped.
+            ball: Ball of the later view (n, observers, ball columns), float32.
+            robots: Robots of the later view (n, observers, slots, robot columns), float32.
 
         Returns:
             Later minus earlier value (n, observers), float32, m.
