@@ -1,7 +1,6 @@
 //! Parameters of the bodies of one match, prepared for stepping: those of the models, or a world's
 //! own variation of them.
 
-use crate::math::Vector;
 use serde::{Deserialize, Serialize};
 
 use crate::ball::impact::ContactBody;
@@ -10,11 +9,10 @@ use crate::drive::DriveLimits;
 use crate::error::ConfigError;
 use crate::geometry::motion::Motion;
 use crate::geometry::outline::Outline;
-use crate::models::ball::BallModel;
-use crate::models::ball::Surface;
+use crate::math::Vector;
+use crate::models::ball::{BallModel, Surface};
 use crate::models::config::SimConfig;
-use crate::models::robot::Drive;
-use crate::models::robot::RobotModel;
+use crate::models::robot::{Drive, RobotModel};
 
 /// Parameters of all bodies of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -134,8 +134,6 @@ fn indices(observers: &Bound<'_, PyAny>, robots: usize) -> PyResult<Vec<usize>> 
     let found: Result<_, isize> =
         values(&given).iter().map(|observer| index(observer).ok_or(*observer)).collect();
     found.map_err(|observer| {
-        PyValueError::new_err(format!(
-            "observers must be robot indices from 0 and below {robots}, got {observer}"
-        ))
+        PyValueError::new_err(format!("observers must be robots below {robots}, got {observer}"))
     })
 }

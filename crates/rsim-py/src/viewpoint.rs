@@ -22,12 +22,12 @@ impl Viewpoint {
         let wide = slots.first().map_or(0, Vec::len);
         if slots.len() != rotated.len() || slots.iter().any(|slots| slots.len() != wide) {
             return Err(PyValueError::new_err(
-                "slots must have one row for each entry of rotated, all of one length",
+                "slots must have a row for each of rotated, all of one length",
             ));
         }
         if let Some(robot) = slots.iter().flatten().flatten().find(|robot| **robot >= n_robots) {
             return Err(PyValueError::new_err(format!(
-                "slots must hold robot indices below {n_robots}, got {robot}"
+                "slots must hold robots below {n_robots}, got {robot}"
             )));
         }
         let observers = slots.into_iter().zip(rotated);

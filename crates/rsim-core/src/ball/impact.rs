@@ -1,9 +1,7 @@
 //! Impact of the ball on a body: Coulomb's law in closed form, with friction and restitution solved
 //! together and momentum conserved.
 
-use crate::math::Vec3;
-use crate::math::Vector;
-
+use crate::math::{Vec3, Vector};
 use crate::models::ball::Surface;
 
 /// Closing speed below which the ball does not bounce, m/s: pushing must not rattle.

@@ -1,12 +1,10 @@
 //! Break beam, kicker and dribbler of a robot, as they act on the ball.
 
-use crate::math::Vec3;
-use crate::math::Vector;
-
 use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
 use crate::columns::MAX_COMMAND;
 use crate::geometry::motion::Motion;
+use crate::math::{Vec3, Vector};
 use crate::models::ball::BallModel;
 use crate::models::mouth::Mouth;
 use crate::models::robot::RobotModel;

@@ -1,7 +1,6 @@
 //! The ball on the floor: it slides until it rolls, and slows down, the same in every direction.
 
-use crate::math::Vec3;
-use crate::math::Vector;
+use crate::math::{Vec3, Vector};
 use crate::models::ball::BallModel;
 
 /// Speed below which a rolling ball stops, m/s: a real one drops into a dimple of the carpet

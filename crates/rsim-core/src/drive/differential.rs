@@ -1,9 +1,9 @@
 //! Two wheels on one axle: Coulomb friction of each tyre against its slip.
 
-use crate::math::Vector;
 use serde::{Deserialize, Serialize};
 
 use super::{BodyState, DriveLimits, WheelImpulse};
+use crate::math::Vector;
 use crate::models::robot::DifferentialDrive;
 
 /// Iterations for the speeds at which two tyres slip. Each shrinks the error by the ratio of a tick's

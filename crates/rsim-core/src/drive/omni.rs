@@ -1,10 +1,10 @@
 //! Four omnidirectional wheels around a robot.
 
-use crate::math::{Rotation, Vector};
 use serde::{Deserialize, Serialize};
 
 use super::{BodyState, DriveLimits, WheelImpulse};
 use crate::columns::MAX_COMMAND;
+use crate::math::{Rotation, Vector};
 use crate::models::robot::OmniDrive;
 
 /// Target velocity (m/s) and turn rate (rad/s) of a body, in its own frame.
@@ -175,8 +175,7 @@ fn least_squares_inverse(rows: &[[f32; 3]; 4]) -> [[f32; 4]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::robot::Drive;
-    use crate::models::robot::RobotModel;
+    use crate::models::robot::{Drive, RobotModel};
 
     fn wheels(model: &RobotModel) -> Wheels {
         let (Drive::Omni(drive) | Drive::OmniWheels(drive)) = model.drive else {

@@ -3,9 +3,8 @@
 //! Shaping by differences of a potential keeps the optimal policy (Ng, Harada and Russell, 1999): going
 //! back and forth gains nothing.
 
-use crate::math::Vector;
-
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::math::Vector;
 use crate::models::ball::BallModel;
 use crate::models::field::Field;
 use crate::models::robot::RobotModel;

@@ -1,8 +1,7 @@
 //! Commands of omnidirectional robots from actions, numbers in [-1, 1].
 
-use crate::math::{Rotation, Vector};
-
 use crate::columns::OMNI_COLUMNS;
+use crate::math::{Rotation, Vector};
 
 /// Size of an action: velocity along two axes, turn rate, kick (none up to 0), dribbler (off up to 0).
 pub const ACTION_SIZE: usize = 5;

@@ -1,10 +1,8 @@
 //! Solid parts of a field: walls, goals, corner blocks, and an outer fence.
 
-use crate::math::{Pose, Vector};
-
 use crate::geometry::outline::{Outline, PlacedOutline};
-use crate::models::ball::BallModel;
-use crate::models::ball::Surface;
+use crate::math::{Pose, Vector};
+use crate::models::ball::{BallModel, Surface};
 use crate::models::field::Field;
 
 /// A fixed block that stands on the floor, or a bar above it.

@@ -1,8 +1,7 @@
 //! Clearance of a flying ball: the distance of a sphere beside, above or below upright bodies.
 
-use crate::math::Vec3;
-
 use crate::geometry::outline::NearestPoint;
+use crate::math::Vec3;
 
 /// An obstacle of a flying ball.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,9 +48,8 @@ impl Clearance {
 
 #[cfg(test)]
 mod tests {
-    use crate::math::Vector;
-
     use super::*;
+    use crate::math::Vector;
 
     /// A ball of 20 mm beside a body from 0 to 0.1 m.
     fn clearance(distance: f32, z: f32) -> Clearance {

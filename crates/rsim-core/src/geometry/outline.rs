@@ -1,8 +1,8 @@
 //! Outlines from above: distance and direction to a point, and distance of two outlines.
 
-use crate::math::{Rotation, Vector};
 use serde::{Deserialize, Serialize};
 
+use crate::math::{Rotation, Vector};
 use crate::models::robot::Body;
 
 /// A convex outline, around the origin of its own frame.

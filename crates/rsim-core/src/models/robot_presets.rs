@@ -6,8 +6,7 @@ use std::f32::consts::TAU;
 use crate::error::ConfigError;
 use crate::models::mouth::Mouth;
 use crate::models::presets::find_preset;
-use crate::models::robot::RobotModel;
-use crate::models::robot::{Body, DifferentialDrive, Drive, OmniDrive};
+use crate::models::robot::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
 
 /// Revolutions per minute as rad/s.
 const fn rpm(value: f32) -> f32 {

@@ -1,9 +1,9 @@
 //! The line that the ball crossed during a control step. This is geometry; the caller has the rules.
 //! Positions at the ends of a step are not enough, so every tick is checked.
 
-use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::math::Vec3;
 use crate::models::field::Field;
 
 /// The first line that the ball's centre crossed outward in the running control step.

@@ -206,10 +206,9 @@ impl Batch {
 
 #[cfg(test)]
 mod tests {
-    use crate::math::Vector;
-
     use super::*;
     use crate::engine::{BALL, robot};
+    use crate::math::Vector;
     use crate::scenes;
 
     #[test]

@@ -1,8 +1,7 @@
 //! Default line-up, for a world before its first placement.
 
-use crate::math::Vector;
-
 use crate::geometry::motion::Motion;
+use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::robot::RobotModel;
 
