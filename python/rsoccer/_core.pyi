@@ -1,8 +1,8 @@
-"""Physics of robot soccer: the compiled half of rsoccer.
+"""Compiled core of rsoccer: physics of robot soccer, and features of robots for tasks.
 
-A state row is the ball's columns, then each robot's, blue first; a column's place follows from
-its name. Positions in metres, velocities in m/s, angles in radians; the origin is the centre of the
-field, x points at yellow's goal, y to the left, and blue attacks towards +x.
+A state row has the ball's columns, then each robot's, blue first; the column names give every
+position in a row. Positions are in metres, velocities in m/s, angles in radians. The origin is the
+centre of the field, x points at yellow's goal, y to the left, and blue attacks towards +x.
 """
 
 from collections.abc import Sequence
@@ -16,362 +16,579 @@ __all__ = [
     "BALL_PARAMETERS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
-    "FASTEST",
+    "MAX_PLACED_SPEED",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
     "BallModel",
+    "EgoFeatures",
     "Field",
     "Potential",
     "RobotModel",
-    "Sight",
     "SimConfig",
     "Simulator",
     "Steering",
     "Viewpoint",
     "build_info",
-    "clipped",
-    "efforts",
-    "limit",
-    "nearest",
+    "clip_actions",
+    "clip_in_place",
+    "mean_action_magnitude",
+    "nearest_to_ball",
 ]
 
-FASTEST: float
-"""Fastest that a body may be placed with, m/s."""
+MAX_PLACED_SPEED: float
+"""Maximum speed with which a body can be placed, m/s."""
 
 BALL_COLUMNS: tuple[str, ...]
-"""Names of the ball's columns.
+"""Names of the ball's columns in a state row.
 
-Position (`z` is the height of its lowest point, 0 on the floor), velocity, `spin_x`, `spin_y`,
-`spin_z` (rad/s), `last_touch` (place of the robot in the row, or -1), and `crossed` (a position in
-`CROSSINGS`): what its centre crossed first during the last control step, at `crossed_x`,
-`crossed_y`, `crossed_z`."""
+| column | meaning | unit | range |
+| --- | --- | --- | --- |
+| `x`, `y` | position of the centre | m | within the walls |
+| `z` | height of the lowest point | m | 0 or above |
+| `v_x`, `v_y`, `v_z` | velocity | m/s | any |
+| `spin_x`, `spin_y`, `spin_z` | spin about the field's axes | rad/s | any |
+| `last_touch` | index of the last robot that touched the ball | 1 | -1 for none |
+| `crossed` | first line crossed in the last control step | 1 | index in `CROSSINGS` |
+| `crossed_x`, `crossed_y`, `crossed_z` | point of that crossing | m | 0 for none |
+"""
 ROBOT_COLUMNS: tuple[str, ...]
-"""Names of a robot's columns.
+"""Names of a robot's columns in a state row.
 
-Position, heading as `cos` and `sin`, velocity, turn rate, `infrared` (1 if the ball cuts its beam),
-and of the last control step: `touched_ball` and `touched_foe` (1 or 0) and `crash_speed`, the
-closing speed of its hardest contact with a robot."""
+| column | meaning | unit | range |
+| --- | --- | --- | --- |
+| `x`, `y` | position of the centre | m | within the walls |
+| `cos`, `sin` | heading, counter-clockwise from +x | 1 | -1 to 1 |
+| `v_x`, `v_y` | velocity | m/s | any |
+| `v_theta` | turn rate, counter-clockwise | rad/s | any |
+| `infrared` | whether the ball cuts the break beam | 1 | 0 or 1 |
+| `touched_ball` | whether it touched the ball in the last control step | 1 | 0 or 1 |
+| `touched_opponent` | whether it touched an opponent in that step | 1 | 0 or 1 |
+| `collision_speed` | closing speed of its hardest robot contact in that step | m/s | 0 or above |
+"""
 COMMAND_COLUMNS: dict[str, tuple[str, ...]]
-"""Names of a command's columns, by kind of drive.
+"""Names of a command's columns, by kind of drive. Values beyond a robot's limits are clipped.
 
-`differential`: wheel speeds (rad/s). `omni`: velocity forward and left (m/s), turn rate (rad/s),
-kick forward and upward (m/s, relative to the front; 0 is none), share of the dribbler's speed.
-`omni_wheels`: four wheel speeds (rad/s) in place of the first three."""
+| drive | columns | meaning | unit |
+| --- | --- | --- | --- |
+| `differential` | `left`, `right` | wheel speeds, positive is forward | rad/s |
+| `omni` | `v_x`, `v_y` | velocity forward and to the left | m/s |
+| | `v_theta` | turn rate, counter-clockwise | rad/s |
+| `omni_wheels` | `wheel_0` to `wheel_3` | wheel speeds, positive turns counter-clockwise | rad/s |
+| both omni | `kick_v_x`, `kick_v_z` | kick forward and upward from the front; 0: none | m/s |
+| both omni | `dribbler` | dribbler speed by its maximum, 0 to 1 | 1 |
+"""
 CROSSINGS: tuple[str, ...]
-"""Meanings of the ball's `crossed` column: goals at +x (right) and -x (left), the goal lines beside
-or over them, touch lines at +y (left) and -y (right)."""
+"""Names of the values of the ball's `crossed` column: `none`, the goals at +x (right) and -x
+(left), the goal lines beside or above the goals, the touch lines at +y (left) and -y (right)."""
 BALL_PARAMETERS: tuple[str, ...]
-"""Factors on the ball's numbers that a world may have of its own."""
+"""Names of the factors on the ball's numbers that each world can have of its own."""
 ROBOT_PARAMETERS: tuple[str, ...]
-"""Factors on each robot's numbers that a world may have of its own."""
+"""Names of the factors on each robot's numbers that each world can have of its own.
+
+`acceleration` applies to all accelerations and decelerations; `traction` to the maximum force of
+the wheels in every direction (omnidirectional) or along the axle (differential); `kick` to the
+speed of kicks; `grip` to the dribbler's; `speed` to the maximum speeds."""
 
 def build_info() -> dict[str, str | int]:
-    """How this module was built: `version`, `profile` ("release", "debug"), `physics` number."""
+    """Return information about this build.
+
+    Returns:
+        `version` of the package, `profile` ("release" or "debug"), `physics` version (int).
+    """
 
 @final
 class Field:
-    """A field: play area, goals, walls, lines and marks. Metres, to the middle of lines.
+    """A field: play area, goals, walls, and the lines and marks on the floor.
 
-    `Field("ssl_b", width=5.0)` is the preset with some numbers replaced. What a league does not
-    have is 0.
+    All lengths are in metres, measured to the middle of lines. The origin is the centre, x is along
+    the length. A number that a league does not use is 0.
+
+    Example:
+        `Field("ssl_b", width=5.0)` is the preset with one number replaced.
+
+    Args:
+        name: Name of a preset, one of `PRESETS`.
+        **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
-        ValueError: no such preset or number, or numbers that make no field.
+        ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
+            message names it.
     """
 
     PRESETS: ClassVar[tuple[str, ...]]
+    """Names of the presets."""
 
     def __new__(cls, name: str, **numbers: float) -> Field: ...
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the preset."""
+
     @property
-    def length(self) -> float: ...
+    def length(self) -> float:
+        """Distance between the goal lines, along x (m, above 0)."""
+
     @property
-    def width(self) -> float: ...
+    def width(self) -> float:
+        """Distance between the touch lines, along y (m, above 0)."""
+
     @property
     def goal_line_margin(self) -> float:
-        """From a goal line to the wall behind it; 0 where the line is at the wall."""
+        """Distance from a goal line to the wall behind it; 0 at the wall (m, 0 or above)."""
 
     @property
-    def touch_line_margin(self) -> float: ...
+    def touch_line_margin(self) -> float:
+        """Distance from a touch line to the wall beside it; 0 at the wall (m, 0 or above)."""
+
     @property
-    def goal_width(self) -> float: ...
+    def goal_width(self) -> float:
+        """Inner width of a goal, along y (m, above 0)."""
+
     @property
-    def goal_depth(self) -> float: ...
+    def goal_depth(self) -> float:
+        """Depth of a goal behind its line, along x (m, above 0)."""
+
     @property
     def goal_height(self) -> float:
-        """Under which the ball is in the goal; SSL: under the bar."""
+        """Height of a goal, below its crossbar if it has one (m, above 0)."""
 
     @property
-    def goal_wall(self) -> float:
-        """Thickness of a goal's own walls; 0: a gap in the table's wall."""
+    def goal_wall_thickness(self) -> float:
+        """Thickness of a goal's own walls and crossbar; 0 without them (m, 0 or above)."""
 
     @property
-    def corner(self) -> float:
-        """Leg of the 45-degree block in each corner."""
+    def corner_leg(self) -> float:
+        """Leg of the 45-degree block in each corner; 0 for none (m, 0 or above)."""
 
     @property
     def wall_height(self) -> float:
-        """0: nothing flies over the walls."""
+        """Height of the outer walls; 0 for walls that no ball can fly over (m, 0 or above)."""
 
     @property
-    def center_radius(self) -> float: ...
+    def center_circle_radius(self) -> float:
+        """Radius of the centre circle (m, 0 or above)."""
+
     @property
     def goal_area_width(self) -> float:
-        """Along y."""
+        """Width of the goal area (SSL: defence area), along y (m, 0 or above)."""
 
     @property
     def goal_area_depth(self) -> float:
-        """Along x."""
+        """Depth of the goal area, along x (m, 0 or above)."""
 
     @property
     def inner_area_width(self) -> float:
-        """Of the smaller area inside, along y."""
+        """Width of the smaller area inside the goal area, along y (m, 0 or above)."""
 
     @property
-    def inner_area_depth(self) -> float: ...
+    def inner_area_depth(self) -> float:
+        """Depth of the smaller area inside the goal area, along x (m, 0 or above)."""
+
     @property
     def area_arc_width(self) -> float:
-        """Chord of the arc on the area's front."""
+        """Chord of the arc on the front of the goal area, along y (m, 0 or above)."""
 
     @property
-    def area_arc_depth(self) -> float: ...
-    @property
-    def penalty_mark(self) -> float:
-        """Distance from the goal line that is shot at."""
+    def area_arc_depth(self) -> float:
+        """Depth of the arc beyond the front of the goal area, along x (m, 0 or above)."""
 
     @property
-    def free_ball_x(self) -> float: ...
-    @property
-    def free_ball_y(self) -> float: ...
-    @property
-    def line_width(self) -> float: ...
-    @property
-    def half_length(self) -> float: ...
-    @property
-    def half_width(self) -> float: ...
-    @property
-    def reach_x(self) -> float:
-        """How far from the centre anything gets along x."""
+    def penalty_mark_distance(self) -> float:
+        """Distance of a penalty mark from the attacked goal line (m, 0 or above)."""
 
     @property
-    def reach_y(self) -> float: ...
+    def free_ball_x(self) -> float:
+        """Distance of the free-ball marks from the centre, along x (m, 0 or above)."""
+
+    @property
+    def free_ball_y(self) -> float:
+        """Distance of the free-ball marks from the centre, along y (m, 0 or above)."""
+
+    @property
+    def line_width(self) -> float:
+        """Width of the painted lines (m, 0 or above)."""
+
+    @property
+    def half_length(self) -> float:
+        """Distance of a goal line from the centre (m, above 0)."""
+
+    @property
+    def half_width(self) -> float:
+        """Distance of a touch line from the centre (m, above 0)."""
+
+    @property
+    def max_x(self) -> float:
+        """Maximum distance of a body from the centre along x (m, above 0)."""
+
+    @property
+    def max_y(self) -> float:
+        """Maximum distance of a body from the centre along y (m, above 0)."""
+
     @property
     def max_robots(self) -> int:
-        """Most robots that the league lets a side field."""
+        """Maximum number of robots per team that the league allows on any of its fields."""
 
-    def to_json(self) -> str: ...
+    def to_json(self) -> str:
+        """Return the model as JSON, for `from_json`."""
+
     @classmethod
-    def from_json(cls, text: str) -> Field: ...
+    def from_json(cls, text: str) -> Field:
+        """Return the model of a JSON text.
+
+        Args:
+            text: Result of `to_json`.
+
+        Returns:
+            An equal model.
+
+        Raises:
+            ValueError: `text` is not JSON of such a model, or a number is out of its range.
+        """
+
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class BallModel:
-    """A ball and what it rolls on and hits. SI units.
+    """A ball with the floor that it rolls on and the surfaces that it hits.
 
-    `BallModel("ssl_tigers", rolling_deceleration=0.3)` is the preset with some numbers replaced.
+    SI units. The numbers describe a venue as much as a ball.
+
+    Example:
+        `BallModel("ssl_tigers", rolling_deceleration=0.3)` is the preset with one number replaced.
+
+    Args:
+        name: Name of a preset, one of `PRESETS`.
+        **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
-        ValueError: no such preset or number, or numbers that make no ball.
+        ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
+            message names it.
     """
 
     PRESETS: ClassVar[tuple[str, ...]]
+    """Names of the presets."""
 
     def __new__(cls, name: str, **numbers: float) -> BallModel: ...
     @property
-    def name(self) -> str: ...
-    @property
-    def radius(self) -> float: ...
-    @property
-    def mass(self) -> float: ...
-    @property
-    def sliding_deceleration(self) -> float:
-        """While its lowest point slips."""
+    def name(self) -> str:
+        """Name of the preset."""
 
     @property
-    def rolling_deceleration(self) -> float: ...
+    def radius(self) -> float:
+        """Radius (m, above 0)."""
+
     @property
-    def rolling_share(self) -> float:
-        """Share of a kick's speed at which it comes to roll."""
+    def mass(self) -> float:
+        """Mass (kg, above 0)."""
+
+    @property
+    def sliding_deceleration(self) -> float:
+        """Deceleration while the lowest point slips over the floor (m/s², 0 or above)."""
+
+    @property
+    def rolling_deceleration(self) -> float:
+        """Deceleration of a rolling ball; 0 never stops it (m/s², 0 or above)."""
+
+    @property
+    def slide_to_roll_ratio(self) -> float:
+        """First rolling speed by the speed of the kick; 5/7 for a solid sphere (0.5 to below 1)."""
 
     @property
     def spin_deceleration(self) -> float:
-        """rad/s², about the vertical axis."""
+        """Deceleration of the spin about the vertical axis (rad/s², 0 or above)."""
 
     @property
-    def hop_first(self) -> float:
-        """Share of the speed along the floor kept by the first touch-down."""
+    def first_hop_factor(self) -> float:
+        """Part of the horizontal speed kept at the first touch-down of a chip (0 to 1)."""
 
     @property
-    def hop_later(self) -> float: ...
-    @property
-    def hop_up(self) -> float:
-        """Share of the vertical speed kept."""
+    def later_hop_factor(self) -> float:
+        """Part of the horizontal speed kept at each later touch-down (0 to 1)."""
 
     @property
-    def robot_restitution(self) -> float: ...
+    def vertical_restitution(self) -> float:
+        """Restitution of the vertical speed at a touch-down (0 to 1)."""
+
     @property
-    def robot_friction(self) -> float: ...
+    def robot_restitution(self) -> float:
+        """Restitution against robots (0 to 1)."""
+
     @property
-    def wall_restitution(self) -> float: ...
+    def robot_friction(self) -> float:
+        """Coulomb friction against robots (0 or above)."""
+
     @property
-    def wall_friction(self) -> float: ...
+    def wall_restitution(self) -> float:
+        """Restitution against walls and the sides of goals (0 to 1)."""
+
     @property
-    def goal_back_restitution(self) -> float: ...
+    def wall_friction(self) -> float:
+        """Coulomb friction against walls and the sides of goals (0 or above)."""
+
     @property
-    def goal_back_friction(self) -> float: ...
-    def to_json(self) -> str: ...
+    def goal_back_restitution(self) -> float:
+        """Restitution against the padded back of a goal (0 to 1)."""
+
+    @property
+    def goal_back_friction(self) -> float:
+        """Coulomb friction against the back of a goal (0 or above)."""
+
+    def to_json(self) -> str:
+        """Return the model as JSON, for `from_json`."""
+
     @classmethod
-    def from_json(cls, text: str) -> BallModel: ...
+    def from_json(cls, text: str) -> BallModel:
+        """Return the model of a JSON text.
+
+        Args:
+            text: Result of `to_json`.
+
+        Returns:
+            An equal model.
+
+        Raises:
+            ValueError: `text` is not JSON of such a model, or a number is out of its range.
+        """
+
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class RobotModel:
-    """A robot as data. SI units. A number that its kind does not have raises `AttributeError`.
+    """A robot: body, drive, and mouth if it has one.
 
-    `RobotModel("ssl_generic", max_kick=6.5)` is the preset with some numbers replaced.
+    SI units. A number that this kind of robot does not have raises `AttributeError`: square bodies
+    have a `side_length`, round ones a `radius` and a `front_distance`; each kind of drive has its
+    own numbers; only robots with a mouth have a break beam, a kicker and a dribbler.
+
+    Example:
+        `RobotModel("ssl_generic", max_kick_speed=6.5)` is the preset with one number replaced.
+
+    Args:
+        name: Name of a preset, one of `PRESETS`.
+        **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
-        ValueError: no such preset or number, or numbers that make no robot.
+        ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
+            message names it.
     """
 
     PRESETS: ClassVar[tuple[str, ...]]
+    """Names of the presets."""
 
     def __new__(cls, name: str, **numbers: float) -> RobotModel: ...
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the preset."""
+
     @property
-    def side(self) -> float:
-        """Of a square body."""
+    def height(self) -> float:
+        """Height of the body; a ball that flies higher passes over it (m, above 0)."""
+
+    @property
+    def mass(self) -> float:
+        """Mass with wheels; heavier robots win shoving matches (kg, above 0)."""
+
+    @property
+    def restitution(self) -> float:
+        """Restitution of a collision with another robot or a wall (0 to 1)."""
+
+    @property
+    def friction(self) -> float:
+        """Coulomb friction against other robots and walls (0 or above)."""
+
+    @property
+    def side_length(self) -> float:
+        """Side of a square body (m, above 0)."""
 
     @property
     def radius(self) -> float:
-        """Of a round body."""
+        """Radius of a round body (m, above 0)."""
 
     @property
-    def front(self) -> float:
-        """From the centre of a round body to its flat front."""
+    def front_distance(self) -> float:
+        """Distance of a round body's flat front from the centre (m, above 0)."""
 
     @property
-    def height(self) -> float: ...
-    @property
-    def mass(self) -> float: ...
-    @property
-    def restitution(self) -> float: ...
-    @property
-    def friction(self) -> float: ...
-    @property
-    def wheel_radius(self) -> float: ...
-    @property
-    def max_wheel_speed(self) -> float: ...
-    @property
-    def track(self) -> float:
-        """Effective distance of two wheels."""
+    def wheel_radius(self) -> float:
+        """Radius of a wheel (m, above 0)."""
 
     @property
-    def motor_torque(self) -> float: ...
+    def max_wheel_speed(self) -> float:
+        """Maximum speed of a wheel, free of load (rad/s, above 0)."""
+
     @property
-    def forward_grip(self) -> float: ...
+    def track_width(self) -> float:
+        """Effective distance between the two wheels (m, above 0)."""
+
     @property
-    def side_grip(self) -> float: ...
+    def motor_torque(self) -> float:
+        """Torque of a motor at its wheel (N m, above 0)."""
+
+    @property
+    def longitudinal_grip(self) -> float:
+        """Maximum acceleration that the tyres transmit along the wheels (m/s², above 0)."""
+
+    @property
+    def lateral_grip(self) -> float:
+        """Maximum acceleration that the tyres transmit along the axle (m/s², above 0)."""
+
     @property
     def wheel_distance(self) -> float:
-        """From the centre to each of four wheels."""
+        """Distance from the centre to the point where a wheel meets the floor (m, above 0)."""
 
     @property
-    def max_speed(self) -> float: ...
-    @property
-    def max_turn_rate(self) -> float: ...
-    @property
-    def speed_up(self) -> float: ...
-    @property
-    def brake(self) -> float: ...
-    @property
-    def turn_speed_up(self) -> float: ...
-    @property
-    def turn_brake(self) -> float: ...
-    @property
-    def traction(self) -> float:
-        """Most acceleration that the wheels transmit."""
+    def max_speed(self) -> float:
+        """Maximum speed in every direction (m/s, above 0)."""
 
     @property
-    def jerk(self) -> float:
-        """Most change of its acceleration, m/s³; 0 for no limit."""
+    def max_turn_rate(self) -> float:
+        """Maximum turn rate (rad/s, above 0)."""
 
     @property
-    def mouth_width(self) -> float: ...
-    @property
-    def beam_distance(self) -> float: ...
-    @property
-    def beam_height(self) -> float: ...
-    @property
-    def max_kick(self) -> float: ...
-    @property
-    def max_chip(self) -> float: ...
-    @property
-    def recharge(self) -> float: ...
-    @property
-    def kick_keeps(self) -> float:
-        """Share of the ball's speed across the front that a kick leaves."""
+    def max_acceleration(self) -> float:
+        """Maximum acceleration when the robot gets faster or turns aside (m/s², above 0)."""
 
     @property
-    def grip(self) -> float:
-        """Strongest force of the dribbler, N."""
+    def max_deceleration(self) -> float:
+        """Maximum deceleration when the robot gets slower (m/s², above 0)."""
 
     @property
-    def bar_force(self) -> float:
-        """Force of the running bar on the ball, N."""
+    def max_angular_acceleration(self) -> float:
+        """Maximum angular acceleration when the robot turns faster (rad/s², above 0)."""
 
     @property
-    def bar_speed(self) -> float:
-        """Surface speed of the dribbler's bar."""
+    def max_angular_deceleration(self) -> float:
+        """Maximum angular deceleration when the robot turns more slowly (rad/s², above 0)."""
 
     @property
-    def bar_restitution(self) -> float: ...
+    def max_traction(self) -> float:
+        """Maximum acceleration that the wheels transmit, also in pushing (m/s², above 0)."""
+
     @property
-    def bar_friction(self) -> float: ...
+    def max_jerk(self) -> float:
+        """Maximum change of the acceleration along the path; 0 for no limit (m/s³, 0 or above)."""
+
     @property
-    def bounding_radius(self) -> float: ...
+    def mouth_width(self) -> float:
+        """Width of the opening; the ball's centre must be within it (m, above 0)."""
+
     @property
-    def top_speed(self) -> float: ...
+    def beam_distance(self) -> float:
+        """Distance of the break beam before the front (m, above 0)."""
+
     @property
-    def top_turn_rate(self) -> float: ...
+    def beam_height(self) -> float:
+        """Height of the break beam over the floor (m, above 0)."""
+
+    @property
+    def max_kick_speed(self) -> float:
+        """Maximum speed of a kick along the floor; rules may allow less (m/s, 0 or above)."""
+
+    @property
+    def max_chip_speed(self) -> float:
+        """Maximum speed of a chip; rules may allow less (m/s, 0 or above)."""
+
+    @property
+    def kicker_recharge_time(self) -> float:
+        """Minimum time between two kicks (s, 0 or above)."""
+
+    @property
+    def kick_lateral_factor(self) -> float:
+        """Part of the ball's speed across the front kept in a kick (0 to 1)."""
+
+    @property
+    def dribbler_grip(self) -> float:
+        """Maximum force of the dribbler; beyond it the ball is lost (N, 0 or above)."""
+
+    @property
+    def dribbler_force(self) -> float:
+        """Force of the dribbler bar on the ball; its friction gives back-spin (N, 0 or above)."""
+
+    @property
+    def dribbler_speed(self) -> float:
+        """Surface speed of the dribbler bar, the target of the back-spin (m/s, 0 or above)."""
+
+    @property
+    def dribbler_restitution(self) -> float:
+        """Restitution of the mouth while the dribbler runs (0 to 1)."""
+
+    @property
+    def dribbler_friction(self) -> float:
+        """Coulomb friction of the dribbler bar (0 or above)."""
+
+    @property
+    def bounding_radius(self) -> float:
+        """Radius of the circle around the body (m, above 0)."""
+
+    @property
+    def top_speed(self) -> float:
+        """Maximum driving speed (m/s, above 0)."""
+
+    @property
+    def top_turn_rate(self) -> float:
+        """Maximum turn rate on the spot (rad/s, above 0)."""
+
     @property
     def has_mouth(self) -> bool:
-        """Whether it has beam, kicker and dribbler."""
+        """Whether the robot has break beam, kicker and dribbler."""
 
     @property
     def drive(self) -> str:
-        """Kind of drive: a key of `COMMAND_COLUMNS`."""
+        """Kind of drive, a key of `COMMAND_COLUMNS`."""
 
     @property
     def wheel_angles(self) -> list[float]:
-        """Places of four wheels, degrees from the front, counter-clockwise."""
+        """Positions of four wheels (degrees from the front, counter-clockwise, 0 to 360)."""
 
     @property
-    def command_columns(self) -> tuple[str, ...]: ...
-    def to_json(self) -> str: ...
+    def command_columns(self) -> tuple[str, ...]:
+        """Names of the columns of a command."""
+
+    def to_json(self) -> str:
+        """Return the model as JSON, for `from_json`."""
+
     @classmethod
-    def from_json(cls, text: str) -> RobotModel: ...
+    def from_json(cls, text: str) -> RobotModel:
+        """Return the model of a JSON text.
+
+        Args:
+            text: Result of `to_json`.
+
+        Returns:
+            An equal model.
+
+        Raises:
+            ValueError: `text` is not JSON of such a model, or a number is out of its range.
+        """
+
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
 class SimConfig:
-    """What is fixed for the life of a simulator: field, models, team sizes, time steps.
+    """Configuration of a simulator: field, models, team sizes, time steps. Immutable and hashable.
 
-    `robot` is one model for all, or one for each robot, blue first. Robot and ball default to those
-    of the league that has a field of that name, whatever its numbers: `vss_440rpm` and `vss_rsim`,
-    `ssl_generic` and `ssl_tigers`.
+    Robot and ball default to those of the league that has a field of that name, whatever its
+    numbers: `vss_440rpm` and `vss_rsim`, or `ssl_generic` and `ssl_tigers`.
+
+    Args:
+        field: Field, or the name of its preset.
+        n_blue: Number of blue robots, from 0 to the field's `max_robots`.
+        n_yellow: Number of yellow robots, from 0 to the field's `max_robots`.
+        robot: Model of all robots, or a sequence with one model for each robot, blue first; models
+            or names of presets. None for the league's default.
+        ball: Ball, or the name of its preset. None for the league's default.
+        time_step: Length of a control step, s; a whole multiple of `tick`, 1 to 1000 ticks.
+        tick: Length of a physics tick, s; above 0 and at most 0.005.
 
     Raises:
-        ValueError: a name that is no preset, more robots than the league allows, or times (s) that
-            are not positive or not whole multiples of each other.
+        ValueError: A name is no preset, there are more robots than the league allows, a sequence of
+            robots has another length, a time is out of its range, or a field of no known league
+            needs a default.
     """
 
     def __new__(
@@ -386,33 +603,45 @@ class SimConfig:
         tick: float = 0.005,
     ) -> SimConfig: ...
     @property
-    def field(self) -> Field: ...
+    def field(self) -> Field:
+        """The field."""
+
     @property
     def robots(self) -> tuple[RobotModel, ...]:
         """Models of all robots, blue first."""
 
     @property
     def robot(self) -> RobotModel:
-        """The model that all robots share; ValueError if they do not."""
+        """Model of all robots; raises `ValueError` if they differ or there are none."""
 
     @property
-    def ball(self) -> BallModel: ...
+    def ball(self) -> BallModel:
+        """The ball."""
+
     @property
-    def n_blue(self) -> int: ...
+    def n_blue(self) -> int:
+        """Number of blue robots."""
+
     @property
-    def n_yellow(self) -> int: ...
+    def n_yellow(self) -> int:
+        """Number of yellow robots."""
+
     @property
-    def n_robots(self) -> int: ...
+    def n_robots(self) -> int:
+        """Number of robots of both teams."""
+
     @property
     def time_step(self) -> float:
-        """Length of a control step."""
+        """Length of a control step (s, above 0)."""
 
     @property
     def tick(self) -> float:
-        """Length of a physics tick."""
+        """Length of a physics tick (s, above 0, at most 0.005)."""
 
     @property
-    def ticks_per_step(self) -> int: ...
+    def ticks_per_step(self) -> int:
+        """Number of physics ticks in a control step (1 to 1000)."""
+
     @property
     def row_size(self) -> int:
         """Length of a state row."""
@@ -423,11 +652,25 @@ class SimConfig:
 
     @property
     def command_columns(self) -> tuple[str, ...]:
-        """Names of a command's columns; of the longest, where robots differ."""
+        """Names of a command's columns, of the longest command if robots differ."""
 
-    def to_json(self) -> str: ...
+    def to_json(self) -> str:
+        """Return the configuration as JSON, for `from_json`."""
+
     @classmethod
-    def from_json(cls, text: str) -> SimConfig: ...
+    def from_json(cls, text: str) -> SimConfig:
+        """Return the configuration of a JSON text.
+
+        Args:
+            text: Result of `to_json`.
+
+        Returns:
+            An equal configuration.
+
+        Raises:
+            ValueError: `text` is not JSON of a configuration, or a value is out of its range.
+        """
+
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
@@ -435,186 +678,317 @@ class SimConfig:
 
 @final
 class Steering:
-    """What actions, five numbers in [-1, 1], ask of robots that are told their body's velocity.
+    """Commands of omnidirectional robots from actions.
 
-    `scales` are what a 1 asks for: velocity along two axes (m/s), turn rate (rad/s), speed of a
-    kick (m/s; none below 0), dribbler (share of its speed; off up to 0). Velocities are along the
-    axes of the field as the robot's side sees it, if `along_field`, else along the robot's own.
-    Robots from `n_blue` on see the field turned half round.
+    | index | action, -1 to 1 | command at 1 |
+    | --- | --- | --- |
+    | 0, 1 | velocity along x and y of the chosen frame | `scales[0]`, `scales[1]` m/s |
+    | 2 | turn rate, counter-clockwise | `scales[2]` rad/s |
+    | 3 | kick along the floor; none up to 0 | `scales[3]` m/s |
+    | 4 | dribbler; off up to 0, else on | dribbler speed `scales[4]`, 0 to 1 |
+
+    Args:
+        scales: Five commands at an action of 1, as in the table.
+        field_frame: Whether velocities are along the axes of the field in the view of the robot's
+            team; otherwise they are forward and to the left of the robot.
+        n_blue: Number of robots of the first team; the others view the field rotated by 180
+            degrees.
 
     Raises:
-        ValueError: not five scales, one that is not finite, or `n_blue` below 0.
+        ValueError: `scales` does not have five finite numbers, or `n_blue` is below 0.
     """
 
-    def __new__(cls, scales: Sequence[float], along_field: bool, n_blue: int) -> Steering: ...
+    def __new__(cls, scales: Sequence[float], field_frame: bool, n_blue: int) -> Steering: ...
     def commands(
         self, actions: NDArray[np.float32], rows: NDArray[np.float32]
     ) -> NDArray[np.float32]:
-        """Commands (n, robots, 6) for actions (n, robots, 5) of the robots in rows (n, row).
+        """Return the commands of actions.
 
-        The columns are `COMMAND_COLUMNS["omni"]`.
+        Args:
+            actions: Actions (n, robots, 5), float32, each from -1 to 1.
+            rows: State rows (n, row), float32, for the robots' headings.
+
+        Returns:
+            Commands (n, robots, 6), float32, with the columns `COMMAND_COLUMNS["omni"]`.
 
         Raises:
-            TypeError: an array that is not float32.
-            ValueError: an array of another shape.
+            TypeError: An array is not float32.
+            ValueError: An array has another shape.
         """
 
     def __reduce__(self) -> tuple[object, tuple[list[float], bool, int]]: ...
 
 @final
 class Viewpoint:
-    """Who looks, and what each has where: turns rows of `robots` robots into views.
+    """Observers of a match: turns state rows into the views of robots, which attack towards +x.
 
-    Each of `slots` has the robots that one seer sees, by their place in a row: itself, mates, foes;
-    None where a slot is empty. Who is `turned` sees the field turned half round.
+    Args:
+        n_robots: Number of robots in a row.
+        slots: For each observer, indices of robots in a row, by slot: itself, teammates, opponents;
+            None for an empty slot. All observers have equal numbers of slots.
+        rotated: For each observer, whether its view is the field rotated by 180 degrees.
 
     Raises:
-        ValueError: rows of different length, or a robot that there is not.
-        OverflowError: a robot below 0.
+        ValueError: `slots` and `rotated` have different lengths, the observers have different
+            numbers of slots, or an index is not below `n_robots`.
+        OverflowError: An index or `n_robots` is below 0.
     """
 
     def __new__(
-        cls, robots: int, slots: Sequence[Sequence[int | None]], turned: Sequence[bool]
+        cls, n_robots: int, slots: Sequence[Sequence[int | None]], rotated: Sequence[bool]
     ) -> Viewpoint: ...
     def fill(
         self, rows: NDArray[np.float32], ball: NDArray[np.float32], robots: NDArray[np.float32]
     ) -> None:
-        """Write what all see of `rows` (n, row), attacking +x.
+        """Write the views of all observers.
 
-        Into `ball` (n, seers, ball column) and `robots` (n, seers, slots, robot column); zeros
-        where nobody is.
+        Args:
+            rows: State rows (n, row), float32.
+            ball: Output (n, observers, ball columns), float32.
+            robots: Output (n, observers, slots, robot columns), float32; an empty slot gets zeros.
 
         Raises:
-            TypeError: an array that is not float32.
-            ValueError: an array of another shape, or one that cannot be written into.
+            TypeError: An array is not float32.
+            ValueError: An array has another shape, or an output is not writeable or not
+                C-contiguous.
         """
 
 @final
 class Potential:
-    """What a robot is to raise, in metres. By its differences a way there and back pays nothing."""
+    """A potential function for reward shaping, in metres.
+
+    Rewards by differences of a potential do not change which policy is optimal: going back and
+    forth gains nothing.
+    """
 
     @staticmethod
     def ball_to_goal(field: Field) -> Potential:
-        """How much nearer the ball is to the goal attacked than to the own one, halved."""
+        """Return the potential of the ball's position between the goals.
+
+        Args:
+            field: The field.
+
+        Returns:
+            Half the difference of the ball's distances to the own and to the attacked goal.
+        """
 
     @staticmethod
-    def behind_ball(field: Field, behind: float) -> Potential:
-        """How near the robot is to the point so far behind the ball, seen from the goal attacked.
+    def behind_ball(field: Field, distance: float) -> Potential:
+        """Return the potential of a robot's way to the point behind the ball.
 
-        That point is kept as far from the walls: a ball at the wall has no room behind it.
+        Args:
+            field: The field. The point is kept `distance` away from its lines: a ball at the wall
+                has no space behind it.
+            distance: Distance of the point from the ball, opposite to the attacked goal, m, above
+                0.
+
+        Returns:
+            The negative distance of the robot to that point.
 
         Raises:
-            ValueError: a distance that is not above 0.
+            ValueError: `distance` is not above 0.
         """
 
     @staticmethod
     def at_mouth(robot: RobotModel, ball: BallModel) -> Potential:
-        """How near the ball is to where it would be in the robot's mouth.
+        """Return the potential of the ball's distance to a robot's mouth.
+
+        It is maximal only with the ball directly in front, so it pulls the robot close and turns it
+        to face the ball.
+
+        Args:
+            robot: Model of the robot, with a mouth.
+            ball: Model of the ball.
+
+        Returns:
+            The negative distance of the ball to its place in the mouth.
 
         Raises:
-            ValueError: a robot that has none.
+            ValueError: `robot` has no mouth.
         """
 
-    def gained(
+    def difference(
         self,
         last_ball: NDArray[np.float32],
         last_robots: NDArray[np.float32],
         ball: NDArray[np.float32],
         robots: NDArray[np.float32],
     ) -> NDArray[np.float32]:
-        """What each seer gained from one view to the next, (n, seers) metres.
+        """Return the difference of the potential between two views of each observer.
 
-        Views as `Viewpoint.fill` writes them.
+        Args:
+            last_ball: Ball of the earlier view (n, observers, ball columns), float32, as
+                `Viewpoint.fill` writes it.
+            last_robots: Robots of the earlier view (n, observers, slots, robot columns), float32.
+            ball: Ball of the later view (n, observers, ball columns), float32.
+            robots: Robots of the later view (n, observers, slots, robot columns), float32.
+
+        Returns:
+            Later minus earlier value (n, observers), float32, m.
 
         Raises:
-            TypeError: an array that is not float32.
-            ValueError: an array of another shape.
+            TypeError: An array is not float32.
+            ValueError: An array has another shape.
         """
 
-def nearest(rows: NDArray[np.float32], n_blue: int, seers: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether each seer is its team's nearest to the ball, (n, seers).
+def nearest_to_ball(
+    rows: NDArray[np.float32], n_blue: int, observers: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """Return whether each observer is its team's nearest robot to the ball.
 
-    Of `rows` (n, row), whose first `n_blue` robots are a team; `seers` are robots by their place.
+    Args:
+        rows: State rows (n, row), float32.
+        n_blue: Number of robots of the first team in a row.
+        observers: Indices of robots in a row (observers,).
 
-    Raises:
-        TypeError: rows that are not float32, or seers that are no places.
-        ValueError: arrays of other shapes, or a seer that there is not.
-    """
-
-def efforts(actions: NDArray[np.float32], seers: NDArray[np.intp]) -> NDArray[np.float32]:
-    """Mean magnitude of the action of each seer, (n, seers); of `actions` (n, robots, action).
-
-    Raises:
-        TypeError: actions that are not float32, or seers that are no places.
-        ValueError: arrays of other shapes, or a seer that there is not.
-    """
-
-def limit(numbers: NDArray[np.float32], most: NDArray[np.float32]) -> None:
-    """Clip `numbers` (n, seers, o) to [-most, most] in place; `most` (o,).
+    Returns:
+        Flags (n, observers).
 
     Raises:
-        TypeError: an array that is not float32.
-        ValueError: arrays of other shapes, one that cannot be written into, or a bound below 0.
+        TypeError: `rows` is not float32, or `observers` are not indices.
+        ValueError: An array has another shape, or an index is not that of a robot.
     """
 
-def clipped(value: object, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
-    """A copy clipped to [-1, 1], if `value` is a finite float32 array of that shape; else None."""
+def mean_action_magnitude(
+    actions: NDArray[np.float32], observers: NDArray[np.intp]
+) -> NDArray[np.float32]:
+    """Return the mean magnitude of each observer's action.
+
+    Args:
+        actions: Actions (n, robots, action), float32.
+        observers: Indices of robots (observers,).
+
+    Returns:
+        Means of absolute values (n, observers), float32.
+
+    Raises:
+        TypeError: `actions` is not float32, or `observers` are not indices.
+        ValueError: An array has another shape, or an index is not that of a robot.
+    """
+
+def clip_in_place(values: NDArray[np.float32], bounds: NDArray[np.float32]) -> None:
+    """Clip values to [-bounds, bounds] in place.
+
+    Args:
+        values: Values (n, observers, o), float32, C-contiguous and writeable.
+        bounds: Bounds (o,), float32, each 0 or above.
+
+    Raises:
+        TypeError: An array is not float32.
+        ValueError: An array has another shape, `values` is not writeable, or a bound is below 0.
+    """
+
+def clip_actions(value: object, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
+    """Return a copy of an array, clipped to [-1, 1].
+
+    Args:
+        value: Any object.
+        shape: Expected shape.
+
+    Returns:
+        A new float32 array, or None if `value` is not a finite float32 array of that shape.
+    """
 
 @final
-class Sight:
-    """What robots like `robot` see on `field`, of a side with room for so many mates and foes.
+class EgoFeatures:
+    """Egocentric features of robots, scaled for a network.
 
-    In half lengths of the field and top speeds of a robot. `ball`: place and velocity, in the plane
-    or, for robots with a break beam, in space. `me`, `mates`, `foes`: x, y, cos, sin, velocity,
-    turn rate, and the beam where there is one. `ball_from_me`, `goal_from_me`: distance, cosine and
-    sine of the bearing. `shot`: bearing of the goal from the ball; how near the ball is, 1 falling
-    to 0; the latter times 1 where ball and goal lie in one direction, -1 where in opposite ones.
-    `motion_from_me`: own velocity and the ball's, ahead and left. `places_from_me`: ball, mates,
-    foes, likewise.
+    Positions are in half lengths of the field, velocities in top speeds and turn rates in top turn
+    rates of a robot, so most numbers are within -1 to 1; the table has the range of those that
+    are bounded. The blocks, in order:
+
+    | block | shape | meaning | unit |
+    | --- | --- | --- | --- |
+    | `ball` | (4,) or (6,) | position (in space with a mouth) | half length |
+    | | | velocity (in space with a mouth) | top speed |
+    | `self` | (7,) or (8,) | x, y | half length |
+    | | | cos, sin of the heading, -1 to 1 | 1 |
+    | | | v_x, v_y | top speed |
+    | | | turn rate | top turn rate |
+    | | | break beam, 0 or 1, with a mouth | 1 |
+    | `teammates` | (n_teammates, 7 or 8) | as `self`; zeros for an empty slot | as `self` |
+    | `opponents` | (n_opponents, 7 or 8) | as `self`; zeros for an empty slot | as `self` |
+    | `ball_polar` | (3,) | distance of the ball, 0 or above | half length |
+    | | | cosine and sine of its bearing, -1 to 1 | 1 |
+    | `goal_polar` | (3,) | distance of the attacked goal, 0 or above | half length |
+    | | | cosine and sine of its bearing, -1 to 1 | 1 |
+    | `shot` | (4,) | cosine and sine of the bearing from ball to goal, -1 to 1 | 1 |
+    | | | nearness of the ball, exp(-8 d) at d metres, 0 to 1 | 1 |
+    | | | nearness times alignment, -1 to 1 | 1 |
+    | `body_velocities` | (2, 2) | own velocity and the ball's, forward and left | top speed |
+    | `body_positions` | (slots, 2) | offsets of ball, teammates, opponents | half length |
+
+    Alignment is the cosine of the angle between the directions from robot to ball and from ball to
+    goal. Offsets are forward and left; slots are 1 + n_teammates + n_opponents.
+
+    Args:
+        field: The field.
+        robot: Model of the observing robots; its top speeds are the units.
+        n_teammates: Number of teammates in a view, 0 or above.
+        n_opponents: Number of opponents in a view, 0 or above.
 
     Raises:
-        ValueError: a number of mates or foes below 0.
+        ValueError: A number of robots is below 0.
     """
 
-    def __new__(cls, field: Field, robot: RobotModel, n_mates: int, n_foes: int) -> Sight: ...
+    def __new__(
+        cls, field: Field, robot: RobotModel, n_teammates: int, n_opponents: int
+    ) -> EgoFeatures: ...
     @property
     def blocks(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
         """Name and shape of each block, in order."""
 
-    def look(
-        self, ball: NDArray[np.float32], robots: NDArray[np.float32], room: int = 0
+    def encode(
+        self, ball: NDArray[np.float32], robots: NDArray[np.float32], extra: int = 0
     ) -> NDArray[np.float32]:
-        """All blocks side by side, a new array (n, seers, numbers + room).
+        """Return the features of views, all blocks side by side.
 
-        Of views: `ball` (n, seers, ball column) and `robots` (n, seers, slots, robot column) of me,
-        mates and foes, attacking +x; zeros where nobody is. The last `room` numbers are zero, for
-        the caller to write.
+        Args:
+            ball: Ball of each view (n, observers, ball columns), float32, as `Viewpoint.fill`
+                writes it.
+            robots: Robots of each view (n, observers, slots, robot columns), float32: itself,
+                teammates, opponents, zeros for an empty slot.
+            extra: Number of zeros to append to each row for the caller to fill, 0 or above.
+
+        Returns:
+            A new array (n, observers, features + extra), float32.
 
         Raises:
-            TypeError: an array that is not float32.
-            ValueError: an array of another shape, or a room below 0.
+            TypeError: An array is not float32.
+            ValueError: An array has another shape, or `extra` is below 0.
         """
 
     def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int]]: ...
 
 @final
 class Simulator:
-    """`worlds` independent matches of one configuration, stepped on `threads` threads.
+    """Independent matches of one configuration, stepped on several threads.
 
-    World `i` computes what it would compute alone: neither the number of worlds nor of threads
-    changes a bit of it. Usable after a fork. Pickles with its state.
+    World `i` gives the same bits as a single match, whatever the numbers of worlds and threads. A
+    simulator works after a fork, and pickles with its state.
+
+    Args:
+        config: Configuration of the matches.
+        worlds: Number of matches, 1 or above.
+        threads: Number of threads that `step` uses, 1 to 1024.
 
     Raises:
-        ValueError: no worlds or no threads.
+        ValueError: `worlds` or `threads` is out of its range, or the teams do not fit on the field.
     """
 
     def __new__(cls, config: SimConfig, worlds: int = 1, threads: int = 1) -> Simulator: ...
     @property
-    def config(self) -> SimConfig: ...
+    def config(self) -> SimConfig:
+        """Configuration of the matches."""
+
     @property
-    def worlds(self) -> int: ...
+    def worlds(self) -> int:
+        """Number of matches."""
+
     @property
-    def threads(self) -> int: ...
+    def threads(self) -> int:
+        """Number of threads that `step` uses."""
+
     def place(
         self,
         worlds: NDArray[np.bool_],
@@ -622,16 +996,21 @@ class Simulator:
         out: NDArray[np.float32],
         params: NDArray[np.float32] | None = None,
     ) -> None:
-        """Start new matches in the worlds of a mask (n,).
+        """Start new matches in some worlds.
 
-        `rows` (number of True, row) says where; positions, headings, velocities and the ball's spin
-        count. The rows of the placed worlds, as they now read, are written into `out` (n, row).
-        `params` (number of True, parameters) are factors on the models' numbers for these worlds:
-        `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot. Without them the models count.
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            rows: State rows of the starts (number of True, row), float32; positions, headings,
+                velocities and the ball's spin are used. Speeds are at most `MAX_PLACED_SPEED`.
+            out: Output (n, row), float32; the rows of these worlds are written.
+            params: Factors on the models' numbers in these worlds (number of True, parameters),
+                float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot. None for factors
+                of 1.
 
         Raises:
-            ValueError: bodies in each other or outside, wrong shapes. Nothing has changed.
-            TypeError: wrong types.
+            ValueError: A start is invalid (bodies overlap, are outside the field or too fast), a
+                factor is out of its range, or an array has another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
         """
 
     def reposition_balls(
@@ -640,16 +1019,20 @@ class Simulator:
         balls: NDArray[np.float32],
         out: NDArray[np.float32],
     ) -> None:
-        """Put the balls of the worlds of a mask (n,) elsewhere; all else of their matches goes on.
+        """Move the balls of some worlds; everything else of their matches continues.
 
-        `balls` (number of True, ball columns) says where; position, velocity and spin count. Nobody
-        has touched them there, and they have crossed nothing. The rows of these worlds, as they now
-        read, are written into `out` (n, row).
+        The last touch and the crossing of these balls are cleared.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            balls: Ball columns (number of True, ball columns), float32; position, velocity and spin
+                are used.
+            out: Output (n, row), float32; the rows of these worlds are written.
 
         Raises:
-            ValueError: a ball in a robot or outside, or a world that became non-finite before; the
-                world is named. Wrong shapes. Nothing has changed.
-            TypeError: wrong types.
+            ValueError: A ball is in a robot or outside the field, a world became non-finite before
+                (the message names it), or an array has another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
         """
 
     def step(
@@ -658,31 +1041,46 @@ class Simulator:
         out: NDArray[np.float32],
         active: NDArray[np.bool_] | None = None,
     ) -> None:
-        """One control step; releases the GIL.
+        """Advance matches by one control step; releases the GIL.
 
-        `commands` (n, robots, command) are finite; beyond what a robot can do they count as the
-        most that it can. A robot with a shorter command reads the first columns. Rows go into
-        `out` (n, row); those of worlds outside the mask `active` (n,) stay as they are.
+        Args:
+            commands: Commands (n, robots, command columns), float32 and finite; values beyond a
+                robot's limits are clipped. A robot with a shorter command reads the first columns.
+            out: Output (n, row), float32; the rows of stepped worlds are written.
+            active: Mask of the worlds to step (n,), bool. None for all.
 
         Raises:
-            ValueError: wrong shapes or values that are not finite. Nothing has moved.
-            TypeError: wrong types.
-            RuntimeError: the states of some worlds, which are named, became non-finite, or had
-                before. They are lost until `place`; the others have stepped, and their rows are
-                written.
+            ValueError: An array has another shape, or a command is not finite. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+            RuntimeError: The states of some worlds, which the message names, are non-finite, now or
+                since an earlier step. They are lost until `place`; the others have stepped, and
+                their rows are written.
         """
 
     def read(self, out: NDArray[np.float32]) -> None:
-        """Write the rows of all worlds into `out` (n, row)."""
+        """Write the rows of all worlds.
 
-    def snapshot(self) -> bytes:
-        """Everything that the matches' futures depend on."""
-
-    def restore(self, snapshot: bytes) -> None:
-        """Put the matches back where they were when the snapshot was taken.
+        Args:
+            out: Output (n, row), float32.
 
         Raises:
-            ValueError: foreign or damaged bytes, or another configuration. Nothing has changed.
+            ValueError: `out` has another shape or is not writeable.
+            TypeError: `out` is not float32.
+        """
+
+    def snapshot(self) -> bytes:
+        """Return the states of all matches: everything that their futures depend on."""
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restore the states of a snapshot.
+
+        Args:
+            snapshot: Result of `snapshot` of a simulator with the same configuration and number of
+                worlds.
+
+        Raises:
+            ValueError: The bytes are foreign or damaged, or of another configuration or physics
+                version. Nothing has changed.
         """
 
     def __getnewargs__(self) -> tuple[SimConfig, int, int]: ...

@@ -1,4 +1,4 @@
-//! What contacts cost: `cargo bench -p rsim-bench --bench contacts` prints a table.
+//! Cost of contacts: `cargo bench -p rsim-bench --bench contacts` prints a table.
 //!
 //! Two teams face each other in lanes. In some lanes they push each other head on, in the others they
 //! stand still, far apart: the matches of a league differ by their contacts alone.
@@ -8,16 +8,16 @@ use std::time::{Duration, Instant};
 use rsim_core::scenes::{Driver, Scene};
 use rsim_core::{Field, SimConfig, World};
 
-/// Steps in which those that push come to rest against each other, and steps that are timed then.
+/// Steps until pushing robots rest against each other, and timed steps after that.
 const SETTLING: usize = 40;
 const TIMED: usize = 50;
-/// Times that every match is played, in turns: medians count.
+/// Number of times that every match is played, in turns; the table has medians.
 const ROUNDS: usize = 201;
 
-/// A league's match in which so many pairs push.
+/// A match of a league in which `pairs` pairs of robots push each other.
 struct Match {
     pairs: usize,
-    /// Pushing already.
+    /// The match after the settling steps.
     world: World,
     commands: Vec<f32>,
 }
@@ -27,8 +27,8 @@ impl Match {
     fn new(config: &SimConfig, ahead: &[f32], pairs: usize) -> Self {
         let scene = lanes(config, ahead, pairs);
         let mut world = scene.world();
-        // Without contacts a match would go without the solver.
-        world.never_skip();
+        // A match without contacts would go without the solver.
+        world.disable_contact_free_ticks();
         let commands = scene.commands(&scene.start, 0, 0);
         for _ in 0..SETTLING {
             world.step(&commands).expect("the state stays finite");
@@ -36,7 +36,7 @@ impl Match {
         Self { pairs, world, commands }
     }
 
-    /// us that a step takes.
+    /// Time of a step, us.
     fn play(&self) -> f64 {
         let (mut world, mut spent) = (self.world.clone(), Duration::ZERO);
         for _ in 0..TIMED {
@@ -49,7 +49,8 @@ impl Match {
     }
 }
 
-/// Robots of the first lanes touch almost and drive at each other, the others stand still.
+/// Scene in which the robots of the first lanes nearly touch and drive at each other; the others stand
+/// still.
 fn lanes(config: &SimConfig, ahead: &[f32], pairs: usize) -> Scene {
     let (field, robots) = (&config.field, config.blue.len());
     let lane = field.width / (robots + 1) as f32;
@@ -61,8 +62,8 @@ fn lanes(config: &SimConfig, ahead: &[f32], pairs: usize) -> Scene {
     let blue = (0..robots).map(|index| pose(index, -1.0, 0.0));
     let yellow = (0..robots).map(|index| pose(index, 1.0, 180.0));
     let poses: Vec<_> = blue.chain(yellow).collect();
-    let told = |index| if index % robots < pairs { ahead.to_vec() } else { Vec::new() };
-    let driver = Driver::Constant((0..2 * robots).map(told).collect());
+    let command = |index| if index % robots < pairs { ahead.to_vec() } else { Vec::new() };
+    let driver = Driver::Constant((0..2 * robots).map(command).collect());
     let mut scene = Scene::at("lanes", config.clone(), &poses, driver);
     scene.set_ball([0.0, field.half_width() - lane / 2.0], [0.0, 0.0]);
     scene
@@ -75,7 +76,7 @@ fn rows(teams: &str, matches: &[Match]) -> Vec<String> {
     let without = median(rounds.iter().map(|times| times[0]));
     let row = |(index, played): (usize, &Match)| {
         let step = median(rounds.iter().map(|times| times[index]));
-        // Within a round first: a machine that slows down over the rounds does not enter it.
+        // Ratios are taken within a round, so that a machine that slows down does not bias them.
         let ratio = median(rounds.iter().map(|times| times[index] / times[0]));
         let adds = match played.pairs {
             0 => String::new(),

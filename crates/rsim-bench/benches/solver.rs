@@ -1,8 +1,8 @@
-//! What the solver's sub-steps and the length of a tick give in accuracy, and what they cost:
+//! Accuracy and cost of the solver's sub-steps and of the length of a tick:
 //! `cargo bench -p rsim-bench --bench solver` prints a table.
 //!
-//! How deep bodies sink into each other says how well contacts are solved: they should not at all.
-//! Costs are per second of play, so that ticks of different length compare, and against the default.
+//! The overlap of bodies measures the error of the contacts. Costs are per second of play, so that ticks of
+//! different length compare, and relative to the default.
 
 use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
@@ -12,35 +12,35 @@ use rsim_core::{RobotModel, SimConfig, World};
 
 const SUB_STEPS: [usize; 5] = [1, 2, 3, 4, 8];
 const TICKS: [f32; 3] = [0.001, 0.002_5, 0.005];
-/// What matches are played with: `SUB_STEPS` of the engine.
+/// Default number, `SUB_STEPS` of the engine.
 const DEFAULT_SUB_STEPS: usize = 4;
 
-/// Steps of a scene, and times that it is played: the fastest counts.
+/// Steps of a scene, and number of times that it is played; the fastest counts.
 const STEPS: u64 = 400;
 const ROUNDS: usize = 5;
 
-/// What a scene showed.
+/// Measurements of a scene.
 #[derive(Default)]
-struct Shown {
-    /// How deep a pair was in each other, m: in every step in which they were.
+struct Measured {
+    /// Overlaps of pairs in all steps, m.
     depths: Vec<f32>,
     fastest: Option<Duration>,
 }
 
-impl Shown {
+impl Measured {
     fn worst(&self) -> f32 {
         self.depths.iter().copied().fold(0.0, f32::max)
     }
 
-    /// All but the worst hundredth, m.
-    fn most(&mut self) -> f32 {
+    /// The 99th percentile of overlaps, m.
+    fn percentile(&mut self) -> f32 {
         self.depths.sort_by(f32::total_cmp);
         self.depths.get(self.depths.len() * 99 / 100).copied().unwrap_or(0.0)
     }
 }
 
-fn play(scene: &Scene, sub_steps: usize, depths: impl Fn(&[f32]) -> Vec<f32>) -> Shown {
-    let mut shown = Shown::default();
+fn play(scene: &Scene, sub_steps: usize, depths: impl Fn(&[f32]) -> Vec<f32>) -> Measured {
+    let mut measured = Measured::default();
     for _ in 0..ROUNDS {
         let mut world: World = scene.world();
         world.set_sub_steps(NonZeroUsize::new(sub_steps).expect("some"));
@@ -52,14 +52,14 @@ fn play(scene: &Scene, sub_steps: usize, depths: impl Fn(&[f32]) -> Vec<f32>) ->
             world.step(&commands).expect("the state stays finite");
             spent += start.elapsed();
             world.write_row(&mut row);
-            shown.depths.extend(depths(&row).into_iter().filter(|depth| *depth > 0.0));
+            measured.depths.extend(depths(&row).into_iter().filter(|depth| *depth > 0.0));
         }
-        shown.fastest = Some(shown.fastest.map_or(spent, |fastest| fastest.min(spent)));
+        measured.fastest = Some(measured.fastest.map_or(spent, |fastest| fastest.min(spent)));
     }
-    shown
+    measured
 }
 
-/// How deep round robots are in each other.
+/// Overlaps of round robots, m.
 fn between_discs(row: &[f32]) -> Vec<f32> {
     let all: Vec<&[f32]> = robots(row).collect();
     let apart = 2.0 * RobotModel::SSL_GENERIC.bounding_radius();
@@ -67,10 +67,10 @@ fn between_discs(row: &[f32]) -> Vec<f32> {
     pairs.map(|(a, b)| apart - (a[0] - b[0]).hypot(a[1] - b[1])).collect()
 }
 
-/// How deep two square robots that push head on are in each other.
+/// Overlap of two square robots that push head on, m.
 fn between_two(row: &[f32]) -> Vec<f32> {
     let [a, b] = [0, 1].map(|index| robots(row).nth(index).expect("two robots")[0]);
-    vec![2.0 * RobotModel::VSS_440RPM.front() - (b - a)]
+    vec![2.0 * RobotModel::VSS_440RPM.front_distance() - (b - a)]
 }
 
 fn head_on(config: SimConfig) -> Scene {
@@ -94,7 +94,7 @@ fn main() {
             ((sub_steps, tick), crowd, swarm, pushing)
         })
         .collect();
-    let time = |shown: &Shown| shown.fastest.expect("played").as_secs_f64();
+    let time = |measured: &Measured| measured.fastest.expect("played").as_secs_f64();
     let default = (DEFAULT_SUB_STEPS, SimConfig::vss(3, 3).tick);
     let (_, crowd, swarm, _) =
         measured.iter().find(|(setting, ..)| *setting == default).expect("among them");
@@ -107,7 +107,7 @@ fn main() {
         println!(
             "| {sub_steps} | {:.1} | {:.2} | {:.1} | {:.2} | {:.2} | {:.2} |",
             tick * 1e3,
-            swarm.most() * 1e3,
+            swarm.percentile() * 1e3,
             swarm.worst() * 1e3,
             pushing.worst() * 1e3,
             time(&crowd) / usual_crowd,

@@ -1,7 +1,7 @@
 //! Throughput of the physics alone: control steps (25 ms of 5 ms ticks) per second.
 //!
-//! League and team sizes x what goes on x worlds x threads. A scene starts over every 400 steps, so
-//! that a crowd does not end in a corner.
+//! League and team sizes x scene x worlds x threads. A scene restarts every 400 steps, so that a crowd
+//! does not end in a corner.
 
 use std::hint::black_box;
 
@@ -12,10 +12,10 @@ use rsim_core::{Batch, Field, SimConfig};
 /// Steps between two starts of a scene.
 const EPISODE: u64 = 400;
 
-/// Steps in which a scene has to show its contacts.
+/// Steps in which the contacts of a scene are counted.
 const WATCHED: u64 = 2 * EPISODE;
 
-/// A scene that is played over and over, and what it has seen so far.
+/// A scene that is played repeatedly.
 struct Player {
     scene: Scene,
     batch: Batch,
@@ -30,7 +30,7 @@ impl Player {
         Self { scene, batch, rows, commands: Vec::new(), step: 0 }
     }
 
-    /// Decides what the robots do next: not part of what is timed.
+    /// Computes the next commands, outside the timed part.
     fn decide(&mut self) {
         if self.step % EPISODE == 0 {
             let worlds = self.batch.worlds();
@@ -50,13 +50,12 @@ impl Player {
     }
 }
 
-/// A scene to be timed, and how much has to happen in it: a benchmark of a crowd without a crowd
-/// would be worth nothing.
+/// A scene with the range of its contacts: a benchmark of a crowd must have a crowd.
 struct Case {
     /// League and team sizes.
     teams: &'static str,
     scene: Scene,
-    /// Contacts in the first steps, at least and at most.
+    /// Range of the number of contacts in the first steps.
     contacts: std::ops::RangeInclusive<usize>,
 }
 
@@ -93,7 +92,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Label of a driver, and the contacts that it must come to: in random play, or in a crowd.
+/// Label of a driver, and the minimum number of contacts: `random` in random play, `crowd` in a crowd.
 fn named(driver: &Driver, random: usize, crowd: usize) -> (&'static str, usize) {
     match driver {
         Driver::Constant(_) => ("free", 0),

@@ -1,4 +1,4 @@
-//! One match, from the kick-off until somebody scores: `cargo run --release --example one_match`.
+//! One match, from the kick-off until the first goal: `cargo run --release --example one_match`.
 
 use rsim_core::columns::{ball_column, crossing_name};
 use rsim_core::scenes;

@@ -1,146 +1,154 @@
-//! Everything that can be wrong, in one place; the binding maps these to Python exceptions.
+//! All errors of the crate; the binding maps them to Python exceptions.
 
-use crate::placement::FASTEST;
+use crate::columns::MAX_PLACED_SPEED;
 
-/// A configuration that no match can be played with.
+/// An invalid configuration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConfigError {
     /// A name that is not a preset.
     #[error("{what} must be one of {known}, got {got:?}")]
     UnknownPreset {
-        /// Which argument.
+        /// Name of the argument.
         what: &'static str,
-        /// The presets there are.
+        /// Names of the presets.
         known: String,
-        /// What came.
+        /// The given value.
         got: String,
     },
-    /// A quantity that is out of its range.
+    /// A number out of its range.
     #[error("{name} must be {expected}, got {got}")]
     Number {
-        /// Which quantity.
+        /// Name of the number.
         name: &'static str,
         /// Its range.
         expected: &'static str,
-        /// What came.
+        /// The given value.
         got: f32,
     },
-    /// Two quantities that do not fit together.
+    /// Numbers that do not fit together.
     #[error("{0}")]
     Inconsistent(String),
     /// More robots than the league allows.
     #[error("{name} must be at most {max} on a {field} field, got {got}")]
     TooManyRobots {
-        /// Which team.
+        /// Name of the argument with the team's size.
         name: &'static str,
         /// The league's limit.
         max: usize,
         /// The field.
         field: String,
-        /// What came.
+        /// The given value.
         got: usize,
     },
-    /// A number of worlds or threads that cannot work.
+    /// 0 worlds or threads.
     #[error("{name} must be at least 1, got 0")]
     Zero {
-        /// Which number.
+        /// Name of the argument.
         name: &'static str,
     },
-    /// More worlds than any memory holds.
+    /// More worlds than fit into memory.
     #[error("worlds must be at most {max}, got {got}")]
     TooManyWorlds {
         /// The limit.
         max: usize,
-        /// What came.
+        /// The given value.
         got: usize,
+    },
+    /// A field whose name belongs to no league, so that an argument has no default.
+    #[error("{needed_for} must be given for a field of no known league, got field {field:?}")]
+    UnknownLeague {
+        /// The argument without a default.
+        needed_for: &'static str,
+        /// Name of the field.
+        field: String,
     },
     /// The operating system refused to start threads.
     #[error("could not start {threads} threads: {reason}")]
     Threads {
-        /// How many were wanted.
+        /// Requested number of threads.
         threads: usize,
-        /// What the system said.
+        /// The operating system's message.
         reason: String,
     },
 }
 
-/// A starting row that no match can start from.
+/// An invalid start of a match.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlaceError {
-    /// Two bodies share space.
+    /// Two bodies overlap.
     #[error("{first} and {second} overlap by {depth_mm:.1} mm")]
     Overlap {
-        /// One of the two.
+        /// Name of one body.
         first: String,
-        /// The other.
+        /// Name of the other body.
         second: String,
-        /// How deep, millimetres.
+        /// Depth of the overlap, mm.
         depth_mm: f32,
     },
-    /// A body is not on the field.
+    /// A body is outside the field.
     #[error("{who} is outside the field, at ({x:.3}, {y:.3}) m")]
     Outside {
-        /// Which body.
+        /// Name of the body.
         who: String,
-        /// Where, metres.
+        /// Position of the body, m.
         x: f32,
-        /// Where, metres.
+        /// Position of the body, m.
         y: f32,
     },
-    /// A heading that is no direction.
+    /// A heading that is no unit vector.
     #[error("the heading of {who} must be a unit vector (cos, sin), got ({cos}, {sin})")]
     Heading {
-        /// Which robot.
+        /// Name of the robot.
         who: String,
-        /// What came.
+        /// The given value.
         cos: f32,
-        /// What came.
+        /// The given value.
         sin: f32,
     },
-    /// A number that is not finite.
+    /// A value that is not finite.
     #[error("{who} has a value that is not finite")]
     NotFinite {
-        /// Which body.
+        /// Name of the body.
         who: String,
     },
-    /// A body that is faster than anything in the game, and than what contacts are looked for.
-    #[error("{who} moves at {speed:.1} m/s; at most {FASTEST} m/s can be placed")]
+    /// A body faster than [`MAX_PLACED_SPEED`].
+    #[error("{who} moves at {speed:.1} m/s; at most {MAX_PLACED_SPEED} m/s can be placed")]
     TooFast {
-        /// Which body.
+        /// Name of the body.
         who: String,
-        /// How fast.
+        /// Speed of the body, m/s.
         speed: f32,
     },
     /// A ball below the floor.
     #[error("the ball must not be below the floor, got z = {z} m")]
     Below {
-        /// Where, metres.
+        /// Height of the ball's lowest point, m.
         z: f32,
     },
-    /// Parameters that make no ball or robot.
+    /// Factors out of their range.
     #[error("params: {0}")]
     Parameters(ConfigError),
-    /// A ball for a match that is no match any more.
+    /// A ball for a match whose state became non-finite.
     #[error("its state became non-finite; place that world again")]
     Lost,
-    /// The same, in one world of many.
+    /// An error in one world of many.
     #[error("world {world}: {error}")]
     InWorld {
         /// Index of the world.
         world: usize,
-        /// What is wrong there.
+        /// The error.
         error: Box<PlaceError>,
     },
 }
 
 impl PlaceError {
-    /// The same, in one world of many.
+    /// The error with the index of its world.
     pub(crate) fn in_world(self, world: usize) -> Self {
         Self::InWorld { world, error: Box::new(self) }
     }
 }
 
-/// Worlds whose state became non-finite while they were stepped, or had become so before.
+/// Worlds with a non-finite state, since this step or an earlier one.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("the state of worlds {worlds:?} became non-finite; place them again")]
 pub struct StepError {
@@ -149,20 +157,20 @@ pub struct StepError {
 }
 
 impl StepError {
-    /// Of these worlds, given in any order.
+    /// The error of these worlds, given in any order.
     pub(crate) fn in_worlds(mut worlds: Vec<usize>) -> Self {
         worlds.sort_unstable();
         Self { worlds }
     }
 }
 
-/// Bytes that are not a snapshot of this simulator.
+/// An invalid snapshot.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum SnapshotError {
-    /// Not written by this crate.
+    /// Bytes that this crate did not write.
     #[error("these bytes are not a snapshot")]
     Foreign,
-    /// Written by another version of the format or the physics.
+    /// A snapshot of another physics version.
     #[error("the snapshot is of physics {found}, this is physics {expected}")]
     Version {
         /// Version in the bytes.
@@ -170,10 +178,10 @@ pub enum SnapshotError {
         /// Version of this crate.
         expected: u32,
     },
-    /// Cut off or changed.
+    /// Bytes that are cut off or changed.
     #[error("the snapshot is damaged: {0}")]
     Damaged(&'static str),
-    /// Of a simulator that was set up differently.
+    /// A snapshot of another configuration.
     #[error("the snapshot is of another configuration or number of worlds")]
     OtherConfig,
 }

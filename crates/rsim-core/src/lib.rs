@@ -1,70 +1,47 @@
 //! Physics of robot soccer, for reinforcement learning: many small matches, stepped fast.
 //!
-//! A [`SimConfig`] says what is fixed (field, robot and ball models, time step). A [`World`] is one
-//! match; a [`Batch`] is many, stepped on several threads. Commands go in as plain rows, states
-//! come out as plain rows, whose columns are named once in [`columns`].
+//! A [`SimConfig`] holds the constants of a simulator: field, robot and ball models, time step. A
+//! [`World`] is one match; a [`Batch`] is many, stepped on several threads. Commands go in as plain
+//! rows, states come out as plain rows, whose columns are named once in [`columns`].
 //!
 //! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
-//! that the first team attacks, y to the left. The crate knows nothing of episodes or rules of play,
-//! and knows the two teams only as an order of robots.
+//! that the first team attacks, y to the left. The crate knows no episodes and no rules of play; a
+//! team is a range of robots in a row.
 //!
-//! What tasks work out for every robot in every step is here besides: a [`Viewpoint`] turns rows
-//! into what robots see, [`Sight`] scales that for a network, a [`Potential`] is what a robot is to
-//! raise, [`Steering`] turns actions into commands.
+//! The crate also computes the features that tasks need for every robot in every step: a
+//! [`Viewpoint`] turns rows into the view of each robot, [`EgoFeatures`] scale a view for a network,
+//! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands.
 #![forbid(unsafe_code)]
 
-mod arena;
 mod ball;
-mod ball_model;
-mod batch;
+mod body_params;
 pub mod columns;
-mod config;
-mod contacts;
-mod crossing;
 mod drive;
 mod engine;
 mod error;
-mod field;
-mod flight;
-mod handling;
-mod impact;
-mod kicks;
-mod line_up;
-mod mouth;
-mod mouth_model;
-mod obstacle;
-mod outline;
-mod physique;
-mod placement;
-mod pool;
-mod reposition;
-mod robot_model;
-mod robot_presets;
-mod row;
+mod features;
+mod geometry;
+mod math;
+mod models;
 pub mod scenes;
-pub mod shaping;
-mod sight;
-mod snapshot;
-mod squeeze;
-pub mod steering;
+mod state;
 mod tick;
-mod touch;
-mod viewpoint;
 mod world;
 
-pub use ball_model::{BallModel, Hop, Surface};
-pub use batch::Batch;
-pub use config::{SimConfig, check_team};
+pub use columns::MAX_PLACED_SPEED;
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
-pub use field::Field;
-pub use mouth_model::Mouth;
-pub use placement::FASTEST;
-pub use robot_model::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
-pub use shaping::Potential;
-pub use sight::{Block, Sight};
-pub use steering::Steering;
-pub use viewpoint::{Seat, Viewpoint};
+pub use features::ego_features::{Block, EgoFeatures};
+pub use features::shaping::Potential;
+pub use features::steering::Steering;
+pub use features::viewpoint::{Observer, Viewpoint};
+pub use features::{shaping, steering};
+pub use models::ball::BallModel;
+pub use models::config::{SimConfig, check_team};
+pub use models::field::Field;
+pub use models::league::League;
+pub use models::mouth::Mouth;
+pub use models::numbers::{Number, Range};
+pub use models::robot::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
+pub use tick::PHYSICS_VERSION;
 pub use world::World;
-
-/// Number of the physics: raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 5;
+pub use world::batch::Batch;

@@ -1,30 +1,32 @@
-//! All tests of the physics, one file a subject, as one program: linking is what takes long.
+//! All tests of the physics, one file per subject, as one program, because linking takes long.
 
 use std::path::Path;
 
 mod bounce;
 mod chip;
 mod collisions;
+mod contact_free;
 mod corners;
 mod crowd;
 mod determinism;
 mod drive;
 mod floor;
 mod golden;
-mod happened;
 mod input;
 mod jerk;
 mod kickers;
+mod layers;
 mod mirror;
 mod mouth;
 mod omni;
 mod placement;
+mod records;
 mod reposition;
-mod shortcuts;
 mod shots;
 mod soak;
 mod spinning;
 mod squeeze;
+mod stub;
 mod trains;
 mod tyres;
 

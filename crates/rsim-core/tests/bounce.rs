@@ -1,12 +1,12 @@
-//! The ball off walls and robots: its preset's restitution, and Coulomb's friction for what is
-//! along the surface.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Bounces of the ball off walls and robots: the restitution of its preset along the normal, Coulomb's
+//! friction along the surface.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
-use rsim_core::{BallModel, SimConfig, Surface};
+use rsim_core::{BallModel, SimConfig};
 
-/// A floor that does nothing, so that only the bounce changes the ball.
+/// A floor without friction, so that only the bounce changes the ball.
 fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
     let ball = BallModel {
         sliding_deceleration: 0.0,
@@ -17,12 +17,13 @@ fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
     SimConfig { ball, ..SimConfig::ssl(n_blue, 0) }
 }
 
-/// What Coulomb's law makes of a ball that hits a wall: speeds back and along it, and the spin about
-/// the vertical axis (rad/s), from its speeds towards and along it.
-fn coulomb(surface: Surface, radius: f32, towards: f32, along: f32) -> (f32, f32, f32) {
+/// Coulomb's law for a ball that hits a wall: speeds back and along it, and spin about the vertical axis
+/// (rad/s), from its speeds towards and along it.
+fn coulomb(ball: &BallModel, towards: f32, along: f32) -> (f32, f32, f32) {
     // A solid sphere stops slipping when friction has taken 2/7 of the slip.
-    let taken = (surface.friction * (1.0 + surface.restitution) * towards).min(2.0 / 7.0 * along);
-    (surface.restitution * towards, along - taken, 2.5 * taken / radius)
+    let taken =
+        (ball.wall_friction * (1.0 + ball.wall_restitution) * towards).min(2.0 / 7.0 * along);
+    (ball.wall_restitution * towards, along - taken, 2.5 * taken / ball.radius)
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn a_wall_gives_back_its_restitution_at_every_speed() {
                 let config = SimConfig { tick, ..slippery(&ball, 0) };
                 let row = lone_ball(config, [0.1, 3.1], [0.0, speed]).after(20);
                 let back = -row[ball_column("v_y")] / speed;
-                let expected = ball.wall.restitution;
+                let expected = ball.wall_restitution;
                 assert!((back - expected).abs() < 0.01, "{} {speed} m/s: {back}", ball.name);
             }
         }
@@ -48,7 +49,7 @@ fn steep_and_grazing_bounces_obey_coulomb() {
             let (towards, along) = (speed * towards, speed * along);
             let scene = lone_ball(slippery(&ball, 0), [-2.0, 3.1], [along, towards]);
             let row = scene.after(20);
-            let (back, left, spin) = coulomb(ball.wall, ball.radius, towards, along);
+            let (back, left, spin) = coulomb(&ball, towards, along);
             for (what, got, expected) in [
                 ("back", -row[ball_column("v_y")], back),
                 ("along", row[ball_column("v_x")], left),
@@ -63,7 +64,7 @@ fn steep_and_grazing_bounces_obey_coulomb() {
 }
 
 #[test]
-fn the_spin_of_a_bounce_fades_by_its_law() {
+fn the_spin_of_a_bounce_decays_by_its_law() {
     let mut config = slippery(&BallModel::SSL_TIGERS, 0);
     config.ball.spin_deceleration = BallModel::SSL_TIGERS.spin_deceleration;
     let (spin_z, scene) = (ball_column("spin_z"), lone_ball(config, [-2.0, 3.1], [2.0, 2.0]));
@@ -87,7 +88,7 @@ fn a_robot_gives_back_its_restitution_at_front_and_side() {
             for degrees in [0.0_f32, 90.0, 180.0, -100.0] {
                 let scene = at_robot(&ball, degrees, speed);
                 let (rows, _) = scene.play(&mut scene.world(), 60);
-                // What leaves, against the robot that gave way: it is the closing speed that counts.
+                // The separation speed, relative to the robot that recoiled.
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let outward = |x: f32, y: f32| x * cos + y * sin;
                 let after = rows
@@ -95,12 +96,12 @@ fn a_robot_gives_back_its_restitution_at_front_and_side() {
                     .find(|row| outward(row[ball_column("v_x")], row[ball_column("v_y")]) > 0.0);
                 let row = after.expect("it bounced");
                 let ball_speed = outward(row[ball_column("v_x")], row[ball_column("v_y")]);
-                // The wheels brake the robot between the bounce and the end of the step: momentum
-                // tells how fast it was.
+                // The wheels brake the robot between the bounce and the end of the step: its speed after
+                // the bounce follows from momentum.
                 let model = &scene.config.blue[0];
                 let given = ball.mass * (ball_speed + speed) / model.mass;
                 let back = (ball_speed + given) / speed;
-                let expected = ball.robot.restitution;
+                let expected = ball.robot_restitution;
                 assert!(
                     (back - expected).abs() < 0.01,
                     "{} {speed} m/s at {degrees}: {back}, not {expected}",
@@ -115,15 +116,15 @@ fn a_robot_gives_back_its_restitution_at_front_and_side() {
 
 #[test]
 fn a_wall_takes_spin_from_a_rolling_ball_by_the_same_law() {
-    // Its front goes down the wall: the slip is the speed that it came with, and friction takes 5/7
-    // of it, or 2.5 mu (1 + e) of the closing speed if that is less.
+    // The front of the ball moves down along the wall: the slip is the ball's speed, and friction takes
+    // 5/7 of it, or 2.5 mu (1 + e) of the closing speed if that is less.
     for ball in BallModel::PRESETS {
         let speed = 2.0;
         let mut scene = lone_ball(slippery(&ball, 0), [0.0, 3.1], [0.0, speed]);
         scene.config.ball.sliding_deceleration = 0.0;
         scene.set_ball_column("spin_x", -speed / ball.radius);
         let row = scene.after(8);
-        let taken = 2.5 * ball.wall.friction * (1.0 + ball.wall.restitution);
+        let taken = 2.5 * ball.wall_friction * (1.0 + ball.wall_restitution);
         let expected = -speed / ball.radius * (1.0 - taken.min(5.0 / 7.0));
         let got = row[ball_column("spin_x")];
         assert!((got / expected - 1.0).abs() < 0.05, "{}: {got}, not {expected}", ball.name);

@@ -1,5 +1,5 @@
-//! A ball in the air: the parabola, hops by preset, what it clears and what stops it.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! A ball in the air: its parabola, its hops by preset, and bodies that it clears or hits.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{ball_column, crossing_name};
 use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_ball, steps};
@@ -27,7 +27,7 @@ fn flight(mut scene: Scene, seconds: f32) -> Vec<[f32; 4]> {
     rows.map(|row| [row[0], row[z], row[v_x], row[v_z]]).collect()
 }
 
-/// Hops as (apex, length, speed along the floor): what lies between two touch-downs.
+/// Hops between two touch-downs, as (apex, length, horizontal speed).
 fn hops(track: &[[f32; 4]]) -> Vec<[f32; 3]> {
     let mut hops = Vec::new();
     let (mut start, mut apex) = (0.0, 0.0_f32);
@@ -64,19 +64,23 @@ fn hops_shrink_by_the_presets_ratios() {
         let hops = hops(&flight(chip(&ball, 6.5, 45.0), 4.0));
         assert!(hops.len() >= 3, "{}: {hops:?}", ball.name);
         for (nth, pair) in hops.windows(2).enumerate() {
-            let along = if nth == 0 { ball.hop.first } else { ball.hop.later };
+            let along = if nth == 0 { ball.first_hop_factor } else { ball.later_hop_factor };
             let [[before, _, v_before], [after, _, v_after]] = [pair[0], pair[1]];
             assert!((v_after / v_before - along).abs() < 0.01, "{} along: {pair:?}", ball.name);
             if after > 0.02 {
                 let up = (after / before).sqrt();
-                assert!((up - ball.hop.up).abs() < 0.02, "{} up: {pair:?}", ball.name);
+                assert!(
+                    (up - ball.vertical_restitution).abs() < 0.02,
+                    "{} up: {pair:?}",
+                    ball.name
+                );
             }
         }
     }
 }
 
 #[test]
-fn after_its_hops_it_rolls() {
+fn a_ball_rolls_after_its_hops() {
     let scene = chip(&BallModel::SSL_TIGERS, 4.0, 45.0);
     let row = scene.after(120);
     let rim = row[ball_column("spin_y")] * scene.config.ball.radius;
@@ -148,7 +152,7 @@ fn there_is_no_goal_above_the_bar() {
 }
 
 #[test]
-fn it_lands_on_a_robot_and_does_not_stay() {
+fn a_ball_that_lands_on_a_robot_does_not_stay() {
     let poses = [[0.0, 0.0, 30.0]];
     for (x, v_x) in [(0.0, 0.0), (0.03, 0.0), (-0.4, 0.5), (0.0, 0.2)] {
         let mut scene = Scene::at("landing", SimConfig::ssl(1, 0), &poses, Driver::STILL);
@@ -165,7 +169,7 @@ fn it_lands_on_a_robot_and_does_not_stay() {
 }
 
 #[test]
-fn a_chip_from_the_mouth_leaves_at_the_angle_that_it_was_told() {
+fn a_chip_from_the_mouth_leaves_at_the_commanded_angle() {
     let scene = ball_in_mouth(&[0.0, 0.0, 0.0, 3.0, 3.0, 0.0]);
     let row = scene.after(4);
     assert!((row[ball_column("v_x")] / 3.0 - 1.0).abs() < 0.02, "{row:?}");
@@ -175,8 +179,8 @@ fn a_chip_from_the_mouth_leaves_at_the_angle_that_it_was_told() {
 #[test]
 fn a_robot_that_drives_into_a_hopping_ball_hits_it() {
     let poses = [[0.0, 0.0, 0.0]];
-    let told = vec![vec![3.0, 0.0, 0.0]];
-    let mut scene = Scene::at("behind", SimConfig::ssl(1, 0), &poses, Driver::Constant(told));
+    let commands = vec![vec![3.0, 0.0, 0.0]];
+    let mut scene = Scene::at("behind", SimConfig::ssl(1, 0), &poses, Driver::Constant(commands));
     scene.set_robot_column(0, "v_x", 3.0);
     scene.set_ball([0.12, 0.0], [0.0, 0.0]);
     scene.set_ball_column("v_z", 0.9);
@@ -191,8 +195,9 @@ fn a_hopping_ball_is_not_pushed_through_a_goals_side() {
     for try_ in 0..60_u8 {
         let y = 0.52 + 0.0215 + 0.09 + 0.04;
         let poses = [[4.62, y, -90.0]];
-        let told = vec![vec![1.0, 0.0, 0.0]];
-        let mut scene = Scene::at("press", SimConfig::ssl(1, 0), &poses, Driver::Constant(told));
+        let commands = vec![vec![1.0, 0.0, 0.0]];
+        let mut scene =
+            Scene::at("press", SimConfig::ssl(1, 0), &poses, Driver::Constant(commands));
         scene.set_ball([4.62, 0.545], [0.0, 0.0]);
         scene.set_ball_column("v_z", 0.5 + f32::from(try_) * 0.01);
         let (rows, _) = scene.play(&mut scene.world(), 30);

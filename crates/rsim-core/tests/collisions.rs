@@ -1,4 +1,4 @@
-//! Robots that run into each other: what they keep, and what their wheels make of it.
+//! Collisions of robots: speeds after them, and the reaction of the wheels.
 
 use rsim_core::columns::robot_column;
 use rsim_core::scenes::{Driver, Scene, deepest_robots, kinetic_energy, robots, uniform};
@@ -6,14 +6,14 @@ use rsim_core::{RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
 
-/// Two squares that come at each other along x, face to face, told to drive on at `told` rad/s.
-fn face_to_face(model: &RobotModel, tick: f32, speed: f32, gap: f32, told: f32) -> Scene {
+/// Two squares that approach along x, face to face, commanded to drive on at `wheel_speed` rad/s.
+fn face_to_face(model: &RobotModel, tick: f32, speed: f32, gap: f32, wheel_speed: f32) -> Scene {
     let config = SimConfig::vss(1, 1);
     let team = vec![model.clone()];
     let config = SimConfig { tick, blue: team.clone(), yellow: team, ..config };
-    let away = model.front() + gap / 2.0;
+    let away = model.front_distance() + gap / 2.0;
     let poses = [[-away, 0.0, 0.0], [away, 0.0, 180.0]];
-    let driver = Driver::Constant(vec![vec![told; 2]; 2]);
+    let driver = Driver::Constant(vec![vec![wheel_speed; 2]; 2]);
     let mut scene = Scene::at("face_to_face", config, &poses, driver);
     scene.set_ball([0.0, 0.6], [0.0, 0.0]);
     scene.set_robot_column(0, "v_x", speed);
@@ -26,10 +26,11 @@ fn face_to_face(model: &RobotModel, tick: f32, speed: f32, gap: f32, told: f32) 
 fn check_faces(models: &[RobotModel], ticks: &[f32], after: f32) {
     for model in models {
         for (tick, speed) in ticks.iter().flat_map(|tick| SPEEDS.map(|speed| (*tick, speed))) {
-            for (gap, told) in [(0.0, 46.0), (0.0, 20.0), (0.003, 20.0), (0.05, 46.0), (0.001, 0.0)]
+            for (gap, wheel_speed) in
+                [(0.0, 46.0), (0.0, 20.0), (0.003, 20.0), (0.05, 46.0), (0.001, 0.0)]
             {
-                let scene = face_to_face(model, tick, speed, gap, told);
-                let label = format!("{} {tick} s {speed} m/s {gap} m {told}", model.name);
+                let scene = face_to_face(model, tick, speed, gap, wheel_speed);
+                let label = format!("{} {tick} s {speed} m/s {gap} m {wheel_speed}", model.name);
                 check_face(&scene, after, &label);
             }
         }
@@ -61,7 +62,7 @@ fn squares_that_met_face_to_face_slid_off_each_other() {
     check_faces(&[RobotModel::VSS_440RPM, RobotModel::VSS_650RPM], &TICKS, 0.3);
 }
 
-/// A face that is off by the least bit lands on a corner first, and comes flush within a few ticks.
+/// A face with the smallest misalignment touches with a corner first, and is flush after a few ticks.
 #[test]
 fn squares_that_meet_face_to_face_never_turn_by_half_a_degree() {
     for model in [RobotModel::VSS_440RPM, RobotModel::VSS_650RPM] {
@@ -77,7 +78,7 @@ fn squares_that_meet_face_to_face_never_turn_by_half_a_degree() {
     }
 }
 
-/// A robot that comes fast at another that spins or stands, both told to stand.
+/// A fast robot that hits a spinning or standing one, both commanded to stand.
 fn crash(config: SimConfig, nth: u64) -> Scene {
     let draw = |part: u64| uniform(nth * 16 + part);
     let vss = config.blue[0].mouth.is_none();
@@ -98,13 +99,14 @@ fn crash(config: SimConfig, nth: u64) -> Scene {
 
 /// Plays crashes and counts those in which robots met.
 fn check_crashes(config: &SimConfig, check: impl Fn(&Scene, &[Vec<f32>], &str)) {
-    let (mut met, crash_speed) = (0, robot_column("crash_speed"));
+    let (mut met, collision_speed) = (0, robot_column("collision_speed"));
     for nth in 0..200 {
         let tick = TICKS[usize::from(nth % 2 == 1)];
         let scene = crash(SimConfig { tick, ..config.clone() }, nth);
         let rows = scene.every_tick(0.3);
-        met +=
-            usize::from(rows.iter().any(|row| robots(row).any(|robot| robot[crash_speed] > 0.3)));
+        met += usize::from(
+            rows.iter().any(|row| robots(row).any(|robot| robot[collision_speed] > 0.3)),
+        );
         check(&scene, &rows, &format!("{} {nth}", scene.config.blue[0].name));
     }
     assert!(met > 120, "only {met} met");
@@ -117,7 +119,7 @@ fn both_leagues() -> [SimConfig; 3] {
 }
 
 #[test]
-fn robots_told_to_stand_gained_energy_after_a_crash() {
+fn robots_commanded_to_stand_gained_energy_after_a_crash() {
     for config in both_leagues() {
         check_crashes(&config, |scene, rows, label| {
             let energies: Vec<f32> =
@@ -131,13 +133,13 @@ fn robots_told_to_stand_gained_energy_after_a_crash() {
 }
 
 #[test]
-fn the_load_of_a_crash_came_again_in_the_next_tick() {
-    // Whom nobody touches and who is told to stand only slows down.
-    let touched_foe = robot_column("touched_foe");
+fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
+    // A robot without contact that is commanded to stand only slows down.
+    let touched_opponent = robot_column("touched_opponent");
     for config in both_leagues() {
         check_crashes(&config, |_, rows, label| {
             for (tick, pair) in rows.windows(2).enumerate() {
-                if robots(&pair[1]).any(|robot| robot[touched_foe] > 0.0) {
+                if robots(&pair[1]).any(|robot| robot[touched_opponent] > 0.0) {
                     continue;
                 }
                 for (before, after) in robots(&pair[0]).zip(robots(&pair[1])) {

@@ -18,8 +18,8 @@ struct Corner {
     tick: f32,
 }
 
-/// How far round robots are turned from where they drive, degrees. A flat front would not get to a
-/// ball in a corner before the robot's sides get to the walls.
+/// Angle between heading and driving direction of round robots, degrees. The sides of a robot would reach
+/// the walls before its flat front reaches a ball in a corner.
 const TURNED: f32 = 120.0;
 
 impl Corner {
@@ -29,13 +29,13 @@ impl Corner {
         let diagonal = std::f32::consts::FRAC_1_SQRT_2;
         let (field, clear) = (&config.field, 0.002);
         // The ball lies at both walls, or at the middle of the block in the corner.
-        let inset = if field.corner > 0.0 {
-            field.corner / 2.0 + (radius + clear) * diagonal
+        let inset = if field.corner_leg > 0.0 {
+            field.corner_leg / 2.0 + (radius + clear) * diagonal
         } else {
             radius + clear
         };
         let end = field.half_length() + field.goal_line_margin;
-        let ball = [end - inset, field.reach_y() - inset];
+        let ball = [end - inset, field.max_y() - inset];
         let length = 2.0 * behind(&model) + 0.01;
         let [x, y] = self.signs;
         let turned = if matches!(model.body, Body::Round { .. }) { TURNED } else { 0.0 };
@@ -48,15 +48,15 @@ impl Corner {
             })
             .collect();
         let velocity = [x, y].map(|sign| sign * diagonal * self.speed);
-        let told = vec![driving(&model, degrees, velocity); self.robots];
-        let mut scene = Scene::at("corner", config, &poses, Driver::Constant(told));
+        let commands = vec![driving(&model, degrees, velocity); self.robots];
+        let mut scene = Scene::at("corner", config, &poses, Driver::Constant(commands));
         scene.set_ball([x * ball[0], y * ball[1]], [0.0, 0.0]);
         scene.set_ball_column("z", self.z);
         (0..self.robots).for_each(|robot| scene.set_velocity(robot, velocity));
         scene
     }
 
-    /// How deep robots are in each other, and how much faster the ball says it is than it moves.
+    /// Checks the overlap of robots, and the ball's velocity against its motion.
     fn check(&self, config: &SimConfig) {
         let scene = self.scene(config.clone());
         let rows = scene.every_tick(1.5);
@@ -65,7 +65,7 @@ impl Corner {
         assert!(depth <= 3e-3, "{self:?}: robots {depth} m in each other");
         for (tick, three) in rows.windows(3).enumerate() {
             let way = |a: &[f32], b: &[f32]| (b[0] - a[0]).hypot(b[1] - a[1]) / self.tick;
-            // Hit at the end of a tick, it moves in the next.
+            // A ball that is hit at the end of a tick moves in the next.
             let moved = way(&three[0], &three[1]).max(way(&three[1], &three[2]));
             let [v_x, v_y] = ["v_x", "v_y"].map(|name| three[1][ball_column(name)]);
             let settled = tick as f32 * self.tick > 0.5;
@@ -81,11 +81,11 @@ impl Corner {
     }
 }
 
-/// From a robot's centre to its round side, or to its back.
+/// Distance from a robot's centre to its round side, or to its back.
 fn behind(model: &RobotModel) -> f32 {
     match model.body {
         Body::Round { radius, .. } => radius,
-        Body::Square { side } => side / 2.0,
+        Body::Square { side_length: side } => side / 2.0,
     }
 }
 
@@ -122,9 +122,9 @@ fn a_flying_ball_in_a_corner_pushed_robots_into_each_other() {
     check_corners(ssl, 2.0, &[0.03, 0.05, 0.08, 0.115]);
 }
 
-/// What ran off a robot's cover was pushed against the wall faster and faster, and did not move.
+/// A ball that ran off a robot's cover was pushed against the wall, got faster, and did not move.
 #[test]
-fn a_ball_between_a_cover_and_the_wall_said_that_it_moved() {
+fn a_ball_between_a_cover_and_the_wall_had_a_velocity_without_motion() {
     check_corners(ssl, 2.0, &[0.145, 0.16]);
 }
 

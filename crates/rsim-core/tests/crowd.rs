@@ -1,4 +1,4 @@
-//! Many bodies pushing: nobody leaves the arena, nobody stays in anybody, nothing explodes.
+//! Many bodies that push: none leaves the arena, none stays inside another, speeds stay bounded.
 
 use rsim_core::scenes::{self, Driver, Scene, robots, uniform};
 use rsim_core::{Field, RobotModel, SimConfig, World};
@@ -74,7 +74,7 @@ fn states_of_a_crowd_can_be_placed_again() {
     }
 }
 
-/// A crowd from a random start: everybody anywhere, the ball rolling.
+/// A crowd from random poses, with the ball rolling.
 fn scattered(config: &SimConfig, seed: u64) -> Scene {
     let mut scene = Scene::lined_up("scattered", config.clone(), Driver::Chase);
     let draw = |part: u64| uniform(seed * 7 + part);
@@ -85,7 +85,7 @@ fn scattered(config: &SimConfig, seed: u64) -> Scene {
     scene
 }
 
-/// States of crowds that cannot be placed again, of so many.
+/// Errors of those of `states` states of crowds that cannot be placed again.
 fn refused(config: &SimConfig, states: u64) -> Vec<String> {
     let mut again = World::new(config).expect("a valid configuration");
     let mut refused = Vec::new();

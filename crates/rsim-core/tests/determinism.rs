@@ -1,27 +1,27 @@
-//! Same start, same commands, same bytes: whatever the threads, the neighbours and the history.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Equal starts and commands give equal bytes, whatever the threads, the other worlds and the history.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::scenes::{self, Scene};
 use rsim_core::{Batch, SimConfig};
 
-/// Goes on with a batch whose worlds are driven differently; returns all rows of all steps.
-fn go_on(scene: &Scene, batch: &mut Batch, steps: std::ops::Range<u64>) -> Vec<f32> {
+/// Steps a batch whose worlds have different commands. Returns all rows of all steps.
+fn advance(scene: &Scene, batch: &mut Batch, steps: std::ops::Range<u64>) -> Vec<f32> {
     let size = scene.config.row_size();
     let mut rows = vec![0.0; batch.worlds() * size];
     batch.read(&mut rows);
-    let mut seen = Vec::new();
+    let mut all_rows = Vec::new();
     for step in steps {
         let each = rows.chunks_exact(size).enumerate();
         let commands: Vec<f32> =
             each.flat_map(|(world, row)| scene.commands(row, step, world as u64 * 7919)).collect();
         batch.step(&commands, &mut rows, None).expect("finite");
-        seen.extend_from_slice(&rows);
+        all_rows.extend_from_slice(&rows);
     }
-    seen
+    all_rows
 }
 
 fn run(scene: &Scene, worlds: usize, threads: usize, steps: u64) -> Vec<f32> {
-    go_on(scene, &mut scene.batch(worlds, threads).0, 0..steps)
+    advance(scene, &mut scene.batch(worlds, threads).0, 0..steps)
 }
 
 #[test]
@@ -40,16 +40,16 @@ fn thread_count_does_not_change_results() {
 }
 
 #[test]
-fn a_world_in_a_batch_is_the_same_world_alone() {
+fn a_world_in_a_batch_equals_a_single_world() {
     let scene = scenes::random_play();
     let (worlds, size) = (5, scene.config.row_size());
     let together = run(&scene, worlds, 1, 150);
     for world in 0..worlds {
-        let mut alone = scene.world();
+        let mut single = scene.world();
         let mut row = scene.start.clone();
         for step in 0..150_u64 {
-            alone.step(&scene.commands(&row, step, world as u64 * 7919)).expect("finite");
-            alone.write_row(&mut row);
+            single.step(&scene.commands(&row, step, world as u64 * 7919)).expect("finite");
+            single.write_row(&mut row);
             let at = (usize::try_from(step).expect("small") * worlds + world) * size;
             assert!(together[at..at + size] == row, "world {world}, step {step}");
         }
@@ -70,17 +70,17 @@ fn a_placed_world_keeps_nothing_of_its_past() {
 }
 
 #[test]
-fn a_restored_world_goes_on_as_if_never_stopped() {
+fn a_restored_world_continues_as_if_never_stopped() {
     for scene in [scenes::crowded_kickoff(), scenes::ssl_random(SimConfig::ssl(3, 2))] {
         // Right after placing, and at several moments within the play.
         for before in [0, 1, 5, 40, 111] {
             let (mut batch, _) = scene.batch(2, 1);
-            go_on(&scene, &mut batch, 0..before);
+            advance(&scene, &mut batch, 0..before);
             let bytes = batch.snapshot();
-            let expected = go_on(&scene, &mut batch, before..before + 120);
+            let expected = advance(&scene, &mut batch, before..before + 120);
             let mut other = Batch::new(&scene.config, 2, 1).expect("valid");
             other.restore(&bytes).expect("its own snapshot");
-            let restored = go_on(&scene, &mut other, before..before + 120);
+            let restored = advance(&scene, &mut other, before..before + 120);
             assert!(restored == expected, "{}: snapshot after {before} steps", scene.name);
         }
     }

@@ -20,7 +20,7 @@ fn close(got: f32, expected: f32, tolerance: f32) {
 }
 
 #[test]
-fn equal_wheels_drive_straight_at_the_speed_that_they_say() {
+fn equal_wheels_drive_straight_at_their_rim_speed() {
     let robot = after(&lone_robot([20.0, 20.0]), 40);
     close(robot[4], 0.026 * 20.0, 1e-4);
     close(robot[1], 0.0, 1e-6);
@@ -28,7 +28,7 @@ fn equal_wheels_drive_straight_at_the_speed_that_they_say() {
 }
 
 #[test]
-fn speed_up_is_what_the_tyres_give() {
+fn acceleration_is_limited_by_the_tyres() {
     // 6.85 m/s² measured on the old simulator's robot: 0.1 s to 0.685 m/s and 34 mm.
     let robot = after(&lone_robot([100.0, 100.0]), 4);
     close(robot[4], 0.685, 0.005);
@@ -52,7 +52,8 @@ fn unequal_wheels_drive_the_arc_of_the_closed_form() {
         let scene = lone_robot([left, right]);
         scene.play(&mut scene.world(), 60)
     };
-    let radius = wheels(&RobotModel::VSS_440RPM).track / 2.0 * (right + left) / (right - left);
+    let radius =
+        wheels(&RobotModel::VSS_440RPM).track_width / 2.0 * (right + left) / (right - left);
     // The curvature, from three positions of the steady part.
     let at = |step: usize| {
         let size = SimConfig::vss(1, 0).row_size();
@@ -72,7 +73,7 @@ fn wheels_that_differ_by_2_percent_drive_the_arc_of_the_closed_form() {
     let mut scene = lone_robot([left, right]);
     scene.set_robot_column(0, "x", -0.65);
     let drive = wheels(&RobotModel::VSS_440RPM);
-    let radius = drive.track / 2.0 * (right + left) / (right - left); // 3.95 m
+    let radius = drive.track_width / 2.0 * (right + left) / (right - left); // 3.95 m
     let [early, late] = [8, 88].map(|steps| after(&scene, steps));
     // On a circle the chord between two places bends by half the angle between their headings.
     let chord = (late[0] - early[0]).hypot(late[1] - early[1]);
@@ -83,7 +84,7 @@ fn wheels_that_differ_by_2_percent_drive_the_arc_of_the_closed_form() {
 }
 
 #[test]
-fn the_faster_preset_responds_as_its_numbers_say() {
+fn the_faster_preset_responds_by_its_numbers() {
     let model = RobotModel::VSS_650RPM;
     let drive = wheels(&model);
     let preset = |command: [f32; 2], steps: u64| {
@@ -99,11 +100,11 @@ fn the_faster_preset_responds_as_its_numbers_say() {
     let top = drive.wheel_radius * drive.max_wheel_speed; // 1.7 m/s, after 0.289 s
     close(preset(full, 11)[4], 0.6 * 9.81 * 0.275, 0.01);
     close(preset(full, 13)[4], top, 1e-3);
-    close(preset([-20.0, 20.0], 20)[6], 2.0 * 20.0 * drive.wheel_radius / drive.track, 0.05);
+    close(preset([-20.0, 20.0], 20)[6], 2.0 * 20.0 * drive.wheel_radius / drive.track_width, 0.05);
 }
 
 #[test]
-fn commands_beyond_the_motors_count_as_their_top_speed() {
+fn commands_beyond_the_motors_are_clipped_to_their_top_speed() {
     assert_eq!(after(&lone_robot([1e9, 1e9]), 30), after(&lone_robot([46.077, 46.077]), 30));
 }
 
@@ -141,8 +142,8 @@ fn a_robot_against_the_wall_stalls_and_stays_straight() {
 
 #[test]
 fn two_robots_head_on_stall() {
-    // Two robots of one model are equally strong; the pusher's own brakes decide. At rest both
-    // stay, so pushing needs a start: what counts is that nobody passes through anybody.
+    // Two robots of one model are equally strong, so both stay. The test is that neither passes through
+    // the other.
     let config = SimConfig::vss(1, 1);
     let mut scene = Scene::at(
         "head_on",
@@ -163,7 +164,7 @@ fn first_robot(scene: &mut Scene) -> &mut [f32] {
     rsim_core::scenes::robots_mut(&mut scene.start).next().expect("a robot")
 }
 
-/// Turn rates of a robot that turns for `steps` on the spot and is then told to drive on at `power`.
+/// Turn rates of a robot that turns for `steps` on the spot and is then commanded to drive at `power`.
 fn spin_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
     let top = wheels(model).max_wheel_speed;
     let mut scene = lone_robot([0.0, 0.0]);
@@ -184,7 +185,7 @@ fn spin_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
 }
 
 #[test]
-fn a_robot_told_full_speed_straight_on_stops_spinning() {
+fn a_spinning_robot_commanded_straight_at_full_speed_stops_spinning() {
     for steps in [1, 2, 4, 12] {
         let rates = spin_then_drive(&RobotModel::VSS_440RPM, steps, 1.0);
         assert!(rates[0] > 4.0, "it spun: {} rad/s", rates[0]);

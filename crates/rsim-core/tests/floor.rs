@@ -1,6 +1,6 @@
-//! A kicked ball on an empty floor against the closed form of its preset: it slides, it rolls, it
-//! stops; the same in every direction and at every tick.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! A kicked ball on an empty floor against the closed form of its preset: it slides, rolls and stops, the
+//! same in every direction and at every tick.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{Scene, lone_ball, rolling_ball, steps};
@@ -16,9 +16,9 @@ struct RollOut {
     stop: f32,
 }
 
-/// The closed form, written as a textbook does: two uniformly decelerated parts.
+/// The closed form of textbooks: two uniformly decelerated parts.
 fn closed_form(ball: &BallModel, kick: f32) -> RollOut {
-    let rolls = ball.rolling_share * kick;
+    let rolls = ball.slide_to_roll_ratio * kick;
     let slide_way = (kick * kick - rolls * rolls) / (2.0 * ball.sliding_deceleration);
     let speed_at = |way: f32| {
         let square = if way < slide_way {
@@ -37,7 +37,7 @@ fn closed_form(ball: &BallModel, kick: f32) -> RollOut {
     }
 }
 
-/// A field without anything in the way of 100 m.
+/// A field with 100 m of free way.
 fn endless(ball: &BallModel) -> SimConfig {
     let mut config = SimConfig { ball: ball.clone(), ..SimConfig::ssl(0, 0) };
     (config.field.length, config.field.width) = (200.0, 200.0);
@@ -72,7 +72,7 @@ fn within(got: f32, expected: f32, share: f32, what: &str) {
 }
 
 #[test]
-fn a_straight_kick_slides_rolls_and_stops_where_the_closed_form_says() {
+fn a_straight_kick_slides_rolls_and_stops_by_the_closed_form() {
     for ball in BallModel::PRESETS {
         for kick in [2.0, 4.0, 6.5] {
             let expected = closed_form(&ball, kick);
@@ -81,7 +81,7 @@ fn a_straight_kick_slides_rolls_and_stops_where_the_closed_form_says() {
             let what = |part: &str| format!("{} at {kick} m/s, {part}", ball.name);
             let rolls = track.iter().position(|[_, speed, rim]| (speed - rim).abs() < 1e-3);
             let rolls = rolls.expect("it comes to roll");
-            // Steps are 25 ms: the end of the slide lies in the one before.
+            // Steps are 25 ms: the slide ended in the step before.
             let latest = (rolls + 1) as f32 * 0.025;
             assert!((-0.001..0.03).contains(&(latest - expected.slide_time)), "{}", what("slide"));
             let slid = track[rolls][0] - (latest - expected.slide_time) * track[rolls][1];
@@ -102,7 +102,7 @@ fn a_straight_kick_slides_rolls_and_stops_where_the_closed_form_says() {
 }
 
 #[test]
-fn a_kick_goes_as_far_in_every_direction() {
+fn a_kick_rolls_equally_far_in_every_direction() {
     for ball in BallModel::PRESETS {
         let ends = [0.0, 30.0, 45.0, 90.0, 200.0]
             .map(|degrees| track(&endless(&ball), 4.0, degrees, 2.0)[79]);
@@ -114,7 +114,7 @@ fn a_kick_goes_as_far_in_every_direction() {
 }
 
 #[test]
-fn its_way_does_not_depend_on_the_tick() {
+fn the_path_of_the_ball_does_not_depend_on_the_tick() {
     for ball in BallModel::PRESETS {
         let ends = [0.001, 0.0025, 0.005].map(|tick| {
             let config = SimConfig { tick, ..endless(&ball) };
@@ -128,7 +128,7 @@ fn its_way_does_not_depend_on_the_tick() {
 }
 
 #[test]
-fn a_graze_on_the_way_does_not_depend_on_the_tick() {
+fn a_grazing_contact_does_not_depend_on_the_tick() {
     let scenes = [0.001, 0.0025, 0.005].map(|tick| {
         let mut scene = lone_ball(SimConfig::ssl(0, 0), [-2.0, 2.8], [4.0, 1.2]);
         scene.config.tick = tick;
@@ -155,7 +155,7 @@ fn a_ball_that_rolls_already_does_not_slide() {
 }
 
 #[test]
-fn back_spin_brakes_it_and_brings_it_back() {
+fn back_spin_brakes_the_ball_and_reverses_it() {
     let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [1.0, 0.0]);
     scene.set_ball_column("spin_y", -4.0 / scene.config.ball.radius);
     let row = scene.after(4);

@@ -1,5 +1,5 @@
-//! What a dozen scenes lead to, as hashes: the same start and commands may lead elsewhere only under
-//! another [`PHYSICS_VERSION`]. `make golden` renews them once it is raised.
+//! Hashes of the rows of fourteen scenes: equal starts and commands may give other states only under
+//! another [`PHYSICS_VERSION`]. `make golden` renews the hashes once the version is raised.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -8,10 +8,10 @@ use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
 use rsim_core::scenes::{self, Driver, Scene};
 use rsim_core::{BallModel, Field, PHYSICS_VERSION, RobotModel, SimConfig};
 
-/// The hashes, a line each after the version that they are of.
+/// File with the version, then one hash per line.
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden.txt");
 
-/// Set to have the file written anew.
+/// Environment variable that makes the test rewrite the file.
 const RENEW: &str = "RSIM_RENEW_GOLDEN";
 
 /// 5 s of a match.
@@ -59,7 +59,7 @@ fn corner() -> Scene {
     scene
 }
 
-/// Every factor off one.
+/// A world whose factors all differ from 1.
 fn own_parameters() -> Scene {
     let mut scene = scenes::ssl_chase(SimConfig::ssl(2, 2));
     let of_robots = ROBOT_PARAMETERS.len() * scene.config.n_robots();
@@ -78,7 +78,7 @@ fn hash(scene: &Scene) -> u64 {
         })
 }
 
-/// Version and hashes as the file has them; none of it where there is no file.
+/// Version and hashes in the file; none if there is no file.
 fn kept() -> (Option<u32>, BTreeMap<String, String>) {
     let text = std::fs::read_to_string(FILE).unwrap_or_default();
     let mut lines = text.lines().filter_map(|line| line.split_once(' '));
@@ -99,7 +99,7 @@ fn physics_change_only_under_another_version() {
     let same_version = version == Some(PHYSICS_VERSION);
     assert!(
         !same_version || changed.is_empty(),
-        "physics of version {PHYSICS_VERSION} lead elsewhere than before in {changed:?}: raise \
+        "physics of version {PHYSICS_VERSION} give other states than before in {changed:?}: raise \
          PHYSICS_VERSION, then `make golden`"
     );
     if std::env::var_os(RENEW).is_some() {

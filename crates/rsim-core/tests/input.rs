@@ -1,4 +1,4 @@
-//! What nobody can play with is refused, by name, and changes nothing.
+//! Invalid input is refused with the name of the argument, and changes nothing.
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
@@ -25,13 +25,18 @@ fn configurations_are_checked_by_name() {
     assert!(message(&SimConfig::ssl(3, 12)).contains("n_yellow must be at most 11"));
     assert!(spoilt(&|config| config.yellow[1].mass = -1.0).contains("robot.mass"));
     assert!(spoilt(&|config| config.field.goal_width = 2.0).contains("field.goal_width"));
-    assert!(spoilt(&|config| config.field.goal_wall = 0.02).contains("field.goal_wall"));
-    assert!(spoilt(&|config| config.ball.wall.restitution = 1.2).contains("wall_restitution"));
-    assert!(spoilt(&|config| config.ball.rolling_share = 1.0).contains("rolling_share"));
+    assert!(
+        spoilt(&|config| config.field.goal_wall_thickness = 0.02)
+            .contains("field.goal_wall_thickness")
+    );
+    assert!(spoilt(&|config| config.ball.wall_restitution = 1.2).contains("wall_restitution"));
+    assert!(
+        spoilt(&|config| config.ball.slide_to_roll_ratio = 1.0).contains("slide_to_roll_ratio")
+    );
 }
 
 #[test]
-fn ticks_too_long_to_be_true_were_taken() {
+fn ticks_too_long_to_be_accurate_were_accepted() {
     for (tick, time_step) in [(0.006, 0.024), (0.01, 0.02), (0.0125, 0.025), (0.025, 0.025)] {
         for config in [SimConfig::vss(1, 1), SimConfig::ssl(1, 1)] {
             let error = message(&SimConfig { tick, time_step, ..config });
@@ -125,7 +130,7 @@ fn impossible_starts_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn an_impossible_start_in_one_world_leaves_all_worlds() {
+fn an_impossible_start_in_one_world_changes_no_world() {
     let scene = scenes::random_play();
     let (mut batch, mut rows) = scene.batch(3, 1);
     let before = rows.clone();

@@ -1,4 +1,4 @@
-//! Robots whose acceleration changes no faster than their model lets it.
+//! Robots with a maximum jerk.
 
 use rsim_core::scenes::{Scene, lone_omni, robots};
 use rsim_core::{Drive, OmniDrive, RobotModel};
@@ -8,10 +8,10 @@ const TICKS: [f32; 2] = [0.005, 0.0025];
 fn with_jerk(jerk: f32) -> RobotModel {
     let model = RobotModel::SSL_GENERIC;
     let Drive::Omni(drive) = model.drive else { panic!("{} has other wheels", model.name) };
-    RobotModel { drive: Drive::Omni(OmniDrive { jerk, ..drive }), ..model }
+    RobotModel { drive: Drive::Omni(OmniDrive { max_jerk: jerk, ..drive }), ..model }
 }
 
-/// A robot alone, told to drive with a velocity.
+/// A single robot with a commanded velocity.
 fn driven(jerk: f32, tick: f32, command: [f32; 2]) -> Scene {
     let mut scene = lone_omni(&[command[0], command[1], 0.0]);
     scene.config.blue = vec![with_jerk(jerk)];
@@ -28,8 +28,8 @@ fn velocities(scene: &Scene, seconds: f32) -> Vec<[f32; 2]> {
     rows.iter().map(|row| robot(row).expect("a robot")).collect()
 }
 
-/// Most change of the acceleration in a tick, m/s³; the robot had none before.
-fn hardest(velocities: &[[f32; 2]], tick: f32) -> f32 {
+/// Maximum jerk in a tick, m/s³, of a robot without acceleration at the start.
+fn max_jerk(velocities: &[[f32; 2]], tick: f32) -> f32 {
     let change = |pair: &[[f32; 2]]| [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
     let mut changes = vec![[0.0; 2]];
     changes.extend(velocities.windows(2).map(change));
@@ -63,17 +63,17 @@ fn a_robot_with_a_limit_speeds_up_and_stops_within_it() {
     }
 }
 
-/// The limit holds, the robot gets to what it is told, and does not turn back on the way.
-fn check(velocities: &[[f32; 2]], tick: f32, jerk: f32, told: [f32; 2], label: &str) {
-    let got = hardest(velocities, tick);
-    // What single precision leaves of a second difference.
+/// Checks that the limit holds, and that the robot reaches the target velocity without overshoot.
+fn check(velocities: &[[f32; 2]], tick: f32, jerk: f32, target: [f32; 2], label: &str) {
+    let got = max_jerk(velocities, tick);
+    // With the error of a second difference in single precision.
     let most = jerk + 1e-6 / tick / tick;
     assert!(got <= most, "{label}: {got} m/s³");
     let last = velocities[velocities.len() - 1];
-    let missing = (last[0] - told[0]).hypot(last[1] - told[1]);
-    assert!(missing < 1e-3, "{label}: {last:?}, told {told:?}");
+    let missing = (last[0] - target[0]).hypot(last[1] - target[1]);
+    assert!(missing < 1e-3, "{label}: {last:?}, target {target:?}");
     let missing: Vec<f32> =
-        velocities.iter().map(|[x, y]| (x - told[0]).hypot(y - told[1])).collect();
+        velocities.iter().map(|[x, y]| (x - target[0]).hypot(y - target[1])).collect();
     let turns_back = missing.windows(2).any(|pair| pair[1] > pair[0] + 0.01 * missing[0]);
     assert!(!turns_back, "{label}: it overshoots: {missing:?}");
 }
@@ -84,7 +84,7 @@ fn without_a_limit_acceleration_starts_at_once() {
     for tick in TICKS {
         let got = velocities(&driven(0.0, tick, [2.0, 0.0]), 0.5);
         for (nth, [x, y]) in got.iter().enumerate() {
-            let expected = (drive.speed_up * tick * nth as f32).min(2.0);
+            let expected = (drive.max_acceleration * tick * nth as f32).min(2.0);
             assert!((x - expected).abs() < 1e-4 && y.abs() < 1e-5, "{nth}: {x}, {expected}");
         }
     }

@@ -4,10 +4,10 @@ use rsim_core::columns::{ball_column, robot_column};
 use rsim_core::scenes::{Driver, Scene, robots, uniform};
 use rsim_core::{Body, RobotModel, SimConfig};
 
-/// A robot so small that two have the ball in their mouths from nearly one direction.
+/// A robot so small that two can have the ball in their mouths from nearly one direction.
 fn small() -> RobotModel {
     let model = RobotModel::SSL_GENERIC;
-    RobotModel { body: Body::Round { radius: 0.03, front: 0.028 }, ..model }
+    RobotModel { body: Body::Round { radius: 0.03, front_distance: 0.028 }, ..model }
 }
 
 fn heading(degrees: f32) -> [f32; 2] {
@@ -21,11 +21,11 @@ fn kicked(model: &RobotModel, middle: f32, degrees: f32, speeds: [f32; 2]) -> [f
     let mut config = SimConfig::ssl(1, 1);
     (config.blue, config.yellow) = (vec![model.clone()], vec![model.clone()]);
     config.time_step = config.tick;
-    let told = speeds.map(|speed| vec![0.0, 0.0, 0.0, speed, 0.0, 0.0]).to_vec();
-    let away = model.front() + config.ball.radius + 1e-3;
+    let commands = speeds.map(|speed| vec![0.0, 0.0, 0.0, speed, 0.0, 0.0]).to_vec();
+    let away = model.front_distance() + config.ball.radius + 1e-3;
     let half = degrees / 2.0;
     let (sin, cos) = half.to_radians().sin_cos();
-    // Beside each other as far as they must be, which takes the ball from the middle of the mouth.
+    // The offset that keeps the robots apart moves the ball from the middle of the mouth.
     let beside = ((model.bounding_radius() + 5e-4 - away * sin) / cos.max(1e-3)).max(0.0);
     let pose = |side: f32| {
         let angle = middle - side * half;
@@ -34,15 +34,15 @@ fn kicked(model: &RobotModel, middle: f32, degrees: f32, speeds: [f32; 2]) -> [f
         [-away * x + beside * left_x, -away * y + beside * left_y, angle]
     };
     let poses = [pose(1.0), pose(-1.0)];
-    let mut scene = Scene::at("kickers", config, &poses, Driver::Constant(told));
+    let mut scene = Scene::at("kickers", config, &poses, Driver::Constant(commands));
     scene.set_ball([0.0, 0.0], [0.0, 0.0]);
-    assert!(robots_see(&scene), "both have it: {degrees} degrees");
+    assert!(beams_are_cut(&scene), "both have it: {degrees} degrees");
     let row = scene.after(1);
     ["v_x", "v_y"].map(|name| row[ball_column(name)])
 }
 
 /// Whether both have the ball in their mouths at the start.
-fn robots_see(scene: &Scene) -> bool {
+fn beams_are_cut(scene: &Scene) -> bool {
     let mut row = scene.start.clone();
     scene.world().write_row(&mut row);
     let mut beams = robots(&row).map(|robot| robot[robot_column("infrared")]);
@@ -61,7 +61,7 @@ fn two_kickers_gave_one_ball_more_than_plates_can() {
                 let [x, y] = kicked(&small(), middle, degrees, [speed; 2]);
                 let got = x.hypot(y);
                 let cos = (degrees / 2.0).to_radians().cos();
-                // Each plate pushes until the ball is as fast as it is, and never harder than alone.
+                // Each plate pushes until the ball is as fast as the plate, and never harder than alone.
                 let most = (1.0 / cos.max(1e-3)).min(2.0 * cos) * speed;
                 let label = format!("{degrees} degrees at {middle}, {speed} m/s");
                 assert!((got - most).abs() < 0.03 * speed, "{label}: {got}, not {most}");
@@ -75,14 +75,14 @@ fn two_kickers_gave_one_ball_more_than_plates_can() {
 fn a_weaker_kicker_added_its_whole_kick_to_a_stronger_one() {
     for nth in 0..200 {
         let draw = |part: u64| f32::midpoint(1.0, uniform(nth * 16 + part));
-        // Kicks farther apart send the ball into the weaker one's plate.
+        // Kicks at larger angles send the ball into the weaker robot's plate.
         let (middle, degrees) = (360.0 * draw(0), 20.0 + 65.0 * draw(1));
         let speeds = [1.0 + 7.0 * draw(2), 1.0 + 7.0 * draw(3)];
         let got = kicked(&small(), middle, degrees, speeds);
         let strongest = speeds[0].max(speeds[1]);
         let label = format!("{degrees} degrees, {speeds:?}: {got:?}");
         assert!(got[0].hypot(got[1]) < 1.01 * std::f32::consts::SQRT_2 * strongest, "{label}");
-        // No plate takes the ball beyond its own speed; the other's may.
+        // No plate drives the ball faster than itself along its direction; the other plate may.
         let cos = degrees.to_radians().cos();
         for (side, [own, other]) in [(-1.0, speeds), (1.0, [speeds[1], speeds[0]])] {
             let along = dot(got, heading(middle + side * degrees / 2.0));
@@ -92,7 +92,7 @@ fn a_weaker_kicker_added_its_whole_kick_to_a_stronger_one() {
 }
 
 #[test]
-fn one_kick_beside_a_robot_that_does_not_kick_is_all_that_it_was_told() {
+fn a_kick_beside_a_robot_that_does_not_kick_has_its_full_speed() {
     for degrees in [30.0, 60.0, 85.0] {
         for speed in [3.0, 7.5] {
             let got = kicked(&small(), 0.0, degrees, [speed, 0.0]);

@@ -1,11 +1,11 @@
-//! Turn a scene half round, or reflect it: its future turns or reflects with it.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Symmetry: the future of a rotated or reflected scene is rotated or reflected too.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::SimConfig;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, crossing_name};
 use rsim_core::scenes::{Driver, Scene, lone_ball, robots, robots_mut};
 
-/// A symmetry of the field: which signs it flips, and whether it swaps the teams.
+/// A symmetry of the field: signs that it flips, and whether it swaps the teams.
 #[derive(Clone, Copy)]
 struct Symmetry {
     flips: fn(&str) -> bool,
@@ -23,7 +23,7 @@ const HALF_TURN: Symmetry = Symmetry {
     name: "half turn",
 };
 
-/// Along the x axis. Spin is an axial vector: its parts in the mirror's plane flip.
+/// Reflection at the x axis. Spin is an axial vector: its components in the mirror's plane flip.
 const REFLECTION: Symmetry = Symmetry {
     flips: |column| {
         matches!(column, "y" | "sin" | "v_theta" | "spin_x" | "spin_z" | "v_y" | "crossed_y")
@@ -56,9 +56,11 @@ impl Symmetry {
     }
 
     fn scene(self, scene: &Scene) -> Scene {
-        let Driver::Constant(told) = &scene.driver else { panic!("only constant commands turn") };
-        let mut told = told.clone();
-        for command in &mut told {
+        let Driver::Constant(commands) = &scene.driver else {
+            panic!("only constant commands turn")
+        };
+        let mut commands = commands.clone();
+        for command in &mut commands {
             if !self.swaps_teams && command.len() == 2 {
                 command.swap(0, 1);
             } else if !self.swaps_teams {
@@ -67,13 +69,13 @@ impl Symmetry {
             }
         }
         if self.swaps_teams {
-            let half = told.len() / 2;
-            told.rotate_left(half);
+            let half = commands.len() / 2;
+            commands.rotate_left(half);
         }
-        Scene { start: self.row(&scene.start), driver: Driver::Constant(told), ..scene.clone() }
+        Scene { start: self.row(&scene.start), driver: Driver::Constant(commands), ..scene.clone() }
     }
 
-    /// Plays both and returns the largest difference.
+    /// Plays both scenes and returns the maximum difference.
     fn error(self, scene: &Scene, steps: u64) -> f32 {
         let (rows, _) = scene.play(&mut scene.world(), steps);
         let image = self.scene(scene);
@@ -83,7 +85,7 @@ impl Symmetry {
         let spin = ball_column("spin_x")..=ball_column("spin_z");
         let differences = pairs.flat_map(|(row, image_row)| {
             let expected = self.row(row);
-            // Spin in rim speeds, so that all columns are of one size.
+            // Spin as surface speed, so that all columns have similar sizes.
             let scale = |column: usize| if spin.contains(&column) { 0.0215 } else { 1.0 };
             let both = expected.into_iter().zip(image_row.to_vec()).enumerate();
             both.map(|(column, (a, b))| (a - b).abs() * scale(column)).collect::<Vec<_>>()
@@ -128,8 +130,8 @@ fn free_motion_mirrors_exactly() {
 #[test]
 fn a_flight_mirrors_exactly() {
     let poses = [[-2.0, 0.0, 0.0], [2.0, 0.5, 180.0]];
-    let told = vec![vec![0.0; 3]; 2];
-    let mut scene = Scene::at("chip", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let commands = vec![vec![0.0; 3]; 2];
+    let mut scene = Scene::at("chip", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([0.2, -0.3], [-1.0, 0.7]);
     scene.set_ball_column("v_z", 3.0);
     for symmetry in BOTH {
@@ -139,15 +141,15 @@ fn a_flight_mirrors_exactly() {
 
 #[test]
 fn one_contact_mirrors_to_a_tenth_of_a_millimetre() {
-    let vss = |told| {
+    let vss = |driver| {
         let poses = [[-0.3, 0.02, 5.0], [0.6, 0.0, 180.0]];
-        let mut scene = Scene::at("vss", SimConfig::vss(1, 1), &poses, told);
+        let mut scene = Scene::at("vss", SimConfig::vss(1, 1), &poses, driver);
         scene.set_ball([0.0, 0.0], [-1.0, 0.0]);
         scene
     };
-    let ssl = |told| {
+    let ssl = |driver| {
         let poses = [[-0.3, 0.03, 5.0], [2.0, 0.0, 180.0]];
-        let mut scene = Scene::at("ssl", SimConfig::ssl(1, 1), &poses, told);
+        let mut scene = Scene::at("ssl", SimConfig::ssl(1, 1), &poses, driver);
         scene.set_ball([0.0, 0.0], [-1.5, 0.0]);
         scene
     };
@@ -169,7 +171,7 @@ fn a_wall_mirrors_too() {
         driver: Driver::Constant(Vec::new()),
         ..lone_ball(SimConfig::ssl(0, 0), [0.3, 3.0], [2.0, 2.0])
     };
-    // Without robots there is nobody to swap.
+    // Without robots no teams are swapped.
     let reflected = Symmetry { swaps_teams: false, ..REFLECTION };
     let (rows, _) = scene.play(&mut scene.world(), 2);
     assert!(rows[ball_column("v_y")] > 0.0);

@@ -1,5 +1,5 @@
-//! Beam, kicker and dribbler: what a robot does to a ball in its mouth.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Break beam, kicker and dribbler, with a ball in a robot's mouth.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, robot_column};
 use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_omni, robots, steps};
@@ -16,22 +16,22 @@ fn robot(row: &[f32], index: usize) -> &[f32] {
     robots(row).nth(index).expect("a robot")
 }
 
-/// From the robot's front to the ball's surface.
+/// Gap between the robot's front and the ball's surface, m.
 fn gap(scene: &Scene, row: &[f32], index: usize) -> f32 {
     let (model, robot) = (&scene.config.blue[0], robot(row, index));
     let (x, y) = (row[0] - robot[0], row[1] - robot[1]);
-    x * robot[2] + y * robot[3] - model.front() - scene.config.ball.radius
+    x * robot[2] + y * robot[3] - model.front_distance() - scene.config.ball.radius
 }
 
-/// Whether the beam sees the ball after each step.
-fn seen(scene: &Scene, steps: u64) -> Vec<bool> {
+/// Whether the ball cuts the beam after each step.
+fn beam_cut(scene: &Scene, steps: u64) -> Vec<bool> {
     let (rows, _) = scene.play(&mut scene.world(), steps);
     let infrared = robot_column("infrared");
     rows.chunks_exact(scene.config.row_size()).map(|row| robot(row, 0)[infrared] == 1.0).collect()
 }
 
 #[test]
-fn a_kick_has_the_speed_that_it_was_told_in_the_robots_direction() {
+fn a_kick_has_the_commanded_speed_in_the_robots_direction() {
     for degrees in [0.0_f32, 50.0, 180.0, 290.0] {
         for speed in [1.0, 4.0, 6.5] {
             let (sin, cos) = degrees.to_radians().sin_cos();
@@ -39,7 +39,7 @@ fn a_kick_has_the_speed_that_it_was_told_in_the_robots_direction() {
             scene.config.time_step = scene.config.tick;
             scene.set_robot_column(0, "cos", cos);
             scene.set_robot_column(0, "sin", sin);
-            let away = scene.config.blue[0].front() + scene.config.ball.radius;
+            let away = scene.config.blue[0].front_distance() + scene.config.ball.radius;
             scene.set_ball([away * cos, away * sin], [0.0, 0.0]);
             let row = scene.after(1);
             let (v_x, v_y) = (row[ball_column("v_x")], row[ball_column("v_y")]);
@@ -54,12 +54,12 @@ fn a_kick_has_the_speed_that_it_was_told_in_the_robots_direction() {
 
 #[test]
 fn the_devices_limits_hold() {
-    for (told, most) in [([20.0, 0.0], 8.0_f32), ([20.0, 20.0], 8.0)] {
-        let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, told[0], told[1], 0.0]);
+    for (command, most) in [([20.0, 0.0], 8.0_f32), ([20.0, 20.0], 8.0)] {
+        let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, command[0], command[1], 0.0]);
         scene.config.time_step = scene.config.tick;
         let row = scene.after(1);
         let speed = row[ball_column("v_x")].hypot(row[ball_column("v_z")]);
-        assert!((speed / most - 1.0).abs() < 0.02, "{told:?}: {speed}");
+        assert!((speed / most - 1.0).abs() < 0.02, "{command:?}: {speed}");
     }
 }
 
@@ -78,11 +78,11 @@ fn there_is_no_kick_without_the_ball_in_the_mouth() {
 
 #[test]
 fn a_kicker_that_is_not_charged_waits() {
-    // The back of a goal right before the mouth sends the ball back before it is charged.
+    // The back of a goal right in front of the mouth returns the ball before the kicker is charged.
     let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);
     scene.config.time_step = scene.config.tick;
     let (recharge, tick) =
-        (scene.config.blue[0].mouth.expect("a mouth").recharge, scene.config.tick);
+        (scene.config.blue[0].mouth.expect("a mouth").kicker_recharge_time, scene.config.tick);
     scene.set_robot_column(0, "x", 4.52);
     scene.set_ball([4.52 + 0.0715 + 0.0215, 0.0], [0.0, 0.0]);
     let (rows, _) = scene.play(&mut scene.world(), 120);
@@ -113,26 +113,26 @@ fn the_dribbler_holds_the_ball_in_turns_and_backwards_and_forwards() {
         ("sideways", [0.0, 0.5, 0.0]),
     ] {
         let scene = ball_in_mouth(&dribbling(body));
-        let seen = seen(&scene, 80);
-        assert!(seen.iter().all(|seen| *seen), "{what}: {seen:?}");
+        let cut = beam_cut(&scene, 80);
+        assert!(cut.iter().all(|cut| *cut), "{what}: {cut:?}");
         let row = scene.after(80);
         assert!(gap(&scene, &row, 0).abs() < 5e-3, "{what}: {} m", gap(&scene, &row, 0));
     }
 }
 
 #[test]
-fn without_the_dribbler_those_moves_lose_it() {
+fn without_the_dribbler_those_moves_lose_the_ball() {
     for body in [[0.0, 0.0, 3.0], [-0.5, 0.0, 0.0]] {
-        let seen = seen(&ball_in_mouth(&body), 80);
-        assert!(!seen[79], "{body:?}");
+        let cut = beam_cut(&ball_in_mouth(&body), 80);
+        assert!(!cut[79], "{body:?}");
     }
 }
 
 #[test]
 fn beyond_the_grip_the_ball_is_lost() {
     // 0.12 N hold 46 g in a circle of 93 mm up to 5.3 rad/s; TIGERs turn with the ball at up to 5.
-    assert!(seen(&ball_in_mouth(&dribbling([0.0, 0.0, 4.8])), 80)[79]);
-    assert!(!seen(&ball_in_mouth(&dribbling([0.0, 0.0, 8.0])), 80)[79]);
+    assert!(beam_cut(&ball_in_mouth(&dribbling([0.0, 0.0, 4.8])), 80)[79]);
+    assert!(!beam_cut(&ball_in_mouth(&dribbling([0.0, 0.0, 8.0])), 80)[79]);
 }
 
 #[test]
@@ -187,11 +187,11 @@ fn holding_the_ball_does_not_slow_the_robot() {
 }
 
 #[test]
-fn a_ball_that_nobody_holds_is_pulled_away() {
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+fn a_free_ball_is_pulled_away_by_a_dribbler() {
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
-    let told = vec![vec![0.0; 6], dribbling([-0.3, 0.0, 0.0])];
-    let mut scene = Scene::at("pull", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let commands = vec![vec![0.0; 6], dribbling([-0.3, 0.0, 0.0])];
+    let mut scene = Scene::at("pull", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
     let row = scene.after(60);
     assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
@@ -199,12 +199,13 @@ fn a_ball_that_nobody_holds_is_pulled_away() {
 
 #[test]
 fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
-    // It comes from the side and drives through where the ball is.
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    // The robot comes from the side and drives through the ball's position.
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     for speed in [0.5, 1.0, 2.0] {
         let poses = [[0.0, 0.0, 0.0], [front, 0.17, -90.0]];
-        let told = vec![dribbling([0.0; 3]), dribbling([speed, 0.0, 0.0])];
-        let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+        let commands = vec![dribbling([0.0; 3]), dribbling([speed, 0.0, 0.0])];
+        let mut scene =
+            Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
         scene.set_ball([front, 0.0], [0.0, 0.0]);
         let row = scene.after(60);
         assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "{speed} m/s: {row:?}");
@@ -213,13 +214,13 @@ fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
 
 #[test]
 fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
-    // Nose to nose, both dribbling; the thief turns away with the ball between its bar and theirs.
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+    // Front to front, both dribbling; one turns away with the ball between the two bars.
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
-    let told = vec![dribbling([0.0; 3]), dribbling([-0.5, 0.0, 0.0])];
-    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let commands = vec![dribbling([0.0; 3]), dribbling([-0.5, 0.0, 0.0])];
+    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
-    // Who holds it with half the grip loses it to one that backs off gently.
+    // A robot with half the grip loses the ball to one that backs off gently.
     let mut factors = vec![1.0; scene.config.parameters_size()];
     let place = |name: &str| ROBOT_PARAMETERS.iter().position(|known| *known == name);
     factors[BALL_PARAMETERS.len() + place("grip").expect("known")] = 0.5;
@@ -232,8 +233,8 @@ fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
 }
 
 #[test]
-fn a_robot_that_brakes_with_all_it_has_loses_the_ball_that_it_dribbles() {
-    // 3 to -3 m/s: no real dribbler keeps it. Gently, it keeps it.
+fn a_robot_that_brakes_hardest_loses_the_dribbled_ball() {
+    // From 3 to -3 m/s no real dribbler keeps the ball; with gentle braking it does.
     for (share, kept) in [(1.0, 0.0), (0.2, 1.0)] {
         let mut scene = ball_in_mouth(&dribbling([-3.0, 0.0, 0.0]));
         let speed = if share < 1.0 { 1.0 } else { 3.0 };
@@ -250,11 +251,11 @@ fn a_robot_that_brakes_with_all_it_has_loses_the_ball_that_it_dribbles() {
 }
 
 #[test]
-fn two_that_kick_one_ball_at_once_stop_each_other() {
-    let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+fn two_opposed_kicks_at_once_cancel() {
+    let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[-front, 0.0, 0.0], [front, 0.0, 180.0]];
-    let told = vec![vec![0.0, 0.0, 0.0, 6.0, 0.0, 0.0]; 2];
-    let mut scene = Scene::at("both", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let commands = vec![vec![0.0, 0.0, 0.0, 6.0, 0.0, 0.0]; 2];
+    let mut scene = Scene::at("both", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.config.time_step = scene.config.tick;
     let row = scene.after(1);
     assert!(row[ball_column("v_x")].abs() < 1e-4, "{row:?}");
@@ -278,10 +279,10 @@ fn a_chip_too_weak_to_fly_is_a_flat_kick() {
 #[test]
 fn a_kick_at_a_robot_right_before_it_does_not_get_into_it() {
     for (speed, gap) in [(8.0, 0.021), (10.0, 0.024), (6.0, 0.01)] {
-        let front = RobotModel::SSL_GENERIC.front() + 0.0215;
+        let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
         let poses = [[0.0, 0.0, 0.0], [front + 0.0215 + gap + 0.09, 0.0, 0.0]];
-        let told = vec![vec![0.0, 0.0, 0.0, speed, 0.0, 0.0], vec![0.0; 6]];
-        let mut scene = Scene::at("wall", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+        let commands = vec![vec![0.0, 0.0, 0.0, speed, 0.0, 0.0], vec![0.0; 6]];
+        let mut scene = Scene::at("wall", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
         scene.config.time_step = scene.config.tick;
         scene.set_ball([front, 0.0], [0.0, 0.0]);
         let (rows, _) = scene.play(&mut scene.world(), 6);

@@ -1,5 +1,4 @@
-//! An omnidirectional robot against the limits of its model: times to speed, directions, wheels,
-//! pushing.
+//! An omnidirectional robot against the limits of its model: times to a speed, directions, wheels, pushing.
 
 use rsim_core::columns::{ROBOT_PARAMETERS, parameters_size, robot_column};
 use rsim_core::scenes::{Driver, Scene, lone_omni, robots, steps};
@@ -25,7 +24,7 @@ fn first(track: &[[f32; 3]], reached: impl Fn(&[f32; 3]) -> bool) -> f32 {
 }
 
 #[test]
-fn speed_up_brake_and_turn_take_the_times_that_the_limits_give() {
+fn accelerating_braking_and_turning_take_the_times_of_the_limits() {
     for degrees in [0.0_f32, 30.0, 45.0, 90.0, 135.0, 200.0, 270.0] {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let forward = lone_omni(&[3.0 * cos, 3.0 * sin, 0.0]);
@@ -43,7 +42,7 @@ fn speed_up_brake_and_turn_take_the_times_that_the_limits_give() {
 }
 
 #[test]
-fn top_speeds_are_the_models() {
+fn top_speeds_are_those_of_the_model() {
     let fastest = response(lone_omni(&[0.0, -9.0, 0.0]), 1.0)[199];
     assert!((fastest[1] - 3.7).abs() < 1e-3, "{fastest:?}");
     let fastest = response(lone_omni(&[0.0, 0.0, -99.0]), 1.0)[199];
@@ -75,15 +74,15 @@ fn a_saturated_wheel_does_not_bend_the_path() {
     assert!((robot[1] / robot[0] - 1.0 / 3.7).abs() < 1e-3, "straight: {robot:?}");
 }
 
-/// Two generic robots nose to nose; blue pushes, the factors set them apart.
+/// Two generic robots front to front; blue pushes, with a factor on its traction.
 fn pushing(push: f32, hold: f32, blue_traction: f32) -> Scene {
     let config = SimConfig {
         field: Field::SSL_A,
         ..SimConfig::new(Field::SSL_A, BallModel::SSL_TIGERS, &RobotModel::SSL_GENERIC, 1, 1)
     };
     let poses = [[-0.0901, 0.0, 0.0], [0.0901, 0.0, 180.0]];
-    let told = vec![vec![push, 0.0, 0.0], vec![hold, 0.0, 0.0]];
-    let mut scene = Scene::at("pushing", config, &poses, Driver::Constant(told));
+    let commands = vec![vec![push, 0.0, 0.0], vec![hold, 0.0, 0.0]];
+    let mut scene = Scene::at("pushing", config, &poses, Driver::Constant(commands));
     scene.set_ball([0.0, 3.0], [0.0, 0.0]);
     let mut factors = vec![1.0; parameters_size(2)];
     let blue = factors.len() - 2 * ROBOT_PARAMETERS.len();
@@ -102,8 +101,8 @@ fn places(scene: &Scene, steps: u64) -> [f32; 2] {
 #[test]
 fn two_robots_head_on_stall() {
     let [blue, yellow] = places(&pushing(2.0, 2.0, 1.0), 200);
-    assert!((blue + yellow).abs() < 2e-3, "nobody wins: {blue}, {yellow}");
-    assert!((yellow - blue - 0.18).abs() < 1e-3, "nobody sinks in: {blue}, {yellow}");
+    assert!((blue + yellow).abs() < 2e-3, "they stay: {blue}, {yellow}");
+    assert!((yellow - blue - 0.18).abs() < 1e-3, "none sinks in: {blue}, {yellow}");
 }
 
 #[test]
@@ -119,8 +118,8 @@ fn a_standing_robot_holds_below_its_traction_and_slides_above_it() {
 #[test]
 fn a_ball_squeezed_at_the_traction_limit_does_not_sink_in() {
     let poses = [[-0.1125, 0.0, 180.0], [0.1125, 0.0, 0.0]];
-    let told = vec![vec![-2.0, 0.0, 0.0]; 2]; // backs to the ball: round against round
-    let scene = Scene::at("squeeze", SimConfig::ssl(1, 1), &poses, Driver::Constant(told));
+    let commands = vec![vec![-2.0, 0.0, 0.0]; 2]; // backs to the ball: round against round
+    let scene = Scene::at("squeeze", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
     let (rows, contacts) = scene.play(&mut scene.world(), 40);
     assert!(contacts > 40);
     let mut deepest = 0.0_f32;

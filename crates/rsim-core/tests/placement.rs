@@ -1,5 +1,5 @@
-//! Placing: what was placed is what is read, and parameters make a world of its own.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Placement: a placed row is read unchanged, and a world can have parameters of its own.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{
     BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
@@ -25,7 +25,7 @@ fn moving(config: SimConfig) -> Scene {
 }
 
 #[test]
-fn what_is_placed_is_what_is_read_and_reading_changes_nothing() {
+fn a_placed_row_is_read_unchanged_and_reading_changes_nothing() {
     for config in [SimConfig::vss(3, 2), SimConfig::ssl(2, 4)] {
         let scene = moving(config);
         let world = scene.world();
@@ -47,10 +47,10 @@ fn the_motion_of_a_state_that_was_read_can_be_placed() {
     world.place(&row, None).expect("a state of a match");
     let mut read = row.clone();
     world.write_row(&mut read);
-    let (motion, happened) = (ball_column("last_touch"), robot_column("infrared"));
+    let (motion, records) = (ball_column("last_touch"), robot_column("infrared"));
     assert_eq!(read[..motion], row[..motion]);
     for (read, row) in robots(&read).zip(robots(&row)) {
-        assert_eq!(read[..happened], row[..happened]);
+        assert_eq!(read[..records], row[..records]);
     }
 }
 
@@ -84,7 +84,7 @@ fn a_ball_on_an_edge_can_be_placed() {
     }
 }
 
-/// Factors of one robot and the ball, all 1 but one.
+/// Factors of one robot and the ball, all 1 except one.
 fn one_changed(of_ball: bool, name: &str, factor: f32) -> Vec<f32> {
     let mut factors = vec![1.0; parameters_size(1)];
     let place = |names: &[&str]| names.iter().position(|known| *known == name).expect("a name");
@@ -111,7 +111,7 @@ fn factors_of_one_are_the_models_bit_for_bit() {
 }
 
 #[test]
-fn every_parameter_does_what_it_says() {
+fn every_parameter_has_its_effect() {
     let v_x = ball_column("v_x");
     let robot_at = |row: &[f32]| robots(row).next().expect("a robot").to_vec();
 
@@ -182,7 +182,7 @@ fn every_parameter_does_what_it_says() {
     };
     assert!(((kick("kick", 0.8)[v_x]) / kick("kick", 1.0)[v_x] - 0.8).abs() < 0.01);
     let recoil = |factor: f32| {
-        // Within one tick: then the wheels undo it.
+        // Within one tick: later the wheels correct the recoil.
         let mut scene = ball_in_mouth(&[0.0, 0.0, 0.0, 8.0, 0.0, 0.0]);
         scene.config.time_step = scene.config.tick;
         robot_at(&with(scene, one_changed(false, "mass", factor)).after(1))[0].abs()
@@ -210,7 +210,7 @@ fn every_parameter_does_what_it_says() {
 fn parameters_are_one_worlds_own_and_end_with_the_match() {
     let scene = lone_omni(&[1.0, 0.0, 0.0]);
     let slow = one_changed(false, "acceleration", 0.25);
-    let (size, told) = (scene.config.row_size(), scene.commands(&scene.start, 0, 0));
+    let (size, commands) = (scene.config.row_size(), scene.commands(&scene.start, 0, 0));
     let mut batch = Batch::new(&scene.config, 2, 1).expect("valid");
     let mut rows = vec![0.0; 2 * size];
     let factors = [vec![1.0; slow.len()], slow].concat();
@@ -219,13 +219,13 @@ fn parameters_are_one_worlds_own_and_end_with_the_match() {
     let x = BALL_COLUMNS.len();
     let step = |batch: &mut Batch, rows: &mut [f32]| {
         for _ in 0..4 {
-            batch.step(&told.repeat(2), rows, None).expect("finite");
+            batch.step(&commands.repeat(2), rows, None).expect("finite");
         }
         [rows[x], rows[size + x]]
     };
     let [fast, slow] = step(&mut batch, &mut rows);
     assert!((slow / fast - 0.25).abs() < 0.01, "{fast} {slow}");
-    // A snapshot keeps them, a new match without them has the models.
+    // A snapshot keeps the factors; a new match without factors has those of the models.
     let bytes = batch.snapshot();
     let mut other = Batch::new(&scene.config, 2, 1).expect("valid");
     other.restore(&bytes).expect("its own");

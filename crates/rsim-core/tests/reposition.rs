@@ -1,5 +1,5 @@
-//! A ball that goes on from elsewhere: it alone moves, whatever the rest of the match is at.
-#![allow(clippy::float_cmp)] // what must be the same is exact
+//! Repositioning of the ball: everything else of the match continues.
+#![allow(clippy::float_cmp)] // equal results are exact
 
 use rsim_core::columns::{
     BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
@@ -23,7 +23,7 @@ fn row(world: &World) -> Vec<f32> {
 }
 
 #[test]
-fn robots_go_on_as_if_nothing_had_happened() {
+fn robots_continue_unchanged() {
     // Robots that drive, slip and push each other, far from the ball, in a world of its own.
     let mut config = SimConfig::ssl(3, 3);
     config.time_step = 0.025;
@@ -55,7 +55,7 @@ fn robots_go_on_as_if_nothing_had_happened() {
 }
 
 #[test]
-fn the_ball_is_where_it_was_put_and_nobody_has_touched_it() {
+fn the_ball_is_at_its_new_place_without_a_last_touch() {
     let scene = ball_in_mouth(&KICK);
     let mut world = scene.world();
     for _ in 0..2 {
@@ -74,7 +74,7 @@ fn the_ball_is_where_it_was_put_and_nobody_has_touched_it() {
 }
 
 #[test]
-fn a_kicker_that_recharges_goes_on_recharging() {
+fn a_recharging_kicker_keeps_recharging() {
     let scene = ball_in_mouth(&KICK);
     let speed = |row: &[f32]| row[ball_column("v_x")].hypot(row[ball_column("v_y")]);
     let mut world = scene.world();
@@ -94,8 +94,8 @@ fn a_kicker_that_recharges_goes_on_recharging() {
 fn a_ball_that_cannot_be_there_changes_no_world() {
     let scene = scenes::random_play();
     let (mut batch, mut rows) = scene.batch(3, 1);
-    let told = scene.commands(&scene.start, 0, 0).repeat(3);
-    batch.step(&told, &mut rows, None).expect("finite");
+    let commands = scene.commands(&scene.start, 0, 0).repeat(3);
+    batch.step(&commands, &mut rows, None).expect("finite");
     let (before, kept) = (rows.clone(), batch.snapshot());
     let size = scene.start.len();
     let at = robots(&rows[2 * size..]).next().expect("a robot").to_vec();
@@ -126,7 +126,7 @@ fn a_ball_that_cannot_be_there_changes_no_world() {
 }
 
 #[test]
-fn a_worlds_own_height_of_robots_counts() {
+fn a_worlds_own_height_of_robots_is_used() {
     let scene = scenes::ssl_random(SimConfig::ssl(1, 0));
     let mut world = scene.world();
     let mut factors = vec![1.0; parameters_size(1)];

@@ -1,5 +1,5 @@
-//! Fast shots: none passes through anything, none comes off what it only passes near.
-#![allow(clippy::float_cmp)] // flags, rest, and what must be the same, are exact
+//! Fast shots: none passes through a body, and none bounces off a body that it misses.
+#![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{ball_column, crossing_name};
 use rsim_core::scenes::{Driver, Scene, lone_ball, uniform};
@@ -21,7 +21,7 @@ fn rows(scene: &Scene, steps: u64) -> Vec<Vec<f32>> {
 }
 
 #[test]
-fn none_passes_a_wall() {
+fn no_shot_passes_a_wall() {
     for (config, reach) in [
         (SimConfig::vss(0, 0), [0.85, 0.65]),
         (SimConfig::ssl(0, 0), [4.8, 3.3]),
@@ -42,7 +42,7 @@ fn none_passes_a_wall() {
 }
 
 #[test]
-fn none_passes_the_sides_and_the_back_of_a_goal() {
+fn no_shot_passes_the_sides_and_the_back_of_a_goal() {
     let mut kept_out = 0;
     let mut goals = 0;
     for shot in 0..SHOTS {
@@ -56,7 +56,7 @@ fn none_passes_the_sides_and_the_back_of_a_goal() {
         } else {
             shoot(&mut scene, [3.5 + draw(0), 0.4 * draw(1)], [4.7, 0.48 * draw(2)]);
         }
-        // Later one from beside may come round the post, which is no fault.
+        // Later a shot from the side may come round the post, which is correct.
         let rows = rows(&scene, if beside { 4 } else { 12 });
         for row in &rows {
             let in_goal = row[0] > 4.52 && row[1].abs() < 0.5;
@@ -73,7 +73,7 @@ fn none_passes_the_sides_and_the_back_of_a_goal() {
 }
 
 #[test]
-fn none_passes_a_robot() {
+fn no_shot_passes_a_robot() {
     for (config, half) in [(SimConfig::vss(1, 0), 0.0375), (SimConfig::ssl(1, 0), 0.0715)] {
         let mut stopped = 0;
         for shot in 0..SHOTS {
@@ -95,7 +95,7 @@ fn none_passes_a_robot() {
 }
 
 #[test]
-fn none_comes_off_what_it_only_passes_near() {
+fn no_shot_bounces_off_a_body_that_it_misses() {
     // Past a robot in every direction, and past the front of a goal's side, by 2 to 10 mm.
     for (config, clear) in [(SimConfig::vss(1, 0), 0.0375 * 1.4143), (SimConfig::ssl(1, 0), 0.09)] {
         for shot in 0..SHOTS {
@@ -138,7 +138,7 @@ fn config_radius() -> f32 {
 }
 
 #[test]
-fn an_oblique_shot_comes_off_a_round_robot_as_coulomb_says() {
+fn an_oblique_shot_bounces_off_a_round_robot_by_coulombs_law() {
     let mut config = SimConfig::ssl(1, 0);
     (config.ball.sliding_deceleration, config.ball.rolling_deceleration) = (0.0, 0.0);
     for shot in 0..200 {
@@ -160,10 +160,10 @@ fn an_oblique_shot_comes_off_a_round_robot_as_coulomb_says() {
         let (closing, along) = (-speed * normal[0], speed * tangent[0]);
         let (ball, robot) = (&config.ball, &config.blue[0]);
         let yields = 1.0 / (1.0 / ball.mass + 1.0 / robot.mass);
-        let pressing = (1.0 + ball.robot.restitution) * closing * yields;
+        let pressing = (1.0 + ball.robot_restitution) * closing * yields;
         let inertia = robot.mass * 0.09 * 0.09 / 2.0;
         let slip = 3.5 / ball.mass + 1.0 / robot.mass + 0.09 * 0.09 / inertia;
-        let friction = (along.abs() / slip).min(ball.robot.friction * pressing);
+        let friction = (along.abs() / slip).min(ball.robot_friction * pressing);
         let back = -closing + pressing / ball.mass;
         let left = along - friction.copysign(along) / ball.mass;
         let expected = [0, 1].map(|axis| normal[axis] * back + tangent[axis] * left);
@@ -174,7 +174,7 @@ fn an_oblique_shot_comes_off_a_round_robot_as_coulomb_says() {
 }
 
 #[test]
-fn corner_blocks_send_it_round_the_corner() {
+fn corner_blocks_deflect_the_ball_round_the_corner() {
     // Along the side wall into the corner: a right wall would send it straight back.
     let row = lone_ball(SimConfig::vss(0, 0), [0.4, 0.62], [2.0, 0.0]).after(12);
     assert!(row[ball_column("v_y")] < -0.2, "it leaves the corner inward: {row:?}");

@@ -6,11 +6,11 @@ use rsim_core::{Body, Drive, RobotModel, SimConfig};
 
 const DRAWS: u64 = 2000;
 
-/// A robot at the centre that turns with all it has.
+/// A robot at the centre that turns at its maximum rate.
 fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
     let draw = |part: u64| uniform(nth * 16 + part);
     let rate = if draw(0) > 0.0 { 1.0 } else { -1.0 } * model.top_turn_rate();
-    let told = match model.drive {
+    let command = match model.drive {
         Drive::Differential(drive) => {
             let wheel = drive.max_wheel_speed * rate.signum();
             vec![-wheel, wheel]
@@ -21,7 +21,7 @@ fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
     let config = if vss { SimConfig::vss(1, 0) } else { SimConfig::ssl(1, 0) };
     let config = SimConfig { blue: vec![model.clone()], tick, ..config };
     let poses = [[0.0, 0.0, 180.0 * draw(1)]];
-    let mut scene = Scene::at("turning", config, &poses, Driver::Constant(vec![told]));
+    let mut scene = Scene::at("turning", config, &poses, Driver::Constant(vec![command]));
     scene.set_robot_column(0, "v_theta", rate);
     scene
 }
@@ -29,12 +29,12 @@ fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
 /// Radius of the circle that the body always fills, however it turns.
 fn inner(model: &RobotModel) -> f32 {
     match model.body {
-        Body::Square { side } => side / 2.0,
-        Body::Round { front, .. } => front,
+        Body::Square { side_length: side } => side / 2.0,
+        Body::Round { front_distance, .. } => front_distance,
     }
 }
 
-/// Shoots a ball at the robot, past its centre by a share of what is left of the ball's way.
+/// Shoots a ball at the robot, past its centre by a fraction of the distance at which it would miss.
 fn shoot(scene: &mut Scene, nth: u64, share: f32) -> f32 {
     let draw = |part: u64| uniform(nth * 16 + part);
     let aim = share * draw(2) * (inner(&scene.config.blue[0]) + scene.config.ball.radius);
@@ -44,7 +44,7 @@ fn shoot(scene: &mut Scene, nth: u64, share: f32) -> f32 {
     aim
 }
 
-/// Whether the ball came through, and whether the robot felt it.
+/// Whether the ball passed through, and whether the robot touched it.
 fn passed_and_touched(scene: &Scene) -> (bool, bool) {
     let rows = scene.every_tick(0.12);
     let (v_x, v_y) = (scene.start[3], scene.start[4]);
@@ -75,12 +75,12 @@ fn check(model: &RobotModel) {
 }
 
 #[test]
-fn fast_balls_came_through_spinning_squares() {
+fn fast_balls_passed_through_spinning_squares() {
     check(&RobotModel::VSS_440RPM);
     check(&RobotModel::VSS_650RPM);
 }
 
 #[test]
-fn fast_balls_came_through_spinning_round_robots() {
+fn fast_balls_passed_through_spinning_round_robots() {
     check(&RobotModel::SSL_GENERIC);
 }

@@ -1,52 +1,52 @@
-//! A ball caught between heavy bodies: it passes pushes on, and stores none.
+//! A ball jammed between heavy bodies: it passes pushes on, and stores no energy.
 
 use rsim_core::scenes::{Driver, Scene, deepest_ball, driving, kinetic_energy, robots, uniform};
 use rsim_core::{Body, Field, RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
 
-/// Share of the closing speed at which bodies with a ball between them may come apart.
+/// Maximum separation speed of bodies with a ball between them, by their closing speed.
 const BOUNCE: f32 = 0.25;
 
-/// What a squeeze came to.
+/// Result of a squeeze.
 #[derive(Debug, Default)]
 struct Outcome {
-    /// Fastest speed apart, by the speed together at the start.
+    /// Maximum separation speed, by the closing speed at the start.
     back: f32,
-    /// How deep the ball was in anything, m.
+    /// Maximum overlap with the ball, m.
     depth: f32,
-    /// Most energy, by that at the start.
+    /// Maximum energy, by that at the start.
     energy: f32,
 }
 
 impl Outcome {
-    fn see(&mut self, back: f32, depth: f32, energy: f32) {
+    fn update(&mut self, back: f32, depth: f32, energy: f32) {
         self.back = self.back.max(back);
         self.depth = self.depth.max(depth);
         self.energy = self.energy.max(energy);
     }
 }
 
-/// From a robot's centre to its front or its back.
+/// Distance from a robot's centre to its front or its back, m.
 fn reach(model: &RobotModel, back: bool) -> f32 {
     match model.body {
         Body::Round { radius, .. } if back => radius,
-        _ => model.front(),
+        _ => model.front_distance(),
     }
 }
 
-/// How a robot meets the ball at a wall.
+/// A robot that drives a ball against a wall.
 #[derive(Debug, Clone, Copy)]
 struct Press {
     speed: f32,
     tick: f32,
-    /// With its back.
+    /// Whether the robot meets the ball with its back.
     back: bool,
-    /// From the robot to the ball, m.
+    /// Gap between robot and ball, m.
     gap: f32,
-    /// Of the robot along the wall, m.
+    /// Offset of the robot along the wall, m.
     offset: f32,
-    /// Of the wall at +x rather than at +y.
+    /// Whether the wall is at +x rather than at +y.
     end: bool,
     drives: bool,
 }
@@ -68,9 +68,9 @@ impl Press {
         let along = if self.end { [1.0, 0.0] } else { [0.0, 1.0] };
         let degrees = if self.end { 0.0 } else { 90.0 } + if self.back { 180.0 } else { 0.0 };
         let velocity = along.map(|part: f32| part * self.speed);
-        let told = if self.drives { vec![driving(&model, degrees, velocity)] } else { vec![] };
+        let commands = if self.drives { vec![driving(&model, degrees, velocity)] } else { vec![] };
         let [x, y] = place(robot, self.offset);
-        let driver = Driver::Constant(told);
+        let driver = Driver::Constant(commands);
         let mut scene = Scene::at("squeeze", config, &[[x, y, degrees]], driver);
         scene.set_ball(place(ball, 0.0), [0.0, 0.0]);
         scene.set_velocity(0, velocity);
@@ -78,7 +78,7 @@ impl Press {
     }
 
     fn wall(&self, field: &Field) -> f32 {
-        if self.end { field.half_length() + field.goal_line_margin } else { field.reach_y() }
+        if self.end { field.half_length() + field.goal_line_margin } else { field.max_y() }
     }
 
     fn outcome(&self, config: &SimConfig) -> Outcome {
@@ -93,10 +93,10 @@ impl Press {
             let robot = robots(row).next().expect("a robot");
             let inside = deepest_ball(&scene.config, row).max(row[along] - wall);
             let energy = kinetic_energy(&scene.config, row) / start;
-            // Who hit the ball beside its middle turns about it, and then drives away.
+            // A robot that hit the ball off its middle turns about it, and then drives away.
             let facing = robot[2] * heading[2] + robot[3] * heading[3] > 0.5;
             let back = if facing { -robot[4 + along] / self.speed } else { 0.0 };
-            outcome.see(back, inside, energy);
+            outcome.update(back, inside, energy);
         }
         outcome
     }
@@ -143,9 +143,9 @@ struct Meeting {
     tick: f32,
     speeds: [f32; 2],
     headings: [f32; 2],
-    /// From each robot to the ball along x at the start, m.
+    /// Gap between each robot and the ball along x at the start, m.
     gap: f32,
-    /// Of the robots across, m, each to its side.
+    /// Lateral offset of the robots, m, each to its side.
     offset: f32,
 }
 
@@ -157,10 +157,11 @@ impl Meeting {
         let away = model.bounding_radius() + config.ball.radius + self.gap;
         let [a, b] = self.headings;
         let velocities = [[self.speeds[0], 0.0], [-self.speeds[1], 0.0]];
-        let told = [(a, velocities[0]), (b, velocities[1])];
-        let told = told.map(|(degrees, velocity)| driving(&model, degrees, velocity)).to_vec();
+        let commands = [(a, velocities[0]), (b, velocities[1])];
+        let commands =
+            commands.map(|(degrees, velocity)| driving(&model, degrees, velocity)).to_vec();
         let poses = [[-away, self.offset, a], [away, -self.offset, b]];
-        let mut scene = Scene::at("meeting", config, &poses, Driver::Constant(told));
+        let mut scene = Scene::at("meeting", config, &poses, Driver::Constant(commands));
         (0..2).for_each(|robot| scene.set_velocity(robot, velocities[robot]));
         scene
     }
@@ -176,13 +177,13 @@ impl Meeting {
             let apart = (all[1][4] - all[0][4]) * between[0] + (all[1][5] - all[0][5]) * between[1];
             let apart = apart / between[0].hypot(between[1]) / (self.speeds[0] + self.speeds[1]);
             let energy = kinetic_energy(&scene.config, row) / start;
-            outcome.see(apart, deepest_ball(&scene.config, row), energy);
+            outcome.update(apart, deepest_ball(&scene.config, row), energy);
         }
         outcome
     }
 }
 
-/// What is wrong with meetings of robots at `speed` and a share of it, in noisy draws.
+/// Checks meetings of robots at `speed` and a fraction of it, with random deviations.
 fn check_meetings(speed: f32, share: f32) {
     for nth in 0..100 {
         let draw = |part: u64| uniform(nth * 16 + part);
@@ -203,7 +204,7 @@ fn check_meetings(speed: f32, share: f32) {
 }
 
 #[test]
-fn robots_met_as_if_the_ball_between_them_were_not_there() {
+fn robots_met_as_if_there_were_no_ball_between_them() {
     for speed in [1.0, 1.8, 2.5, 3.1, 3.7] {
         for tick in TICKS {
             let headings = [120.0, 300.0];
@@ -215,8 +216,8 @@ fn robots_met_as_if_the_ball_between_them_were_not_there() {
     }
 }
 
-/// Depths of meetings with headings of so many degrees around zero, so that fronts meet the ball too, m;
-/// the deepest last.
+/// Sorted overlaps of meetings, m, with headings of up to these degrees around zero, so that fronts meet the
+/// ball too.
 fn depths_with_headings(speed: f32, [first, second]: [f32; 2]) -> Vec<f32> {
     let mut depths: Vec<_> = (0..300)
         .map(|nth| {
@@ -236,7 +237,7 @@ fn depths_with_headings(speed: f32, [first, second]: [f32; 2]) -> Vec<f32> {
 }
 
 #[test]
-fn a_ball_that_slid_along_a_front_aslant_went_into_it() {
+fn a_ball_that_slid_along_an_oblique_front_sank_into_it() {
     for speed in [1.0, 2.5, 3.7] {
         let depths = depths_with_headings(speed, [180.0, 180.0]);
         let [most, all] = [depths[depths.len() * 98 / 100], depths[depths.len() - 1]];
@@ -245,25 +246,25 @@ fn a_ball_that_slid_along_a_front_aslant_went_into_it() {
     }
 }
 
-/// Known: at full speed a ball that slides out along a front aslant is now and then deeper in it than
-/// 3 mm, at most 6 mm. The engine takes outlines for straight within a part of a tick.
+/// Known error: at full speed a ball that slides out along an oblique front sometimes sinks into it by more
+/// than 3 mm, at most 6 mm. The engine treats outlines as straight within a part of a tick.
 #[test]
 #[should_panic(expected = "deeper than 3 mm")]
-fn a_ball_that_slides_along_a_front_aslant_at_full_speed_goes_into_it() {
+fn a_ball_that_slides_along_an_oblique_front_at_full_speed_sinks_into_it() {
     let depths = depths_with_headings(3.7, [35.0, 180.0]);
     let deep = depths.iter().filter(|depth| **depth > 3e-3).count();
     assert!(deep == 0, "{deep} of {} are deeper than 3 mm", depths.len());
 }
 
 #[test]
-fn robots_that_met_not_quite_in_line_went_into_the_ball() {
+fn robots_that_met_not_quite_in_line_sank_into_the_ball() {
     for speed in [1.0, 2.5, 3.7] {
         check_meetings(speed, 1.0);
     }
 }
 
 #[test]
-fn robots_went_into_a_ball_before_a_slower_or_a_standing_one() {
+fn robots_sank_into_a_ball_in_front_of_a_slower_or_a_standing_one() {
     for speed in [1.0, 2.5, 3.7] {
         check_meetings(speed, 0.5);
         check_meetings(speed, 0.0);

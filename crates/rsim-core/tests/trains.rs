@@ -5,23 +5,23 @@ use rsim_core::{RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
 
-/// Share of the closing speed at which bodies with a ball between them may come apart.
+/// Maximum separation speed of bodies with a ball between them, by their closing speed.
 const BOUNCE: f32 = 0.25;
 
-/// From a robot's centre to its back.
+/// Distance from a robot's centre to its back, m.
 fn behind(model: &RobotModel) -> f32 {
-    if model.mouth.is_some() { model.bounding_radius() } else { model.front() }
+    if model.mouth.is_some() { model.bounding_radius() } else { model.front_distance() }
 }
 
-/// Robots nose to tail that drive at a wall, `clear` before the first.
+/// Robots front to back that drive at a wall, which is `clear` (m) ahead of the first.
 fn train(config: &SimConfig, speed: f32, [gap, clear]: [f32; 2]) -> Scene {
     let model = &config.blue[0];
     let half = behind(model);
-    let first = config.field.reach_y() - half - clear;
+    let first = config.field.max_y() - half - clear;
     let place = |nth: usize| [0.3, first - (2.0 * half + gap) * nth as f32, 90.0];
     let poses: Vec<_> = (0..config.blue.len()).map(place).collect();
-    let told = driving(model, 90.0, [0.0, speed]);
-    let driver = Driver::Constant(vec![told; poses.len()]);
+    let command = driving(model, 90.0, [0.0, speed]);
+    let driver = Driver::Constant(vec![command; poses.len()]);
     let mut scene = Scene::at("train", config.clone(), &poses, driver);
     scene.set_ball([-0.4, 0.0], [0.0, 0.0]);
     (0..poses.len()).for_each(|robot| scene.set_velocity(robot, [0.0, speed]));
@@ -52,18 +52,18 @@ fn check_train(scene: &Scene, speed: f32, label: &str) {
 }
 
 #[test]
-fn a_robot_that_drives_into_a_wall_comes_back_by_its_restitution() {
+fn a_robot_that_drives_into_a_wall_bounces_by_its_restitution() {
     check_trains(1, [1.15, 3.5]);
 }
 
-/// They went on for a whole tick after the first was stopped, and were thrown back at up to 1.5 times
-/// their speed.
+/// The others drove on for a whole tick after the first was stopped, and were thrown back at up to 1.5
+/// times their speed.
 #[test]
-fn robots_nose_to_tail_went_into_each_other_when_the_first_was_stopped() {
+fn robots_front_to_back_sank_into_each_other_when_the_first_was_stopped() {
     check_trains(3, [1.15, 3.5]);
 }
 
-/// Plays a robot, a ball and a robot in line, driven at a wall from which the first is `clear`.
+/// Plays a robot, a ball and a robot in line, driven at a wall that is `clear` (m) ahead of the first.
 fn check_chains(clear: f32) {
     for (config, speeds) in [
         (SimConfig::ssl(2, 0), [0.6, 1.5, 2.5].as_slice()),
@@ -81,20 +81,20 @@ fn check_chains(clear: f32) {
 
 fn check_chain(config: &SimConfig, speed: f32, [clear, gap]: [f32; 2]) {
     let (model, radius) = (config.blue[0].clone(), config.ball.radius);
-    let first = config.field.reach_y() - behind(&model) - clear;
-    // The first shows the ball its front; the other comes with its own.
-    let ball = first - model.front() - radius - 1e-3;
-    let last = ball - radius - model.front() - gap;
-    let told = vec![vec![], driving(&model, 90.0, [0.0, speed])];
+    let first = config.field.max_y() - behind(&model) - clear;
+    // Both robots face the ball with their fronts.
+    let ball = first - model.front_distance() - radius - 1e-3;
+    let last = ball - radius - model.front_distance() - gap;
+    let commands = vec![vec![], driving(&model, 90.0, [0.0, speed])];
     let poses = [[0.1, first, 270.0], [0.1, last, 90.0]];
-    let mut scene = Scene::at("chain", config.clone(), &poses, Driver::Constant(told));
+    let mut scene = Scene::at("chain", config.clone(), &poses, Driver::Constant(commands));
     scene.set_ball([0.1, ball], [0.0, 0.0]);
     scene.set_velocity(1, [0.0, speed]);
     let label = format!("{}, {speed} m/s, {clear} m, {gap} m, {} s", model.name, config.tick);
     for row in scene.every_tick(0.3) {
         let all: Vec<&[f32]> = robots(&row).collect();
         let inside = deepest_ball(config, &row);
-        let into_wall = all[0][1] + behind(&model) - config.field.reach_y();
+        let into_wall = all[0][1] + behind(&model) - config.field.max_y();
         let back = -all[1][5] / speed;
         assert!(inside < 3e-3, "{label}: the ball is {inside} m in a robot");
         assert!(into_wall < 2e-3, "{label}: a robot is {into_wall} m in the wall");
@@ -108,8 +108,8 @@ fn a_ball_between_two_robots_was_a_spring() {
     check_chains(0.4);
 }
 
-/// The wall saw a robot that was pushed from rest a tick too late.
+/// The contact with the wall of a robot that was pushed from rest was detected a tick too late.
 #[test]
-fn a_robot_that_was_pushed_at_a_near_wall_went_into_it() {
+fn a_robot_that_was_pushed_at_a_near_wall_sank_into_it() {
     check_chains(1e-3);
 }

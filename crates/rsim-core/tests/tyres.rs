@@ -1,4 +1,4 @@
-//! Tyres of a differential drive: Coulomb friction of each against its slip, also where both slide.
+//! Tyres of a differential drive: Coulomb friction of each against its slip, also if both slide.
 
 use rsim_core::scenes::{Scene, kinetic_energy, lone_robot, robots, uniform};
 use rsim_core::{DifferentialDrive, Drive, RobotModel};
@@ -11,10 +11,10 @@ fn drive(model: &RobotModel) -> DifferentialDrive {
     drive
 }
 
-/// A robot alone on a large field.
+/// A single robot on a large field.
 ///
 /// `motion` is its velocity forward and to its left (m/s) and its turn rate (rad/s); `wheels` are
-/// shares of the motors' free speed.
+/// fractions of the motors' free speed.
 fn moving(model: &RobotModel, tick: f32, motion: [f32; 3], wheels: [f32; 2]) -> Scene {
     let top = drive(model).max_wheel_speed;
     let mut scene = lone_robot(wheels.map(|share| share * top));
@@ -35,19 +35,25 @@ fn motion(row: &[f32]) -> [f32; 3] {
     [robot[4] * cos + robot[5] * sin, robot[5] * cos - robot[4] * sin, robot[6]]
 }
 
-/// The same after each tick.
+/// Motion of robot 0 after each tick.
 fn motions(scene: &Scene, seconds: f32) -> Vec<[f32; 3]> {
     scene.every_tick(seconds).iter().map(|row| motion(row)).collect()
 }
 
-/// The law itself, in steps of 10 microseconds: each tyre is pulled against its slip.
+/// Integration of the law in steps of 10 microseconds: friction acts on each tyre against its slip.
 fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f64) -> [f64; 3] {
     const STEP: f64 = 1e-5;
-    let DifferentialDrive { wheel_radius, track, max_wheel_speed, forward_grip, side_grip, .. } =
-        drive(model);
-    let half_track = f64::from(track) / 2.0;
+    let DifferentialDrive {
+        wheel_radius,
+        track_width,
+        max_wheel_speed,
+        longitudinal_grip,
+        lateral_grip,
+        ..
+    } = drive(model);
+    let half_track = f64::from(track_width) / 2.0;
     let Some(side) = side(model) else { panic!("{} is not square", model.name) };
-    // What a force at a wheel does to the turn rate, by what it does to the speed.
+    // Effect of a force at a wheel on the turn rate, by its effect on the speed.
     let lever = half_track * 6.0 / (side * side);
     let rims = wheels.map(|share| f64::from(share * max_wheel_speed * wheel_radius));
     let [mut ahead, mut aside, mut spin] = start.map(f64::from);
@@ -56,7 +62,8 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
         let pulls = [(-1.0, rims[0]), (1.0, rims[1])].map(|(sign, rim)| {
             let along = ahead + sign * spin * half_track - rim;
             let slip = along.hypot(aside).max(1e-4);
-            let [forward, sideways] = [forward_grip, side_grip].map(|grip| f64::from(grip) / 2.0);
+            let [forward, sideways] =
+                [longitudinal_grip, lateral_grip].map(|grip| f64::from(grip) / 2.0);
             (-forward * along / slip, -sideways * aside / slip)
         });
         let [(left_pull, a), (right_pull, b)] = pulls;
@@ -71,7 +78,7 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
 }
 
 fn side(model: &RobotModel) -> Option<f64> {
-    let rsim_core::Body::Square { side } = model.body else { return None };
+    let rsim_core::Body::Square { side_length: side } = model.body else { return None };
     Some(f64::from(side))
 }
 
@@ -85,7 +92,7 @@ fn random_motion(nth: u64) -> [f32; 3] {
 }
 
 #[test]
-fn a_spin_outlived_full_speed_straight_on() {
+fn a_spin_lasted_through_full_speed_straight_on() {
     for tick in TICKS {
         for rate in (4..=30).map(|rate| rate as f32) {
             for (sign, power) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)] {
@@ -115,7 +122,7 @@ fn the_faster_robots_spin_did_not_fall_at_full_speed() {
 }
 
 #[test]
-fn full_throttle_switched_off_the_grip_sideways() {
+fn full_throttle_switched_off_the_lateral_grip() {
     for tick in TICKS {
         for (speed, power) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)] {
             let scene = moving(&RobotModel::VSS_440RPM, tick, [0.0, speed, 0.0], [power; 2]);
@@ -178,7 +185,7 @@ fn saturated_commands_drove_robots_past_their_top_speed() {
 }
 
 #[test]
-fn locked_tyres_never_give_energy() {
+fn locked_tyres_never_add_energy() {
     for nth in 0..200 {
         for model in MODELS {
             let scene = moving(&model, 0.005, random_motion(nth), [0.0; 2]);
@@ -192,7 +199,7 @@ fn locked_tyres_never_give_energy() {
     }
 }
 
-/// A robot whose motors give less at the rim than its tyres hold: 2.5 m/s².
+/// A robot whose motors give less at the rim than its tyres transmit: 2.5 m/s².
 fn weak() -> RobotModel {
     let model = RobotModel::VSS_440RPM;
     let motor_torque = 2.5 * model.mass / 2.0 * drive(&model).wheel_radius;
@@ -201,7 +208,7 @@ fn weak() -> RobotModel {
 }
 
 #[test]
-fn motors_weaker_than_the_tyres_limit_what_wheels_do_and_no_more() {
+fn motors_weaker_than_the_tyres_limit_the_longitudinal_force_only() {
     let model = weak();
     let [ahead, ..] = motions(&moving(&model, 0.005, [0.0; 3], [1.0; 2]), 0.1)[20];
     assert!((ahead - 0.25).abs() < 0.01, "2.5 m/s² for 0.1 s: {ahead}");
@@ -219,8 +226,7 @@ fn motors_weaker_than_the_tyres_limit_what_wheels_do_and_no_more() {
     }
 }
 
-/// Farthest that a run of 5 ms ticks may be from the law, m/s and rad/s; shorter ticks come nearer in
-/// proportion.
+/// Maximum error of a run of 5 ms ticks, m/s and rad/s; that of shorter ticks is smaller in proportion.
 const FROM_THE_LAW: [f32; 3] = [0.03, 0.03, 0.8];
 
 #[test]

@@ -1,5 +1,5 @@
-//! Checks of what Python passes in. Every message names the argument, what was expected and what
-//! came.
+//! Checks of arrays from Python. Every message names the argument, the expected value and the given
+//! one.
 
 use numpy::{
     Element, Ix1, Ix2, Ix3, PyArray, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
@@ -8,7 +8,7 @@ use numpy::{
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// An array of this element type and shape, to read from.
+/// Checks element type and shape of an array, and borrows it for reading.
 pub(crate) fn readable<'py, T: Element, D: ndarray::Dimension>(
     name: &str,
     value: &Bound<'py, PyAny>,
@@ -17,7 +17,7 @@ pub(crate) fn readable<'py, T: Element, D: ndarray::Dimension>(
     Ok(checked(name, value, shape)?.try_readonly()?)
 }
 
-/// Likewise, to write into: also contiguous and writeable.
+/// Checks element type, shape, memory order and permission of an array, and borrows it for writing.
 pub(crate) fn writeable<'py, D: ndarray::Dimension>(
     name: &str,
     value: &Bound<'py, PyAny>,
@@ -56,7 +56,7 @@ fn checked<'py, T: Element, D: ndarray::Dimension>(
     Ok(value.cast::<PyArray<T, D>>()?.clone())
 }
 
-/// The shape of an array that must have so many axes.
+/// The shape of an array, which must have `N` axes.
 pub(crate) fn sizes<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
     let Ok(array) = value.cast::<PyUntypedArray>() else {
         let got = value.get_type().name()?;
@@ -68,7 +68,7 @@ pub(crate) fn sizes<const N: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyR
     })
 }
 
-/// The values of an array, in order, which must all be finite.
+/// Checks that all values are finite.
 pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(()),
@@ -76,12 +76,12 @@ pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
     }
 }
 
-/// Values of an array in C order: borrowed where they lie so, copied where they do not.
+/// Values of an array in C order: borrowed if the array has that order, else copied.
 pub(crate) fn values<'a, T: Element + Copy, D: ndarray::Dimension>(
     array: &'a PyReadonlyArray<'_, T, D>,
 ) -> std::borrow::Cow<'a, [T]> {
     match array.as_slice() {
-        // The slice of an array in Fortran order would have its values in that.
+        // The slice of an array in Fortran order has its values in that order.
         Ok(slice) if array.is_c_contiguous() => slice.into(),
         _ => array.as_array().iter().copied().collect::<Vec<_>>().into(),
     }

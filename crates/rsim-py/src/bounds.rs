@@ -1,4 +1,4 @@
-//! Bounds on numbers that are looked at in every step.
+//! Clipping of observations and actions.
 
 use numpy::{
     Ix1, IxDyn, PyArray, PyArrayMethods, PyReadonlyArray, PyReadwriteArray, PyUntypedArrayMethods,
@@ -6,36 +6,36 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{readable, sizes, values, writeable};
+use crate::arrays::{self, readable, sizes, writeable};
 
-/// Clips numbers (n, seers, o) to [-most, most], in place; `most` is (o,).
+/// Clips values (n, observers, o) to [-bounds, bounds] in place; `bounds` is (o,).
 #[pyfunction]
-pub(crate) fn limit(
+pub(crate) fn clip_in_place(
     py: Python<'_>,
-    numbers: &Bound<'_, PyAny>,
-    most: &Bound<'_, PyAny>,
+    values: &Bound<'_, PyAny>,
+    bounds: &Bound<'_, PyAny>,
 ) -> PyResult<()> {
-    let [n, seers, size] = sizes("numbers", numbers)?;
-    let mut numbers: PyReadwriteArray<'_, f32, numpy::Ix3> =
-        writeable("numbers", numbers, &[n, seers, size])?;
-    let most: PyReadonlyArray<'_, f32, Ix1> = readable("most", most, &[size])?;
-    let (most, numbers) = (values(&most), numbers.as_slice_mut()?);
-    if most.iter().any(|most| most.is_nan() || *most < 0.0) {
-        return Err(PyValueError::new_err("most must be 0 or above"));
+    let [n, observers, size] = sizes("values", values)?;
+    let mut values: PyReadwriteArray<'_, f32, numpy::Ix3> =
+        writeable("values", values, &[n, observers, size])?;
+    let bounds: PyReadonlyArray<'_, f32, Ix1> = readable("bounds", bounds, &[size])?;
+    let (bounds, values) = (arrays::values(&bounds), values.as_slice_mut()?);
+    if let Some(bound) = bounds.iter().find(|bound| bound.is_nan() || **bound < 0.0) {
+        return Err(PyValueError::new_err(format!("bounds must be 0 or above, got {bound}")));
     }
     py.detach(|| {
-        for row in numbers.chunks_exact_mut(size.max(1)) {
-            for (number, most) in row.iter_mut().zip(&*most) {
-                *number = clip(*number, *most);
+        for row in values.chunks_exact_mut(size.max(1)) {
+            for (value, bound) in row.iter_mut().zip(&*bounds) {
+                *value = clip(*value, *bound);
             }
         }
     });
     Ok(())
 }
 
-/// A copy clipped to [-1, 1] of a float32 array that has this shape and is finite, else None.
+/// Returns a copy clipped to [-1, 1] of a finite float32 array of this shape, else None.
 #[pyfunction]
-pub(crate) fn clipped<'py>(
+pub(crate) fn clip_actions<'py>(
     value: &Bound<'py, PyAny>,
     shape: Vec<usize>,
 ) -> Option<Bound<'py, PyArray<f32, IxDyn>>> {
@@ -44,27 +44,28 @@ pub(crate) fn clipped<'py>(
         return None;
     }
     let given = array.try_readonly().ok()?;
-    let given = values(&given);
-    if !given.iter().all(|number| number.is_finite()) {
+    let given = arrays::values(&given);
+    if !given.iter().all(|value| value.is_finite()) {
         return None;
     }
     let clipped = PyArray::zeros(value.py(), shape, false);
     {
         let mut out = clipped.readwrite();
-        for (out, number) in out.as_slice_mut().ok()?.iter_mut().zip(&*given) {
-            *out = clip(*number, 1.0);
+        for (out, value) in out.as_slice_mut().ok()?.iter_mut().zip(&*given) {
+            *out = clip(*value, 1.0);
         }
     }
     Some(clipped)
 }
 
-/// Within [-most, most]. Unlike `clamp` it has nothing to check, so a loop of it is vectorised.
-fn clip(number: f32, most: f32) -> f32 {
-    if number > most {
-        most
-    } else if number < -most {
-        -most
+/// Clips a value to [-bound, bound]. Unlike `clamp` this has nothing to check, so a loop of it is
+/// vectorised.
+fn clip(value: f32, bound: f32) -> f32 {
+    if value > bound {
+        bound
+    } else if value < -bound {
+        -bound
     } else {
-        number
+        value
     }
 }

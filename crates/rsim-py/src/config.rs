@@ -1,4 +1,4 @@
-//! Configuration: what a simulator is built from.
+//! Configuration of a simulator, as a frozen Python class.
 
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
@@ -6,10 +6,11 @@ use std::hash::{Hash, Hasher};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
+use rsim_core::League;
 
 use crate::models::{BallModel, Field, Named, RobotModel, shortest};
 
-/// What is fixed for the life of a simulator.
+/// Configuration of a simulator.
 #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct SimConfig(pub(crate) rsim_core::SimConfig);
@@ -33,16 +34,18 @@ impl SimConfig {
     ) -> PyResult<Self> {
         let field = field.found()?.0;
         let (n_blue, n_yellow) = (count("n_blue", n_blue)?, count("n_yellow", n_yellow)?);
-        // Before so many models are made.
+        // Checked before the models are copied.
         rsim_core::check_team("n_blue", &field, n_blue).map_err(invalid)?;
         rsim_core::check_team("n_yellow", &field, n_yellow).map_err(invalid)?;
         let ball = match ball {
             Some(ball) => ball.found()?.0,
-            None => league("ball", &field)?.0,
+            None => League::of(&field, "ball").map_err(invalid)?.ball(),
         };
-        let mut blue = match robot {
-            Some(robot) => robot.models(n_blue + n_yellow)?,
-            None => vec![league("robot", &field)?.1; n_blue + n_yellow],
+        let mut blue = if let Some(robot) = robot {
+            robot.models(n_blue + n_yellow)?
+        } else {
+            let robot = League::of(&field, "robot").map_err(invalid)?.robot();
+            vec![robot; n_blue + n_yellow]
         };
         let yellow = blue.split_off(n_blue);
         let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick };
@@ -65,7 +68,9 @@ impl SimConfig {
         let mut robots = self.0.robots();
         match robots.next() {
             Some(first) if robots.all(|model| model == first) => Ok(RobotModel(first.clone())),
-            Some(_) => Err(PyValueError::new_err("robots differ: use `robots`, one for each")),
+            Some(_) => Err(PyValueError::new_err(
+                "the robots differ: use `robots`, with one model for each",
+            )),
             None => Err(PyValueError::new_err("there are no robots")),
         }
     }
@@ -163,24 +168,7 @@ impl SimConfig {
     }
 }
 
-/// Ball and robot of the league that has a field of this name. Not by its numbers: an SSL field
-/// whose goals have no walls of their own would get a VSSS robot.
-fn league(
-    asked: &str,
-    field: &rsim_core::Field,
-) -> PyResult<(rsim_core::BallModel, rsim_core::RobotModel)> {
-    let preset = rsim_core::Field::PRESETS.iter().find(|preset| preset.name == field.name);
-    match preset.map(|preset| preset.goal_wall > 0.0) {
-        Some(true) => Ok((rsim_core::BallModel::SSL_TIGERS, rsim_core::RobotModel::SSL_GENERIC)),
-        Some(false) => Ok((rsim_core::BallModel::VSS_RSIM, rsim_core::RobotModel::VSS_440RPM)),
-        None => Err(PyValueError::new_err(format!(
-            "{asked} must be given where the field is of no known league, got field {:?}",
-            field.name
-        ))),
-    }
-}
-
-/// Models of robots: one for all, or one for each.
+/// Models of robots: one for all robots, or one for each.
 #[derive(FromPyObject)]
 enum Robots {
     All(Named<RobotModel>),
@@ -202,12 +190,12 @@ impl Robots {
     }
 }
 
-/// A `ValueError` with the core's words.
+/// A `ValueError` with the core's message.
 pub(crate) fn invalid(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// A number of things, which Python may have made negative.
+/// A count from Python, which may be negative there.
 pub(crate) fn count(name: &str, value: i64) -> PyResult<usize> {
     usize::try_from(value)
         .map_err(|_| PyValueError::new_err(format!("{name} must not be negative, got {value}")))

@@ -1,14 +1,14 @@
 //! The Python module `rsoccer._core`: checks arguments, releases the GIL, delegates to `rsim-core`.
-//! No logic lives here.
+//! The rules are in the core.
 #![deny(unsafe_code)]
 #![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
 
 mod arrays;
 mod bounds;
 mod config;
+mod ego_features;
 mod models;
 mod shaping;
-mod sight;
 mod simulator;
 mod steering;
 mod viewpoint;
@@ -19,15 +19,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::bounds::{clipped, limit};
+    use crate::bounds::{clip_actions, clip_in_place};
     #[pymodule_export]
     use crate::config::SimConfig;
     #[pymodule_export]
+    use crate::ego_features::EgoFeatures;
+    #[pymodule_export]
     use crate::models::{BallModel, Field, RobotModel};
     #[pymodule_export]
-    use crate::shaping::{Potential, efforts, nearest};
-    #[pymodule_export]
-    use crate::sight::Sight;
+    use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]
     use crate::simulator::Simulator;
     #[pymodule_export]
@@ -39,9 +39,14 @@ mod _core {
     use pyo3::types::{PyDict, PyTuple};
     use rsim_core::columns;
 
+    use crate::models::add_numbers;
+
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let py = module.py();
+        add_numbers::<Field>(py)?;
+        add_numbers::<BallModel>(py)?;
+        add_numbers::<RobotModel>(py)?;
         module.add("BALL_COLUMNS", PyTuple::new(py, columns::BALL_COLUMNS)?)?;
         module.add("ROBOT_COLUMNS", PyTuple::new(py, columns::ROBOT_COLUMNS)?)?;
         module.add("CROSSINGS", PyTuple::new(py, columns::CROSSINGS)?)?;
@@ -52,10 +57,10 @@ mod _core {
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)?;
-        module.add("FASTEST", rsim_core::FASTEST)
+        module.add("MAX_PLACED_SPEED", rsim_core::MAX_PLACED_SPEED)
     }
 
-    /// How this module was built: version, profile ("release" or "debug"), number of the physics.
+    /// Return version, profile ("release" or "debug") and physics version of this build.
     #[pyfunction]
     fn build_info(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let info = PyDict::new(py);

@@ -1,15 +1,15 @@
-//! What rewards are made of, for arrays of views and rows.
+//! Terms of rewards, for arrays of views and rows.
 
 use numpy::{Ix1, Ix3, Ix4, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
-use rsim_core::shaping::{effort, nearest_to_ball};
+use rsim_core::shaping;
 
 use crate::arrays::{Rows, readable, sizes, values};
 use crate::models::{BallModel, Field, RobotModel};
 
-/// What a robot is to raise, in metres.
+/// A potential function for reward shaping, in metres.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Potential(rsim_core::Potential);
 
@@ -21,11 +21,11 @@ impl Potential {
     }
 
     #[staticmethod]
-    fn behind_ball(field: &Field, behind: f32) -> PyResult<Self> {
-        if behind.is_finite() && behind > 0.0 {
-            return Ok(Self(rsim_core::Potential::behind_ball(&field.0, behind)));
+    fn behind_ball(field: &Field, distance: f32) -> PyResult<Self> {
+        if distance.is_finite() && distance > 0.0 {
+            return Ok(Self(rsim_core::Potential::behind_ball(&field.0, distance)));
         }
-        Err(PyValueError::new_err(format!("behind must be metres above 0, got {behind}")))
+        Err(PyValueError::new_err(format!("distance must be above 0 m and finite, got {distance}")))
     }
 
     #[staticmethod]
@@ -34,10 +34,10 @@ impl Potential {
             return Ok(Self(rsim_core::Potential::at_mouth(&robot.0, &ball.0)));
         }
         let got = &robot.0.name;
-        Err(PyValueError::new_err(format!("robot must be one with a mouth, got {got}")))
+        Err(PyValueError::new_err(format!("robot must have a mouth, got {got}")))
     }
 
-    fn gained<'py>(
+    fn difference<'py>(
         &self,
         py: Python<'py>,
         last_ball: &Bound<'py, PyAny>,
@@ -45,10 +45,10 @@ impl Potential {
         ball: &Bound<'py, PyAny>,
         robots: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let [n, seers, slots, _] = sizes("robots", robots)?;
-        let (a_ball, a_view) = (BALL_COLUMNS.len(), slots.max(1) * ROBOT_COLUMNS.len());
-        let shape = [n, seers, slots, ROBOT_COLUMNS.len()];
-        let balls = |name, array| readable(name, array, &[n, seers, a_ball]);
+        let [n, observers, slots, _] = sizes("robots", robots)?;
+        let (ball_size, view_size) = (BALL_COLUMNS.len(), slots.max(1) * ROBOT_COLUMNS.len());
+        let shape = [n, observers, slots, ROBOT_COLUMNS.len()];
+        let balls = |name, array| readable(name, array, &[n, observers, ball_size]);
         let views = |name, array| readable(name, array, &shape);
         let last_ball: PyReadonlyArray<'_, f32, Ix3> = balls("last_ball", last_ball)?;
         let ball: PyReadonlyArray<'_, f32, Ix3> = balls("ball", ball)?;
@@ -56,82 +56,84 @@ impl Potential {
         let robots: PyReadonlyArray<'_, f32, Ix4> = views("robots", robots)?;
         let (last_ball, last_robots) = (values(&last_ball), values(&last_robots));
         let (ball, robots) = (values(&ball), values(&robots));
-        let gained = PyArray2::zeros(py, [n, seers], false);
+        let differences = PyArray2::zeros(py, [n, observers], false);
         {
-            let mut out = gained.readwrite();
+            let mut out = differences.readwrite();
             let out = out.as_slice_mut()?;
             py.detach(|| {
-                let now = ball.chunks_exact(a_ball).zip(robots.chunks_exact(a_view));
-                let before = last_ball.chunks_exact(a_ball).zip(last_robots.chunks_exact(a_view));
+                let now = ball.chunks_exact(ball_size).zip(robots.chunks_exact(view_size));
+                let before =
+                    last_ball.chunks_exact(ball_size).zip(last_robots.chunks_exact(view_size));
                 for (out, (now, before)) in out.iter_mut().zip(now.zip(before)) {
                     *out = self.0.of(now.0, now.1) - self.0.of(before.0, before.1);
                 }
             });
         }
-        Ok(gained)
+        Ok(differences)
     }
 }
 
-/// Whether each seer is its team's nearest to the ball.
+/// Returns whether each observer is its team's nearest robot to the ball.
 #[pyfunction]
-pub(crate) fn nearest<'py>(
+pub(crate) fn nearest_to_ball<'py>(
     py: Python<'py>,
     rows: &Bound<'py, PyAny>,
     n_blue: usize,
-    seers: &Bound<'py, PyAny>,
+    observers: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<bool>>> {
     let [n, size] = sizes("rows", rows)?;
     let rows: Rows = readable("rows", rows, &[n, size])?;
     let robots = size.saturating_sub(BALL_COLUMNS.len()) / ROBOT_COLUMNS.len();
-    let seers = places(seers, robots)?;
+    let observers = indices(observers, robots)?;
     let rows = values(&rows);
-    let nearest = PyArray2::zeros(py, [n, seers.len()], false);
-    if !seers.is_empty() {
+    let nearest = PyArray2::zeros(py, [n, observers.len()], false);
+    if !observers.is_empty() {
         let mut out = nearest.readwrite();
         let mut all = vec![false; robots];
-        let each = out.as_slice_mut()?.chunks_exact_mut(seers.len());
+        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
         for (out, row) in each.zip(rows.chunks_exact(size)) {
-            nearest_to_ball(row, n_blue, &mut all);
-            for (out, seer) in out.iter_mut().zip(&seers) {
-                *out = all[*seer];
+            shaping::nearest_to_ball(row, n_blue, &mut all);
+            for (out, observer) in out.iter_mut().zip(&observers) {
+                *out = all[*observer];
             }
         }
     }
     Ok(nearest)
 }
 
-/// Mean magnitude of the actions of each seer.
+/// Returns the mean magnitude of each observer's action.
 #[pyfunction]
-pub(crate) fn efforts<'py>(
+pub(crate) fn mean_action_magnitude<'py>(
     py: Python<'py>,
     actions: &Bound<'py, PyAny>,
-    seers: &Bound<'py, PyAny>,
+    observers: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let [n, robots, size] = sizes("actions", actions)?;
     let actions: PyReadonlyArray<'_, f32, Ix3> = readable("actions", actions, &[n, robots, size])?;
-    let seers = places(seers, robots)?;
+    let observers = indices(observers, robots)?;
     let actions = values(&actions);
-    let efforts = PyArray2::zeros(py, [n, seers.len()], false);
-    if !seers.is_empty() && size > 0 {
-        let mut out = efforts.readwrite();
-        let each = out.as_slice_mut()?.chunks_exact_mut(seers.len());
+    let magnitudes = PyArray2::zeros(py, [n, observers.len()], false);
+    if !observers.is_empty() && size > 0 {
+        let mut out = magnitudes.readwrite();
+        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
         for (out, actions) in each.zip(actions.chunks_exact(robots * size)) {
-            for (out, seer) in out.iter_mut().zip(&seers) {
-                *out = effort(&actions[seer * size..][..size]);
+            for (out, observer) in out.iter_mut().zip(&observers) {
+                *out = shaping::mean_magnitude(&actions[observer * size..][..size]);
             }
         }
     }
-    Ok(efforts)
+    Ok(magnitudes)
 }
 
-/// Robots by their place in a row, which has so many.
-fn places(seers: &Bound<'_, PyAny>, robots: usize) -> PyResult<Vec<usize>> {
+/// Indices of observers among the `robots` of a row.
+fn indices(observers: &Bound<'_, PyAny>, robots: usize) -> PyResult<Vec<usize>> {
     let given: PyReadonlyArray<'_, isize, Ix1> =
-        readable("seers", seers, &sizes::<1>("seers", seers)?)?;
-    let place = |seer: &isize| usize::try_from(*seer).ok().filter(|seer| *seer < robots);
+        readable("observers", observers, &sizes::<1>("observers", observers)?)?;
+    let index =
+        |observer: &isize| usize::try_from(*observer).ok().filter(|observer| *observer < robots);
     let found: Result<_, isize> =
-        values(&given).iter().map(|seer| place(seer).ok_or(*seer)).collect();
-    found.map_err(|seer| {
-        PyValueError::new_err(format!("seers must be robots below {robots}, got {seer}"))
+        values(&given).iter().map(|observer| index(observer).ok_or(*observer)).collect();
+    found.map_err(|observer| {
+        PyValueError::new_err(format!("observers must be robots below {robots}, got {observer}"))
     })
 }

@@ -1,4 +1,4 @@
-//! Many matches behind one Python object.
+//! Simulator: many matches in one Python object.
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! What actions ask of robots, for arrays of actions and rows.
+//! Commands from actions, for arrays of actions and rows.
 
 use numpy::{Ix3, PyArray3, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
@@ -8,7 +8,7 @@ use rsim_core::steering::ACTION_SIZE;
 use crate::arrays::{Rows, finite, readable, sizes, values};
 use crate::config::count;
 
-/// What actions ask of robots that are told their body's velocity.
+/// Commands of omnidirectional robots from actions.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Steering {
     steering: rsim_core::Steering,
@@ -18,10 +18,10 @@ pub(crate) struct Steering {
 #[pymethods]
 impl Steering {
     #[new]
-    fn new(scales: [f32; ACTION_SIZE], along_field: bool, n_blue: i64) -> PyResult<Self> {
+    fn new(scales: [f32; ACTION_SIZE], field_frame: bool, n_blue: i64) -> PyResult<Self> {
         finite("scales", &scales)?;
         let n_blue = count("n_blue", n_blue)?;
-        Ok(Self { steering: rsim_core::Steering { scales, along_field }, n_blue })
+        Ok(Self { steering: rsim_core::Steering { scales, field_frame }, n_blue })
     }
 
     fn commands<'py>(
@@ -43,12 +43,12 @@ impl Steering {
                 let states = rows
                     .chunks_exact(row_size(robots))
                     .flat_map(|row| row[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len()));
-                let told = actions.chunks_exact(ACTION_SIZE).zip(states).enumerate();
+                let inputs = actions.chunks_exact(ACTION_SIZE).zip(states).enumerate();
                 for (out, (index, (action, state))) in
-                    out.chunks_exact_mut(OMNI_COLUMNS.len()).zip(told)
+                    out.chunks_exact_mut(OMNI_COLUMNS.len()).zip(inputs)
                 {
-                    let turned = index % robots >= self.n_blue;
-                    self.steering.command(action, [state[2], state[3]], turned, out);
+                    let rotated = index % robots >= self.n_blue;
+                    self.steering.command(action, [state[2], state[3]], rotated, out);
                 }
             });
         }
@@ -59,6 +59,6 @@ impl Steering {
         slf: &Bound<'py, Self>,
     ) -> (Bound<'py, PyAny>, ([f32; ACTION_SIZE], bool, usize)) {
         let Self { steering, n_blue } = slf.get();
-        (slf.get_type().into_any(), (steering.scales, steering.along_field, *n_blue))
+        (slf.get_type().into_any(), (steering.scales, steering.field_frame, *n_blue))
     }
 }

@@ -1,38 +1,38 @@
-//! Rows as robots see them, for arrays of rows.
+//! Views of robots, for arrays of rows.
 
 use numpy::{Ix3, Ix4, PyReadwriteArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rsim_core::Seat;
+use rsim_core::Observer;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, row_size};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 
-/// Who looks, and what each has where.
+/// The observers of a match, with the robots in the slots of each.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Viewpoint {
     viewpoint: rsim_core::Viewpoint,
-    robots: usize,
+    n_robots: usize,
 }
 
 #[pymethods]
 impl Viewpoint {
     #[new]
-    fn new(robots: usize, slots: Vec<Vec<Option<usize>>>, turned: Vec<bool>) -> PyResult<Self> {
+    fn new(n_robots: usize, slots: Vec<Vec<Option<usize>>>, rotated: Vec<bool>) -> PyResult<Self> {
         let wide = slots.first().map_or(0, Vec::len);
-        if slots.len() != turned.len() || slots.iter().any(|slots| slots.len() != wide) {
+        if slots.len() != rotated.len() || slots.iter().any(|slots| slots.len() != wide) {
             return Err(PyValueError::new_err(
-                "slots must have a row for each of turned, all of one length",
+                "slots must have a row for each of rotated, all of one length",
             ));
         }
-        if let Some(robot) = slots.iter().flatten().flatten().find(|robot| **robot >= robots) {
+        if let Some(robot) = slots.iter().flatten().flatten().find(|robot| **robot >= n_robots) {
             return Err(PyValueError::new_err(format!(
-                "slots must hold robots below {robots}, got {robot}"
+                "slots must hold robots below {n_robots}, got {robot}"
             )));
         }
-        let seats = slots.into_iter().zip(turned);
-        let seats = seats.map(|(slots, turned)| Seat { turned, slots }).collect();
-        Ok(Self { viewpoint: rsim_core::Viewpoint::new(seats), robots })
+        let observers = slots.into_iter().zip(rotated);
+        let observers = observers.map(|(slots, rotated)| Observer { rotated, slots }).collect();
+        Ok(Self { viewpoint: rsim_core::Viewpoint::new(observers), n_robots })
     }
 
     fn fill(
@@ -43,11 +43,11 @@ impl Viewpoint {
         robots: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
         let [n, _] = sizes("rows", rows)?;
-        let (seers, slots) = (self.viewpoint.seers(), self.viewpoint.slots());
-        let size = row_size(self.robots);
+        let (observers, slots) = (self.viewpoint.n_observers(), self.viewpoint.slots());
+        let size = row_size(self.n_robots);
         let rows: Rows = readable("rows", rows, &[n, size])?;
-        let ball_shape = [n, seers, BALL_COLUMNS.len()];
-        let robots_shape = [n, seers, slots, ROBOT_COLUMNS.len()];
+        let ball_shape = [n, observers, BALL_COLUMNS.len()];
+        let robots_shape = [n, observers, slots, ROBOT_COLUMNS.len()];
         let mut ball: PyReadwriteArray<'_, f32, Ix3> = writeable("ball", ball, &ball_shape)?;
         let mut robots: PyReadwriteArray<'_, f32, Ix4> =
             writeable("robots", robots, &robots_shape)?;
@@ -56,8 +56,8 @@ impl Viewpoint {
             return Ok(());
         }
         py.detach(|| {
-            let balls = ball.chunks_exact_mut(seers * BALL_COLUMNS.len());
-            let views = robots.chunks_exact_mut(seers * slots * ROBOT_COLUMNS.len());
+            let balls = ball.chunks_exact_mut(observers * BALL_COLUMNS.len());
+            let views = robots.chunks_exact_mut(observers * slots * ROBOT_COLUMNS.len());
             for (row, (ball, robots)) in rows.chunks_exact(size).zip(balls.zip(views)) {
                 self.viewpoint.fill(row, ball, robots);
             }

@@ -1,23 +1,22 @@
-//! How wheels move a robot: by bounded forces, so that robots push, stall, skid and are pushed.
+//! Wheels that move a robot by bounded forces, so that robots push, stall, skid and are pushed.
 
 mod differential;
 mod omni;
 
-use rapier2d::math::Vector;
 use serde::{Deserialize, Serialize};
 
-use crate::RobotModel;
-use crate::engine::Motion;
-use crate::robot_model;
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use crate::models::robot::{Drive, RobotModel};
 
-/// Faster than anything is ever told to be, m/s: its square is still finite.
-pub(crate) const ABSURD: f32 = 1e9;
-
-/// What a robot's wheels can do in one tick: bounds on impulses, and the inertia they act on.
+/// Limits of a robot's wheels in one tick, and the inertia that they move.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct Limits {
+pub(crate) struct DriveLimits {
+    /// kg.
     mass: f32,
+    /// kg m².
     inertia: f32,
+    /// s.
     tick: f32,
     wheels: Wheels,
 }
@@ -25,23 +24,21 @@ pub(crate) struct Limits {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 enum Wheels {
     Differential(differential::Wheels),
-    /// Told the body's velocity.
+    /// Commanded by the body's velocity.
     Omni(omni::Wheels),
-    /// Told the wheels' speeds.
+    /// Commanded by the wheels' speeds.
     EachOmni(omni::Wheels),
 }
 
-impl Limits {
+impl DriveLimits {
     pub(crate) fn of(model: &RobotModel, tick: f32) -> Self {
         let (mass, inertia) = (model.mass, model.inertia());
         let wheels = match &model.drive {
-            robot_model::Drive::Differential(drive) => {
+            Drive::Differential(drive) => {
                 Wheels::Differential(differential::Wheels::of(drive, mass, tick))
             }
-            robot_model::Drive::Omni(drive) => {
-                Wheels::Omni(omni::Wheels::of(drive, mass, inertia, tick))
-            }
-            robot_model::Drive::OmniWheels(drive) => {
+            Drive::Omni(drive) => Wheels::Omni(omni::Wheels::of(drive, mass, inertia, tick)),
+            Drive::OmniWheels(drive) => {
                 Wheels::EachOmni(omni::Wheels::of(drive, mass, inertia, tick))
             }
         };
@@ -49,52 +46,54 @@ impl Limits {
     }
 }
 
-/// What wheels are asked for in a tick, in the robot's own frame: x forward, y to its left.
-struct Demand {
-    /// Velocity of the robot, m/s.
+/// Motion and estimated load of a robot in its own frame: x forward, y to its left.
+struct BodyState {
+    /// m/s.
     velocity: Vector,
     /// rad/s.
     spin: f32,
-    /// Impulse that others gave it in the last tick, N s.
+    /// Impulse by other bodies in the last tick, N s.
     load: Vector,
-    /// The same about the vertical axis, N m s.
-    turning_load: f32,
-    /// Change of velocity by the wheels in the last tick, as far as for their command's sake, m/s.
+    /// Angular impulse by other bodies in the last tick, N m s.
+    angular_load: f32,
+    /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
     last_change: Vector,
 }
 
-/// What wheels give in a tick, in the robot's own frame: N s and N m s.
-struct Pull {
+/// Effect of the wheels in a tick, in the robot's own frame.
+struct WheelImpulse {
+    /// N s.
     impulse: Vector,
-    turn: f32,
-    /// The part of the impulse that is for the command's sake, as a change of velocity, m/s.
+    /// N m s.
+    angular_impulse: f32,
+    /// Part of the impulse without the compensation of loads, as a change of velocity, m/s.
     change: Vector,
 }
 
-/// What a robot's wheels remember from one tick to the next.
+/// State of a robot's wheels between ticks.
 ///
-/// A bounded correction of the velocity alone creeps when the robot is pushed: each tick undoes
-/// only what the last one did. So wheels also carry over the load that they felt in the last tick,
-/// within the same bounds. They do so only while the robot leans on something: the load of an impact
-/// does not come again.
+/// A bounded correction of the velocity alone lets a pushed robot creep: each tick corrects only the
+/// error of the last one. So wheels also compensate the load of the last tick, within the same bounds.
+/// They do so only while the robot is in contact: the load of an impact does not come again.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct Drive {
-    /// Impulse that others gave in the last tick, N s.
+pub(crate) struct DriveState {
+    /// Impulse by other bodies in the last tick, N s.
     load: Vector,
-    /// Likewise about the vertical axis, N m s.
-    turning_load: f32,
-    /// Change of velocity by the wheels in the last tick, as far as for their command's sake, m/s.
+    /// Angular impulse by other bodies in the last tick, N m s.
+    angular_load: f32,
+    /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
     change: Vector,
-    /// What the robot will do if nobody touches it.
-    pub(crate) expected_velocity: Vector,
-    pub(crate) expected_spin: f32,
+    /// Velocity after the tick without contacts, m/s.
+    expected_velocity: Vector,
+    /// Turn rate after the tick without contacts, rad/s.
+    expected_spin: f32,
 }
 
-impl Drive {
-    /// Force (N) and torque (N m) with which the wheels follow `command` for a tick.
-    pub(crate) fn pull(
+impl DriveState {
+    /// Force (N) and torque (N m) of the wheels that follow `command` for a tick.
+    pub(crate) fn wheel_force(
         &mut self,
-        limits: &Limits,
+        limits: &DriveLimits,
         command: &[f32],
         motion: &Motion,
     ) -> (Vector, f32) {
@@ -102,31 +101,40 @@ impl Drive {
             let (cos, sin) = (motion.heading.x, motion.heading.y);
             Vector::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin)
         };
-        let demand = Demand {
+        let body = BodyState {
             velocity: own(motion.velocity),
             spin: motion.spin,
             load: own(self.load),
-            turning_load: self.turning_load,
+            angular_load: self.angular_load,
             last_change: own(self.change),
         };
-        let pull = match &limits.wheels {
-            Wheels::Differential(wheels) => wheels.pull(limits, command, &demand),
-            Wheels::Omni(wheels) => wheels.pull(limits, &wheels.wanted(command), &demand),
-            Wheels::EachOmni(wheels) => wheels.pull(limits, &wheels.rolled(command), &demand),
+        let wheels = match &limits.wheels {
+            Wheels::Differential(wheels) => wheels.impulse(limits, command, &body),
+            Wheels::Omni(wheels) => {
+                wheels.impulse(limits, &wheels.target_of_velocity(command), &body)
+            }
+            Wheels::EachOmni(wheels) => {
+                wheels.impulse(limits, &wheels.target_of_wheel_speeds(command), &body)
+            }
         };
-        let turned = |own: Vector| motion.heading * own.x + motion.heading.perp() * own.y;
-        let impulse = turned(pull.impulse);
-        self.change = turned(pull.change);
+        let to_field = |own: Vector| motion.heading * own.x + motion.heading.perp() * own.y;
+        let impulse = to_field(wheels.impulse);
+        self.change = to_field(wheels.change);
         self.expected_velocity = motion.velocity + impulse / limits.mass;
-        self.expected_spin = motion.spin + pull.turn / limits.inertia;
-        (impulse / limits.tick, pull.turn / limits.tick)
+        self.expected_spin = motion.spin + wheels.angular_impulse / limits.inertia;
+        (impulse / limits.tick, wheels.angular_impulse / limits.tick)
     }
 
-    /// Takes note of what the tick did beyond what the wheels had asked for. `leans` says whether the
-    /// robot stays in contact with what pressed on it.
-    pub(crate) fn feel(&mut self, limits: &Limits, motion: &Motion, leans: bool) {
-        let felt = if leans { 1.0 } else { 0.0 };
-        self.load = (motion.velocity - self.expected_velocity) * (limits.mass * felt);
-        self.turning_load = (motion.spin - self.expected_spin) * (limits.inertia * felt);
+    /// Estimates the load of the tick from the difference to the expected motion. A robot that is not
+    /// `in_contact` after the tick has none.
+    pub(crate) fn estimate_load(
+        &mut self,
+        limits: &DriveLimits,
+        motion: &Motion,
+        in_contact: bool,
+    ) {
+        let factor = if in_contact { 1.0 } else { 0.0 };
+        self.load = (motion.velocity - self.expected_velocity) * (limits.mass * factor);
+        self.angular_load = (motion.spin - self.expected_spin) * (limits.inertia * factor);
     }
 }

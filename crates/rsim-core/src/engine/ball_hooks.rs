@@ -1,63 +1,75 @@
-//! What the contact engine must know of the ball beyond a disc: it may fly, it is fast for its size,
-//! and robots have a flat front.
+//! Contacts of the ball for the engine: the ball may fly, it is fast for its size, and robots have a
+//! flat front.
 
-use rapier2d::math::{Rotation, Vector};
-use rapier2d::pipeline::ModifiableContacts;
-use rapier2d::prelude::*;
+use rapier2d::geometry::{Collider, SolverFlags};
+use rapier2d::pipeline::{
+    ContactModificationContext, ModifiableContacts, PairFilterContext, PhysicsHooks,
+};
 
-use super::{Partner, partner, turned};
-use crate::arena::Wall;
-use crate::outline::{Nearest, Placed};
-use crate::physique::Physique;
-use crate::squeeze::Squeeze;
+use super::contacts::{Partner, partner};
+use crate::body_params::BodyParams;
+use crate::geometry::arena::Wall;
+use crate::geometry::motion::{rotated, rotation};
+use crate::geometry::outline::{NearestPoint, PlacedOutline};
+use crate::math::{Rotation, Vector};
 
-/// Surfaces nearer than this touch, m: then the contact is where it is. Farther ones are looked for
-/// along the ball's way.
+/// Gap up to which surfaces touch, m: then the contact is at the nearest point. For a larger gap the
+/// contact is searched along the ball's path.
 const TOUCHING: f32 = 1e-4;
 
-/// How near the search along the way comes to the contact, m.
+/// Gap at which the search along the path ends, m.
 const FOUND: f32 = 1e-5;
 
-/// Most looks of that search. A slow ball beside a fast corner takes the most.
-const LOOKS: usize = 32;
+/// Maximum number of iterations of that search. A slow ball beside a fast corner needs the most.
+const MAX_ITERATIONS: usize = 32;
 
-/// The rules of one tick.
+/// Contact rules of the ball in one tick, or in a part of it.
 pub(crate) struct BallHooks<'a> {
-    pub(crate) physique: &'a Physique,
+    pub(crate) params: &'a BodyParams,
     pub(crate) walls: &'a [Wall],
-    pub(crate) level: Level,
-    /// If the ball is caught between others it stays in contact with all of them.
-    pub(crate) squeeze: Option<Squeeze>,
-    /// Length of what is solved, s.
+    pub(crate) phase: BallPhase,
+    /// Set for a squeezed ball, which stays in contact with all bodies around it.
+    pub(crate) squeezed: Option<SqueezedBall>,
+    /// Length of the tick or its part, s.
     pub(crate) time: f32,
 }
 
-/// Where the ball is in a tick, which decides what it meets in the plane.
+/// Height of the ball in a tick, which decides its contacts in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Level {
+pub(crate) enum BallPhase {
+    /// On the floor: contacts with everything.
     Floor,
-    /// It meets others elsewhere: [`crate::flight`].
+    /// In the air: no contacts here; `tick::flight` solves them.
     Air,
-    /// In the air and caught between others, so that it meets what is as high as its centre.
-    Caught {
-        /// m.
+    /// In the air and jammed: contacts with everything as high as its centre.
+    JammedInAir {
+        /// Height of the centre, m.
         height: f32,
     },
 }
 
-/// What the ball is about to meet: its outline where it is, and how it moves.
-struct Obstacle {
-    place: Placed,
-    /// Velocity of the ball against its middle, m/s.
+/// Settings of the solver for a squeezed ball.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SqueezedBall {
+    /// Mass of the ball in the solver, kg.
+    pub(crate) mass: f32,
+    /// Whether the ball cannot slip out.
+    pub(crate) jammed: bool,
+}
+
+/// A body or wall that the ball approaches.
+struct Approached {
+    place: PlacedOutline,
+    /// Velocity of the ball relative to the centre of the approached body, m/s.
     velocity: Vector,
-    /// rad/s.
+    /// Turn rate of the approached body, rad/s.
     spin: f32,
 }
 
-/// Where the ball will touch: nearest point at that instant, and the centre of the ball then.
+/// A predicted contact: normal, distance to it now, and the ball's centre at that instant.
 struct Touch {
     normal: Vector,
-    /// From here to there along the normal, m.
+    /// Distance along the normal, m.
     distance: f32,
     center: Vector,
 }
@@ -70,8 +82,8 @@ impl PhysicsHooks for BallHooks<'_> {
         met.is_some_and(|with| self.meets(with)).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
     }
 
-    /// Puts the contact of the ball where it will be: the engine has the nearest points of now, and
-    /// of a robot only the disc. A fast ball comes to another point, or to none.
+    /// Moves the contact of the ball to where it will be. The engine has the nearest points of now, and
+    /// of a round robot only the disc; a fast ball touches at another point, or not at all.
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
         let labels = colliders.map(|collider| partner(collider.user_data));
@@ -82,7 +94,7 @@ impl PhysicsHooks for BallHooks<'_> {
         };
         let center = ball.translation();
         let outline = match with {
-            Partner::Robot(index) => self.physique.robots[index].outline,
+            Partner::Robot(index) => self.params.robots[index].outline,
             Partner::Wall(index) => self.walls[index].outline(),
         };
         let motion = |collider: &Collider| {
@@ -91,16 +103,16 @@ impl PhysicsHooks for BallHooks<'_> {
         };
         let pose = other.position();
         let ((ball_velocity, _), (velocity, spin)) = (motion(ball), motion(other));
-        let obstacle = Obstacle {
-            place: Placed { outline, position: pose.translation, heading: pose.rotation },
+        let approached = Approached {
+            place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
             velocity: ball_velocity - velocity,
             spin,
         };
-        let radius = self.physique.ball.radius;
-        let touch = if self.squeeze.is_some() {
-            Some(Touch::of(&obstacle.place.nearest(center), center, radius))
+        let radius = self.params.ball.radius;
+        let touch = if self.squeezed.is_some() {
+            Some(Touch::of(&approached.place.nearest(center), center, radius))
         } else {
-            obstacle.touch(center, radius, self.time)
+            approached.touch(center, radius, self.time)
         };
         if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
             let Some(touch) = touch else {
@@ -120,13 +132,13 @@ impl PhysicsHooks for BallHooks<'_> {
 }
 
 impl BallHooks<'_> {
-    /// Whether the ball meets something in the plane.
+    /// Whether the ball can touch a robot or wall in the plane.
     fn meets(&self, with: Partner) -> bool {
-        match self.level {
-            Level::Floor => true,
-            Level::Air => false,
-            Level::Caught { height } => match with {
-                Partner::Robot(index) => height < self.physique.robots[index].model.height,
+        match self.phase {
+            BallPhase::Floor => true,
+            BallPhase::Air => false,
+            BallPhase::JammedInAir { height } => match with {
+                Partner::Robot(index) => height < self.params.robots[index].model.height,
                 Partner::Wall(index) => height < self.walls[index].top,
             },
         }
@@ -134,19 +146,20 @@ impl BallHooks<'_> {
 }
 
 impl Touch {
-    /// The point of an outline that is nearest, seen as touched by a ball that is just there.
-    fn of(nearest: &Nearest, center: Vector, radius: f32) -> Self {
+    /// The nearest point of an outline, as touched by a ball that is just there.
+    fn of(nearest: &NearestPoint, center: Vector, radius: f32) -> Self {
         let distance = nearest.distance - radius;
         Self { normal: nearest.normal, distance, center: center - nearest.normal * distance }
     }
 }
 
-impl Obstacle {
-    /// Where a ball at `center` touches within `time`, as both go on straight and the obstacle turns on.
+impl Approached {
+    /// The contact of a ball at `center` within `time`, if both move straight and the approached body
+    /// keeps turning.
     ///
-    /// Each look leads to a time before which they cannot touch: the distance to a convex outline
-    /// shrinks no faster than along the normal, and by turning no faster than its farthest corner
-    /// moves. So the search comes up to the contact and never passes it.
+    /// Each iteration advances by a time before which the two cannot touch: the distance to a convex
+    /// outline shrinks at most by the speed along the normal and, by rotation, by the speed of its
+    /// farthest corner. So the search converges to the contact and never passes it.
     fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
         let mut nearest = self.place.nearest(center);
         if nearest.distance - radius <= TOUCHING {
@@ -154,7 +167,7 @@ impl Obstacle {
         }
         let corner_speed = self.spin.abs() * self.place.outline.turning_radius();
         let (mut place, mut after) = (self.place, 0.0);
-        for _ in 0..LOOKS {
+        for _ in 0..MAX_ITERATIONS {
             let gap = nearest.distance - radius;
             if gap <= FOUND {
                 break;
@@ -168,7 +181,7 @@ impl Obstacle {
                 return None;
             }
             let Rotation { re, im } = self.place.heading;
-            place.heading = rotation(turned(Vector::new(re, im), self.spin * after));
+            place.heading = rotation(rotated(Vector::new(re, im), self.spin * after));
             nearest = place.nearest(center + self.velocity * after);
         }
         let center = center + self.velocity * after;
@@ -177,9 +190,4 @@ impl Obstacle {
         let distance = (closing * after).max(0.0);
         Some(Touch { normal: nearest.normal, distance, center })
     }
-}
-
-/// The rotation of a heading.
-pub(crate) fn rotation(heading: Vector) -> Rotation {
-    Rotation { re: heading.x, im: heading.y }
 }

@@ -1,17 +1,26 @@
-//! Which bodies and walls a match has, and the engine's settings for bodies of a few centimetres.
+//! Construction of the engine: bodies, walls, and settings for bodies of a few centimetres.
 
-use rapier2d::math::Vector;
-use rapier2d::prelude::*;
+use rapier2d::dynamics::{
+    CoefficientCombineRule, IntegrationParameters, IslandManager, RigidBodyBuilder, RigidBodySet,
+};
+use rapier2d::geometry::{
+    BroadPhaseBvh, BvhOptimizationStrategy, ColliderBuilder, ColliderSet, NarrowPhase, SharedShape,
+};
+use rapier2d::pipeline::ActiveHooks;
+use rapier2d::prelude::SpringCoefficients;
 
-use super::{BALL_LABEL, Engine, Inverse, Motion, Partner, Push, label};
-use crate::SimConfig;
-use crate::arena::Wall;
-use crate::physique::Physique;
-use crate::placement::FASTEST;
-use crate::robot_model::Body;
+use super::contacts::{BALL_LABEL, Partner, label};
+use super::shapes::Shape;
+use super::{AppliedForce, Engine, InverseInertia};
+use crate::body_params::BodyParams;
+use crate::columns::MAX_PLACED_SPEED;
+use crate::geometry::arena::Wall;
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use crate::models::config::SimConfig;
 
 impl Engine {
-    pub(crate) fn new(config: &SimConfig, physique: &Physique, walls: &[Wall]) -> Self {
+    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
         let mut engine = Self {
             parameters: parameters(config.tick),
             islands: IslandManager::new(),
@@ -21,113 +30,104 @@ impl Engine {
             colliders: ColliderSet::new(),
             handles: Vec::new(),
             motions: Vec::new(),
-            pushes: Vec::new(),
+            forces: Vec::new(),
             inverses: Vec::new(),
-            ball_mass: physique.ball.mass,
+            ball_mass: params.ball.mass,
             moved: Vec::new(),
-            clear: false,
-            skips: true,
-            skipped: 0,
+            is_contact_free: false,
+            contact_free_enabled: true,
+            contact_free_ticks: 0,
         };
-        engine.insert_ball(physique, config.tick);
-        for index in 0..physique.robots.len() {
-            engine.insert_robot(physique, index);
+        engine.insert_ball(params, config.tick);
+        for index in 0..params.robots.len() {
+            engine.insert_robot(params, index);
         }
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
-            let collider = ColliderBuilder::new(SharedShape::new(wall.shape()))
+            let collider = ColliderBuilder::new(Shape::of_wall(wall).0)
                 .position(wall.pose)
                 .restitution(0.0)
                 .friction(WALL_FRICTION);
             engine.colliders.insert(collider.user_data(label(Partner::Wall(index))));
         }
-        engine.fit(physique);
+        engine.set_params(params);
         engine
     }
 
-    fn insert_ball(&mut self, physique: &Physique, tick: f32) {
-        let ball = &physique.ball;
-        // Its bounce and friction are solved in closed form, and its spin has three axes: the engine
-        // only keeps it out of others.
-        let collider = ColliderBuilder::ball(ball.radius)
+    fn insert_ball(&mut self, params: &BodyParams, tick: f32) {
+        let ball = &params.ball;
+        // Bounce and friction of the ball are solved in closed form, and its spin has three axes: the
+        // engine only keeps the ball out of other bodies.
+        let collider = ColliderBuilder::new(SharedShape::ball(ball.radius))
             .restitution(0.0)
             .restitution_combine_rule(CoefficientCombineRule::Min)
             .friction(0.0)
             .friction_combine_rule(CoefficientCombineRule::Min)
             .active_hooks(ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS)
             .user_data(BALL_LABEL);
-        // Seen ahead, so that the fastest ball does not pass through a robot between two ticks.
-        let body = awake().soft_ccd_prediction(FASTER * FASTEST * tick).lock_rotations();
+        // Predicted ahead, so that the fastest ball does not pass through a robot between two ticks.
+        let prediction = MAX_BALL_SPEED_FACTOR * MAX_PLACED_SPEED * tick;
+        let body = awake_body().soft_ccd_prediction(prediction).lock_rotations();
         self.insert(body, collider);
     }
 
-    fn insert_robot(&mut self, physique: &Physique, index: usize) {
-        let model = &physique.robots[index].model;
-        let shape = match model.body {
-            Body::Square { side } => SharedShape::cuboid(side / 2.0, side / 2.0),
-            // Among robots and walls the cheapest shape does; the ball meets the true outline.
-            Body::Round { radius, .. } => SharedShape::ball(radius),
-        };
-        // Nothing bounces for the engine: it would bounce one point of a contact after the other, which
-        // turns two squares that meet face to face.
-        let collider = ColliderBuilder::new(shape)
+    fn insert_robot(&mut self, params: &BodyParams, index: usize) {
+        let model = &params.robots[index].model;
+        // The engine would bounce one point of a contact after the other, which turns two squares that
+        // meet face to face. So nothing bounces in the engine.
+        let collider = ColliderBuilder::new(Shape::of_robot(model.body).0)
             .restitution(0.0)
             .friction(model.friction)
             .user_data(label(Partner::Robot(index)));
-        self.insert(awake(), collider);
+        self.insert(awake_body(), collider);
     }
 
     fn insert(&mut self, body: RigidBodyBuilder, collider: ColliderBuilder) {
         let handle = self.bodies.insert(body);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.handles.push(handle);
-        self.motions.push(Motion {
-            position: Vector::ZERO,
-            heading: Vector::X,
-            velocity: Vector::ZERO,
-            spin: 0.0,
-        });
-        self.pushes.push(Push::default());
-        self.inverses.push(Inverse::default());
+        self.motions.push(Motion::at_rest(Vector::ZERO, Vector::X));
+        self.forces.push(AppliedForce::default());
+        self.inverses.push(InverseInertia::default());
         self.moved.push(false);
     }
 }
 
-/// Robots against walls, averaged with the robot's own: as robots against robots. Nobody has
-/// published how a robot slides along a wall.
+/// Friction of a wall against robots, averaged with the robot's own: that of robot against robot. No
+/// value is published for a robot that slides along a wall.
 const WALL_FRICTION: f32 = 0.2;
 
-fn awake() -> RigidBodyBuilder {
-    // Sleeping would freeze a slowly rolling ball, and a robot that waits for its command.
+/// A body that never sleeps: sleep would freeze a slowly rolling ball, and a robot that waits for its
+/// command.
+fn awake_body() -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic().can_sleep(false)
 }
 
-/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` shows what fewer
-/// and more give.
+/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` compares numbers.
 const SUB_STEPS: usize = 4;
 
-/// Bodies are seen so far ahead, by the way that the fastest robot drives in a tick: what two that
-/// drive at each other close in one, and a tenth. Also bodies at rest are, since others may push them
-/// along within the tick. Seen 8 mm ahead, and along their own ways, robots that chase a ball came now
-/// and then 12 mm into each other; so they come 3 mm.
-pub(super) const SEEN_AHEAD: f32 = 2.2;
+/// Prediction distance of contacts, by the distance that the fastest robot drives in a tick: the
+/// distance that two robots which drive at each other close in a tick, and a tenth. It holds around
+/// bodies at rest too, since others may push them along within the tick. With 8 mm, predicted along
+/// their own paths, robots that chase a ball sometimes overlapped by 12 mm; with this distance, by 3.
+pub(super) const PREDICTION_FACTOR: f32 = 2.2;
 
-/// The least, m, for slow robots whose corners spin.
-pub(super) const SEEN_LEAST: f32 = 0.008;
+/// Minimum prediction distance, m, for slow robots whose corners spin.
+pub(super) const MIN_PREDICTION: f32 = 0.008;
 
-/// Passes over all contacts in each sub-step, and while a ball is jammed between bodies that weigh
-/// twice as much: with one, three robots in line at 2.8 m/s sink 4.0 mm into a ball at a wall, with
-/// four 2.1 mm.
-pub(super) const PASSES: usize = 1;
-pub(super) const PASSES_JAMMED: usize = 4;
+/// Passes over all contacts in each sub-step, usually and while a ball is jammed between bodies that
+/// weigh twice as much: with one pass, three robots in line at 2.8 m/s sink 4.0 mm into a ball at a
+/// wall, with four 2.1 mm.
+pub(super) const SOLVER_PASSES: usize = 1;
+pub(super) const SOLVER_PASSES_JAMMED: usize = 4;
 
-/// Fastest ball that is seen to meet others, by what a start may have: balls that bounce between
-/// robots that meet get faster.
-const FASTER: f32 = 3.0;
+/// Speed of the fastest ball whose contacts are predicted, by the maximum speed of a start: a ball that
+/// bounces between robots which meet gets faster.
+const MAX_BALL_SPEED_FACTOR: f32 = 3.0;
 
-/// Scales the engine's tolerances, here to a tenth.
+/// Scale of the engine's tolerances, a tenth of their default.
 pub(super) const LENGTH_UNIT: f32 = 0.1;
 
-/// Settings for bodies of a few centimetres. The engine's defaults suit bodies of a metre.
+/// Settings for bodies of a few centimetres; the engine's defaults suit bodies of a metre.
 fn parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
@@ -138,9 +138,9 @@ fn parameters(tick: f32) -> IntegrationParameters {
         static_contact_softness: SpringCoefficients::new(400.0, 2.0),
         normalized_allowed_linear_error: 0.000_5,
         normalized_max_corrective_velocity: 10.0,
-        // It would stop the ball where the larger one that the engine sees touches a wall.
+        // Continuous detection would stop the ball where its larger collider touches a wall.
         max_ccd_substeps: 0,
-        // Its allowed drift is a quarter of the ball at this scale.
+        // The drift that recycling allows is a quarter of the ball at this scale.
         contact_recycling: false,
         ..IntegrationParameters::default()
     }

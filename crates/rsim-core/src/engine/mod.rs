@@ -1,50 +1,35 @@
-//! The contact engine behind one match: bodies, walls, and rapier2d that solves what they do to
-//! each other. Nothing outside this folder knows which engine it is.
+//! Contact engine of one match: bodies, walls, and rapier2d, which solves their contacts. No module
+//! outside this folder depends on the solver; `math.rs` has the vector types that all share.
 
 mod ball_hooks;
 mod build;
-mod pressing;
-mod quiet;
+mod contact_free;
+mod contacts;
+mod shapes;
+mod solver;
 
-use rapier2d::math::{Pose, Vector};
-use rapier2d::prelude::*;
+use rapier2d::dynamics::{
+    IntegrationParameters, IslandManager, MassProperties, RigidBodyHandle, RigidBodySet,
+};
+use rapier2d::geometry::{BroadPhaseBvh, ColliderSet, NarrowPhase, SharedShape};
 use serde::{Deserialize, Serialize};
 
-use build::{LENGTH_UNIT, PASSES, PASSES_JAMMED, SEEN_AHEAD, SEEN_LEAST};
+use crate::body_params::BodyParams;
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use build::{LENGTH_UNIT, MIN_PREDICTION, PREDICTION_FACTOR};
 
-use crate::physique::Physique;
+pub(crate) use ball_hooks::{BallHooks, BallPhase, SqueezedBall};
+pub(crate) use contacts::{BallContact, Partner, RobotContact};
+pub(crate) use shapes::Shape;
+pub(crate) use solver::{NonFinite, Scratch};
 
-pub(crate) use ball_hooks::{BallHooks, Level, rotation};
-use pressing::{BALL_LABEL, label, partner, pressed};
-pub(crate) use pressing::{Contact, Partner, Press};
-pub(crate) use quiet::Room;
-
-/// The body that is the ball.
+/// Index of the ball among the bodies.
 pub(crate) const BALL: usize = 0;
 
-/// The body that is robot `index`.
+/// Index of robot `index` among the bodies.
 pub(crate) const fn robot(index: usize) -> usize {
     index + 1
-}
-
-/// Where a body is and how it moves in the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Motion {
-    pub(crate) position: Vector,
-    /// Cosine and sine of the heading.
-    pub(crate) heading: Vector,
-    pub(crate) velocity: Vector,
-    /// rad/s, counter-clockwise.
-    pub(crate) spin: f32,
-}
-
-impl Motion {
-    pub(crate) fn is_finite(&self) -> bool {
-        self.position.is_finite()
-            && self.heading.is_finite()
-            && self.velocity.is_finite()
-            && self.spin.is_finite()
-    }
 }
 
 /// Bodies of one match.
@@ -57,106 +42,76 @@ pub(crate) struct Engine {
     bodies: RigidBodySet,
     colliders: ColliderSet,
     handles: Vec<RigidBodyHandle>,
-    /// Where the bodies are and how they move: what counts between ticks. The solver's own copies
-    /// may lag behind.
+    /// State of the bodies, valid between ticks; the solver's own copies may lag behind.
     motions: Vec<Motion>,
-    pushes: Vec<Push>,
-    inverses: Vec<Inverse>,
-    /// What the solver takes the ball for, kg.
+    forces: Vec<AppliedForce>,
+    inverses: Vec<InverseInertia>,
+    /// Mass of the ball in the solver, kg.
     ball_mass: f32,
-    /// Which bodies are elsewhere than the solver has them.
+    /// Whether a body's pose differs from the solver's copy.
     moved: Vec<bool>,
-    /// Whether nothing pressed on anything in the solver's last tick.
-    clear: bool,
-    /// Whether ticks in which nothing touches go without the solver.
-    skips: bool,
-    /// Ticks that went without it.
-    skipped: u32,
+    /// Whether the solver's last tick had no impulses.
+    is_contact_free: bool,
+    /// Whether ticks without contacts go without the solver.
+    contact_free_enabled: bool,
+    /// Number of ticks that went without the solver.
+    contact_free_ticks: u32,
 }
 
 /// Force (N) and torque (N m) on a body during the next tick.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct Push {
+struct AppliedForce {
     force: Vector,
     torque: f32,
 }
 
-/// 1/kg and 1/(kg m²) of a body.
+/// Inverse mass (1/kg) and inverse moment of inertia (1/(kg m²)) of a body.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct Inverse {
+struct InverseInertia {
     mass: f32,
     inertia: f32,
 }
 
-/// What the engine works with during a step: one per thread. What is in it
-/// means nothing between steps.
-pub(crate) struct Scratch {
-    pipeline: PhysicsPipeline,
-    ccd: CCDSolver,
-    trial: quiet::Trial,
-    /// Contacts of robots in what was solved last.
-    pub(crate) presses: Vec<Press>,
-    /// How robots would move after it if nobody touched them.
-    pub(crate) undisturbed: Vec<Undisturbed>,
-    // A match has no joints and no soft bodies; the pipeline wants to see that for itself.
-    joints: ImpulseJointSet,
-    multibodies: MultibodyJointSet,
-    soft_bodies: SoftBodySet,
-}
-
-impl Scratch {
-    pub(crate) fn new() -> Self {
-        Self {
-            pipeline: PhysicsPipeline::new(),
-            ccd: CCDSolver::new(),
-            trial: quiet::Trial::default(),
-            presses: Vec::new(),
-            undisturbed: Vec::new(),
-            joints: ImpulseJointSet::new(),
-            multibodies: MultibodyJointSet::new(),
-            soft_bodies: SoftBodySet::new(),
-        }
-    }
-}
-
-/// How a robot would move if nobody touched it.
+/// Motion of a robot without contacts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Undisturbed {
+    /// m/s.
     pub(crate) velocity: Vector,
     /// rad/s.
     pub(crate) spin: f32,
 }
 
-/// A body's state left the finite numbers.
-#[derive(Debug)]
-pub(crate) struct NonFinite;
-
 impl Engine {
-    /// Takes the bodies for those of another physique: their masses, and how far they get in a tick.
-    pub(crate) fn fit(&mut self, physique: &Physique) {
-        // The ball does not turn in the plane: its spin has three axes and is kept elsewhere.
-        self.set_mass(BALL, physique.ball.mass, 1.0);
+    /// Gives the bodies other parameters: masses, and the prediction distance that depends on speeds.
+    pub(crate) fn set_params(&mut self, params: &BodyParams) {
+        // The ball does not rotate in the plane: its spin has three axes and is kept elsewhere.
+        self.set_mass(BALL, params.ball.mass, 1.0);
         self.inverses[BALL].inertia = 0.0;
-        self.ball_mass = physique.ball.mass;
-        for (index, body) in physique.robots.iter().enumerate() {
+        self.ball_mass = params.ball.mass;
+        for (index, body) in params.robots.iter().enumerate() {
             self.set_mass(robot(index), body.model.mass, body.model.inertia());
         }
-        let speeds = physique.robots.iter().map(|body| body.model.top_speed());
-        let way = speeds.fold(0.0, f32::max) * self.parameters.dt;
-        let ahead = (SEEN_AHEAD * way).max(SEEN_LEAST);
-        self.parameters.normalized_prediction_distance = ahead / LENGTH_UNIT;
-        // Larger by the way of a robot in a tick: beside a body that looks ahead along its own way the
-        // engine counts nobody else's. The hook of the ball knows how far everything really is.
+        let speeds = params.robots.iter().map(|body| body.model.top_speed());
+        let distance = speeds.fold(0.0, f32::max) * self.parameters.dt;
+        let prediction = (PREDICTION_FACTOR * distance).max(MIN_PREDICTION);
+        self.parameters.normalized_prediction_distance = prediction / LENGTH_UNIT;
+        // The ball's collider is larger by the distance that a robot drives in a tick: for a body with
+        // soft continuous detection the engine ignores the motion of all others. The hook of the ball
+        // computes true distances.
         let ball = self.bodies[self.handles[BALL]].colliders()[0];
-        self.colliders[ball].set_shape(SharedShape::ball(physique.ball.radius + way));
+        self.colliders[ball].set_shape(SharedShape::ball(params.ball.radius + distance));
     }
 
     fn set_mass(&mut self, body: usize, mass: f32, inertia: f32) {
-        self.inverses[body] = Inverse { mass: 1.0 / mass, inertia: 1.0 / inertia };
+        self.inverses[body] = InverseInertia { mass: 1.0 / mass, inertia: 1.0 / inertia };
+        self.set_solver_mass(body, mass, inertia);
+    }
+
+    fn set_solver_mass(&mut self, body: usize, mass: f32, inertia: f32) {
         let properties = MassProperties::new(Vector::ZERO, mass, inertia);
         let body = &mut self.bodies[self.handles[body]];
         self.colliders[body.colliders()[0]].set_mass_properties(properties);
-        // At once: the solver itself would see it in its next step, after the first kick.
+        // At once: the solver itself would update the body in its next step, after the first kick.
         body.recompute_mass_properties_from_colliders(&self.colliders);
     }
 
@@ -164,170 +119,69 @@ impl Engine {
         self.motions[body]
     }
 
-    /// Puts a body somewhere. `heading` must be a unit vector.
+    /// Sets the motion of a body. `heading` must be a unit vector.
     pub(crate) fn set_motion(&mut self, body: usize, motion: &Motion) {
         self.motions[body] = *motion;
         self.moved[body] = true;
     }
 
-    /// Puts the ball somewhere, with a velocity.
+    /// Sets position (m) and velocity (m/s) of the ball.
     pub(crate) fn set_ball(&mut self, position: Vector, velocity: Vector) {
         let ball = &mut self.motions[BALL];
         (ball.position, ball.velocity) = (position, velocity);
         self.moved[BALL] = true;
     }
 
-    /// Whether the ball was caught in the solver's last tick.
-    pub(crate) fn was_caught(&self) -> bool {
+    /// Whether the ball was jammed in the solver's last tick.
+    pub(crate) fn ball_was_jammed(&self) -> bool {
         self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
     }
 
-    /// How robots move after `time` if nobody touches them.
+    /// Writes the motion of robots after `time` without contacts into `undisturbed`.
     pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
         undisturbed.clear();
         undisturbed.extend((robot(0)..self.motions.len()).map(|body| {
-            let (motion, push) = (&self.motions[body], &self.pushes[body]);
+            let (motion, force) = (&self.motions[body], &self.forces[body]);
             let inverse = &self.inverses[body];
-            let velocity = motion.velocity + push.force * (inverse.mass * time);
-            Undisturbed { velocity, spin: motion.spin + push.torque * (inverse.inertia * time) }
+            let velocity = motion.velocity + force.force * (inverse.mass * time);
+            Undisturbed { velocity, spin: motion.spin + force.torque * (inverse.inertia * time) }
         }));
     }
 
-    /// Force (N) on a body over its mass, during the next tick.
+    /// Acceleration of a body by the applied force during the next tick, m/s².
     pub(crate) fn acceleration(&self, body: usize) -> Vector {
-        self.pushes[body].force * self.inverses[body].mass
+        self.forces[body].force * self.inverses[body].mass
     }
 
-    /// Has the solver take the ball for a caught one, or for what it is. [`Engine::hit`] never takes it
-    /// for a caught one.
-    fn catch_ball(&mut self, ball: &BallHooks) {
-        let mass = ball.squeeze.map_or(ball.physique.ball.mass, |squeeze| squeeze.mass);
-        if (self.ball_mass - mass).abs() < f32::EPSILON * mass {
-            return;
-        }
-        // What pressed on a heavy ball must not start the solution for a light one.
-        self.parameters.warmstart_coefficient = if mass < self.ball_mass { 0.0 } else { 1.0 };
-        self.ball_mass = mass;
-        let properties = MassProperties::new(Vector::ZERO, mass, 1.0);
-        let body = &mut self.bodies[self.handles[BALL]];
-        self.colliders[body.colliders()[0]].set_mass_properties(properties);
-        body.recompute_mass_properties_from_colliders(&self.colliders);
-    }
-
+    /// Sets the velocity of a body, m/s.
     pub(crate) fn set_velocity(&mut self, body: usize, velocity: Vector) {
         self.motions[body].velocity = velocity;
     }
 
-    /// An impulse (N s) on a body, at `arm` from its centre of mass.
-    pub(crate) fn hit(&mut self, body: usize, impulse: Vector, arm: Vector) {
+    /// Applies an impulse (N s) to a body, at `arm` (m) from its centre of mass.
+    pub(crate) fn apply_impulse(&mut self, body: usize, impulse: Vector, arm: Vector) {
         let (motion, inverse) = (&mut self.motions[body], &self.inverses[body]);
         motion.velocity += impulse * inverse.mass;
         motion.spin += arm.perp_dot(impulse) * inverse.inertia;
     }
 
-    /// Force (N) and torque (N m) on a body during the next tick.
-    pub(crate) fn push(&mut self, body: usize, force: Vector, torque: f32) {
-        self.pushes[body] = Push { force, torque };
+    /// Sets force (N) and torque (N m) on a body during the next tick.
+    pub(crate) fn set_force(&mut self, body: usize, force: Vector, torque: f32) {
+        self.forces[body] = AppliedForce { force, torque };
     }
 
-    /// Whether ticks in which nothing touches go without the solver.
-    pub(crate) fn set_skips(&mut self, skips: bool) {
-        self.skips = skips;
+    /// Sets whether ticks without contacts go without the solver.
+    pub(crate) fn enable_contact_free_ticks(&mut self, enabled: bool) {
+        self.contact_free_enabled = enabled;
     }
 
-    /// Solves each tick in so many sub-steps.
+    /// Sets the number of sub-steps of a tick.
     pub(crate) fn set_sub_steps(&mut self, sub_steps: usize) {
         self.parameters.num_solver_iterations = sub_steps;
     }
 
-    /// Ticks that went without the solver since the match began.
-    pub(crate) fn skipped(&self) -> u32 {
-        self.skipped
+    /// Number of ticks without the solver since the match began.
+    pub(crate) fn contact_free_ticks(&self) -> u32 {
+        self.contact_free_ticks
     }
-
-    /// One tick.
-    pub(crate) fn step(
-        &mut self,
-        scratch: &mut Scratch,
-        ball: &BallHooks,
-        room: &Room,
-    ) -> Result<(), NonFinite> {
-        self.parameters.dt = ball.time;
-        let quiet = self.skips && self.clear && ball.squeeze.is_none() && !self.was_caught();
-        if quiet
-            && self.try_coasting(
-                &mut scratch.trial,
-                ball.physique,
-                ball.level != Level::Floor,
-                room,
-            )
-        {
-            self.skipped = self.skipped.wrapping_add(1);
-            return Ok(());
-        }
-        self.catch_ball(ball);
-        let jammed = ball.squeeze.is_some_and(|squeeze| squeeze.jammed);
-        self.parameters.num_internal_pgs_iterations = if jammed { PASSES_JAMMED } else { PASSES };
-        self.tell_solver();
-        let solved = self.solve(scratch, ball);
-        self.parameters.warmstart_coefficient = 1.0;
-        self.ask_solver();
-        solved
-    }
-
-    fn solve(&mut self, scratch: &mut Scratch, ball: &BallHooks) -> Result<(), NonFinite> {
-        scratch.pipeline.step(
-            Vector::ZERO,
-            &self.parameters,
-            &mut self.islands,
-            &mut self.broad_phase,
-            &mut self.narrow_phase,
-            &mut self.bodies,
-            &mut self.colliders,
-            &mut scratch.joints,
-            &mut scratch.multibodies,
-            &mut scratch.soft_bodies,
-            &mut scratch.ccd,
-            ball,
-            &(),
-        );
-        if scratch.pipeline.quarantine().bodies().is_empty() { Ok(()) } else { Err(NonFinite) }
-    }
-
-    fn tell_solver(&mut self) {
-        for (index, handle) in self.handles.iter().enumerate() {
-            let (body, motion) = (&mut self.bodies[*handle], &self.motions[index]);
-            // The ball always: only then does the solver look ahead along its new velocity.
-            if std::mem::take(&mut self.moved[index]) || index == BALL {
-                let heading = rotation(motion.heading);
-                body.set_position(Pose::from_parts(motion.position, heading), true);
-            }
-            body.set_linvel(motion.velocity, true);
-            body.set_angvel(motion.spin, true);
-            let push = &self.pushes[index];
-            body.reset_forces(false);
-            body.reset_torques(false);
-            body.add_force(push.force, true);
-            body.add_torque(push.torque, true);
-        }
-    }
-
-    fn ask_solver(&mut self) {
-        for (motion, handle) in self.motions.iter_mut().zip(&self.handles) {
-            let body = &self.bodies[*handle];
-            let rotation = body.rotation();
-            *motion = Motion {
-                position: body.translation(),
-                heading: Vector::new(rotation.re, rotation.im),
-                velocity: body.linvel(),
-                spin: body.angvel(),
-            };
-        }
-        self.clear = self.narrow_phase.contact_pairs().all(|pair| pressed(pair).is_none());
-    }
-}
-
-/// A heading turned by an angle of a fraction of a radian, as the solver turns bodies.
-fn turned(heading: Vector, angle: f32) -> Vector {
-    Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x).normalize()
 }

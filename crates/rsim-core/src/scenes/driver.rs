@@ -1,25 +1,25 @@
-//! How the robots of a scene are driven.
+//! Commands of the robots in a scene.
 
 use super::uniform;
 use crate::columns::{OMNI_COLUMNS, ROBOT_COLUMNS};
-use crate::{Drive, RobotModel};
+use crate::models::robot::{Drive, RobotModel};
 
-/// How the robots of a scene are driven.
+/// Source of the commands in a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Driver {
-    /// A command for each robot; who has none stands still.
+    /// A constant command for each robot; a robot without one stands still.
     Constant(Vec<Vec<f32>>),
-    /// Each robot's command is drawn anew every ten steps.
+    /// A random command for each robot, drawn every ten steps.
     Random,
-    /// All robots drive at the ball, all the time: a crowd.
+    /// All robots drive at the ball all the time and form a crowd.
     Chase,
 }
 
 impl Driver {
-    /// Nobody moves.
+    /// All robots stand still.
     pub const STILL: Self = Self::Constant(Vec::new());
 
-    /// What robot `index` is told. `robot` is its part of the row, `key` sets random play apart.
+    /// Command of robot `index`. `robot` has its columns of the row, `key` decides random commands.
     pub(super) fn command(
         &self,
         index: usize,
@@ -36,8 +36,8 @@ impl Driver {
     }
 }
 
-/// What drives a robot that faces `degrees` with a velocity in the field's frame, m/s. On two wheels it
-/// drives with the part that is along its heading.
+/// Command that drives a robot with heading `degrees` at a velocity in the field's frame, m/s. A
+/// differential robot drives with the component along its heading.
 pub fn driving(model: &RobotModel, degrees: f32, [v_x, v_y]: [f32; 2]) -> Vec<f32> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let (ahead, aside) = (v_x * cos + v_y * sin, v_y * cos - v_x * sin);
@@ -47,7 +47,7 @@ pub fn driving(model: &RobotModel, degrees: f32, [v_x, v_y]: [f32; 2]) -> Vec<f3
     }
 }
 
-/// What a robot is told in random play. `key` decides.
+/// Random command; `key` decides.
 fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
     let draw = |nth: u64| uniform(key.wrapping_add(nth));
     match &model.drive {
@@ -71,7 +71,7 @@ fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
     }
 }
 
-/// What drives a robot at `target`, facing it.
+/// Command that drives a robot to `target`, facing it.
 fn towards(model: &RobotModel, robot: &[f32], target: [f32; 2]) -> Vec<f32> {
     let [x, y, cos, sin, ..] = robot else { unreachable!("a robot has {ROBOT_COLUMNS:?}") };
     let (to_x, to_y) = (target[0] - x, target[1] - y);

@@ -1,38 +1,40 @@
-//! Named situations, shared by tests, benchmarks and examples.
+//! Scenes shared by tests, benchmarks and examples.
 
 mod driver;
 mod measures;
 mod setup;
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
-use crate::{Batch, SimConfig, World};
+use crate::models::config::SimConfig;
+use crate::world::World;
+use crate::world::batch::Batch;
 
 pub use driver::{Driver, driving};
 pub use measures::{ball_gap, deepest_ball, deepest_robots, kinetic_energy, robot_depth};
 
-/// A start, and how its robots are driven.
+/// A start of a match, with the commands of its robots.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// For benchmark and error labels.
+    /// Name for labels of benchmarks and errors.
     pub name: &'static str,
-    /// What is played with.
+    /// Configuration of the match.
     pub config: SimConfig,
-    /// The row that it starts from.
+    /// State row of the start.
     pub start: Vec<f32>,
-    /// The factors on the models' numbers that it is played with.
+    /// Factors on the models' numbers.
     pub parameters: Option<Vec<f32>>,
-    /// What the robots do.
+    /// Source of the commands.
     pub driver: Driver,
 }
 
-/// Nobody drives, one ball rolls along x with nothing in its way for 1.2 m.
+/// The ball rolls along x at `speed` (m/s), free for 1.2 m; all robots stand still.
 pub fn rolling_ball(speed: f32) -> Scene {
     let mut scene = Scene::at("rolling_ball", SimConfig::vss(3, 3), &LINED_UP, Driver::STILL);
     scene.set_ball([-0.6, 0.0], [speed, 0.0]);
     scene
 }
 
-/// Nobody drives, and the ball rolls to and fro between nobody.
+/// The ball rolls slowly and meets no robot; all robots stand still.
 pub fn vss_free() -> Scene {
     let mut scene = rolling_ball(0.1);
     scene.name = "free";
@@ -44,7 +46,7 @@ pub fn random_play() -> Scene {
     Scene::at("random", SimConfig::vss(3, 3), &SPREAD, Driver::Random)
 }
 
-/// Six robots that all chase the ball: contacts all the time.
+/// Six robots that chase the ball, in contact all the time.
 pub fn chase() -> Scene {
     Scene::at("crowd", SimConfig::vss(3, 3), &SPREAD, Driver::Chase)
 }
@@ -59,7 +61,7 @@ pub fn ssl_random(config: SimConfig) -> Scene {
     Scene::lined_up("ssl_random", config, Driver::Random)
 }
 
-/// SSL teams that all chase the ball.
+/// SSL teams lined up in their halves that chase the ball.
 pub fn ssl_chase(config: SimConfig) -> Scene {
     Scene::lined_up("ssl_crowd", config, Driver::Chase)
 }
@@ -83,7 +85,7 @@ pub fn lone_omni(command: &[f32]) -> Scene {
 /// An SSL robot at the centre, facing +x, with the ball at rest at its front.
 pub fn ball_in_mouth(command: &[f32]) -> Scene {
     let mut scene = Scene { name: "ball_in_mouth", ..lone_omni(command) };
-    let touching = scene.config.blue[0].front() + scene.config.ball.radius;
+    let touching = scene.config.blue[0].front_distance() + scene.config.ball.radius;
     scene.set_ball([touching, 0.0], [0.0, 0.0]);
     scene
 }
@@ -126,7 +128,7 @@ impl Scene {
     /// Robots at these poses (x and y in m, heading in degrees), ball at rest at the centre.
     ///
     /// # Panics
-    /// When there is not one pose for each robot.
+    /// If the number of poses is not that of robots.
     pub fn at(name: &'static str, config: SimConfig, poses: &[[f32; 3]], driver: Driver) -> Self {
         assert_eq!(poses.len(), config.n_robots(), "one pose for each robot");
         let mut start = vec![0.0; config.row_size()];
@@ -137,17 +139,17 @@ impl Scene {
         Self { name, config, start, parameters: None, driver }
     }
 
-    /// Everybody where a new world has them.
+    /// All bodies in the default line-up.
     ///
     /// # Panics
-    /// When no match can be played with `config`: a slip in this file or in a test.
+    /// If `config` is invalid.
     pub fn lined_up(name: &'static str, config: SimConfig, driver: Driver) -> Self {
         let mut start = vec![0.0; config.row_size()];
         World::new(&config).expect("a valid configuration").write_row(&mut start);
         Self { name, config, start, parameters: None, driver }
     }
 
-    /// Puts the ball on the floor somewhere, with a velocity and without spin.
+    /// Sets position (m) and velocity (m/s) of the ball in the plane.
     pub fn set_ball(&mut self, position: [f32; 2], velocity: [f32; 2]) {
         self.start[..2].copy_from_slice(&position);
         let v_x = ball_column("v_x");
@@ -162,7 +164,7 @@ impl Scene {
     /// Sets a column of a robot.
     ///
     /// # Panics
-    /// When there is no such robot.
+    /// If there is no such robot.
     pub fn set_robot_column(&mut self, robot: usize, name: &str, value: f32) {
         robots_mut(&mut self.start).nth(robot).expect("a robot")[robot_column(name)] = value;
     }
@@ -170,7 +172,7 @@ impl Scene {
     /// A match at the start of the scene.
     ///
     /// # Panics
-    /// When the scene is not one that a match can start from: a slip in this file or in a test.
+    /// If the configuration or the start is invalid.
     pub fn world(&self) -> World {
         let mut world = World::new(&self.config).expect("the scene's configuration is valid");
         world.place(&self.start, self.parameters.as_deref()).expect("the scene's start is valid");
@@ -189,7 +191,7 @@ impl Scene {
         (batch, rows)
     }
 
-    /// Commands of one world at control step `step`, given its row. `seed` sets random play apart.
+    /// Commands of one world at control step `step`, given its row. `seed` varies random commands.
     pub fn commands(&self, row: &[f32], step: u64, seed: u64) -> Vec<f32> {
         let columns = self.config.command_columns();
         let mut commands = vec![0.0; self.config.command_size()];
@@ -198,16 +200,16 @@ impl Scene {
             each.zip(robots(row)).map(|((c, m), r)| (c, (m, r))).enumerate()
         {
             let key = seed ^ (step / 10 * 64 + index as u64 * 8);
-            let told = self.driver.command(index, model, robot, [row[0], row[1]], key);
-            command[..told.len()].copy_from_slice(&told);
+            let robot_command = self.driver.command(index, model, robot, [row[0], row[1]], key);
+            command[..robot_command.len()].copy_from_slice(&robot_command);
         }
         commands
     }
 
-    /// Plays `steps` control steps of one world and returns the rows, and the contacts seen.
+    /// Plays `steps` control steps of one world. Returns the rows and the number of contacts.
     ///
     /// # Panics
-    /// When a state becomes non-finite.
+    /// If a state becomes non-finite.
     pub fn play(&self, world: &mut World, steps: u64) -> (Vec<f32>, usize) {
         let mut row = vec![0.0; self.config.row_size()];
         world.write_row(&mut row);
@@ -228,7 +230,7 @@ impl Scene {
     }
 }
 
-/// Whole steps of `length` in so many seconds.
+/// Number of steps of `length` (s) in `seconds`.
 pub fn steps(seconds: f32, length: f32) -> u64 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // scenes last seconds
     let steps = (seconds / length).round() as u64;
@@ -240,7 +242,7 @@ pub fn robots(row: &[f32]) -> impl Iterator<Item = &[f32]> {
     row[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len())
 }
 
-/// Likewise, to change.
+/// The columns of each robot in a row, mutable.
 pub fn robots_mut(row: &mut [f32]) -> impl Iterator<Item = &mut [f32]> {
     row[BALL_COLUMNS.len()..].chunks_exact_mut(ROBOT_COLUMNS.len())
 }

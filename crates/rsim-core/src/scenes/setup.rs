@@ -1,7 +1,7 @@
-//! Starts of scenes beyond robots at given poses.
+//! Velocities and random poses of the robots of a scene.
 
 use super::{Scene, robots_mut, uniform};
-use crate::RobotModel;
+use crate::models::robot::RobotModel;
 
 impl Scene {
     /// Sets the velocity of a robot, in the field's frame.
@@ -10,26 +10,29 @@ impl Scene {
         self.set_robot_column(robot, "v_y", v_y);
     }
 
-    /// Puts all robots somewhere else, apart from each other, facing anywhere. `seed` decides.
+    /// Gives all robots random poses, apart from each other. `seed` decides.
     pub fn scatter(&mut self, seed: u64) {
         let field = &self.config.field;
         let radius = self.config.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);
         let apart = 2.0 * radius + 0.005;
         // Clear of walls, goals and corner blocks.
         let half = [field.half_length() - 0.1 - radius, field.half_width() - 0.1 - radius];
-        let mut places: Vec<[f32; 2]> = vec![[self.start[0], self.start[1]]];
+        let mut positions: Vec<[f32; 2]> = vec![[self.start[0], self.start[1]]];
         let mut key = seed << 20;
         for robot in robots_mut(&mut self.start) {
-            let place = loop {
+            let position = loop {
                 key += 3;
-                let place = [uniform(key) * half[0], uniform(key + 1) * half[1]];
-                if places.iter().all(|at| (at[0] - place[0]).hypot(at[1] - place[1]) > apart) {
-                    break place;
+                let position = [uniform(key) * half[0], uniform(key + 1) * half[1]];
+                if positions
+                    .iter()
+                    .all(|at| (at[0] - position[0]).hypot(at[1] - position[1]) > apart)
+                {
+                    break position;
                 }
             };
-            places.push(place);
+            positions.push(position);
             let (sin, cos) = (uniform(key + 2) * std::f32::consts::PI).sin_cos();
-            robot[..4].copy_from_slice(&[place[0], place[1], cos, sin]);
+            robot[..4].copy_from_slice(&[position[0], position[1], cos, sin]);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! How deep bodies are in each other, and what a run shows of it.
+//! Overlaps of bodies, collected over a run.
 
 use rsim_core::SimConfig;
 use rsim_core::columns::ball_column;
@@ -11,17 +11,17 @@ pub(super) struct Depths {
     ball: Vec<f32>,
 }
 
-/// Below this two do not touch, m.
+/// Overlap below which two bodies do not touch, m.
 const APART: f32 = -5e-4;
 
 impl Depths {
-    /// Takes note of a state.
+    /// Adds the overlaps of a state.
     pub(super) fn look(&mut self, config: &SimConfig, row: &[f32]) {
         let all: Vec<_> = config.robots().zip(robots(row)).collect();
         for (nth, first) in all.iter().enumerate() {
             let deep = all[..nth].iter().map(|second| robot_depth(*first, *second));
             self.robots.extend(deep.filter(|depth| *depth > APART));
-            // What is higher may lie on the robot.
+            // A higher ball may lie on the robot.
             if row[ball_column("z")] < 0.02 {
                 let depth = -ball_gap(first.0, first.1, [row[0], row[1]], config.ball.radius);
                 self.ball.extend(Some(depth).filter(|depth| *depth > APART));

@@ -1,5 +1,5 @@
-//! Random play on every field with every team size: nobody leaves the arena, nobody stays in
-//! anybody, nothing explodes. A million ticks; `make soak` asks for ten million.
+//! Random play on every field with every team size: no body leaves the arena, none stays inside another,
+//! speeds stay bounded. A million ticks; `make soak` runs ten million.
 
 mod crowds;
 mod depths;
@@ -9,9 +9,9 @@ use rsim_core::columns::ball_column;
 use rsim_core::scenes::{Driver, Scene, robot_depth, robots, uniform};
 use rsim_core::{BallModel, Field, RobotModel, SimConfig};
 
-/// Ticks of the whole run, unless `RSIM_SOAK_TICKS` says otherwise.
+/// Ticks of the whole run, unless `RSIM_SOAK_TICKS` sets another number.
 const TICKS: u64 = 1_000_000;
-/// Steps after which a scene starts over.
+/// Steps between two starts of a scene.
 const EPISODE: u64 = 400;
 
 fn ticks() -> u64 {
@@ -40,7 +40,7 @@ fn configs() -> Vec<SimConfig> {
     configs
 }
 
-/// What is wrong with a state, if anything. Robots may press deeper than 2 mm in so many states on end.
+/// The fault of a state, if any. Robots may overlap by more than 2 mm in `moments` consecutive states.
 fn fault(config: &SimConfig, row: &[f32], apart: &mut [u32], moments: u32) -> Option<String> {
     if !row.iter().all(|value| value.is_finite()) {
         return Some("a number is not finite".into());
@@ -48,7 +48,7 @@ fn fault(config: &SimConfig, row: &[f32], apart: &mut [u32], moments: u32) -> Op
     let field = &config.field;
     let bodies = std::iter::once(row).chain(robots(row));
     for (who, at) in bodies.enumerate() {
-        if at[0].abs() > field.reach_x() || at[1].abs() > field.reach_y() {
+        if at[0].abs() > field.max_x() || at[1].abs() > field.max_y() {
             return Some(format!("body {who} left the arena, to {:?}", &at[..2]));
         }
     }
@@ -59,7 +59,7 @@ fn fault(config: &SimConfig, row: &[f32], apart: &mut [u32], moments: u32) -> Op
     let mut pair = 0;
     for first in 0..all.len() {
         for second in first + 1..all.len() {
-            // A crash may press deeper for a moment; what stays is a fault.
+            // A collision may press deeper for a moment; a lasting overlap is a fault.
             let deep = robot_depth(all[first], all[second]) > 0.002;
             apart[pair] = if deep { apart[pair] + 1 } else { 0 };
             if apart[pair] > moments {
@@ -105,7 +105,7 @@ fn random_play_stays_sound_on_every_field_with_every_team_size() {
 fn twenty_two_robots_that_push_into_a_corner_stay_sound() {
     let config = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
     let mut scene = Scene::lined_up("corner", config.clone(), Driver::Chase);
-    // The ball lies in the corner, and everybody wants it.
+    // The ball lies in the corner, and all robots chase it.
     scene.set_ball([6.55, 4.75], [0.0, 0.0]);
     let mut world = scene.world();
     let (mut row, mut apart, mut contacts) = (scene.start.clone(), vec![0; 300], 0);

@@ -1,0 +1,183 @@
+//! Parameters of the bodies of one match, prepared for stepping: those of the models, or a world's
+//! own variation of them.
+
+use serde::{Deserialize, Serialize};
+
+use crate::ball::impact::ContactBody;
+use crate::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
+use crate::drive::DriveLimits;
+use crate::error::ConfigError;
+use crate::geometry::motion::Motion;
+use crate::geometry::outline::Outline;
+use crate::math::Vector;
+use crate::models::ball::{BallModel, Surface};
+use crate::models::config::SimConfig;
+use crate::models::robot::{Drive, RobotModel};
+
+/// Parameters of all bodies of a match.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct BodyParams {
+    pub(crate) ball: BallModel,
+    pub(crate) robots: Vec<RobotParams>,
+}
+
+/// Parameters of a robot, prepared for stepping.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct RobotParams {
+    pub(crate) model: RobotModel,
+    pub(crate) outline: Outline,
+    pub(crate) drive_limits: DriveLimits,
+    /// 1/kg.
+    pub(crate) inverse_mass: f32,
+    /// 1/(kg m²).
+    pub(crate) inverse_inertia: f32,
+    /// Factor on the speed of kicks.
+    pub(crate) kick_gain: f32,
+}
+
+impl RobotParams {
+    fn of(model: RobotModel, kick_gain: f32, tick: f32) -> Self {
+        Self {
+            outline: Outline::of(model.body),
+            drive_limits: DriveLimits::of(&model, tick),
+            inverse_mass: 1.0 / model.mass,
+            inverse_inertia: 1.0 / model.inertia(),
+            model,
+            kick_gain,
+        }
+    }
+
+    /// Inverse effective mass along `normal` at `arm` (m) from the centre, 1/kg: the speed that a unit
+    /// impulse gives that point.
+    pub(crate) fn inverse_effective_mass(&self, arm: Vector, normal: Vector) -> f32 {
+        let turn = arm.perp_dot(normal);
+        self.inverse_mass + turn * turn * self.inverse_inertia
+    }
+
+    /// The robot as the body that a ball touches at `point` of the field.
+    pub(crate) fn contact_body(
+        &self,
+        motion: &Motion,
+        point: Vector,
+        surface: Surface,
+    ) -> ContactBody {
+        let arm = point - motion.position;
+        ContactBody {
+            velocity: (motion.velocity + arm.perp() * motion.spin).extend(0.0),
+            arm,
+            inverse_mass: self.inverse_mass,
+            inverse_inertia: self.inverse_inertia,
+            surface,
+        }
+    }
+}
+
+impl BodyParams {
+    /// Parameters of the models.
+    pub(crate) fn of(config: &SimConfig) -> Self {
+        Self {
+            ball: config.ball.clone(),
+            robots: config
+                .robots()
+                .map(|model| RobotParams::of(model.clone(), 1.0, config.tick))
+                .collect(),
+        }
+    }
+
+    /// Parameters of the models times a world's own factors: [`BALL_PARAMETERS`], then
+    /// [`ROBOT_PARAMETERS`] of each robot.
+    pub(crate) fn varied(config: &SimConfig, factors: &[f32]) -> Result<Self, ConfigError> {
+        debug_assert_eq!(factors.len(), config.parameters_size());
+        for (index, factor) in factors.iter().enumerate() {
+            let bound = if name_of(index).ends_with("mass") || index >= BALL_PARAMETERS.len() {
+                f32::MIN_POSITIVE
+            } else {
+                0.0
+            };
+            if !(*factor >= bound && factor.is_finite()) {
+                let expected = "a finite factor, positive (0 allowed for friction and restitution)";
+                return Err(ConfigError::Number { name: name_of(index), expected, got: *factor });
+            }
+        }
+        let (ball, robots) = factors.split_at(BALL_PARAMETERS.len());
+        let ball = varied_ball(&config.ball, ball);
+        ball.validate()?;
+        let robots = config.robots().zip(robots.chunks_exact(ROBOT_PARAMETERS.len()));
+        let robots = robots.map(|(model, factors)| {
+            let body = varied_robot(model, factors, config.tick);
+            body.model.validate().map(|()| body)
+        });
+        Ok(Self { ball, robots: robots.collect::<Result<_, _>>()? })
+    }
+}
+
+/// Name of a column of a row of parameters.
+fn name_of(index: usize) -> &'static str {
+    let robots = BALL_PARAMETERS.len();
+    if index < robots {
+        BALL_PARAMETERS[index]
+    } else {
+        ROBOT_PARAMETERS[(index - robots) % ROBOT_PARAMETERS.len()]
+    }
+}
+
+fn varied_ball(model: &BallModel, factors: &[f32]) -> BallModel {
+    let [mass, slide, roll, hop, robot_bounce, robot_friction, wall_bounce, wall_friction] =
+        *factors
+    else {
+        unreachable!("a ball has {BALL_PARAMETERS:?}")
+    };
+    let mut ball = model.clone();
+    ball.mass *= mass;
+    ball.sliding_deceleration *= slide;
+    ball.rolling_deceleration *= roll;
+    for (restitution, factor) in [
+        (&mut ball.vertical_restitution, hop),
+        (&mut ball.robot_restitution, robot_bounce),
+        (&mut ball.wall_restitution, wall_bounce),
+        (&mut ball.goal_back_restitution, wall_bounce),
+    ] {
+        *restitution = (*restitution * factor).min(1.0);
+    }
+    ball.robot_friction *= robot_friction;
+    ball.wall_friction *= wall_friction;
+    ball.goal_back_friction *= wall_friction;
+    ball
+}
+
+fn varied_robot(model: &RobotModel, factors: &[f32], tick: f32) -> RobotParams {
+    let [mass, height, acceleration, speed, traction, kick, grip] = *factors else {
+        unreachable!("a robot has {ROBOT_PARAMETERS:?}")
+    };
+    let mut robot = model.clone();
+    robot.mass *= mass;
+    robot.height *= height;
+    match &mut robot.drive {
+        Drive::Differential(drive) => {
+            drive.motor_torque *= acceleration;
+            drive.longitudinal_grip *= acceleration;
+            drive.lateral_grip *= traction;
+            drive.max_wheel_speed *= speed;
+        }
+        Drive::Omni(drive) | Drive::OmniWheels(drive) => {
+            for limit in [
+                &mut drive.max_acceleration,
+                &mut drive.max_deceleration,
+                &mut drive.max_angular_acceleration,
+                &mut drive.max_angular_deceleration,
+            ] {
+                *limit *= acceleration;
+            }
+            for limit in
+                [&mut drive.max_speed, &mut drive.max_turn_rate, &mut drive.max_wheel_speed]
+            {
+                *limit *= speed;
+            }
+            drive.max_traction *= traction;
+        }
+    }
+    if let Some(mouth) = &mut robot.mouth {
+        mouth.dribbler_grip *= grip;
+    }
+    RobotParams::of(robot, kick, tick)
+}

@@ -1,0 +1,218 @@
+//! Egocentric features: a robot's view scaled for a network, with ball and goal also relative to its
+//! position and heading.
+//!
+//! The relative blocks follow from the others, but networks learn products slowly, and a rotation of
+//! vectors takes products. The features are in the core, and not with the tasks, because they are
+//! computed for every robot of every world in every step.
+
+use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::math::Vector;
+use crate::models::field::Field;
+use crate::models::robot::RobotModel;
+
+/// Name and shape of a block of features.
+pub type Block = (&'static str, Vec<usize>);
+
+/// Egocentric features, in half lengths of the field and top speeds of a robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EgoFeatures {
+    n_teammates: usize,
+    /// Number of robots in a view: itself, teammates, opponents.
+    n_slots: usize,
+    /// Middle of the attacked goal, m.
+    goal: Vector,
+    /// Scales of positions (1/m), velocities (s/m) and turn rates (s/rad).
+    position_scale: f32,
+    velocity_scale: f32,
+    turn_rate_scale: f32,
+    /// Whether robots have a mouth, so that break beams and the ball's height matter.
+    have_mouths: bool,
+}
+
+/// Decay rate of the nearness of the ball in the block `shot`, 1/m: it is a third at 12 cm.
+const NEARNESS_DECAY: f32 = 8.0;
+
+/// Minimum length of a vector that is divided by its length, m.
+const MIN_LENGTH: f32 = 1e-6;
+
+/// Writes numbers one after the other.
+struct Writer<'a>(std::slice::IterMut<'a, f32>);
+
+impl Writer<'_> {
+    fn write(&mut self, numbers: &[f32]) {
+        for (number, to) in numbers.iter().zip(&mut self.0) {
+            *to = *number;
+        }
+    }
+}
+
+/// Position and heading of the observing robot.
+struct Frame {
+    position: Vector,
+    heading: Vector,
+}
+
+impl Frame {
+    /// A vector of the field in the robot's own frame: forward, left.
+    fn rotate(&self, vector: Vector) -> Vector {
+        let (cos, sin) = (self.heading.x, self.heading.y);
+        Vector::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin)
+    }
+
+    /// Scaled distance, and cosine and sine of the bearing, of a point at `offset`.
+    fn polar(&self, offset: Vector, scale: f32) -> [f32; 3] {
+        let distance = offset.length();
+        let bearing = self.rotate(offset) / distance.max(MIN_LENGTH);
+        [distance * scale, bearing.x, bearing.y]
+    }
+}
+
+impl EgoFeatures {
+    /// Features of robots like `robot` on `field`, for views with these numbers of other robots.
+    pub fn new(field: &Field, robot: &RobotModel, n_teammates: usize, n_opponents: usize) -> Self {
+        Self {
+            n_teammates,
+            n_slots: 1 + n_teammates + n_opponents,
+            goal: Vector::new(field.half_length(), 0.0),
+            position_scale: 1.0 / field.half_length(),
+            velocity_scale: 1.0 / robot.top_speed(),
+            turn_rate_scale: 1.0 / robot.top_turn_rate(),
+            have_mouths: robot.mouth.is_some(),
+        }
+    }
+
+    /// Number of robots in a view: itself, teammates, opponents.
+    pub fn slots(&self) -> usize {
+        self.n_slots
+    }
+
+    /// Names and shapes of the blocks, in order.
+    ///
+    /// | block | numbers |
+    /// | --- | --- |
+    /// | `ball` | position and velocity, in the plane, or in space for robots with a mouth |
+    /// | `self`, `teammates`, `opponents` | x, y, cos, sin, velocity, turn rate, and the break beam of robots with a mouth |
+    /// | `ball_polar`, `goal_polar` | distance, cosine and sine of the bearing |
+    /// | `shot` | cosine and sine of the bearing from the ball to the goal; nearness of the ball, falling from 1 to 0; nearness times the cosine of the angle between ball and goal |
+    /// | `body_velocities` | own velocity and the ball's, forward and left |
+    /// | `body_positions` | offsets of ball, teammates, opponents, forward and left |
+    pub fn blocks(&self) -> Vec<Block> {
+        let robot = if self.have_mouths { 8 } else { 7 };
+        vec![
+            ("ball", vec![if self.have_mouths { 6 } else { 4 }]),
+            ("self", vec![robot]),
+            ("teammates", vec![self.n_teammates, robot]),
+            ("opponents", vec![self.n_slots - 1 - self.n_teammates, robot]),
+            ("ball_polar", vec![3]),
+            ("goal_polar", vec![3]),
+            ("shot", vec![4]),
+            ("body_velocities", vec![2, 2]),
+            ("body_positions", vec![self.n_slots, 2]),
+        ]
+    }
+
+    /// Number of features.
+    pub fn size(&self) -> usize {
+        self.blocks().iter().map(|(_, shape)| shape.iter().product::<usize>()).sum()
+    }
+
+    /// Writes the features of one robot. `ball` and `robots` are its view, attacking +x: the columns of
+    /// [`crate::columns`] of the ball, and of itself, teammates, opponents, zeros for an empty slot.
+    pub fn encode(&self, ball: &[f32], robots: &[f32], out: &mut [f32]) {
+        debug_assert_eq!(ball.len(), BALL_COLUMNS.len());
+        debug_assert_eq!(robots.len(), self.n_slots * ROBOT_COLUMNS.len());
+        debug_assert_eq!(out.len(), self.size());
+        let mut writer = Writer(out.iter_mut());
+        let (position, velocity) = (self.position_scale, self.velocity_scale);
+        let &[x, y, z, v_x, v_y, v_z, ..] = ball else { unreachable!("{BALL_COLUMNS:?}") };
+        let ball = [x * position, y * position, z * position];
+        let ball_velocity = [v_x * velocity, v_y * velocity, v_z * velocity];
+        let dimensions = if self.have_mouths { 3 } else { 2 };
+        writer.write(&ball[..dimensions]);
+        writer.write(&ball_velocity[..dimensions]);
+        for robot in robots.chunks_exact(ROBOT_COLUMNS.len()) {
+            let &[x, y, cos, sin, v_x, v_y, v_theta, beam, ..] = robot else {
+                unreachable!("{ROBOT_COLUMNS:?}")
+            };
+            let turn_rate = v_theta * self.turn_rate_scale;
+            let motion = [v_x * velocity, v_y * velocity, turn_rate];
+            writer.write(&[x * position, y * position, cos, sin]);
+            writer.write(&motion);
+            if self.have_mouths {
+                writer.write(&[beam]);
+            }
+        }
+        self.encode_relative([Vector::new(x, y), Vector::new(v_x, v_y)], robots, &mut writer);
+    }
+
+    /// Writes the blocks relative to the robot.
+    fn encode_relative(
+        &self,
+        [ball, ball_velocity]: [Vector; 2],
+        robots: &[f32],
+        writer: &mut Writer,
+    ) {
+        let (own, others) = robots.split_at(ROBOT_COLUMNS.len());
+        let frame =
+            Frame { position: Vector::new(own[0], own[1]), heading: Vector::new(own[2], own[3]) };
+        let to_ball = ball - frame.position;
+        writer.write(&frame.polar(to_ball, self.position_scale));
+        writer.write(&frame.polar(self.goal - frame.position, self.position_scale));
+        writer.write(&shot(&frame, to_ball, self.goal - ball));
+        for velocity in [Vector::new(own[4], own[5]), ball_velocity] {
+            writer.write(&(frame.rotate(velocity) * self.velocity_scale).to_array());
+        }
+        writer.write(&(frame.rotate(to_ball) * self.position_scale).to_array());
+        for other in others.chunks_exact(ROBOT_COLUMNS.len()) {
+            let offset = Vector::new(other[0], other[1]) - frame.position;
+            writer.write(&(frame.rotate(offset) * self.position_scale).to_array());
+        }
+    }
+}
+
+/// Cosine and sine of the bearing from the ball to the goal, nearness of the ball, and alignment of robot,
+/// ball and goal.
+fn shot(frame: &Frame, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
+    let goal_distance = to_goal.length().max(MIN_LENGTH);
+    let ball_distance = to_ball.length().max(MIN_LENGTH);
+    let bearing = frame.rotate(to_goal) / goal_distance;
+    // Not the system's `exp`, whose last bit differs between platforms.
+    let nearness = libm::expf(ball_distance * -NEARNESS_DECAY);
+    let along = to_ball.x * to_goal.x + to_ball.y * to_goal.y;
+    [bearing.x, bearing.y, nearness, nearness * (along / (goal_distance * ball_distance))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_features_are_written_and_their_number_is_that_of_the_blocks() {
+        for (field, robot) in
+            [(Field::VSS_3V3, RobotModel::VSS_440RPM), (Field::SSL_B, RobotModel::SSL_GENERIC)]
+        {
+            let features = EgoFeatures::new(&field, &robot, 2, 3);
+            let ball = vec![0.5; BALL_COLUMNS.len()];
+            let robots = vec![0.25; features.slots() * ROBOT_COLUMNS.len()];
+            let mut out = vec![f32::NAN; features.size()];
+            features.encode(&ball, &robots, &mut out);
+            assert!(out.iter().all(|number| number.is_finite()), "{out:?}");
+        }
+    }
+
+    #[test]
+    fn ball_and_goal_straight_ahead_are_a_straight_shot() {
+        let features = EgoFeatures::new(&Field::VSS_3V3, &RobotModel::VSS_440RPM, 0, 0);
+        let mut ball = vec![0.0; BALL_COLUMNS.len()];
+        ball[0] = 0.375;
+        let mut robot = vec![0.0; ROBOT_COLUMNS.len()];
+        robot[2] = 1.0;
+        let mut out = vec![0.0; features.size()];
+        features.encode(&ball, &robot, &mut out);
+        let first = 4 + 7;
+        assert_eq!(out[first..first + 6], [0.5, 1.0, 0.0, 1.0, 1.0, 0.0]);
+        let near = (-3.0_f32).exp();
+        let shot = &out[first + 6..first + 10];
+        assert!(shot.iter().zip([1.0, 0.0, near, near]).all(|(a, b)| (a - b).abs() < 1e-6));
+    }
+}

@@ -1,0 +1,139 @@
+//! State rows as views of robots: itself, teammates, opponents and the ball, always attacking +x.
+
+use crate::columns::{BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS, ball_column};
+
+/// The observers of a match, with the robots in the slots of each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Viewpoint {
+    observers: Vec<Observer>,
+    /// Signs of the ball's and a robot's columns, unrotated and rotated by 180 degrees.
+    ball_signs: [[f32; BALL_COLUMNS.len()]; 2],
+    robot_signs: [[f32; ROBOT_COLUMNS.len()]; 2],
+    /// Code of each crossing on the rotated field.
+    rotated_crossings: [f32; CROSSINGS.len()],
+    crossed: usize,
+}
+
+/// A robot that observes a match.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observer {
+    /// Whether the field is rotated by 180 degrees in its view.
+    pub rotated: bool,
+    /// Indices of robots in the row: itself, teammates, opponents; `None` for an empty slot.
+    pub slots: Vec<Option<usize>>,
+}
+
+impl Viewpoint {
+    /// The views of these observers, which must have equal numbers of slots.
+    pub fn new(observers: Vec<Observer>) -> Self {
+        debug_assert!(observers.windows(2).all(|pair| pair[0].slots.len() == pair[1].slots.len()));
+        Self {
+            observers,
+            ball_signs: [[1.0; BALL_COLUMNS.len()], BALL_COLUMNS.map(rotation_sign)],
+            robot_signs: [[1.0; ROBOT_COLUMNS.len()], ROBOT_COLUMNS.map(rotation_sign)],
+            rotated_crossings: CROSSINGS.map(rotated_crossing),
+            crossed: ball_column("crossed"),
+        }
+    }
+
+    /// Number of observers.
+    pub fn n_observers(&self) -> usize {
+        self.observers.len()
+    }
+
+    /// Number of slots of each observer.
+    pub fn slots(&self) -> usize {
+        self.observers.first().map_or(0, |observer| observer.slots.len())
+    }
+
+    /// Writes the views of all observers of a row: into `ball` the ball's columns for each observer, into
+    /// `robots` a robot's columns for each slot of each observer, zeros for an empty slot.
+    pub fn fill(&self, row: &[f32], ball: &mut [f32], robots: &mut [f32]) {
+        let (the_ball, the_robots) = row.split_at(BALL_COLUMNS.len());
+        let balls = ball.chunks_exact_mut(BALL_COLUMNS.len());
+        let views = robots.chunks_exact_mut(self.slots().max(1) * ROBOT_COLUMNS.len());
+        for (observer, (ball, robots)) in self.observers.iter().zip(balls.zip(views)) {
+            let side = usize::from(observer.rotated);
+            write(&self.ball_signs[side], the_ball, ball);
+            if observer.rotated {
+                let crossed = ball[self.crossed];
+                let mut codes = (0_u8..).map(f32::from).zip(self.rotated_crossings);
+                if let Some((_, other)) = codes.find(|(code, _)| (code - crossed).abs() < 0.5) {
+                    ball[self.crossed] = other;
+                }
+            }
+            let signs = &self.robot_signs[side];
+            for (slot, robot) in observer.slots.iter().zip(robots.chunks_exact_mut(signs.len())) {
+                match slot {
+                    Some(place) => {
+                        let first = place * signs.len();
+                        write(signs, &the_robots[first..first + signs.len()], robot);
+                    }
+                    None => robot.fill(0.0),
+                }
+            }
+        }
+    }
+}
+
+fn write<const N: usize>(signs: &[f32; N], from: &[f32], to: &mut [f32]) {
+    for ((to, from), sign) in to.iter_mut().zip(from).zip(signs) {
+        *to = from * sign;
+    }
+}
+
+/// Sign of a column under a rotation by 180 degrees: -1 for components along the field's x and y axes.
+fn rotation_sign(column: &str) -> f32 {
+    let flips = ["x", "y", "cos", "sin"].contains(&column)
+        || column.ends_with("_x")
+        || column.ends_with("_y");
+    if flips { -1.0 } else { 1.0 }
+}
+
+/// Code of a crossing under a rotation by 180 degrees.
+fn rotated_crossing(crossing: &str) -> f32 {
+    let swapped = crossing.split('_').map(|word| match word {
+        "right" => "left",
+        "left" => "right",
+        other => other,
+    });
+    let name = swapped.collect::<Vec<_>>().join("_");
+    let place = CROSSINGS.iter().position(|crossing| *crossing == name);
+    place.expect("each crossing has one on the other side") as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::{crossing_name, robot_column, row_size};
+
+    #[test]
+    #[allow(clippy::float_cmp)] // only signs change, so bits are compared
+    fn a_rotated_view_has_the_other_goal_and_empty_slots_are_zero() {
+        let slots = vec![Some(1), None, Some(0)];
+        let viewpoint = Viewpoint::new(vec![
+            Observer { rotated: false, slots: vec![Some(0), None, Some(1)] },
+            Observer { rotated: true, slots },
+        ]);
+        let mut row: Vec<f32> = (0_u8..).map(f32::from).take(row_size(2)).collect();
+        row[ball_column("crossed")] = 1.0;
+        let mut ball = vec![f32::NAN; 2 * BALL_COLUMNS.len()];
+        let mut robots = vec![f32::NAN; 2 * 3 * ROBOT_COLUMNS.len()];
+        viewpoint.fill(&row, &mut ball, &mut robots);
+        let (upright, rotated) = ball.split_at(BALL_COLUMNS.len());
+        assert_eq!(upright, &row[..BALL_COLUMNS.len()]);
+        assert_eq!(crossing_name(upright[ball_column("crossed")]), "goal_right");
+        assert_eq!(crossing_name(rotated[ball_column("crossed")]), "goal_left");
+        assert_eq!(rotated[ball_column("v_y")], -upright[ball_column("v_y")]);
+        assert_eq!(rotated[ball_column("z")], upright[ball_column("z")]);
+        let robots: Vec<_> = robots.chunks_exact(ROBOT_COLUMNS.len()).collect();
+        for (slot, sign, place) in [(0, 1.0, 0), (2, 1.0, 1), (3, -1.0, 1), (5, -1.0, 0)] {
+            let expected = &row[BALL_COLUMNS.len() + place * ROBOT_COLUMNS.len()..];
+            for (name, sign) in [("x", sign), ("sin", sign), ("v_theta", 1.0)] {
+                let column = robot_column(name);
+                assert_eq!(robots[slot][column], sign * expected[column], "{name} of slot {slot}");
+            }
+        }
+        assert!([1, 4].iter().all(|&slot| robots[slot].iter().all(|&number| number == 0.0)));
+    }
+}

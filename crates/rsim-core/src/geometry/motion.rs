@@ -1,0 +1,48 @@
+//! Position and motion of a body in the plane.
+
+use serde::{Deserialize, Serialize};
+
+use crate::math::{Rotation, Vector};
+
+/// Position and velocity of a body in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Motion {
+    /// m.
+    pub(crate) position: Vector,
+    /// Cosine and sine of the heading.
+    pub(crate) heading: Vector,
+    /// m/s.
+    pub(crate) velocity: Vector,
+    /// Turn rate, rad/s, counter-clockwise.
+    pub(crate) spin: f32,
+}
+
+impl Motion {
+    /// A body at rest.
+    pub(crate) fn at_rest(position: Vector, heading: Vector) -> Self {
+        Self { position, heading, velocity: Vector::ZERO, spin: 0.0 }
+    }
+
+    /// Heading as a rotation.
+    pub(crate) fn rotation(&self) -> Rotation {
+        rotation(self.heading)
+    }
+
+    /// Whether all numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.position.is_finite()
+            && self.heading.is_finite()
+            && self.velocity.is_finite()
+            && self.spin.is_finite()
+    }
+}
+
+/// The rotation of a heading, given as cosine and sine.
+pub(crate) fn rotation(heading: Vector) -> Rotation {
+    Rotation { re: heading.x, im: heading.y }
+}
+
+/// A heading rotated by `angle`, a fraction of a radian, to first order as the solver rotates bodies.
+pub(crate) fn rotated(heading: Vector, angle: f32) -> Vector {
+    Vector::new(heading.x - angle * heading.y, heading.y + angle * heading.x).normalize()
+}

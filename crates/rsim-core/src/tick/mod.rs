@@ -1,0 +1,201 @@
+//! One physics tick: robots handle the ball and drive, the ball moves by its law, contacts are
+//! solved, touches and crossings are recorded.
+
+mod ball_contacts;
+mod flight;
+mod handling;
+mod robot_contacts;
+mod squeeze;
+
+use crate::ball::rolling::GroundMotion;
+use crate::body_params::BodyParams;
+use crate::engine::{
+    BALL, BallHooks, BallPhase, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
+};
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use crate::state::{Setup, State};
+use crate::tick::flight::Flight;
+use crate::tick::squeeze::Squeeze;
+
+/// Version of the physics, raised whenever the same start and commands would give other states.
+pub const PHYSICS_VERSION: u32 = 5;
+
+/// Inputs of a tick.
+pub(crate) struct Tick<'a> {
+    pub(crate) setup: &'a Setup,
+    pub(crate) params: &'a BodyParams,
+    pub(crate) commands: &'a [f32],
+}
+
+/// Speed of the ball or of a surface around it, m/s, above which a squeeze is solved in parts of the
+/// tick: the ball slides along rotating outlines, which one linear prediction for a whole tick misses.
+const FAST_SQUEEZE: f32 = 1.5;
+const SQUEEZE_PARTS: u8 = 4;
+
+impl Tick<'_> {
+    pub(crate) fn advance(
+        &self,
+        state: &mut State,
+        scratch: &mut Scratch,
+    ) -> Result<(), NonFinite> {
+        let length = self.setup.config.tick;
+        handling::handle_ball(state, self.params, self.commands, self.columns(), length);
+        self.drive_robots(state);
+        let before = state.engine.motion(BALL).position.extend(state.ball.z);
+        let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
+        let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
+        let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
+        for _ in 0..parts {
+            let part = length / f32::from(parts);
+            self.move_bodies(state, scratch, part, squeeze.is_some())?;
+        }
+        self.estimate_loads(state, &scratch.robot_contacts);
+        let after = state.engine.motion(BALL).position.extend(state.ball.z);
+        state.crossing.update(&self.setup.config.field, before, after);
+        Ok(())
+    }
+
+    /// Moves all bodies for `length` and resolves their contacts. `may_squeeze` says whether the ball
+    /// can be squeezed in it.
+    fn move_bodies(
+        &self,
+        state: &mut State,
+        scratch: &mut Scratch,
+        length: f32,
+        may_squeeze: bool,
+    ) -> Result<(), NonFinite> {
+        state.engine.list_undisturbed(length, &mut scratch.undisturbed);
+        let before = state.engine.motion(BALL);
+        if state.ball.is_down() {
+            self.roll(state, &before, scratch, length, may_squeeze)?;
+        } else {
+            self.fly(state, &before, scratch, length, may_squeeze)?;
+        }
+        state.engine.list_robot_contacts(&mut scratch.robot_contacts);
+        robot_contacts::resolve(
+            state,
+            self.params,
+            self.setup.config.blue.len(),
+            &scratch.robot_contacts,
+            &scratch.undisturbed,
+        );
+        Ok(())
+    }
+
+    /// Moves all bodies with the ball on the floor.
+    ///
+    /// The engine moves the ball with its *mean* velocity over `length`; afterwards the ball gets the
+    /// difference to the *end* velocity added to the engine's result. So the path is exact for any
+    /// tick, and a push changes nothing about the law. After a bounce the law starts anew from there,
+    /// for half a tick on average.
+    fn roll(
+        &self,
+        state: &mut State,
+        before: &Motion,
+        scratch: &mut Scratch,
+        length: f32,
+        may_squeeze: bool,
+    ) -> Result<(), NonFinite> {
+        let ball = &self.params.ball;
+        let start = GroundMotion { velocity: before.velocity, spin: state.ball.spin };
+        let (displacement, end) = start.after(ball, length);
+        let mean = displacement / length;
+        state.engine.set_velocity(BALL, mean);
+        let squeeze = if may_squeeze { self.squeeze(state, mean, length) } else { None };
+        if let Some(squeeze) = &squeeze {
+            state.engine.set_velocity(BALL, squeeze.velocity);
+        }
+        let squeezed = squeeze.map(|squeeze| squeeze.solver);
+        let hooks = self.hooks(BallPhase::Floor, squeezed, length);
+        state.engine.step(scratch, &hooks, &self.setup.free_space)?;
+        let mut now = GroundMotion { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
+        if squeezed.is_some_and(|squeezed| squeezed.jammed) {
+            ball_contacts::record_touches(state);
+        } else if ball_contacts::resolve(
+            state,
+            self.setup,
+            self.params,
+            mean,
+            &mut now,
+            &scratch.undisturbed,
+        ) {
+            now = now.after(ball, length / 2.0).1;
+        } else {
+            now.velocity += end.velocity - mean;
+        }
+        state.engine.set_velocity(BALL, now.velocity);
+        state.ball.spin = now.spin;
+        Ok(())
+    }
+
+    /// Moves all bodies with the ball in the air; the others stay in the plane.
+    fn fly(
+        &self,
+        state: &mut State,
+        before: &Motion,
+        scratch: &mut Scratch,
+        length: f32,
+        may_squeeze: bool,
+    ) -> Result<(), NonFinite> {
+        let squeeze = if may_squeeze { self.squeeze(state, before.velocity, length) } else { None };
+        let squeeze = squeeze.filter(|squeeze| squeeze.solver.jammed);
+        let phase = if let Some(squeeze) = &squeeze {
+            state.engine.set_velocity(BALL, squeeze.velocity);
+            BallPhase::JammedInAir { height: state.ball.z + self.params.ball.radius }
+        } else {
+            BallPhase::Air
+        };
+        let hooks = self.hooks(phase, squeeze.map(|squeeze| squeeze.solver), length);
+        state.engine.step(scratch, &hooks, &self.setup.free_space)?;
+        if squeeze.is_some() {
+            ball_contacts::record_touches(state);
+        }
+        let flight = Flight {
+            params: self.params,
+            walls: &self.setup.walls,
+            engine: &mut state.engine,
+            touches: &mut state.touches,
+        };
+        if squeeze.is_some() {
+            flight.fall(&mut state.ball, length);
+        } else {
+            flight.fly(&mut state.ball, before.position, before.velocity, length);
+        }
+        Ok(())
+    }
+
+    /// The squeeze of a ball that moves with `velocity` within `time`, if any.
+    fn squeeze(&self, state: &State, velocity: Vector, time: f32) -> Option<Squeeze> {
+        let height = state.ball.z + self.params.ball.radius;
+        let free_space = &self.setup.free_space;
+        Squeeze::find(&state.engine, self.params, free_space, velocity, height, time)
+    }
+
+    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallHooks<'_> {
+        BallHooks { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
+    }
+
+    fn drive_robots(&self, state: &mut State) {
+        let commands = self.commands.chunks_exact(self.columns());
+        for (index, command) in commands.enumerate() {
+            let motion = state.engine.motion(robot(index));
+            let limits = &self.params.robots[index].drive_limits;
+            let (force, torque) = state.robots[index].drive.wheel_force(limits, command, &motion);
+            state.engine.set_force(robot(index), force, torque);
+        }
+    }
+
+    fn estimate_loads(&self, state: &mut State, contacts: &[RobotContact]) {
+        let in_contact = robot_contacts::sustained(state, contacts);
+        for (index, body) in self.params.robots.iter().enumerate() {
+            let motion = state.engine.motion(robot(index));
+            let in_contact = in_contact & (1 << index) != 0;
+            state.robots[index].drive.estimate_load(&body.drive_limits, &motion, in_contact);
+        }
+    }
+
+    fn columns(&self) -> usize {
+        self.setup.command_columns.max(1)
+    }
+}

@@ -1,0 +1,262 @@
+//! Many matches of one configuration, stepped from plain slices on several threads.
+
+use crate::columns::BALL_COLUMNS;
+use crate::error::{ConfigError, PlaceError, SnapshotError, StepError};
+use crate::models::config::SimConfig;
+use crate::state::State;
+use crate::world::World;
+use crate::world::pool::Pool;
+use crate::world::snapshot::{self, Header};
+
+/// Many independent matches. World `i` gives the same bits as a single [`World`], whatever the number of
+/// worlds and threads.
+pub struct Batch {
+    worlds: Vec<World>,
+    /// `None` for one thread.
+    pool: Option<Pool>,
+}
+
+/// Maximum number of worlds that a thread takes at once; taking them costs next to nothing compared with
+/// stepping them.
+const MAX_PORTION: usize = 16;
+
+/// More worlds than any memory holds.
+const MAX_WORLDS: usize = 10_000_000;
+
+impl Batch {
+    /// Creates `worlds` matches in their default line-up, stepped on `threads` threads.
+    ///
+    /// # Errors
+    /// As [`SimConfig::validate`]; 0 or too many worlds; 0 threads, or more than can be started.
+    pub fn new(config: &SimConfig, worlds: usize, threads: usize) -> Result<Self, ConfigError> {
+        for (name, count) in [("worlds", worlds), ("threads", threads)] {
+            if count == 0 {
+                return Err(ConfigError::Zero { name });
+            }
+        }
+        if worlds > MAX_WORLDS {
+            return Err(ConfigError::TooManyWorlds { max: MAX_WORLDS, got: worlds });
+        }
+        let world = World::new(config)?;
+        let pool = if threads > 1 { Some(Pool::new(threads)?) } else { None };
+        Ok(Self { worlds: vec![world; worlds], pool })
+    }
+
+    /// Configuration of the matches.
+    pub fn config(&self) -> &SimConfig {
+        self.worlds[0].config()
+    }
+
+    /// Number of matches.
+    pub fn worlds(&self) -> usize {
+        self.worlds.len()
+    }
+
+    /// Number of threads that `step` uses.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, Pool::threads)
+    }
+
+    /// Starts new matches in the worlds of the mask. `rows` has one row for each of these worlds, and so
+    /// has `parameters` if given (see [`World::place`]). `out` has one row for every world; the rows of
+    /// placed worlds are written.
+    ///
+    /// # Errors
+    /// [`PlaceError::InWorld`] for the first world with an invalid start; then no world has changed.
+    pub fn place(
+        &mut self,
+        mask: &[bool],
+        rows: &[f32],
+        parameters: Option<&[f32]>,
+        out: &mut [f32],
+    ) -> Result<(), PlaceError> {
+        let parameters_size = self.config().parameters_size();
+        let size = self.config().row_size();
+        let chosen = || (0..mask.len()).filter(|&world| mask[world]);
+        debug_assert_eq!(rows.len(), chosen().count() * size);
+        let starts = chosen()
+            .zip(rows.chunks_exact(size))
+            .enumerate()
+            .map(|(nth, (world, row))| {
+                let own = parameters.map(|all| &all[nth * parameters_size..][..parameters_size]);
+                self.worlds[world].check(row, own).map_err(|error| error.in_world(world))
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        for (world, start) in chosen().zip(starts) {
+            self.worlds[world].start(&start);
+            self.worlds[world].write_row(&mut out[world * size..][..size]);
+        }
+        Ok(())
+    }
+
+    /// Moves the ball in the worlds of the mask; everything else of their matches continues. `balls` has
+    /// the ball's columns for each of these worlds (see [`World::reposition_ball`]). `out` has one row for
+    /// every world; the rows of these worlds are written.
+    ///
+    /// # Errors
+    /// [`PlaceError::InWorld`] for the first world with an invalid ball; then no world has changed.
+    pub fn reposition_balls(
+        &mut self,
+        mask: &[bool],
+        balls: &[f32],
+        out: &mut [f32],
+    ) -> Result<(), PlaceError> {
+        let size = self.config().row_size();
+        let chosen = || (0..mask.len()).filter(|&world| mask[world]);
+        debug_assert_eq!(balls.len(), chosen().count() * BALL_COLUMNS.len());
+        let starts = chosen()
+            .zip(balls.chunks_exact(BALL_COLUMNS.len()))
+            .map(|(world, ball)| {
+                self.worlds[world].check_ball(ball).map_err(|error| error.in_world(world))
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        for (world, start) in chosen().zip(starts) {
+            self.worlds[world].set_ball(&start);
+            self.worlds[world].write_row(&mut out[world * size..][..size]);
+        }
+        Ok(())
+    }
+
+    /// Advances the active worlds (all if `active` is `None`) by one control step. Rows of inactive worlds
+    /// in `out` are unchanged.
+    ///
+    /// # Errors
+    /// [`StepError`] with all worlds whose state is non-finite, now or since an earlier step without a
+    /// placement. All other worlds have stepped, and their rows are written.
+    ///
+    /// # Panics
+    /// If the process was forked and the operating system refuses to start threads.
+    pub fn step(
+        &mut self,
+        commands: &[f32],
+        out: &mut [f32],
+        active: Option<&[bool]>,
+    ) -> Result<(), StepError> {
+        let (row_size, command_size) = (self.config().row_size(), self.config().command_size());
+        debug_assert_eq!(out.len(), self.worlds.len() * row_size);
+        if command_size == 0 {
+            // Without robots there are no commands to split.
+            return self.step_each(|_| &[], out, active);
+        }
+        self.step_each(|world| &commands[world * command_size..][..command_size], out, active)
+    }
+
+    fn step_each<'a>(
+        &mut self,
+        commands: impl Fn(usize) -> &'a [f32] + Sync,
+        out: &mut [f32],
+        active: Option<&[bool]>,
+    ) -> Result<(), StepError> {
+        let size = self.config().row_size();
+        let step = |(index, (world, row)): (usize, (&mut World, &mut [f32]))| {
+            if active.is_some_and(|active| !active[index]) {
+                return Ok(());
+            }
+            world.step(commands(index)).map_err(|_| index)?;
+            world.write_row(row);
+            Ok(())
+        };
+        // A single world never uses a pool: handing it to a thread costs more than stepping it.
+        let lost: Vec<usize> =
+            if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
+                let portion = (self.worlds.len() / (8 * pool.threads())).clamp(1, MAX_PORTION);
+                let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
+                let firsts = (0..).step_by(portion);
+                let portions = firsts.zip(pairs).map(|(first, (worlds, rows))| {
+                    let pairs = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
+                    (first..).zip(pairs).map(&step)
+                });
+                pool.share(portions)
+            } else {
+                let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));
+                pairs.enumerate().map(step).filter_map(Result::err).collect()
+            };
+        if lost.is_empty() { Ok(()) } else { Err(StepError::in_worlds(lost)) }
+    }
+
+    /// Writes the rows of all worlds.
+    pub fn read(&self, out: &mut [f32]) {
+        for (world, row) in self.worlds.iter().zip(out.chunks_exact_mut(self.config().row_size())) {
+            world.write_row(row);
+        }
+    }
+
+    /// The states of all worlds as bytes: everything that their futures depend on.
+    pub fn snapshot(&self) -> Vec<u8> {
+        let states: Vec<&State> = self.worlds.iter().map(|world| &world.state).collect();
+        snapshot::write(&self.header(), &states)
+    }
+
+    /// Restores the states of a snapshot.
+    ///
+    /// # Errors
+    /// [`SnapshotError`] for foreign or damaged bytes, or another configuration; then nothing has changed.
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
+        let states: Vec<State> = snapshot::read(&self.header(), bytes)?;
+        for (world, state) in self.worlds.iter_mut().zip(states) {
+            world.state = state;
+        }
+        Ok(())
+    }
+
+    fn header(&self) -> Header {
+        Header::new(self.config(), self.worlds.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::{BALL, robot};
+    use crate::math::Vector;
+    use crate::scenes;
+
+    #[test]
+    fn a_non_finite_state_names_its_world_and_can_be_placed_again() {
+        let scene = scenes::ssl_random(SimConfig::ssl(1, 1));
+        for body in [BALL, robot(0), robot(1)] {
+            for wrong in [f32::NAN, f32::INFINITY] {
+                let (mut batch, mut rows) = scene.batch(3, 1);
+                let commands = vec![1.0; 3 * scene.config.command_size()];
+                batch.worlds[1].state.engine.set_velocity(body, Vector::new(wrong, 0.0));
+                for _ in 0..2 {
+                    // The world is lost until it is placed; the others continue.
+                    let before = rows.clone();
+                    assert_eq!(
+                        batch.step(&commands, &mut rows, None),
+                        Err(StepError::in_worlds(vec![1]))
+                    );
+                    let size = scene.config.row_size();
+                    assert_ne!(rows[..size], before[..size]);
+                    assert_eq!(rows[size..2 * size], before[size..2 * size]);
+                }
+                let mask = [false, true, false];
+                batch.place(&mask, &scene.start, None, &mut rows).expect("valid");
+                assert_eq!(batch.step(&commands, &mut rows, None), Ok(()));
+                assert!(rows.iter().all(|value| value.is_finite()));
+            }
+        }
+    }
+
+    #[test]
+    fn all_lost_worlds_are_named_and_refuse_a_ball() {
+        let scene = scenes::random_play();
+        for threads in [1, 2] {
+            let (mut batch, mut rows) = scene.batch(40, threads);
+            let commands = scene.commands(&scene.start, 0, 0).repeat(40);
+            for world in [33, 7, 20] {
+                let wrong = Vector::new(f32::NAN, 0.0);
+                batch.worlds[world].state.engine.set_velocity(BALL, wrong);
+            }
+            let error = batch.step(&commands, &mut rows, None).expect_err("lost");
+            assert_eq!(error.worlds, [7, 20, 33]);
+            assert!(error.to_string().contains("worlds [7, 20, 33]"), "{error}");
+            let (mut mask, before) = ([false; 40], rows.clone());
+            mask[7] = true;
+            let ball = &scene.start[..BALL_COLUMNS.len()];
+            let refused = batch.reposition_balls(&mask, ball, &mut rows).expect_err("lost");
+            assert_eq!(refused, PlaceError::Lost.in_world(7));
+            assert_eq!(rows, before);
+        }
+    }
+}

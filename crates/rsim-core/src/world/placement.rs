@@ -1,0 +1,206 @@
+//! Checks of the rows that matches start from.
+
+use crate::ball::state::BallState;
+use crate::body_params::BodyParams;
+use crate::columns::{BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
+use crate::engine::{BALL, Shape};
+use crate::error::PlaceError;
+use crate::geometry::arena::{Wall, position_limit};
+use crate::geometry::clearance::Clearance;
+use crate::geometry::motion::Motion;
+use crate::math::{Pose, Vec3, Vector};
+use crate::models::config::SimConfig;
+use crate::models::field::Field;
+
+/// Maximum overlap of two bodies, m: the overlap in running matches under pressure, so that each of
+/// their states can be placed again.
+const TOLERANCE: f32 = 0.01;
+
+/// Allowed error of the length of a heading, which is then normalised.
+const HEADING_TOLERANCE: f32 = 1e-3;
+
+/// Error of the squared length of a heading by rounding, up to which it is unchanged, so that a state
+/// that was read can be placed again exactly.
+const HEADING_ERROR: f32 = 1e-5;
+
+/// Motions of all bodies in a row.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    /// Ball, then robots.
+    pub(super) motions: Vec<Motion>,
+    pub(super) ball: BallState,
+}
+
+/// Motion and state of the ball in its columns.
+#[derive(Debug, Clone)]
+pub(super) struct BallStart {
+    pub(super) motion: Motion,
+    pub(super) ball: BallState,
+}
+
+/// Checks starting rows against the field and the models.
+pub(super) struct Placement {
+    field: Field,
+    walls: Vec<(Wall, Shape)>,
+    ball_radius: f32,
+    robots: Vec<Shape>,
+    names: Vec<String>,
+}
+
+impl Placement {
+    pub(super) fn new(config: &SimConfig, walls: &[Wall]) -> Self {
+        let names = (0..config.n_robots()).map(|index| config.robot_name(index));
+        Self {
+            field: config.field.clone(),
+            walls: walls.iter().map(|wall| (wall.clone(), Shape::of_wall(wall))).collect(),
+            ball_radius: config.ball.radius,
+            robots: config.robots().map(|model| Shape::of_robot(model.body)).collect(),
+            names: std::iter::once("ball".to_owned()).chain(names).collect(),
+        }
+    }
+
+    /// Reads and checks a start row. `params` has the heights of robots in that world.
+    pub(super) fn read(&self, row: &[f32], params: &BodyParams) -> Result<Start, PlaceError> {
+        let (columns, robots) = row.split_at(BALL_COLUMNS.len());
+        let BallStart { motion, ball } = self.read_ball_alone(columns)?;
+        let mut motions = vec![motion];
+        motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(read_robot));
+        for (who, motion) in motions.iter_mut().enumerate().skip(1) {
+            self.check_alone(who, motion, 0.0)?;
+        }
+        for second in 1..motions.len() {
+            self.check_ball(second, &motions, &ball, params)?;
+            for first in 1..second {
+                let [a, b] = [first, second].map(|who| (pose(&motions[who]), self.shape(who)));
+                self.check_overlap([first, second], a.1.overlap(&a.0, b.1, &b.0))?;
+            }
+        }
+        Ok(Start { motions, ball })
+    }
+
+    /// Reads and checks a start of the ball, with all other bodies as in `motions`. The first of
+    /// `motions` is the ball's own and is ignored.
+    pub(super) fn read_ball(
+        &self,
+        columns: &[f32],
+        mut motions: Vec<Motion>,
+        params: &BodyParams,
+    ) -> Result<BallStart, PlaceError> {
+        let start = self.read_ball_alone(columns)?;
+        motions[BALL] = start.motion;
+        (1..motions.len())
+            .try_for_each(|who| self.check_ball(who, &motions, &start.ball, params))?;
+        Ok(start)
+    }
+
+    /// Reads a start of the ball and checks it against the field.
+    fn read_ball_alone(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
+        let (mut motion, ball) = read_ball(columns);
+        if !ball.is_finite() {
+            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
+        }
+        if ball.z < 0.0 {
+            return Err(PlaceError::Below { z: ball.z });
+        }
+        self.check_alone(BALL, &mut motion, ball.z)?;
+        Ok(BallStart { motion, ball })
+    }
+
+    /// Checks a body against the field, and normalises its heading.
+    fn check_alone(&self, who: usize, motion: &mut Motion, z: f32) -> Result<(), PlaceError> {
+        let name = || self.names[who].clone();
+        let Motion { position, heading, .. } = *motion;
+        if !motion.is_finite() {
+            return Err(PlaceError::NotFinite { who: name() });
+        }
+        let speed = motion.velocity.length();
+        // A velocity that was drawn up to the maximum may be a rounding error above it.
+        if speed > MAX_PLACED_SPEED * (1.0 + 1e-6) {
+            return Err(PlaceError::TooFast { who: name(), speed });
+        }
+        if (heading.length() - 1.0).abs() > HEADING_TOLERANCE {
+            return Err(PlaceError::Heading { who: name(), cos: heading.x, sin: heading.y });
+        }
+        if (heading.length_squared() - 1.0).abs() > HEADING_ERROR {
+            motion.heading = heading.normalize();
+        }
+        let in_wall = |(wall, shape): &(Wall, Shape)| match who {
+            BALL => self.gap_to_wall(wall, position, z) < -TOLERANCE,
+            _ if !wall.stands_on_floor() => false,
+            _ => self.shape(who).overlap(&pose(motion), shape, &wall.pose) > TOLERANCE,
+        };
+        let limit =
+            position_limit(&self.field, if who == BALL { z + self.ball_radius } else { 0.0 });
+        let inside = position.abs().cmple(limit).all();
+        if !inside || self.walls.iter().any(in_wall) {
+            return Err(PlaceError::Outside { who: name(), x: position.x, y: position.y });
+        }
+        Ok(())
+    }
+
+    /// Checks the overlap of the ball with a robot, which it may fly over.
+    fn check_ball(
+        &self,
+        who: usize,
+        motions: &[Motion],
+        ball: &BallState,
+        params: &BodyParams,
+    ) -> Result<(), PlaceError> {
+        let (robot, motion) = (&params.robots[who - 1], &motions[who]);
+        let center = motions[BALL].position;
+        let nearest = robot.outline.nearest_at(motion.position, motion.rotation(), center);
+        let heights = [0.0, robot.model.height];
+        let radius = self.ball_radius;
+        let clearance = Clearance::of_upright(&nearest, heights, ball.z + radius, radius);
+        self.check_overlap([BALL, who], -clearance.distance)
+    }
+
+    /// Distance of a ball at height `z` from a wall, m; negative inside.
+    fn gap_to_wall(&self, wall: &Wall, center: Vector, z: f32) -> f32 {
+        let nearest = wall.placed().nearest(center);
+        let radius = self.ball_radius;
+        Clearance::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius).distance
+    }
+
+    fn check_overlap(&self, [first, second]: [usize; 2], depth: f32) -> Result<(), PlaceError> {
+        if depth > TOLERANCE {
+            return Err(PlaceError::Overlap {
+                first: self.names[first].clone(),
+                second: self.names[second].clone(),
+                depth_mm: depth * 1000.0,
+            });
+        }
+        Ok(())
+    }
+
+    /// Shape of a robot, by its index among the bodies.
+    fn shape(&self, body: usize) -> &Shape {
+        &self.robots[body - 1]
+    }
+}
+
+fn pose(motion: &Motion) -> Pose {
+    Pose::from_parts(motion.position, motion.rotation())
+}
+
+fn read_ball(columns: &[f32]) -> (Motion, BallState) {
+    let [x, y, z, v_x, v_y, v_z, spin_x, spin_y, spin_z, ..] = columns else {
+        unreachable!("a ball has {BALL_COLUMNS:?}")
+    };
+    let at_rest = Motion::at_rest(Vector::new(*x, *y), Vector::X);
+    let motion = Motion { velocity: Vector::new(*v_x, *v_y), ..at_rest };
+    let spin = Vec3::new(*spin_x, *spin_y, *spin_z);
+    (motion, BallState { z: *z, v_z: *v_z, spin, hops: 0 })
+}
+
+fn read_robot(columns: &[f32]) -> Motion {
+    let [x, y, cos, sin, v_x, v_y, v_theta, ..] = columns else {
+        unreachable!("a robot has {ROBOT_COLUMNS:?}")
+    };
+    Motion {
+        position: Vector::new(*x, *y),
+        heading: Vector::new(*cos, *sin),
+        velocity: Vector::new(*v_x, *v_y),
+        spin: *v_theta,
+    }
+}

@@ -1,0 +1,58 @@
+//! State rows: the state of a match as numbers, in the order of [`crate::columns`].
+
+use crate::ball::mouth::beam_is_cut;
+use crate::body_params::BodyParams;
+use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::engine::{BALL, robot};
+use crate::geometry::motion::Motion;
+use crate::state::State;
+
+/// Writes the row of `state`.
+pub(super) fn write(params: &BodyParams, state: &State, out: &mut [f32]) {
+    let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
+    write_ball(state, ball);
+    for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
+        write_robot(params, state, index, columns);
+    }
+}
+
+fn write_ball(state: &State, columns: &mut [f32]) {
+    let Motion { position, velocity, .. } = state.engine.motion(BALL);
+    let (ball, crossing) = (&state.ball, &state.crossing);
+    columns.copy_from_slice(&[
+        position.x,
+        position.y,
+        ball.z,
+        velocity.x,
+        velocity.y,
+        ball.v_z,
+        ball.spin.x,
+        ball.spin.y,
+        ball.spin.z,
+        state.touches.last.map_or(-1.0, f32::from),
+        f32::from(crossing.code),
+        crossing.at.x,
+        crossing.at.y,
+        crossing.at.z,
+    ]);
+}
+
+fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [f32]) {
+    let motion = state.engine.motion(robot(index));
+    let ball = state.engine.motion(BALL).position;
+    let cut = beam_is_cut(&params.robots[index].model, &motion, &params.ball, ball, &state.ball);
+    let touches = state.touches.of(index);
+    columns.copy_from_slice(&[
+        motion.position.x,
+        motion.position.y,
+        motion.heading.x,
+        motion.heading.y,
+        motion.velocity.x,
+        motion.velocity.y,
+        motion.spin,
+        f32::from(u8::from(cut)),
+        f32::from(u8::from(touches.ball)),
+        f32::from(u8::from(touches.opponent)),
+        touches.collision_speed,
+    ]);
+}
