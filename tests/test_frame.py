@@ -5,14 +5,14 @@ from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
 from rsoccer.frame import (
     GOAL_LEFT,
     GOAL_RIGHT,
-    NOTHING,
+    NO_CROSSING,
     BallColumns,
     Frame,
     RobotColumns,
     length,
     robot_names,
     row_size,
-    span,
+    column_slice,
 )
 
 
@@ -87,14 +87,14 @@ def test_robot_names() -> None:
 
 
 def test_crossings_are_what_the_core_calls_them() -> None:
-    assert CROSSINGS[NOTHING] == "none"
+    assert CROSSINGS[NO_CROSSING] == "none"
     assert CROSSINGS[GOAL_RIGHT] == "goal_right"
     assert CROSSINGS[GOAL_LEFT] == "goal_left"
 
 
 def test_columns_that_are_no_neighbours_cannot_be_one_view() -> None:
     with pytest.raises(ImportError, match="side by side"):
-        span(("x", "z", "y"), "x", "y")
+        column_slice(("x", "z", "y"), "x", "y")
 
 
 def test_columns_take_any_leading_axes() -> None:

@@ -3,7 +3,7 @@ import pytest
 
 from rsoccer import _core
 from rsoccer._core import CROSSINGS
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NOTHING, Frame
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NO_CROSSING, Frame
 from rsoccer.view import View, Viewpoint
 from tests import view_reference
 
@@ -53,7 +53,7 @@ def test_blue_sees_itself_then_teammates_in_a_ring_then_opponents() -> None:
 
 def test_yellow_sees_what_blue_would_see_in_the_turned_game() -> None:
     frame = random_frame(9, 3, 2)
-    assert {NOTHING, GOAL_RIGHT, GOAL_LEFT} == set(frame.ball.crossed.tolist())
+    assert {NO_CROSSING, GOAL_RIGHT, GOAL_LEFT} == set(frame.ball.crossed.tolist())
     yellow = seen(frame, [3, 4])
     blue = seen(turned(frame), [0, 1])
     assert np.array_equal(yellow.robots.data, blue.robots.data)
@@ -77,7 +77,7 @@ def test_teams_of_different_size_leave_slots_empty() -> None:
 def test_only_the_sides_that_look_need_room() -> None:
     frame = random_frame(2, 1, 3)
     assert seen(frame, [0], sides=("blue",)).robots.data.shape[2] == 1 + 0 + 3
-    with pytest.raises(ValueError, match="robot 2 cannot look"):
+    with pytest.raises(ValueError, match="robot 2 cannot observe"):
         seen(frame, [2], sides=("blue",))
 
 

@@ -4,12 +4,12 @@ import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
 from rsoccer.frame import Floats, Frame
-from rsoccer.view import SIDES, slots
+from rsoccer.view import SIDES, slot_counts
 
 
 def seen(frame: Frame, observer: int, sides: tuple[str, ...] = SIDES) -> tuple[Floats, Floats]:
     """Ball (n, ball column) and robots (n, slots, robot column) as one robot sees them."""
-    n_teammates, n_opponents = slots(frame.n_blue, frame.n_yellow, sides)
+    n_teammates, n_opponents = slot_counts(frame.n_blue, frame.n_yellow, sides)
     teams = np.arange(frame.n_blue), frame.n_blue + np.arange(frame.n_yellow)
     turned = observer >= frame.n_blue
     teammates, opponents = teams[::-1] if turned else teams

@@ -21,7 +21,7 @@ from rsoccer.matches.paused import PausedWorlds
 from rsoccer.play import Play
 from rsoccer.registry import as_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
-from rsoccer.simulator import Worlds
+from rsoccer.simulator import SimulatorLike
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -71,7 +71,7 @@ class Matches:
         *,
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
-        simulator: Worlds | None = None,
+        simulator: SimulatorLike | None = None,
     ) -> None:
         """Prepare matches; `reset` begins them.
 

@@ -9,7 +9,7 @@ import numpy as np
 from rsoccer._core import Sight, limit
 from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
-from rsoccer.view import slots
+from rsoccer.view import slot_counts
 
 LIMITS: Final = {
     "ball": 4.0,
@@ -77,7 +77,9 @@ class Soccer(Task):
     def ego_features(self) -> Sight:
         """What robots see, in half lengths of the field and a robot's top speeds."""
         config = self.config
-        return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
+        return Sight(
+            config.field, config.robot, *slot_counts(self.n_blue, self.n_yellow, self.sides)
+        )
 
     @cached_property
     def _flat_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
