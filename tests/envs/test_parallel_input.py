@@ -22,7 +22,7 @@ def test_controllers_take_robots_from_the_learners() -> None:
     assert match.possible_agents == ["blue_0", "blue_2"]
     observations, _ = match.reset(seed=0)
     assert list(observations) == ["blue_0", "blue_2"]
-    with pytest.raises(ValueError, match="at least one robot must learn"):
+    with pytest.raises(ValueError, match="expected at least one learner, got none"):
         parallel_env(SELF_PLAY, controllers={"all": "ou"})
 
 

@@ -19,7 +19,11 @@ from tests.solo_learner import draw, plain
         (lambda: single_env("VSS-v0", bal_speed=1), ValueError, "unknown option bal_speed"),
         (lambda: single_env("VSS-v0", max_steps=0), ValueError, "max_steps.*at least 1.*0"),
         (lambda: single_env("VSS-v0", "ansi"), ValueError, "render_mode.*rgb_array.*'ansi'"),
-        (lambda: single_env(SELF_PLAY), ValueError, r"'yellow_2'\]: name it.*learner='blue_0'"),
+        (
+            lambda: single_env(SELF_PLAY),
+            ValueError,
+            r"'yellow_2'\]: name the learner.*learner='blue_0'",
+        ),
         (
             lambda: single_env("VSS-v0", learner="blue_1"),
             ValueError,
@@ -28,7 +32,7 @@ from tests.solo_learner import draw, plain
         (
             lambda: single_env("VSS-v0", controllers={"all": "ou"}),
             ValueError,
-            "expected one robot that learns, got none",
+            "expected exactly one learner, got none",
         ),
         (
             lambda: single_env("VSS-v0", learner="red_0"),
@@ -48,7 +52,7 @@ from tests.solo_learner import draw, plain
         (
             lambda: single_env(rsoccer.make_task("VSS-v0"), ball_speed=1.0),
             TypeError,
-            r"a task that is made has its own, got \['ball_speed'\]",
+            r"a Task object has its own options, got \['ball_speed'\]",
         ),
         (lambda: single_env(3), TypeError, "task: expected a task or its name, got 3"),  # type: ignore[arg-type]
         (

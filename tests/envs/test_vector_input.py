@@ -27,7 +27,11 @@ N = 3
             r"autoreset_mode: expected one of \['next_step', .*'never'",
         ),
         (lambda: vector_env(SELF_PLAY, N), ValueError, "learner='blue_0'"),
-        (lambda: vector_env(SELF_PLAY, N, learner="ego"), ValueError, "learner: expected (.*)'ego'"),
+        (
+            lambda: vector_env(SELF_PLAY, N, learner="ego"),
+            ValueError,
+            "learner: expected (.*)'ego'",
+        ),
         (lambda: vector_env("VSS-v0", N, max_steps=0), ValueError, "max_steps.*at least 1"),
     ],
 )
