@@ -5,7 +5,7 @@ from rsoccer import SimConfig
 from rsoccer.envs.parallel import parallel_env
 from rsoccer.frame import Frame
 from rsoccer.global_state import LIMIT, StateEncoder
-from tests.one_match import SELF_PLAY, TASKS, random_actions, shot_at
+from tests.parallel_matches import SELF_PLAY, TASKS, random_actions, shot_at
 
 
 def test_the_state_is_the_scaled_frame() -> None:

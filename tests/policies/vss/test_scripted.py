@@ -14,7 +14,7 @@ from rsoccer.policies.vss.scripted import Scripted
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslSelfPlay, VssMulti, VssSelfPlay, VssSingle
 from tests.helpers import Crowd, same
-from tests.test_view import turned
+from tests.test_view import rotated
 
 TASK = VssSelfPlay()
 
@@ -96,7 +96,7 @@ def test_the_keeper_stays_home() -> None:
 def test_seen_from_the_other_side_it_does_the_same() -> None:
     rows = Crowd().get_initial_positions_frame(WorldRng.seeded(0, 8)).rows
     actions = []
-    for start in (rows, turned(Frame(rows, 3, 3)).rows):
+    for start in (rows, rotated(Frame(rows, 3, 3)).rows):
         matches = Matches(TASK, 8, controllers={"all": "scripted"})
         matches.reset(rows=start)
         matches.step(nobody(8))
