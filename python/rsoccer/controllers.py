@@ -28,6 +28,7 @@ class PolicyGroup:
     name: str
     """Name of the group's first robot; it selects the group's random streams."""
     policy: Policy
+    """Policy of all these robots."""
     robots: NDArray[np.intp]
     """(k,) indices of the robots."""
     observer_indices: Indices

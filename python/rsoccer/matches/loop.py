@@ -241,9 +241,9 @@ class Matches:
         play.steps += 1
 
     def _reposition_balls(self, active: Mask | None) -> None:
-        """Move balls as the task demands, and equal the last frame to the frame there.
+        """Move balls as the task demands, and set the last frame equal to the frame there.
 
-        So no reward term pays for the ball's way to its new position.
+        A reward term that compares the two frames then pays nothing for the move.
         """
         play = self.play
         repositioned = self.task.reposition_ball(play.frame)
