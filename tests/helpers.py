@@ -1,6 +1,7 @@
-"""Things that several tests need."""
+"""Tasks, actions and comparisons for tests of several areas."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from rsoccer.tasks import VssSelfPlay
 
 @dataclass(frozen=True)
 class Crowd(VssSelfPlay):
-    """All robots close round the ball, in front of a goal: contacts in every step, and goals."""
+    """All robots start close to the ball, in front of a goal: contacts in every step, and goals."""
 
     max_steps: int = 40
 
@@ -33,12 +34,12 @@ class Crowd(VssSelfPlay):
 
 
 def ssl_crowd(task: Task, rng: WorldRng) -> Frame:
-    """As `Crowd`, for a task of SSL robots, whatever it starts with otherwise."""
+    """Initial positions like those of `Crowd`, for a task with SSL robots."""
     frame = Frame.empty(len(rng), task.n_blue, task.n_yellow)
     robots = task.n_blue + task.n_yellow
     angle = rng.uniform(0.0, 1.0)[:, None] + np.linspace(0.0, 2.0 * np.pi, robots, endpoint=False)
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=-1).astype(np.float32)
-    centre = np.array([0.4, 0.05], np.float32)  # where no task ends at once
+    centre = np.array([0.4, 0.05], np.float32)  # no task ends here in its first step
     frame.ball.position[:] = centre
     frame.robots.position[:] = centre + ring * np.float32(max(0.13, 0.032 * robots))
     frame.robots.heading[:] = -ring
@@ -46,9 +47,9 @@ def ssl_crowd(task: Task, rng: WorldRng) -> Frame:
 
 
 def touches(frame: Frame, config: SimConfig) -> int:
-    """Pairs that certainly touch: their inscribed circles are within a millimetre."""
+    """Number of pairs that certainly touch: their inscribed circles are within a millimetre."""
     robot = config.robot
-    # Round ones meet the ball with a flat front, but each other as discs.
+    # Round robots meet the ball with a flat front, and each other as discs.
     half, front = (robot.radius, robot.front) if robot.has_mouth else (robot.side / 2,) * 2
     robots, ball = frame.robots.position, frame.ball.position[:, None]
     to_ball = _distances(robots, ball) < front + config.ball.radius + 1e-3
@@ -60,14 +61,14 @@ def pushing(rng: np.random.Generator, matches: Matches) -> Floats:
     """Random actions (n, agents, action), mostly forward, so that robots meet."""
     shape = (matches.worlds, len(matches.agents), matches.action_size)
     actions = rng.uniform(-0.3, 1.0, shape).astype(np.float32)
-    if matches.action_size == 5:  # SSL: turn little, kick rarely, or the ball is gone
+    if matches.action_size == 5:  # SSL: turns are small and kicks rare, so that the ball stays near
         actions[..., 2] *= 0.2
         actions[..., 3] -= 0.95
     return actions
 
 
 def zeros(matches: Matches) -> Floats:
-    """Actions that ask for nothing."""
+    """Actions of zeros."""
     return np.zeros((matches.worlds, len(matches.agents), matches.action_size), np.float32)
 
 
@@ -86,8 +87,19 @@ def begun(
     return matches
 
 
+def comparable(value: Any) -> Any:  # noqa: ANN401
+    """Value that `==` compares to the last bit: arrays as bytes, containers by element."""
+    if isinstance(value, dict):
+        return {key: comparable(part) for key, part in value.items()}
+    if isinstance(value, tuple | list):
+        return [comparable(part) for part in value]
+    if isinstance(value, np.ndarray) and value.dtype == np.object_:
+        return ("objects", [comparable(part) for part in value])
+    return (value.dtype.str, value.shape, value.tobytes()) if hasattr(value, "tobytes") else value
+
+
 def same(a: Array, b: Array) -> bool:
-    """Equal in every bit."""
+    """Compare every bit."""
     return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
 
 

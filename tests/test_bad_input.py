@@ -18,8 +18,9 @@ from rsoccer.envs.vector import vector_env
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import list_options
-from tests.one_match import TASKS, random_actions
-from tests.solo_learner import lone, plain
+from tests.helpers import comparable
+from tests.parallel_matches import TASKS, random_actions
+from tests.single_learner import learner_options
 
 CONFIGS = {name: rsoccer.make_task(name).config for name in TASKS}
 
@@ -38,8 +39,8 @@ def constructors(name: str) -> list[Callable[..., object]]:
         lambda **options: rsoccer.make_task(name, **options),
         lambda **options: parallel_env(name, **options),
         lambda **options: rsoccer.env(name, **options),
-        lambda **options: single_env(name, **lone(name), **options),
-        lambda **options: vector_env(name, 2, **lone(name), **options),
+        lambda **options: single_env(name, **learner_options(name), **options),
+        lambda **options: vector_env(name, 2, **learner_options(name), **options),
     ]
 
 
@@ -132,7 +133,7 @@ def test_wrong_actions_change_nothing(name: str) -> None:
     given, expected = (
         each.step(random_actions(each, np.random.default_rng(0))) for each in (match, twin)
     )
-    assert plain(given) == plain(expected)
+    assert comparable(given) == comparable(expected)
 
 
 @every_task
@@ -143,8 +144,8 @@ def test_wrong_actions_of_one_learner_change_nothing(name: str, discrete: bool) 
     if task.action_table is not None:
         wrong += [len(task.action_table), -1, 0.5]
     made: list[list[Any]] = [
-        [single_env(task, **lone(name)) for _ in range(2)],
-        [vector_env(task, 2, **lone(name)) for _ in range(2)],
+        [single_env(task, **learner_options(name)) for _ in range(2)],
+        [vector_env(task, 2, **learner_options(name)) for _ in range(2)],
     ]
     for envs, twin in made:
         envs.reset(seed=0)
@@ -154,13 +155,14 @@ def test_wrong_actions_of_one_learner_change_nothing(name: str, discrete: bool) 
             with pytest.raises((TypeError, ValueError), match="actions"):
                 envs.step(given)
         valid = envs.action_space.sample()
-        assert plain(envs.step(valid)) == plain(twin.step(valid))
+        assert comparable(envs.step(valid)) == comparable(twin.step(valid))
 
 
 @every_task
 def test_a_step_before_reset_or_after_the_end_is_refused(name: str) -> None:
-    match, env = parallel_env(name, max_cycles=1), single_env(name, max_steps=1, **lone(name))
-    envs = vector_env(name, 2, max_steps=1, autoreset_mode="disabled", **lone(name))
+    match = parallel_env(name, max_cycles=1)
+    env = single_env(name, max_steps=1, **learner_options(name))
+    envs = vector_env(name, 2, max_steps=1, autoreset_mode="disabled", **learner_options(name))
     still = np.zeros(match.task.action_size, np.float32)
     steps: list[tuple[Any, Callable[[], object]]] = [
         (match, lambda: match.step(dict.fromkeys(match.possible_agents, still))),
@@ -198,8 +200,8 @@ def test_a_wrong_reset_changes_nothing_and_unknown_keys_are_ignored(name: str) -
     wrong_masks: list[Any] = [[True, False], np.ones(3, np.bool_), np.zeros(2, np.bool_)]
     pairs: list[list[Any]] = [
         [parallel_env(name) for _ in range(2)],
-        [single_env(name, **lone(name)) for _ in range(2)],
-        [vector_env(name, 2, **lone(name)) for _ in range(2)],
+        [single_env(name, **learner_options(name)) for _ in range(2)],
+        [vector_env(name, 2, **learner_options(name)) for _ in range(2)],
     ]
     for made, twin in pairs:
         for each in (made, twin):
@@ -209,7 +211,9 @@ def test_a_wrong_reset_changes_nothing_and_unknown_keys_are_ignored(name: str) -
             with pytest.raises((TypeError, ValueError), match=r"options|seed|unit vector"):
                 made.reset(**{"seed": 4, **arguments})
         assert np.array_equal(made._matches.frame.rows, twin._matches.frame.rows)
-        assert plain(made.reset()) == plain(twin.reset()), "the random streams have advanced"
+        assert comparable(made.reset()) == comparable(twin.reset()), (
+            "its random streams have gone on"
+        )
 
 
 def task_policies() -> list[tuple[str, str]]:

@@ -11,20 +11,20 @@ from tests.helpers import Crowd, begun, same, zeros
 
 
 class Mirror(Policy):
-    """Does what it sees: its own place. Remembers how often it was asked."""
+    """Acts by its own position, and counts its calls."""
 
     observes = "view"
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        return {"asked": np.zeros(shape[0])}
+        return {"calls": np.zeros(shape[0])}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        memory["asked"] += 1
+        memory["calls"] += 1
         assert inputs.view is not None
         return inputs.view.ego.position * 5.0
 
 
-def test_anyone_can_drive_any_robot() -> None:
+def test_any_controller_can_control_any_robot() -> None:
     controllers: Controllers = {
         "all": "zero",
         "yellow": Mirror(),
@@ -35,27 +35,27 @@ def test_anyone_can_drive_any_robot() -> None:
     assert matches.agents == ("yellow_1",)
     assert matches.play.observers.tolist() == [3, 4, 5]
     assert matches.reset().shape == (3, 1, matches.observation_size)
-    place = matches.play.view.ego.position.copy()
+    position = matches.play.view.ego.position.copy()
     matches.step(np.full((3, 1, 2), 0.5, np.float32))
     actions = matches.play.actions
     assert not actions[:, :2].any()
     assert actions[:, 2].any()
     assert (actions[:, 4] == 0.5).all()
-    assert (actions[:, [3, 5]] == np.clip(place[:, [0, 2]] * np.float32(5.0), -1, 1)).all()
-    assert matches.state_dict()["yellow_0.asked"].tolist() == [1, 1, 1]
+    assert (actions[:, [3, 5]] == np.clip(position[:, [0, 2]] * np.float32(5.0), -1, 1)).all()
+    assert matches.state_dict()["yellow_0.calls"].tolist() == [1, 1, 1]
 
 
-def test_a_learner_sees_and_earns_the_same_whoever_else_looks() -> None:
+def test_observations_and_rewards_do_not_depend_on_other_observers() -> None:
     alone = Matches(Crowd(), 4, seed=2, controllers={"all": "zero", "yellow_1": LEARN})
-    watched = Matches(Crowd(), 4, seed=2, controllers={"all": "zero", "yellow_1": LEARN})
+    again = Matches(Crowd(), 4, seed=2, controllers={"all": "zero", "yellow_1": LEARN})
     everyone = Matches(Crowd(), 4, seed=2)
-    assert same(alone.reset(), watched.reset())
+    assert same(alone.reset(), again.reset())
     assert same(alone.reset(seed=4), everyone.reset(seed=4)[:, [4]])
     actions = np.zeros((4, 6, 2), np.float32)
     actions[:, 4] = 0.7
-    mine, ours = alone.step(actions[:, [4]]), everyone.step(actions)
-    assert same(mine.rewards, ours.rewards[:, [4]])
-    assert same(mine.observations, ours.observations[:, [4]])
+    one, six = alone.step(actions[:, [4]]), everyone.step(actions)
+    assert same(one.rewards, six.rewards[:, [4]])
+    assert same(one.observations, six.observations[:, [4]])
 
 
 def test_matches_without_learners_play_on() -> None:

@@ -1,4 +1,4 @@
-"""The seam: what the compiled module refuses, and that refusing changes nothing."""
+"""The binding: arguments that the compiled module refuses, without any change."""
 
 import copy
 import pickle
@@ -94,7 +94,7 @@ def test_a_field_by_numbers_keeps_the_robots_of_its_league() -> None:
         assert (config.robot.name, config.ball.name) == (robot, ball)
 
 
-def test_on_a_field_of_no_league_robots_and_ball_must_be_told() -> None:
+def test_a_field_of_no_league_needs_robots_and_ball() -> None:
     field = Field.from_json(Field("ssl_b").to_json().replace("ssl_b", "backyard"))
     given: dict[str, Any] = {"robot": "ssl_generic", "ball": "ssl_tigers"}
     assert SimConfig(field, 1, 1, **given).field.name == "backyard"
@@ -163,7 +163,7 @@ def test_a_bad_step_is_refused_before_anything_moves(
     )
 )
 @settings(max_examples=200, deadline=None)
-def test_whatever_comes_as_commands_moves_or_is_refused(commands: Array) -> None:
+def test_any_commands_are_executed_or_refused(commands: Array) -> None:
     simulator = Simulator(CONFIG, 1)
     before, out = simulator.snapshot(), rows_of(simulator)
     shape = no_commands(1).shape
@@ -177,7 +177,7 @@ def test_whatever_comes_as_commands_moves_or_is_refused(commands: Array) -> None
         assert simulator.snapshot() == before
 
 
-def test_impossible_starts_name_world_and_robots() -> None:
+def test_errors_of_placing_name_world_and_robots() -> None:
     simulator = Simulator(CONFIG, WORLDS)
     out = rows_of(simulator)
     before = simulator.snapshot()
@@ -199,7 +199,7 @@ def test_impossible_starts_name_world_and_robots() -> None:
         assert simulator.snapshot() == before
 
 
-def test_a_placed_state_reads_as_placed_velocities_included() -> None:
+def test_a_placed_state_is_read_back_exactly() -> None:
     simulator = Simulator(CONFIG, WORLDS)
     rows = driven(simulator, 40)
     rows[:, BALL_COLUMNS.index("crossed") :][:, :3] = 0.0  # an event, not a state
@@ -213,7 +213,7 @@ def test_a_placed_state_reads_as_placed_velocities_included() -> None:
 
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda s: pickle.loads(pickle.dumps(s))])
-def test_a_pickled_simulator_goes_on_as_the_original(
+def test_a_copied_simulator_continues_as_the_original(
     duplicate: Callable[[Simulator], Simulator],
 ) -> None:
     simulator = Simulator(CONFIG, WORLDS, 2)
@@ -236,8 +236,8 @@ def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
     assert simulator.snapshot() == before
 
 
-def test_the_step_leaves_other_threads_running() -> None:
-    """A counter in Python goes on while one long step runs: the GIL is free meanwhile."""
+def test_other_threads_run_during_a_step() -> None:
+    """A counter in Python continues during one long step: the step releases the GIL."""
     simulator = Simulator(CONFIG, 3000)
     rows, commands = rows_of(simulator), no_commands(3000) + 30
     counts, stop = [0], threading.Event()
@@ -257,7 +257,7 @@ def test_the_step_leaves_other_threads_running() -> None:
     assert during > 1000
 
 
-def test_limits_hold_from_both_sides_and_leave_what_is_no_number() -> None:
+def test_limits_hold_on_both_sides_and_nan_stays() -> None:
     numbers = np.array([[[-9.0, 0.5, 9.0], [np.nan, -np.inf, -0.0]]], np.float32)
     limit(numbers, np.array([2.0, 1.0, 4.0], np.float32))
     expected = np.array([[[-2.0, 0.5, 4.0], [np.nan, -1.0, -0.0]]], np.float32)
@@ -272,7 +272,7 @@ def test_limits_hold_from_both_sides_and_leave_what_is_no_number() -> None:
         limit(frozen, np.ones(3, np.float32))
 
 
-def test_what_can_be_clipped_is_a_copy_and_all_else_is_left_to_the_caller() -> None:
+def test_clipped_returns_a_copy_or_none_for_the_caller_to_handle() -> None:
     numbers = np.array([[-9.0, 0.5], [1.0, 9.0]], np.float32)
     for array, expected in [
         (numbers, [[-1.0, 0.5], [1.0, 1.0]]),
@@ -286,7 +286,7 @@ def test_what_can_be_clipped_is_a_copy_and_all_else_is_left_to_the_caller() -> N
         assert clipped(other, (2, 2)) is None
 
 
-def test_commands_count_in_whatever_order_they_lie_in_memory() -> None:
+def test_commands_may_have_any_memory_layout() -> None:
     commands = np.random.default_rng(0).uniform(-9, 9, no_commands().shape).astype(np.float32)
     ours, theirs = Simulator(CONFIG, worlds=WORLDS), Simulator(CONFIG, worlds=WORLDS)
     ours.step(commands, rows_of(ours))

@@ -5,14 +5,14 @@ from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
 from rsoccer.frame import (
     GOAL_LEFT,
     GOAL_RIGHT,
-    NOTHING,
+    NO_CROSSING,
     BallColumns,
     Frame,
     RobotColumns,
+    column_slice,
     length,
     robot_names,
     row_size,
-    span,
 )
 
 
@@ -21,7 +21,7 @@ def numbered(n: int, n_blue: int, n_yellow: int) -> Frame:
     return Frame(np.arange(n * size, dtype=np.float32).reshape(n, size), n_blue, n_yellow)
 
 
-def test_names_lie_where_the_core_says() -> None:
+def test_properties_read_the_cores_columns() -> None:
     frame = numbered(2, 1, 2)
     row = frame.rows[1].tolist()
     ball = dict(zip(BALL_COLUMNS, row, strict=False))
@@ -43,7 +43,7 @@ def test_blue_comes_first() -> None:
     assert (frame.yellow.data == frame.robots.data[:, 2:]).all()
 
 
-def test_names_are_views_not_copies() -> None:
+def test_properties_are_views_not_copies() -> None:
     frame = Frame.empty(2, 3, 3)
     frame.ball.velocity[1] = 5.0
     frame.yellow.spin[:, 2] = 7.0
@@ -51,7 +51,7 @@ def test_names_are_views_not_copies() -> None:
     assert (frame.rows == 7.0).sum() == 2
 
 
-def test_an_empty_frame_is_zeros_and_robots_face_right() -> None:
+def test_an_empty_frame_is_zeros_and_robots_face_plus_x() -> None:
     frame = Frame.empty(2, 1, 1)
     assert (frame.robots.heading == [1.0, 0.0]).all()
     assert (frame.ball.last_touch == -1.0).all()
@@ -86,15 +86,15 @@ def test_robot_names() -> None:
     assert robot_names(2, 1) == ("blue_0", "blue_1", "yellow_0")
 
 
-def test_crossings_are_what_the_core_calls_them() -> None:
-    assert CROSSINGS[NOTHING] == "none"
+def test_crossings_are_indices_of_the_cores_names() -> None:
+    assert CROSSINGS[NO_CROSSING] == "none"
     assert CROSSINGS[GOAL_RIGHT] == "goal_right"
     assert CROSSINGS[GOAL_LEFT] == "goal_left"
 
 
-def test_columns_that_are_no_neighbours_cannot_be_one_view() -> None:
+def test_columns_that_are_no_neighbours_are_refused() -> None:
     with pytest.raises(ImportError, match="side by side"):
-        span(("x", "z", "y"), "x", "y")
+        column_slice(("x", "z", "y"), "x", "y")
 
 
 def test_columns_take_any_leading_axes() -> None:

@@ -5,7 +5,7 @@ from rsoccer import SimConfig
 from rsoccer.envs.parallel import parallel_env
 from rsoccer.frame import Frame
 from rsoccer.global_state import LIMIT, StateEncoder
-from tests.one_match import SELF_PLAY, TASKS, random_actions, shot_at
+from tests.parallel_matches import SELF_PLAY, TASKS, random_actions, shot_at
 
 
 def test_the_state_is_the_scaled_frame() -> None:
@@ -37,7 +37,7 @@ def test_the_state_of_ssl_has_heights_and_beams_too() -> None:
     assert first == pytest.approx([-1 / half_length, 0.5 / half_length, 1, 0, 0, 0, 0, 1])
     assert second == pytest.approx([1 / half_length, 0, 1, 0, 0, 0, 0, 0])
     frame.ball.position[0], frame.ball.velocity[0] = (0.0, 0.0), (0.0, 1.0)
-    frame.ball.height[0], frame.ball.rise[0] = 0.6, 2.0
+    frame.ball.height[0], frame.ball.vertical_velocity[0] = 0.6, 2.0
     match.reset(options={"frame": frame.rows[0]})
     flying = match.state()[:6]
     assert flying == pytest.approx([0, 0, 0.6 / half_length, 0, 1 / top, 2 / top])

@@ -1,6 +1,7 @@
-"""Left and right swapped, every task is the same game: what half a turn is where one side plays.
+"""With left and right swapped, every task is the same match.
 
-`test_symmetry.py` turns the game half round and swaps the teams, where both may learn.
+This symmetry also holds for tasks in which one team learns. `test_symmetry.py` rotates the field by
+half a turn and swaps the teams, for tasks in which both may learn.
 """
 
 from dataclasses import replace
@@ -16,27 +17,29 @@ from rsoccer.task import Task
 from rsoccer.tasks import SslDribbling
 from rsoccer.tasks.courses import PAPER, Course
 from tests.helpers import same
-from tests.one_match import TASKS
+from tests.parallel_matches import TASKS
 
 WORLDS, STEPS = 40, 12
 LEFT, RIGHT = CROSSINGS.index("touch_line_left"), CROSSINGS.index("touch_line_right")
-WALL = 0.06  # metres of a VSSS robot's centre from a wall that it may touch
+WALL = 0.06  # distance of a VSSS robot's centre from a wall that it may touch, m
 
 
-class OtherWay(SslDribbling):
-    """The course with its gates crossed from the other side, as a mirror shows them."""
+class ReversedDribbling(SslDribbling):
+    """The course with its gates in the opposite direction, as in a mirror."""
 
     @property
     def course(self) -> Course:
-        return replace(PAPER, gates=tuple((first, last, -way) for first, last, way in PAPER.gates))
+        return replace(
+            PAPER, gates=tuple((first, last, -direction) for first, last, direction in PAPER.gates)
+        )
 
 
 def mirrored(task: Task) -> Task:
-    return OtherWay() if isinstance(task, SslDribbling) else task
+    return ReversedDribbling() if isinstance(task, SslDribbling) else task
 
 
 def reflected(frame: Frame) -> Frame:
-    """The same moment with y the other way round."""
+    """The same state with y reversed."""
     other = frame.copy()
     for vectors in (
         *(other.ball.position, other.ball.velocity, other.ball.crossed_at),
@@ -51,31 +54,31 @@ def reflected(frame: Frame) -> Frame:
 
 
 def reflected_actions(actions: Floats) -> Floats:
-    """Wheels swapped; sideways and turning the other way."""
+    """Actions with left and right swapped: wheels, or lateral velocity and turn rate."""
     if actions.shape[-1] == 2:
         return np.ascontiguousarray(actions[..., ::-1])
     return actions * np.array([1, -1, -1, 1, 1], np.float32)
 
 
-def alone(frame: Frame, task: Task) -> Mask:
-    """(n,) worlds in which no square robot can be at a wall or another: there solvers round."""
+def free_of_contact(frame: Frame, task: Task) -> Mask:
+    """(n,) worlds in which no square robot can touch a wall or a robot: solvers round there."""
     if task.config.robot.has_mouth:
         return np.ones(len(frame), np.bool_)
     field, robots = task.config.field, frame.robots
-    most = np.array([field.half_length, field.half_width]) - WALL
-    inside = (np.abs(robots.position) < most).all(axis=(1, 2))
+    bound = np.array([field.half_length, field.half_width]) - WALL
+    inside = (np.abs(robots.position) < bound).all(axis=(1, 2))
     met = (robots.touched_ball + robots.crash_speed).any(axis=1)
     return np.logical_and(inside, ~met)
 
 
-def signs(seen: Array, in_mirror: Array) -> Array:
-    """(o,) 1 for numbers that a mirror leaves as they are, -1 for those it turns; 0 for others."""
-    kept, turned = (seen == in_mirror).all(axis=0), (seen == -in_mirror).all(axis=0)
-    return np.where(kept, 1, np.where(turned, -1, 0))
+def signs(original: Array, reflection: Array) -> Array:
+    """(o,) 1 for numbers that reflection keeps, -1 for those that change sign, 0 for others."""
+    kept, negated = (original == reflection).all(axis=0), (original == -reflection).all(axis=0)
+    return np.where(kept, 1, np.where(negated, -1, 0))
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_in_a_mirror_it_is_the_same_game(name: str) -> None:
+def test_the_reflected_match_is_the_same(name: str) -> None:
     task = rsoccer.make_task(name)
     ours, theirs = (
         Matches(each, WORLDS, seed=1, controllers={"all": LEARN}, autoreset="disabled")
@@ -85,32 +88,32 @@ def test_in_a_mirror_it_is_the_same_game(name: str) -> None:
     theirs.reset(rows=reflected(ours.frame).rows)
     rng, playing = np.random.default_rng(0), np.ones(WORLDS, np.bool_)
     shape = (WORLDS, len(ours.agents), ours.action_size)
-    seen: list[list[Floats]] = [[], []]
+    observed: list[list[Floats]] = [[], []]
     for _ in range(STEPS):
-        playing &= alone(ours.frame, task)
+        playing &= free_of_contact(ours.frame, task)
         actions = rng.uniform(-0.6, 0.6, shape).astype(np.float32)
         a, b = ours.step(actions), theirs.step(reflected_actions(actions))
-        playing &= alone(ours.frame, task)
-        # Adding 0 makes -0 to 0, so that equal numbers are equal in every bit.
+        playing &= free_of_contact(ours.frame, task)
+        # Adding 0 turns -0 into 0, so equal numbers are equal in every bit.
         assert same(reflected(ours.frame).rows[playing] + 0, theirs.frame.rows[playing] + 0)
         for each in ("rewards", "terminated", "truncated"):
             assert same(getattr(a, each)[playing] + 0, getattr(b, each)[playing] + 0)
         for metric, value in a.metrics.items():
             assert same(value[playing], b.metrics[metric][playing])
-        for kept, outcome in zip(seen, (a, b), strict=True):
+        for kept, outcome in zip(observed, (a, b), strict=True):
             kept.append(outcome.final_observations[playing].reshape(-1, ours.observation_size))
         playing &= ~a.ended
-    assert playing.sum() > WORLDS / 2, "too few were compared to the end"
-    here, there = (np.concatenate(each) for each in seen)
+    assert playing.sum() > WORLDS / 2, "too few worlds were compared to the end"
+    here, there = (np.concatenate(each) for each in observed)
     action = task.blocks["action"].columns
     assert same(reflected_actions(here[:, action]) + 0, there[:, action] + 0)
     found = np.delete(signs(here, there), action)
-    assert found.all(), "some numbers are neither kept nor turned"
+    assert found.all(), "some numbers are neither kept nor negated"
     assert {-1, 1} == set(found.tolist())
 
 
-def test_a_fault_would_be_seen() -> None:
-    """The course as it is, in a mirror: its gates want to be crossed the wrong way there."""
+def test_an_asymmetric_task_would_be_found() -> None:
+    """The original course in a mirror: the direction of its gates is wrong there."""
     task = SslDribbling()
     assert task.course.gates != mirrored(task).course.gates  # type: ignore[attr-defined]
     frame = task.get_initial_positions_frame(rsoccer.WorldRng.seeded(0, 1))

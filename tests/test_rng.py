@@ -17,21 +17,21 @@ def draws(rng: WorldRng) -> list[np.ndarray]:
 
 
 def test_the_words_are_splitmix64() -> None:
-    # first outputs for the seed 0, as published with Vigna's reference code
+    # First outputs for the seed 0, as published with Vigna's reference code.
     rng = WorldRng.from_state(np.zeros(1, np.uint64))
     words = rng._words(3)[0].tolist()
     assert words == [0xE220A8397B1DCDAF, 0x6E789E6AA1B965F4, 0x06C45D188009454F]
 
 
 @pytest.mark.parametrize("n", [1, 2, 7, 64, 1001])
-def test_row_i_of_a_batch_is_a_single_world_seeded_i_more(n: int) -> None:
+def test_row_i_of_a_batch_equals_a_single_world_seeded_plus_i(n: int) -> None:
     many = draws(WorldRng.seeded(40, n))
     for i in {0, n // 2, n - 1}:
         for together, alone in zip(many, draws(WorldRng.seeded(40 + i, 1)), strict=True):
             assert same(together[i : i + 1], alone)
 
 
-def test_numbers_are_drawn_evenly() -> None:
+def test_uniform_numbers_are_uniform() -> None:
     drawn = WorldRng.seeded(0, 2000).uniform(-2.0, 3.0, (100,))
     assert drawn.dtype == np.float32
     assert drawn.min() >= -2.0
@@ -49,10 +49,10 @@ def test_normal_numbers_are_normal() -> None:
     assert abs(drawn.var() - 1.0) < 4 * (2 / n) ** 0.5
     assert abs((drawn**4).mean() - 3.0) < 4 * (96 / n) ** 0.5
     assert abs((np.abs(drawn) < 1.0).mean() - 0.682689) < 0.005
-    assert abs(np.corrcoef(drawn[:, 0], drawn[:, 51])[0, 1]) < 0.1  # two from one word
+    assert abs(np.corrcoef(drawn[:, 0], drawn[:, 51])[0, 1]) < 0.1  # two numbers from one word
 
 
-def test_whole_numbers_reach_all_values_evenly() -> None:
+def test_integers_are_uniform_over_all_values() -> None:
     drawn = WorldRng.seeded(5, 1000).integers(7, (70,))
     assert drawn.dtype == np.int64
     counts = np.bincount(drawn.ravel(), minlength=7)
@@ -62,12 +62,12 @@ def test_whole_numbers_reach_all_values_evenly() -> None:
 
 
 @pytest.mark.parametrize("high", [0, -3, 2**32 + 1])
-def test_whole_numbers_need_a_range(high: int) -> None:
+def test_integers_need_a_range(high: int) -> None:
     with pytest.raises(ValueError, match="high"):
         WorldRng.seeded(0, 1).integers(high)
 
 
-def test_split_streams_are_independent_of_each_other_and_leave_the_parent_alone() -> None:
+def test_split_streams_are_independent_and_do_not_change_the_parent() -> None:
     parent = WorldRng.seeded(1, 500)
     before = parent.state
     parts = [parent.split(name).uniform(0.0, 1.0, (20,)) for name in ("start", "task", 0, 1)]
@@ -78,12 +78,12 @@ def test_split_streams_are_independent_of_each_other_and_leave_the_parent_alone(
             assert abs(np.corrcoef(a.ravel(), b.ravel())[0, 1]) < 0.05
 
 
-def test_splitting_twice_by_one_name_gives_one_stream() -> None:
+def test_the_same_label_gives_the_same_stream() -> None:
     parent = WorldRng.seeded(1, 3)
     assert same(parent.split("a").normal((2,)), parent.split("a").normal((2,)))
 
 
-def test_some_worlds_draw_while_others_wait() -> None:
+def test_some_worlds_draw_without_the_others() -> None:
     together, apart = WorldRng.seeded(9, 4), WorldRng.seeded(9, 4)
     mask = np.array([True, False, True, False])
     part = apart[mask]
@@ -96,7 +96,7 @@ def test_some_worlds_draw_while_others_wait() -> None:
     assert same(apart.uniform(0.0, 1.0), expected)
 
 
-def test_a_stream_goes_on_from_its_state() -> None:
+def test_a_stream_continues_from_its_state() -> None:
     rng = WorldRng.seeded(2, 3)
     rng.normal((5,))
     other = WorldRng.from_state(rng.state)
@@ -109,5 +109,5 @@ def test_a_foreign_state_is_refused(state: np.ndarray) -> None:
         WorldRng.from_state(state)
 
 
-def test_seeds_wrap_round() -> None:
+def test_seeds_wrap_around() -> None:
     assert WorldRng.seeded(2**64 - 1, 2).state[1] == WorldRng.seeded(0, 1).state[0]

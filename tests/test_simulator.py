@@ -9,7 +9,7 @@ from tests.helpers import begun, same, zeros
 
 
 class Frozen:
-    """Stands in for the simulator: nothing ever moves. Knows neither snapshots nor threads."""
+    """A simulator in which nothing moves, without snapshots and threads."""
 
     def __init__(self) -> None:
         self.calls: list[str] = []
@@ -25,7 +25,7 @@ class Frozen:
         self.calls.append("step")
 
 
-def test_anything_that_places_and_steps_can_be_the_simulator() -> None:
+def test_any_class_with_the_methods_can_be_the_simulator() -> None:
     simulator = Frozen()
     matches = Matches("VSSSelfPlay-v0", 2, simulator=simulator)
     first = matches.reset()
@@ -39,7 +39,7 @@ def test_anything_that_places_and_steps_can_be_the_simulator() -> None:
         matches.load_state_dict(begun(VssSelfPlay()).state_dict())
 
 
-def test_commands_reach_the_simulator_in_its_units() -> None:
+def test_commands_reach_the_simulator_in_si_units() -> None:
     class Listening(Frozen):
         def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
             self.commands, self.active = commands.copy(), active
@@ -56,7 +56,7 @@ def test_commands_reach_the_simulator_in_its_units() -> None:
     assert simulator.active is None
 
 
-def test_a_failed_step_of_the_simulator_leaves_the_frame() -> None:
+def test_a_failed_step_of_the_simulator_does_not_change_the_frame() -> None:
     class Failing(Frozen):
         def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
             raise RuntimeError("world 1 is lost")
@@ -70,7 +70,7 @@ def test_a_failed_step_of_the_simulator_leaves_the_frame() -> None:
     assert not matches.play.steps.any()
 
 
-def test_the_simulator_is_the_packages_own_by_default() -> None:
+def test_the_default_simulator_is_the_packages() -> None:
     matches = begun(VssSelfPlay(), threads=2)
     simulator = Simulator(SimConfig(), 5)
     simulator.restore(matches.state_dict()["simulator"].tobytes())

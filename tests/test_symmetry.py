@@ -1,4 +1,4 @@
-"""The game turned half round, with the teams swapped, is the same game."""
+"""A match on the field rotated by half a turn, with the teams swapped, is the same match."""
 
 import numpy as np
 import pytest
@@ -10,8 +10,8 @@ from rsoccer.frame import Floats
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, touches
-from tests.one_match import VSS_TASKS
-from tests.test_view import turned
+from tests.parallel_matches import VSS_TASKS
+from tests.test_view import rotated
 
 TEAMS = np.array([3, 4, 5, 0, 1, 2])
 
@@ -22,18 +22,18 @@ SYMMETRIC = [*VSS_TASKS, SSL]
 
 
 def both(rows: Floats, worlds: int, name: str = "VSSSelfPlay-v0") -> tuple[Matches, Matches]:
-    """Matches and the same matches turned half round, everyone learning."""
+    """Matches and the same matches rotated by half a turn, with all robots learning."""
     task = rsoccer.make_task(name)
     ours, theirs = (
         Matches(task, worlds, controllers={"all": LEARN}, autoreset="disabled") for _ in range(2)
     )
     ours.reset(rows=rows)
-    theirs.reset(rows=turned(Frame(rows, 3, 3)).rows)
+    theirs.reset(rows=rotated(Frame(rows, 3, 3)).rows)
     return ours, theirs
 
 
-def lonely(worlds: int, name: str = "VSSSelfPlay-v0") -> Floats:
-    """Starts with room to move: robots in two rows, the ball rolling along the middle."""
+def spread_out(worlds: int, name: str = "VSSSelfPlay-v0") -> Floats:
+    """Initial states without contacts: robots in two rows, the ball rolling between them."""
     frame = Frame.empty(worlds, 3, 3)
     rng = np.random.default_rng(0)
     for team, y in ((frame.blue, -0.4), (frame.yellow, 0.4)):
@@ -43,15 +43,15 @@ def lonely(worlds: int, name: str = "VSSSelfPlay-v0") -> Floats:
         team.heading[:] = np.stack([np.cos(angle), np.sin(angle)], -1)
     frame.ball.velocity[:] = rng.uniform(-0.2, 0.2, (worlds, 2))
     frame.ball.velocity[:, 1] *= 0.2
-    if name == SSL:  # larger robots that are faster, on a larger field
+    if name == SSL:  # its robots are larger and faster, its field is larger
         frame.robots.position[:] *= 2.5
     return frame.rows
 
 
 @pytest.mark.parametrize("name", SYMMETRIC)
-def test_without_contact_the_turned_game_is_exactly_the_same(name: str) -> None:
+def test_without_contact_the_rotated_match_is_exactly_the_same(name: str) -> None:
     worlds = 6
-    ours, theirs = both(lonely(worlds, name), worlds, name)
+    ours, theirs = both(spread_out(worlds, name), worlds, name)
     size = ours.action_size
     rng = np.random.default_rng(1)
     moved = ours.frame.rows.copy()
@@ -59,19 +59,19 @@ def test_without_contact_the_turned_game_is_exactly_the_same(name: str) -> None:
         actions = rng.uniform(-1.0, 1.0, (worlds, 6, size)).astype(np.float32)
         a, b = ours.step(actions), theirs.step(actions[:, TEAMS])
         assert touches(ours.frame, ours.task.config) == 0
-        assert np.array_equal(turned(ours.frame).rows, theirs.frame.rows)
+        assert np.array_equal(rotated(ours.frame).rows, theirs.frame.rows)
         assert np.array_equal(a.observations[:, TEAMS], b.observations)
         assert np.array_equal(a.rewards[:, TEAMS], b.rewards)
         assert np.array_equal(a.ended, b.ended)
     assert np.abs(ours.frame.robots.position - Frame(moved, 3, 3).robots.position).max() > 0.05
 
 
-def test_a_ball_that_left_comes_back_alike_on_both_sides() -> None:
-    """With robots where it left, so that the nearest places are taken and sides are chosen."""
+def test_a_ball_that_left_returns_symmetrically() -> None:
+    """Robots stand where the ball left, so the nearest positions are occupied."""
     worlds = 40
     task = rsoccer.make_task(SSL)
     rng = np.random.default_rng(0)
-    frame = Frame(lonely(worlds, SSL), 3, 3)
+    frame = Frame(spread_out(worlds, SSL), 3, 3)
     frame.ball.crossed[:] = [
         CROSSINGS.index("touch_line_left"),
         CROSSINGS.index("goal_line_left"),
@@ -80,16 +80,16 @@ def test_a_ball_that_left_comes_back_alike_on_both_sides() -> None:
     frame.ball.crossed_at[1::2] = np.stack([np.full(20, -3.0), rng.uniform(0.5, 2, 20)], axis=-1)
     near = frame.ball.crossed_at + rng.uniform(-0.2, 0.2, (worlds, 2))
     frame.blue.position[:, 0] = np.clip(near, [-2.8, -1.8], [2.8, 1.8])
-    ours, theirs = task.reposition_ball(frame), task.reposition_ball(turned(frame))
+    ours, theirs = task.reposition_ball(frame), task.reposition_ball(rotated(frame))
     assert ours is not None
     assert theirs is not None
     assert np.array_equal(-ours[1][:, :2], theirs[1][:, :2])
     aside = np.abs(ours[1][:, :2] - np.clip(frame.ball.crossed_at, [-2.8, -1.8], [2.8, 1.8]))
-    assert (aside.max(axis=1) > 0.01).sum() > 10, "no place was taken"
+    assert (aside.max(axis=1) > 0.01).sum() > 10, "no position was occupied"
 
 
-def test_through_one_contact_the_turned_game_stays_the_same() -> None:
-    frame = Frame(lonely(1), 3, 3)
+def test_through_one_contact_the_rotated_match_stays_the_same() -> None:
+    frame = Frame(spread_out(1), 3, 3)
     frame.ball.position[:] = [[0.0, -0.25]]
     frame.ball.velocity[:] = 0.0
     frame.blue.heading[:, 1] = [0.6, 0.8]
@@ -101,11 +101,11 @@ def test_through_one_contact_the_turned_game_stays_the_same() -> None:
         ours.step(actions)
         theirs.step(actions[:, TEAMS])
     assert np.abs(ours.frame.ball.position[0] - [0.0, -0.25]).max() > 0.05, "the ball was hit"
-    assert np.abs(turned(ours.frame).rows - theirs.frame.rows)[:, :2].max() < 1e-4
+    assert np.abs(rotated(ours.frame).rows - theirs.frame.rows)[:, :2].max() < 1e-4
 
 
-def test_a_goal_counts_for_whom_it_should_on_both_sides() -> None:
-    frame = Frame(lonely(2), 3, 3)
+def test_a_goal_counts_for_the_right_team_on_both_sides() -> None:
+    frame = Frame(spread_out(2), 3, 3)
     frame.ball.position[:] = [[0.6, 0.0], [-0.6, 0.0]]
     frame.ball.velocity[:] = [[1.5, 0.0], [-1.5, 0.0]]
     ours, theirs = both(frame.rows, 2)
@@ -122,24 +122,24 @@ def test_a_goal_counts_for_whom_it_should_on_both_sides() -> None:
     assert scores == [[1.0, -1.0], [-1.0, 1.0]]
 
 
-def test_neither_side_is_better_off() -> None:
+def test_both_teams_win_equally_often() -> None:
     worlds, steps = 150, 400
     matches = Matches(VssSelfPlay(), worlds, seed=5, controllers={"all": "chase"}, threads=2)
     matches.reset()
     wins = np.zeros(2)
-    nobody = np.zeros((worlds, 0, 2), np.float32)
+    no_actions = np.zeros((worlds, 0, 2), np.float32)
     for _ in range(steps):
-        outcome = matches.step(nobody)
+        outcome = matches.step(no_actions)
         score = outcome.metrics["goal_score"][outcome.terminated]
         wins += [(score > 0).sum(), (score < 0).sum()]
     assert wins.sum() > 50
     assert abs(wins[0] - wins[1]) < 3.0 * wins.sum() ** 0.5
 
 
-def test_chases_of_the_turned_game_are_turned() -> None:
+def test_chase_acts_symmetrically() -> None:
     rows = Crowd().get_initial_positions_frame(WorldRng.seeded(0, 8)).rows
     views = []
-    for start in (rows, turned(Frame(rows, 3, 3)).rows):
+    for start in (rows, rotated(Frame(rows, 3, 3)).rows):
         matches = Matches(VssSelfPlay(), 8, controllers={"all": "chase"})
         matches.reset(rows=start)
         matches.step(np.zeros((8, 0, 2), np.float32))

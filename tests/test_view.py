@@ -3,7 +3,7 @@ import pytest
 
 from rsoccer import _core
 from rsoccer._core import CROSSINGS
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NOTHING, Frame
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NO_CROSSING, Frame
 from rsoccer.view import View, Viewpoint
 from tests import view_reference
 
@@ -16,19 +16,21 @@ def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
     return frame
 
 
-def seen(frame: Frame, observers: list[int], sides: tuple[str, ...] = ("blue", "yellow")) -> View:
+def view_of(
+    frame: Frame, observers: list[int], sides: tuple[str, ...] = ("blue", "yellow")
+) -> View:
     viewpoint = Viewpoint(frame.n_blue, frame.n_yellow, observers, sides)
     view = viewpoint.new_view(len(frame))
     viewpoint.fill(frame, view)
     return view
 
 
-def turned(frame: Frame) -> Frame:
-    """The same moment with the teams swapped and the field turned half round."""
+def rotated(frame: Frame) -> Frame:
+    """The same state with the teams swapped and the field rotated by half a turn."""
     other = Frame.empty(len(frame), frame.n_yellow, frame.n_blue)
-    for mine, theirs in ((other.blue, frame.yellow), (other.yellow, frame.blue)):
-        mine.data[:] = theirs.data
-        for vector in (mine.position, mine.heading, mine.velocity):
+    for team, source in ((other.blue, frame.yellow), (other.yellow, frame.blue)):
+        team.data[:] = source.data
+        for vector in (team.position, team.heading, team.velocity):
             vector *= -1
     other.ball.data[:] = frame.ball.data
     horizontal = other.ball.spin[..., :2]
@@ -40,9 +42,9 @@ def turned(frame: Frame) -> Frame:
     return other
 
 
-def test_blue_sees_itself_then_teammates_in_a_ring_then_opponents() -> None:
+def test_slots_are_ego_then_teammates_in_ring_order_then_opponents() -> None:
     frame = random_frame(4, 3, 3)
-    view = seen(frame, [1])
+    view = view_of(frame, [1])
     order = [1, 2, 0, 3, 4, 5]
     assert (view.robots.data[:, 0] == frame.robots.data[:, order]).all()
     assert (view.ego.data[:, 0] == frame.blue.data[:, 1]).all()
@@ -51,19 +53,19 @@ def test_blue_sees_itself_then_teammates_in_a_ring_then_opponents() -> None:
     assert (view.ball.data[:, 0] == frame.ball.data).all()
 
 
-def test_yellow_sees_what_blue_would_see_in_the_turned_game() -> None:
+def test_yellows_view_is_blues_view_of_the_rotated_field() -> None:
     frame = random_frame(9, 3, 2)
-    assert {NOTHING, GOAL_RIGHT, GOAL_LEFT} == set(frame.ball.crossed.tolist())
-    yellow = seen(frame, [3, 4])
-    blue = seen(turned(frame), [0, 1])
+    assert {NO_CROSSING, GOAL_RIGHT, GOAL_LEFT} == set(frame.ball.crossed.tolist())
+    yellow = view_of(frame, [3, 4])
+    blue = view_of(rotated(frame), [0, 1])
     assert np.array_equal(yellow.robots.data, blue.robots.data)
     assert np.array_equal(yellow.ball.data, blue.ball.data)
-    assert not np.array_equal(yellow.ball.data, seen(frame, [0, 1]).ball.data)
+    assert not np.array_equal(yellow.ball.data, view_of(frame, [0, 1]).ball.data)
 
 
 def test_teams_of_different_size_leave_slots_empty() -> None:
     frame = random_frame(2, 1, 3)
-    view = seen(frame, [0, 2])
+    view = view_of(frame, [0, 2])
     assert view.robots.data.shape[2] == 1 + 2 + 3
     assert view.present.tolist() == [
         [True, False, False, True, True, True],
@@ -74,24 +76,24 @@ def test_teams_of_different_size_leave_slots_empty() -> None:
     assert (view.opponents.position[:, 1, 0] == -frame.blue.position[:, 0]).all()
 
 
-def test_only_the_sides_that_look_need_room() -> None:
+def test_slots_fit_the_sides_with_observers() -> None:
     frame = random_frame(2, 1, 3)
-    assert seen(frame, [0], sides=("blue",)).robots.data.shape[2] == 1 + 0 + 3
-    with pytest.raises(ValueError, match="robot 2 cannot look"):
-        seen(frame, [2], sides=("blue",))
+    assert view_of(frame, [0], sides=("blue",)).robots.data.shape[2] == 1 + 0 + 3
+    with pytest.raises(ValueError, match="robot 2 cannot observe"):
+        view_of(frame, [2], sides=("blue",))
 
 
-@pytest.mark.parametrize("seats", [slice(1, 3), np.array([0, 2])])
-def test_select_shows_some_of_the_observers(seats: slice | np.ndarray) -> None:
-    view = seen(random_frame(2, 3, 3), [0, 2, 4])
-    part = view.select(seats)
-    assert (part.ego.data == view.ego.data[:, seats]).all()
-    assert (part.opponents.data == view.opponents.data[:, seats]).all()
-    assert (part.present == view.present[seats]).all()
+@pytest.mark.parametrize("observers", [slice(1, 3), np.array([0, 2])])
+def test_select_returns_some_observers(observers: slice | np.ndarray) -> None:
+    view = view_of(random_frame(2, 3, 3), [0, 2, 4])
+    part = view.select(observers)
+    assert (part.ego.data == view.ego.data[:, observers]).all()
+    assert (part.opponents.data == view.opponents.data[:, observers]).all()
+    assert (part.present == view.present[observers]).all()
 
 
 def test_take_and_put_are_inverse() -> None:
-    view = seen(random_frame(5, 2, 2), [0, 3])
+    view = view_of(random_frame(5, 2, 2), [0, 3])
     worlds = np.array([1, 4])
     part = view.take(worlds)
     before = view.robots.data.copy()
@@ -101,22 +103,22 @@ def test_take_and_put_are_inverse() -> None:
     assert not np.shares_memory(part.ball.data, view.ball.data)
 
 
-def test_nobody_looking_is_fine() -> None:
-    assert seen(random_frame(3, 2, 2), []).robots.data.shape[:2] == (3, 0)
+def test_a_view_may_have_no_observers() -> None:
+    assert view_of(random_frame(3, 2, 2), []).robots.data.shape[:2] == (3, 0)
 
 
 @pytest.mark.parametrize(("n_blue", "n_yellow"), [(3, 3), (1, 3), (4, 2), (2, 0), (11, 11)])
-def test_all_see_what_the_reference_says_bit_for_bit(n_blue: int, n_yellow: int) -> None:
+def test_views_equal_the_reference_bit_for_bit(n_blue: int, n_yellow: int) -> None:
     frame = random_frame(3 * len(CROSSINGS), n_blue, n_yellow)
     frame.ball.crossed[:] = np.tile(np.arange(len(CROSSINGS)), 3)
-    view = seen(frame, list(range(n_blue + n_yellow)))
-    for seat in range(n_blue + n_yellow):
-        ball, robots = view_reference.seen(frame, seat)
-        assert view.ball.data[:, seat].tobytes() == ball.tobytes()
-        assert np.array_equal(view.robots.data[:, seat], robots)
+    view = view_of(frame, list(range(n_blue + n_yellow)))
+    for observer in range(n_blue + n_yellow):
+        ball, robots = view_reference.reference_view(frame, observer)
+        assert view.ball.data[:, observer].tobytes() == ball.tobytes()
+        assert np.array_equal(view.robots.data[:, observer], robots)
 
 
-def test_what_was_there_before_does_not_matter() -> None:
+def test_fill_overwrites_everything() -> None:
     frame = random_frame(4, 1, 3)
     viewpoint = Viewpoint(1, 3, [0, 2])
     view, fresh = viewpoint.new_view(4), viewpoint.new_view(4)
@@ -127,7 +129,7 @@ def test_what_was_there_before_does_not_matter() -> None:
     assert np.array_equal(view.ball.data, fresh.ball.data)
 
 
-def test_wrong_arrays_and_seats_are_refused_by_name() -> None:
+def test_wrong_arrays_and_slots_are_refused_by_name() -> None:
     frame, viewpoint = random_frame(4, 2, 2), _core.Viewpoint(4, [[0, 1, 2, None]], [False])
     ball, robots = np.zeros((4, 1, 14), np.float32), np.zeros((4, 1, 4, 11), np.float32)
     viewpoint.fill(frame.rows, ball, robots)

@@ -1,24 +1,26 @@
-"""What robots see of a frame, in NumPy: what the core writes is checked against it."""
+"""Reference implementation of views in NumPy, to check the core against."""
 
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
 from rsoccer.frame import Floats, Frame
-from rsoccer.view import SIDES, slots
+from rsoccer.view import SIDES, slot_counts
 
 
-def seen(frame: Frame, observer: int, sides: tuple[str, ...] = SIDES) -> tuple[Floats, Floats]:
-    """Ball (n, ball column) and robots (n, slots, robot column) as one robot sees them."""
-    n_teammates, n_opponents = slots(frame.n_blue, frame.n_yellow, sides)
+def reference_view(
+    frame: Frame, observer: int, sides: tuple[str, ...] = SIDES
+) -> tuple[Floats, Floats]:
+    """Ball (n, ball column) and robots (n, slots, robot column) in one observer's coordinates."""
+    n_teammates, n_opponents = slot_counts(frame.n_blue, frame.n_yellow, sides)
     teams = np.arange(frame.n_blue), frame.n_blue + np.arange(frame.n_yellow)
-    turned = observer >= frame.n_blue
-    teammates, opponents = teams[::-1] if turned else teams
+    rotated = observer >= frame.n_blue
+    teammates, opponents = teams[::-1] if rotated else teams
     teammates = np.roll(teammates, -int(np.flatnonzero(teammates == observer)[0]))
     robots = np.zeros((len(frame), 1 + n_teammates + n_opponents, len(ROBOT_COLUMNS)), np.float32)
     robots[:, : len(teammates)] = frame.robots.data[:, teammates]
     robots[:, 1 + n_teammates : 1 + n_teammates + len(opponents)] = frame.robots.data[:, opponents]
     ball = frame.ball.data.copy()
-    if turned:
+    if rotated:
         robots *= _signs(ROBOT_COLUMNS)
         ball *= _signs(BALL_COLUMNS)
         column = BALL_COLUMNS.index("crossed")
@@ -32,7 +34,7 @@ def _signs(columns: tuple[str, ...]) -> Floats:
     return np.where(flips, np.float32(-1.0), np.float32(1.0))
 
 
-# (crossings,) the code that yellow reads for each code of the frame
+# (crossings,) code of a crossing for yellow, by its code in the frame
 _SWAP = {"right": "left", "left": "right"}
 _OTHER_SIDE = np.array(
     [

@@ -1,12 +1,12 @@
-"""Robot soccer for reinforcement learning: thousands of matches at once, physics in Rust.
+"""Robot soccer for reinforcement learning: thousands of parallel matches, physics in Rust.
 
     >>> import rsoccer
     >>> matches = rsoccer.Matches("VSSSelfPlay-v0", worlds=1024, seed=0, threads=2)
     >>> observations = matches.reset()  # (1024, 6, o)
 
-`Matches` is the step loop, as arrays; `parallel_env` and `env` are PettingZoo's two interfaces to
-the same thing, `single_env` and `vector_env` Gymnasium's for one learner; a `Task` says what the
-robots are to learn.
+`Matches` steps many matches as arrays. `parallel_env` and `env` are PettingZoo's environments,
+`single_env` and `vector_env` Gymnasium's for one learner. A `Task` defines observations, actions,
+rewards and the ends of episodes, a `Policy` controls robots that do not learn.
 """
 
 from rsoccer._core import SimConfig, Simulator, build_info

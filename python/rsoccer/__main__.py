@@ -1,4 +1,4 @@
-"""`python -m rsoccer` is the command `rsoccer`."""
+"""Entry point of `python -m rsoccer`, the same as the command `rsoccer`."""
 
 import sys
 

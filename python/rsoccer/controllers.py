@@ -28,6 +28,7 @@ class PolicyGroup:
     name: str
     """Name of the group's first robot; it selects the group's random streams."""
     policy: Policy
+    """Policy of all these robots."""
     robots: NDArray[np.intp]
     """(k,) indices of the robots."""
     observer_indices: Indices
@@ -75,11 +76,20 @@ class PolicyGroup:
             self.memory[name][worlds] = array
 
     def take(self, worlds: NDArray[np.intp]) -> GroupState:
-        """Return a copy of the streams and the memory of some worlds."""
+        """Return a copy of the streams and the memory of some worlds.
+
+        Args:
+            worlds: (k,) indices of the worlds.
+        """
         return self.rng[worlds], {name: array[worlds] for name, array in self.memory.items()}
 
     def put(self, worlds: NDArray[np.intp], state: GroupState) -> None:
-        """Overwrite the streams and the memory of some worlds with what `take` returned."""
+        """Overwrite the streams and the memory of some worlds.
+
+        Args:
+            worlds: (k,) indices of the worlds.
+            state: streams and memory of k worlds, as `take` returns them.
+        """
         rng, memory = state
         self.rng.put(worlds, rng)
         for name, array in memory.items():
@@ -101,6 +111,7 @@ class Assignment:
     observers: NDArray[np.intp]
     """(observers,) indices of the robots that observe, in the order of a state row."""
     groups: list[PolicyGroup]
+    """Robots with a policy, one group per policy."""
 
 
 def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignment:
@@ -111,6 +122,9 @@ def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignme
         controllers: replacements for the task's default controllers.
         worlds: number of worlds; the groups' streams and memory have this length and are not
             started yet.
+
+    Returns:
+        The learners, the observers, and one group for each policy.
 
     Raises:
         TypeError: something that is not a controller.
@@ -170,7 +184,10 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
 
 
 def given_by_name(controllers: Controllers | None) -> dict[str, Controller]:
-    """Return a copy of a mapping of controllers; an empty one for None.
+    """Return a copy of a mapping of controllers.
+
+    Args:
+        controllers: controllers by robot, team or "all"; None for an empty mapping.
 
     Raises:
         TypeError: not a mapping.

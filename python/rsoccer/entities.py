@@ -201,7 +201,7 @@ def from_frame(frame: Frame, world: int) -> Entities:
     """
     position, velocity = frame.ball.position[world], frame.ball.velocity[world]
     (x, y), (v_x, v_y) = position.tolist(), velocity.tolist()
-    ball = Ball(x, y, float(frame.ball.height[world]), v_x, v_y, float(frame.ball.rise[world]))
+    ball = Ball(x, y, float(frame.ball.height[world]), v_x, v_y, float(frame.ball.vertical_velocity[world]))
     return Entities(ball, _robots(frame.blue, world, False), _robots(frame.yellow, world, True))
 
 
@@ -229,7 +229,7 @@ def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
     frame, ball = Frame.empty(1, n_blue, n_yellow), entities.ball
     frame.ball.position[0] = ball.x, ball.y
     frame.ball.velocity[0] = ball.v_x, ball.v_y
-    frame.ball.height[0], frame.ball.rise[0] = ball.z, ball.v_z
+    frame.ball.height[0], frame.ball.vertical_velocity[0] = ball.z, ball.v_z
     for i, robot in enumerate(robots):
         frame.robots.position[0, i] = robot.x, robot.y
         frame.robots.heading[0, i] = headings(robot.theta)

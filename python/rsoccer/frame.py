@@ -1,8 +1,8 @@
-"""State as everyone sees it: rows of named columns, one row a world.
+"""State rows with named columns: ball and robots of n worlds in absolute coordinates.
 
-A frame is absolute: origin at the field's centre, x towards yellow's goal, y to the left of
-that, SI units, blue attacks +x. A heading is `(cos, sin)`, so nothing wraps and a half turn is
-a sign flip. Column names exist once, in the core; everything here is derived from them.
+The origin is the field's centre, x points at yellow's goal and y to the left of x, so blue attacks
+towards +x. Units are SI. A heading is stored as (cos, sin), so it never wraps, and half a turn is a
+change of sign. The core defines the columns; this module derives everything from their names.
 """
 
 from typing import Any
@@ -16,14 +16,22 @@ Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 Array = NDArray[Any]
 
-# What `crossed` may say, as numbers that can be compared with the column.
-NOTHING = CROSSINGS.index("none")
-GOAL_RIGHT = CROSSINGS.index("goal_right")  # the goal at +x: yellow's, so blue scored
-GOAL_LEFT = CROSSINGS.index("goal_left")
+# Values of `BallColumns.crossed`.
+NO_CROSSING = CROSSINGS.index("none")
+GOAL_RIGHT = CROSSINGS.index("goal_right")  # the goal at +x, yellow's: blue scored
+GOAL_LEFT = CROSSINGS.index("goal_left")  # the goal at -x, blue's: yellow scored
 
 
-def span(columns: tuple[str, ...], *names: str) -> slice:
-    """Where neighbouring columns lie, as a slice, so that reading them copies nothing."""
+def column_slice(columns: tuple[str, ...], *names: str) -> slice:
+    """Return the slice of neighbouring columns, so that reading them copies nothing.
+
+    Args:
+        columns: names of all columns.
+        *names: names of the neighbouring columns, in order.
+
+    Raises:
+        ImportError: the columns are not neighbours in this order.
+    """
     first = columns.index(names[0])
     if columns[first : first + len(names)] != names:
         raise ImportError(f"the core's columns {columns} do not keep {names} side by side")
@@ -31,72 +39,87 @@ def span(columns: tuple[str, ...], *names: str) -> slice:
 
 
 class BallColumns:
-    """Named views onto ball columns, `data` (..., ball column). Nothing is copied."""
+    """Ball state by name. All properties are views that share the memory of `data`.
+
+    Attributes:
+        data: (..., ball column) columns in the order of `BALL_COLUMNS`.
+    """
 
     __slots__ = ("data",)
 
-    _POSITION = span(BALL_COLUMNS, "x", "y")
-    _VELOCITY = span(BALL_COLUMNS, "v_x", "v_y")
+    _POSITION = column_slice(BALL_COLUMNS, "x", "y")
+    _VELOCITY = column_slice(BALL_COLUMNS, "v_x", "v_y")
     _HEIGHT = BALL_COLUMNS.index("z")
-    _RISE = BALL_COLUMNS.index("v_z")
-    _SPIN = span(BALL_COLUMNS, "spin_x", "spin_y", "spin_z")
+    _VERTICAL_VELOCITY = BALL_COLUMNS.index("v_z")
+    _SPIN = column_slice(BALL_COLUMNS, "spin_x", "spin_y", "spin_z")
     _LAST_TOUCH = BALL_COLUMNS.index("last_touch")
     _CROSSED = BALL_COLUMNS.index("crossed")
-    _CROSSED_AT = span(BALL_COLUMNS, "crossed_x", "crossed_y")
+    _CROSSED_AT = column_slice(BALL_COLUMNS, "crossed_x", "crossed_y")
 
     def __init__(self, data: Floats) -> None:
-        """Name the columns of `data` (..., ball column)."""
+        """Name the columns of an array.
+
+        Args:
+            data: (..., ball column) float32; not copied.
+        """
         self.data = data
 
     @property
     def position(self) -> Floats:
-        """(..., 2) metres."""
+        """(..., 2) position x, y in metres."""
         return self.data[..., self._POSITION]
 
     @property
     def velocity(self) -> Floats:
-        """(..., 2) metres per second."""
+        """(..., 2) velocity along x, y in m/s."""
         return self.data[..., self._VELOCITY]
 
     @property
     def height(self) -> Floats:
-        """(...) metres, of its lowest point; 0 on the floor."""
+        """(...) height of the ball's lowest point in metres; 0 on the floor."""
         return self.data[..., self._HEIGHT]
 
     @property
-    def rise(self) -> Floats:
-        """(...) metres per second upward."""
-        return self.data[..., self._RISE]
+    def vertical_velocity(self) -> Floats:
+        """(...) velocity upward in m/s."""
+        return self.data[..., self._VERTICAL_VELOCITY]
 
     @property
     def spin(self) -> Floats:
-        """(..., 3) radians per second about the field's axes."""
+        """(..., 3) angular velocity about the field's axes x, y, z in rad/s."""
         return self.data[..., self._SPIN]
 
     @property
     def last_touch(self) -> Floats:
-        """(...) the robot that touched it last, by its place in the frame; -1 for none."""
+        """(...) index of the last robot that touched the ball, blue first; -1 for none."""
         return self.data[..., self._LAST_TOUCH]
 
     @property
     def crossed(self) -> Floats:
-        """(...) what its centre crossed in the last step, a position in `CROSSINGS`."""
+        """(...) line or goal that the ball's centre crossed in the last step.
+
+        An index into `CROSSINGS`: compare with `NO_CROSSING`, `GOAL_RIGHT` and `GOAL_LEFT`.
+        """
         return self.data[..., self._CROSSED]
 
     @property
     def crossed_at(self) -> Floats:
-        """(..., 2) metres; where it crossed, if it did."""
+        """(..., 2) position x, y of the crossing in metres; valid if there was one."""
         return self.data[..., self._CROSSED_AT]
 
 
 class RobotColumns:
-    """Named views onto robot columns, `data` (..., robot column). Nothing is copied."""
+    """Robot state by name. All properties are views that share the memory of `data`.
+
+    Attributes:
+        data: (..., robot column) columns in the order of `ROBOT_COLUMNS`.
+    """
 
     __slots__ = ("data",)
 
-    _POSITION = span(ROBOT_COLUMNS, "x", "y")
-    _HEADING = span(ROBOT_COLUMNS, "cos", "sin")
-    _VELOCITY = span(ROBOT_COLUMNS, "v_x", "v_y")
+    _POSITION = column_slice(ROBOT_COLUMNS, "x", "y")
+    _HEADING = column_slice(ROBOT_COLUMNS, "cos", "sin")
+    _VELOCITY = column_slice(ROBOT_COLUMNS, "v_x", "v_y")
     _SPIN = ROBOT_COLUMNS.index("v_theta")
     _INFRARED = ROBOT_COLUMNS.index("infrared")
     _TOUCHED_BALL = ROBOT_COLUMNS.index("touched_ball")
@@ -104,57 +127,89 @@ class RobotColumns:
     _CRASH_SPEED = ROBOT_COLUMNS.index("crash_speed")
 
     def __init__(self, data: Floats) -> None:
-        """Name the columns of `data` (..., robot column)."""
+        """Name the columns of an array.
+
+        Args:
+            data: (..., robot column) float32; not copied.
+        """
         self.data = data
 
     @property
     def position(self) -> Floats:
-        """(..., 2) metres."""
+        """(..., 2) position x, y in metres."""
         return self.data[..., self._POSITION]
 
     @property
     def heading(self) -> Floats:
-        """(..., 2) cosine and sine of where it faces."""
+        """(..., 2) cosine and sine of the heading."""
         return self.data[..., self._HEADING]
 
     @property
     def velocity(self) -> Floats:
-        """(..., 2) metres per second."""
+        """(..., 2) velocity along x, y in m/s."""
         return self.data[..., self._VELOCITY]
 
     @property
     def spin(self) -> Floats:
-        """(...) radians per second, positive to the left."""
+        """(...) turn rate in rad/s, positive to the left."""
         return self.data[..., self._SPIN]
 
     @property
     def infrared(self) -> Floats:
-        """(...) 1 where the ball cuts its break beam, else 0."""
+        """(...) 1 if the ball interrupts the robot's break beam, else 0."""
         return self.data[..., self._INFRARED]
 
     @property
     def touched_ball(self) -> Floats:
-        """(...) 1 where it touched the ball in the last step, else 0."""
+        """(...) 1 if the robot touched the ball in the last step, else 0."""
         return self.data[..., self._TOUCHED_BALL]
 
     @property
     def touched_foe(self) -> Floats:
-        """(...) 1 where it touched a robot of the other side in the last step, else 0."""
+        """(...) 1 if the robot touched a robot of the other team in the last step, else 0."""
         return self.data[..., self._TOUCHED_FOE]
 
     @property
     def crash_speed(self) -> Floats:
-        """(...) m/s, closing speed of its hardest contact with a robot in the last step."""
+        """(...) closing speed of the hardest contact with a robot in the last step, m/s."""
         return self.data[..., self._CRASH_SPEED]
 
 
 class Frame:
-    """One moment in each of n worlds, absolute; named views onto `rows` (n, row)."""
+    """Absolute state of n worlds at one time, by name.
+
+    The parts are views: a write to one of them changes `rows`.
+
+    Attributes:
+        rows: (n, row) state rows: the ball's columns, then each robot's, blue first.
+        n_blue: number of blue robots.
+        n_yellow: number of yellow robots.
+        ball: ball columns, (n, ...).
+        robots: columns of all robots, (n, robots, ...), blue first.
+        blue: columns of the blue robots, (n, n_blue, ...).
+        yellow: columns of the yellow robots, (n, n_yellow, ...).
+
+    Example:
+        >>> from rsoccer import Frame
+        >>> frame = Frame.empty(4, n_blue=3, n_yellow=3)
+        >>> frame.ball.position[:] = (0.5, 0.0)
+        >>> frame.robots.position.shape
+        (4, 6, 2)
+    """
 
     __slots__ = ("ball", "blue", "n_blue", "n_yellow", "robots", "rows", "yellow")
 
     def __init__(self, rows: Floats, n_blue: int, n_yellow: int) -> None:
-        """View `rows` (n, row), C-contiguous float32, as ball, blue robots, yellow robots."""
+        """View state rows as ball, blue robots and yellow robots.
+
+        Args:
+            rows: (n, row) C-contiguous float32; not copied.
+            n_blue: number of blue robots.
+            n_yellow: number of yellow robots.
+
+        Raises:
+            ValueError: rows of another shape, type or memory layout.
+        """
         _check_rows(rows, row_size(n_blue, n_yellow))
         self.rows = rows
         self.n_blue = n_blue
@@ -162,14 +217,20 @@ class Frame:
         robots = rows[:, len(BALL_COLUMNS) :].reshape(
             len(rows), n_blue + n_yellow, len(ROBOT_COLUMNS)
         )
-        self.ball = BallColumns(rows[:, : len(BALL_COLUMNS)])  # (n, ...)
-        self.robots = RobotColumns(robots)  # (n, robots, ...) blue first
-        self.blue = RobotColumns(robots[:, :n_blue])  # (n, n_blue, ...)
-        self.yellow = RobotColumns(robots[:, n_blue:])  # (n, n_yellow, ...)
+        self.ball = BallColumns(rows[:, : len(BALL_COLUMNS)])
+        self.robots = RobotColumns(robots)
+        self.blue = RobotColumns(robots[:, :n_blue])
+        self.yellow = RobotColumns(robots[:, n_blue:])
 
     @classmethod
     def empty(cls, n: int, n_blue: int, n_yellow: int) -> "Frame":
-        """A frame of zeros, nobody on the ball yet, all robots facing +x, to be filled in."""
+        """Return a frame to be filled in: zeros, no last touch, all robots facing +x.
+
+        Args:
+            n: number of worlds.
+            n_blue: number of blue robots.
+            n_yellow: number of yellow robots.
+        """
         frame = cls(np.zeros((n, row_size(n_blue, n_yellow)), np.float32), n_blue, n_yellow)
         frame.robots.heading[..., 0] = 1.0
         frame.ball.last_touch[:] = -1.0
@@ -180,15 +241,24 @@ class Frame:
         return Frame(self.rows.copy(), self.n_blue, self.n_yellow)
 
     def take(self, worlds: NDArray[np.intp]) -> "Frame":
-        """Return a copy of some worlds; `worlds` (k,) are their indices."""
+        """Return a copy of some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
         return Frame(self.rows[worlds], self.n_blue, self.n_yellow)
 
     def put(self, worlds: NDArray[np.intp], part: "Frame") -> None:
-        """Overwrite the worlds with indices `worlds` (k,) by those of `part`."""
+        """Overwrite some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+            part: frame of k worlds.
+        """
         self.rows[worlds] = part.rows
 
     def __reduce__(self) -> tuple[type["Frame"], tuple[Floats, int, int]]:
-        # Pickled piece by piece, the names would become copies of the rows.
+        # Pickled attribute by attribute, the views would become copies of the rows.
         return Frame, (self.rows, self.n_blue, self.n_yellow)
 
     def __len__(self) -> int:
@@ -196,18 +266,35 @@ class Frame:
 
 
 def length(x: Floats, y: Floats) -> Floats:
-    """Lengths of vectors (x, y). The same in every batch, and faster than hypot or a norm."""
+    """Return the Euclidean lengths of vectors (x, y).
+
+    The result does not depend on the batch; `np.hypot` and `np.linalg.norm` are slower.
+
+    Args:
+        x: first components, any shape.
+        y: second components, of the same shape.
+    """
     lengths: Floats = np.sqrt(x * x + y * y)
     return lengths
 
 
 def row_size(n_blue: int, n_yellow: int) -> int:
-    """Columns of one row: the ball's, then each robot's."""
+    """Return the number of columns of a state row: the ball's, then each robot's.
+
+    Args:
+        n_blue: number of blue robots.
+        n_yellow: number of yellow robots.
+    """
     return len(BALL_COLUMNS) + (n_blue + n_yellow) * len(ROBOT_COLUMNS)
 
 
 def robot_names(n_blue: int, n_yellow: int) -> tuple[str, ...]:
-    """`blue_0`, ..., `yellow_0`, ...: names in the order of a row."""
+    """Return the robots' names in the order of a row: `blue_0`, ..., `yellow_0`, ...
+
+    Args:
+        n_blue: number of blue robots.
+        n_yellow: number of yellow robots.
+    """
     blue = tuple(f"blue_{i}" for i in range(n_blue))
     return blue + tuple(f"yellow_{i}" for i in range(n_yellow))
 
@@ -216,4 +303,5 @@ def _check_rows(rows: Array, size: int) -> None:
     if rows.ndim != 2 or rows.shape[1] != size:
         raise ValueError(f"rows: expected shape (n, {size}), got {rows.shape}")
     if rows.dtype != np.float32 or not rows.flags.c_contiguous:
-        raise ValueError(f"rows: expected C-contiguous float32, got {rows.dtype}")
+        order = "" if rows.flags.c_contiguous else ", not C-contiguous"
+        raise ValueError(f"rows: expected C-contiguous float32, got {rows.dtype}{order}")

@@ -61,7 +61,14 @@ def lineup(
 
 
 def opponents_of(task: Task) -> list[str]:
-    """Return the names of the default policies of the team that the learners play against."""
+    """Return the names of the default policies of the team that the learners play against.
+
+    Args:
+        task: the task that is played.
+
+    Raises:
+        ValueError: a task without learners.
+    """
     defaults = _teams(task)[1].values()
     names = (DEFAULT_OPPONENT if isinstance(default, Learn) else default for default in defaults)
     return list(dict.fromkeys(names))

@@ -16,7 +16,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.view import View, Viewpoint
 
 # How a field that is not plain per-world state takes part in copying and saving.
-DERIVED: Final = {"role": "derived"}  # copied, but not saved: computed anew from saved fields
+DERIVED: Final = {"role": "derived"}  # copied, but not saved: computed from saved fields
 SHARED: Final = {"role": "shared"}  # the same for all worlds: neither copied nor saved
 STREAM: Final = {"role": "stream"}  # copied, and saved beside the other random streams
 
@@ -63,7 +63,11 @@ class Play:
         self.fill_views(viewpoint)
 
     def fill_views(self, viewpoint: Viewpoint) -> None:
-        """Compute both views from the frames."""
+        """Compute both views from the frames.
+
+        Args:
+            viewpoint: fills the views.
+        """
         viewpoint.fill(self.frame, self.view)
         viewpoint.fill(self.last_frame, self.last_view)
 

@@ -56,7 +56,7 @@ def register(name: str, task_class: type[Task]) -> None:
     learners = None if _has_required_options(task_class) else len(task_class().agents)
     task_class.name = name
     _TASKS[name] = task_class
-    ids.announce(name, learners)
+    ids.register_ids(name, learners)
 
 
 def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the task's own)
@@ -77,7 +77,7 @@ def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the t
         raise ValueError(f"name: {name!r} is already taken")
     learners = len(make_task(task, **options).agents)  # raises for invalid options
     _ALIASES[name] = Alias(task, options)
-    ids.announce(name, learners)
+    ids.register_ids(name, learners)
 
 
 def retire(name: str, hint: str) -> None:

@@ -1,43 +1,78 @@
-"""What `Matches` needs of whatever moves the robots: ours, another simulator, or real robots."""
+"""Interface of simulators that `Matches` can use: `rsoccer.Simulator`, others, or real robots."""
 
 from typing import Protocol, runtime_checkable
 
 from rsoccer.frame import Floats, Mask
 
 
-class Worlds(Protocol):
-    """Moves the robots of n worlds. `rsoccer.Simulator` is one."""
+class SimulatorLike(Protocol):
+    """Simulator of the robots and balls of n worlds, such as `rsoccer.Simulator`."""
 
     def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
-        """Start the worlds of the mask (n,) at `rows` (k, row); write their rows into `out`."""
+        """Start new matches in some worlds.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) initial state rows.
+            out: (n, row) output; the rows of the k worlds are overwritten.
+
+        Raises:
+            ValueError: bodies that overlap or are outside. Nothing may have changed.
+        """
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
-        """Put the balls (k, ball column) of the worlds of the mask (n,) elsewhere, and only them.
+        """Move the balls of some worlds; their robots and clocks go on.
 
-        Robots and all else go on; write the rows of these worlds into `out`. Only tasks with a
-        `reposition_ball` of their own ask for it.
+        `Matches` calls this method only for tasks that override `Task.reposition_ball`.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            balls: (k, ball column) new ball states; position, velocity and spin count.
+            out: (n, row) output; the rows of the k worlds are overwritten.
+
+        Raises:
+            ValueError: a ball inside a robot or outside. Nothing may have changed.
         """
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-        """Move active worlds one control step; write their rows into `out` (n, row).
+        """Advance the active worlds by one control step.
 
-        May raise; `Matches` are torn then, until all worlds are placed anew.
+        Any exception leaves the calling `Matches` inconsistent until all worlds are placed again.
+
+        Args:
+            commands: (n, robots, command) commands in SI units.
+            out: (n, row) output; the rows of the active worlds are overwritten.
+            active: (n,) bool, worlds to advance; all if None.
         """
 
 
 @runtime_checkable
-class Snapshots(Protocol):
-    """What it must do besides, to be saved with `Matches.state_dict`."""
+class SupportsSnapshots(Protocol):
+    """Additional methods of a simulator that `Matches.state_dict` can save."""
 
     def snapshot(self) -> bytes:
-        """All worlds, exactly."""
+        """Return the exact state of all worlds."""
 
     def restore(self, snapshot: bytes) -> None:
-        """Go back to a snapshot."""
+        """Overwrite all worlds with a saved state.
+
+        Args:
+            snapshot: bytes from `snapshot`.
+
+        Raises:
+            ValueError: bytes that are damaged or from another simulator. Nothing may have changed.
+        """
 
 
-def snapshots(simulator: Worlds) -> Snapshots:
-    """The simulator as what can be saved, or TypeError if it cannot."""
-    if not isinstance(simulator, Snapshots):
+def require_snapshots(simulator: SimulatorLike) -> SupportsSnapshots:
+    """Return a simulator after a check that it can be saved.
+
+    Args:
+        simulator: the simulator.
+
+    Raises:
+        TypeError: the simulator has no `snapshot` or no `restore`.
+    """
+    if not isinstance(simulator, SupportsSnapshots):
         raise TypeError(f"{type(simulator).__name__} has no snapshot and restore")
     return simulator

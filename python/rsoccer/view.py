@@ -1,7 +1,7 @@
-"""State as each robot that looks sees it: ego, teammates, opponents and ball, always attacking +x.
+"""State as each observer sees it: ego, teammates, opponents and ball, always attacking +x.
 
-For yellow the game is turned half round, so no task and no policy asks "am I yellow?". The core
-fills a view, for all observers of all worlds in one call.
+For yellow observers the field is rotated by half a turn, so tasks and policies treat both teams
+alike. The core fills the views of all observers of all worlds in one call.
 """
 
 from collections.abc import Sequence
@@ -17,101 +17,154 @@ SIDES = ("blue", "yellow")
 
 
 class View:
-    """One moment as each observer has it; `robots` are ego, then teammates, then opponents.
+    """State of n worlds at one time in the coordinates of each observer.
 
-    Where teams differ in size some slots stay empty: zeros, and False in `present`.
+    Each observer has a row of robot slots: itself, its teammates, its opponents. In teams of
+    different size some slots stay empty: zeros, and False in `present`.
+
+    Attributes:
+        n_teammates: number of teammate slots.
+        present: (observers, 1 + teammates + opponents) bool, whether a robot fills the slot.
+        ball: ball columns, (n, observers, ...).
+        robots: columns of all slots, (n, observers, 1 + teammates + opponents, ...).
+        ego: columns of the observer itself, (n, observers, ...).
+        teammates: columns of its teammates, (n, observers, teammates, ...).
+        opponents: columns of its opponents, (n, observers, opponents, ...).
     """
 
     __slots__ = ("ball", "ego", "n_teammates", "opponents", "present", "robots", "teammates")
 
     def __init__(self, ball: Floats, robots: Floats, n_teammates: int, present: Mask) -> None:
-        """View `ball` (n, observers, ...) and `robots` (n, observers, 1 + teammates + opponents, ...) by name."""
-        self.n_teammates = n_teammates
-        self.present = (
-            present  # (observers, 1 + teammates + opponents) whether a robot is in the slot
-        )
-        self.ball = BallColumns(ball)  # (n, observers, ...)
-        self.robots = RobotColumns(robots)  # (n, observers, 1 + teammates + opponents, ...)
-        self.ego = RobotColumns(robots[:, :, 0])  # (n, observers, ...)
-        self.teammates = RobotColumns(
-            robots[:, :, 1 : 1 + n_teammates]
-        )  # (n, observers, teammates, ...)
-        self.opponents = RobotColumns(
-            robots[:, :, 1 + n_teammates :]
-        )  # (n, observers, opponents, ...)
+        """Name the parts of two arrays.
 
-    def select(self, seats: slice | NDArray[np.intp]) -> "View":
-        """The view of some of the observers, by their place among them."""
-        robots = self.robots.data[:, seats]
-        return View(self.ball.data[:, seats], robots, self.n_teammates, self.present[seats])
+        Args:
+            ball: (n, observers, ball column) float32; not copied.
+            robots: (n, observers, 1 + teammates + opponents, robot column) float32; not copied.
+            n_teammates: number of teammate slots.
+            present: (observers, 1 + teammates + opponents) bool, whether a robot fills the slot.
+        """
+        self.n_teammates = n_teammates
+        self.present = present
+        self.ball = BallColumns(ball)
+        self.robots = RobotColumns(robots)
+        self.ego = RobotColumns(robots[:, :, 0])
+        self.teammates = RobotColumns(robots[:, :, 1 : 1 + n_teammates])
+        self.opponents = RobotColumns(robots[:, :, 1 + n_teammates :])
+
+    def select(self, observers: slice | NDArray[np.intp]) -> "View":
+        """Return the view of some observers.
+
+        Args:
+            observers: (k,) positions among the observers. A slice shares memory with this view,
+                an array of indices copies.
+        """
+        robots = self.robots.data[:, observers]
+        return View(self.ball.data[:, observers], robots, self.n_teammates, self.present[observers])
 
     def take(self, worlds: NDArray[np.intp]) -> "View":
-        """A copy of the view in some worlds."""
+        """Return a copy of the view in some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
         return View(
             self.ball.data[worlds], self.robots.data[worlds], self.n_teammates, self.present
         )
 
     def put(self, worlds: NDArray[np.intp], part: "View") -> None:
-        """Overwrite the view in some worlds."""
+        """Overwrite the view in some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+            part: view of k worlds with the same observers.
+        """
         self.ball.data[worlds] = part.ball.data
         self.robots.data[worlds] = part.robots.data
 
     def __reduce__(self) -> tuple[type["View"], tuple[Floats, Floats, int, Mask]]:
-        # Pickled piece by piece, the names would become copies.
+        # Pickled attribute by attribute, the parts would become copies.
         return View, (self.ball.data, self.robots.data, self.n_teammates, self.present)
 
 
-def slots(n_blue: int, n_yellow: int, sides: Sequence[str] = SIDES) -> tuple[int, int]:
-    """Teammates and opponents that a view has room for: those of the largest team among `sides`."""
+def slot_counts(n_blue: int, n_yellow: int, sides: Sequence[str] = SIDES) -> tuple[int, int]:
+    """Return the numbers of teammate slots and of opponent slots in a view.
+
+    Args:
+        n_blue: number of blue robots.
+        n_yellow: number of yellow robots.
+        sides: teams with observers; the slots fit the largest of them.
+    """
     sizes = {"blue": (n_blue, n_yellow), "yellow": (n_yellow, n_blue)}
     return max(sizes[side][0] for side in sides) - 1, max(sizes[side][1] for side in sides)
 
 
 class Viewpoint:
-    """Who looks, and from where: turns frames into views, in place."""
+    """Conversion of frames into the views of a set of observers, in place.
+
+    Attributes:
+        observers: (observers,) indices of the observing robots in the order of a state row.
+    """
 
     def __init__(
         self, n_blue: int, n_yellow: int, observers: Sequence[int], sides: Sequence[str] = SIDES
     ) -> None:
-        """Look through robots `observers`; slots fit the largest team among `sides`."""
-        self._made_of = n_blue, n_yellow, tuple(observers), tuple(sides)
-        self._n_teammates, self._n_opponents = slots(n_blue, n_yellow, sides)
-        self.observers = np.asarray(observers, np.intp)  # (observers,)
-        seats = [self._slots(observer, n_blue, n_yellow) for observer in observers]
-        turned = [bool(observer >= n_blue) for observer in observers]
-        self._viewpoint = _core.Viewpoint(n_blue + n_yellow, seats, turned)
+        """Prepare the conversion for a set of observers.
+
+        Args:
+            n_blue: number of blue robots.
+            n_yellow: number of yellow robots.
+            observers: indices of the observing robots, 0 to n_blue + n_yellow - 1.
+            sides: teams with observers; the slots fit the largest of them.
+
+        Raises:
+            ValueError: an observer whose team does not fit into the slots.
+        """
+        self._arguments = n_blue, n_yellow, tuple(observers), tuple(sides)
+        self._n_teammates, self._n_opponents = slot_counts(n_blue, n_yellow, sides)
+        self.observers = np.asarray(observers, np.intp)
+        slots = [self._slots(observer, n_blue, n_yellow) for observer in observers]
+        rotated = [bool(observer >= n_blue) for observer in observers]
+        self._viewpoint = _core.Viewpoint(n_blue + n_yellow, slots, rotated)
         shape = (len(observers), 1 + self._n_teammates + self._n_opponents)
-        present = [robot is not None for seat in seats for robot in seat]
+        present = [robot is not None for row in slots for robot in row]
         self._present = np.array(present, np.bool_).reshape(shape)
 
     def new_view(self, n: int) -> View:
-        """Buffers for n worlds."""
+        """Return a view of zeros as a buffer for `fill`.
+
+        Args:
+            n: number of worlds.
+        """
         ball = np.zeros((n, len(self.observers), len(BALL_COLUMNS)), np.float32)
         robots = np.zeros((n, *self._present.shape, len(ROBOT_COLUMNS)), np.float32)
         return View(ball, robots, self._n_teammates, self._present)
 
     def fill(self, frame: Frame, view: View) -> None:
-        """Show each observer itself, its teammates, then its opponents, attacking +x."""
+        """Write a frame into a view: each observer, its teammates, its opponents, attacking +x.
+
+        Args:
+            frame: state of n worlds.
+            view: view of n worlds from `new_view`; overwritten.
+        """
         if len(self.observers):
             self._viewpoint.fill(frame.rows, view.ball.data, view.robots.data)
 
     def __reduce__(self) -> tuple[type["Viewpoint"], tuple[object, ...]]:
-        return Viewpoint, self._made_of
+        return Viewpoint, self._arguments
 
     def _slots(self, observer: int, n_blue: int, n_yellow: int) -> list[int | None]:
-        """Which robots one observer has in its slots: itself, teammates in ring order, opponents."""
+        """Robots in an observer's slots: itself, teammates in ring order, opponents."""
         blue, yellow = range(n_blue), range(n_blue, n_blue + n_yellow)
-        teammates, opponents = (blue, yellow) if observer in blue else (yellow, blue)
-        if len(teammates) - 1 > self._n_teammates or len(opponents) > self._n_opponents:
+        team, opponents = (blue, yellow) if observer in blue else (yellow, blue)
+        if len(team) - 1 > self._n_teammates or len(opponents) > self._n_opponents:
             raise ValueError(
-                f"robot {observer} cannot look: its side is not among the task's sides"
+                f"robot {observer} cannot observe: its team is not among the task's sides"
             )
-        nobody: list[int | None] = [None]
-        teammates_too = [*range(observer, teammates.stop), *range(teammates.start, observer)]
-        no_teammates = nobody * (1 + self._n_teammates - len(teammates))
+        empty: list[int | None] = [None]
         return [
-            *teammates_too,
-            *no_teammates,
+            *range(observer, team.stop),
+            *range(team.start, observer),
+            *empty * (1 + self._n_teammates - len(team)),
             *opponents,
-            *nobody * (self._n_opponents - len(opponents)),
+            *empty * (self._n_opponents - len(opponents)),
         ]

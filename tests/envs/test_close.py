@@ -1,4 +1,4 @@
-"""Environments that were closed say so; they went on as if nothing had been."""
+"""Calls of closed environments raise; formerly they continued without an error."""
 
 import copy
 from collections.abc import Callable
@@ -14,12 +14,12 @@ import rsoccer
 SINGLE = "SSLGoToBall-v0"
 
 
-def every_door() -> list[Any]:
-    """Each kind of environment, and the turn of a first and of a last agent."""
-    turns = rsoccer.env("VSSMulti-v0")
+def environments() -> list[Any]:
+    """One environment of each kind."""
+    in_turn = rsoccer.env("VSSMulti-v0")
     return [
         pytest.param(rsoccer.parallel_env("VSSMulti-v0"), id="parallel"),
-        pytest.param(turns, id="aec"),
+        pytest.param(in_turn, id="aec"),
         pytest.param(aec_to_parallel(rsoccer.env("VSSMulti-v0")), id="aec as parallel"),
         pytest.param(rsoccer.single_env(SINGLE), id="single"),
         *(
@@ -29,8 +29,8 @@ def every_door() -> list[Any]:
     ]
 
 
-def an_action(env: Any) -> Any:  # noqa: ANN401  (each library has its own)
-    """What `step` takes."""
+def an_action(env: Any) -> Any:  # noqa: ANN401  (depends on the library)
+    """A random argument of `step`."""
     if hasattr(env, "agent_selection"):
         return env.action_space(env.agent_selection).sample()
     if hasattr(env, "possible_agents"):
@@ -39,7 +39,7 @@ def an_action(env: Any) -> Any:  # noqa: ANN401  (each library has its own)
 
 
 def closed(env: Any, steps: int = 0) -> Any:  # noqa: ANN401
-    """An environment that was played and then closed, twice."""
+    """A copy of an environment that is stepped and then closed twice."""
     env = copy.deepcopy(env)
     env.reset(seed=0)
     for _ in range(steps):
@@ -56,17 +56,17 @@ CALLS: dict[str, Callable[[Any], object]] = {
 
 
 @pytest.mark.parametrize("call", CALLS)
-@pytest.mark.parametrize("env", every_door())
-def test_calls_after_close_went_on_silently(env: Any, call: str) -> None:  # noqa: ANN401
-    for steps in (0, 1, 2):  # in turns these are the first, the second and the last agent's
+@pytest.mark.parametrize("env", environments())
+def test_calls_after_close_raise(env: Any, call: str) -> None:  # noqa: ANN401
+    for steps in (0, 1, 2):  # of an AEC env: the first, second and last agent's
         with pytest.raises(ClosedEnvironmentError, match=f"{call} after close: make another"):
             CALLS[call](closed(env, steps))
     env.reset(seed=0)
-    env.step(an_action(env))  # who was not closed plays on
+    env.step(an_action(env))  # the original is still open
 
 
 @pytest.mark.parametrize("make", [rsoccer.parallel_env, rsoccer.env, rsoccer.single_env])
-def test_no_window_opens_after_close(make: Callable[..., Any]) -> None:
+def test_render_after_close_raises(make: Callable[..., Any]) -> None:
     env = make(SINGLE, render_mode="rgb_array")
     env.reset(seed=0)
     assert isinstance(env.render(), np.ndarray)
@@ -75,7 +75,7 @@ def test_no_window_opens_after_close(make: Callable[..., Any]) -> None:
         env.render()
 
 
-def test_many_that_were_closed_show_no_picture() -> None:
+def test_render_of_closed_vector_environments_raises() -> None:
     envs = rsoccer.vector_env(SINGLE, 2, "rgb_array")
     envs.reset(seed=0)
     envs.close()

@@ -1,4 +1,4 @@
-"""Tasks by their ids in the registries of Gymnasium and PettingZoo."""
+"""Ids of tasks in the registries of Gymnasium and PettingZoo."""
 
 import subprocess
 import sys
@@ -21,7 +21,8 @@ from rsoccer.envs.single import SoccerEnv
 from rsoccer.envs.vector import SoccerVectorEnv
 from rsoccer.task import LEARN, Learn
 from rsoccer.tasks import VssSelfPlay, VssSingle
-from tests.solo_learner import LONE, TASKS, plain
+from tests.helpers import comparable
+from tests.single_learner import ONE_LEARNER, TASKS
 
 N = 2
 needs_zoo_registry = pytest.mark.skipif(
@@ -30,8 +31,8 @@ needs_zoo_registry = pytest.mark.skipif(
 
 
 @pytest.fixture(autouse=True)
-def as_before(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Names and ids that a test registers are gone after it."""
+def restored_registries(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Remove the names and ids that a test registers."""
     monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
     names = [name for name in ("parallel_registry", "aec_registry") if hasattr(pettingzoo, name)]
     kept: list[dict[str, Any]] = [getattr(pettingzoo, name) for name in names]
@@ -44,7 +45,7 @@ def as_before(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 def run(program: str) -> None:
-    """In a process of its own, where nothing is imported yet and warnings are errors."""
+    """Run a program in a new process, where nothing is imported yet and warnings are errors."""
     command = [sys.executable, "-W", "error", "-c", program]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -54,15 +55,15 @@ def run(program: str) -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_gymnasium_knows_the_tasks_with_one_learner(name: str) -> None:
-    assert (f"rsoccer/{name}" in gymnasium.registry) == (name in LONE)
+def test_gymnasium_has_the_tasks_with_one_learner(name: str) -> None:
+    assert (f"rsoccer/{name}" in gymnasium.registry) == (name in ONE_LEARNER)
 
 
-def test_an_id_may_name_the_package_to_import() -> None:
+def test_an_id_may_include_the_package_to_import() -> None:
     run("import gymnasium; gymnasium.make('rsoccer:rsoccer/VSS-v0').reset(seed=0)")
 
 
-def test_importing_registers_without_a_word() -> None:
+def test_import_registers_without_output() -> None:
     run("import gymnasium, rsoccer; gymnasium.register_envs(rsoccer)")
 
 
@@ -75,7 +76,7 @@ def test_options_reach_the_task() -> None:
         gymnasium.make("rsoccer/VSS-v0", bal_speed=1.0)
 
 
-def test_gymnasium_collects_pictures() -> None:
+def test_gymnasium_collects_images() -> None:
     pytest.importorskip("pygame")
     env = gymnasium.make("rsoccer/VSS-v0", render_mode="rgb_array_list")
     env.reset(seed=0)
@@ -84,28 +85,30 @@ def test_gymnasium_collects_pictures() -> None:
     assert len(images) == 2
 
 
-@pytest.mark.parametrize("name", LONE)
-def test_every_way_to_many_leads_to_the_same_matches(name: str) -> None:
-    ident = f"rsoccer/{name}"
+@pytest.mark.parametrize("name", ONE_LEARNER)
+def test_all_vectorization_modes_play_the_same_matches(name: str) -> None:
+    env_id = f"rsoccer/{name}"
     made = [
-        gymnasium.make_vec(ident, N, vectorization_mode=mode, max_steps=9)
+        gymnasium.make_vec(env_id, N, vectorization_mode=mode, max_steps=9)
         for mode in (None, "vector_entry_point", "sync")
     ]
     assert [type(envs) for envs in made] == [SoccerVectorEnv, SoccerVectorEnv, SyncVectorEnv]
     assert made[0].metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
     assert made[0].spec is not None
-    assert made[0].spec.id == ident
+    assert made[0].spec.id == env_id
     assert (
-        plain(made[0].reset(seed=3)) == plain(made[1].reset(seed=3)) == plain(made[2].reset(seed=3))
+        comparable(made[0].reset(seed=3))
+        == comparable(made[1].reset(seed=3))
+        == comparable(made[2].reset(seed=3))
     )
     rng = np.random.default_rng(0)
     for _ in range(12):
         actions = rng.uniform(-1.0, 1.0, made[0].action_space.shape or ()).astype(np.float32)
-        given = [plain(envs.step(actions)) for envs in made]
+        given = [comparable(envs.step(actions)) for envs in made]
         assert given[0] == given[1] == given[2]
 
 
-def test_the_clock_goes_by_gymnasiums_word_too() -> None:
+def test_max_episode_steps_sets_the_time_limit() -> None:
     for mode in ("sync", "vector_entry_point"):
         envs = gymnasium.make_vec("rsoccer/VSS-v0", 1, mode, max_episode_steps=2)
         envs.reset(seed=0)
@@ -115,21 +118,21 @@ def test_the_clock_goes_by_gymnasiums_word_too() -> None:
 
 @pytest.mark.parametrize("name", ["VSS-v0", "SSLDribbling-v0"])  # one of each league
 @pytest.mark.parametrize("context", ["fork", "spawn"])
-def test_workers_play_what_one_process_does(name: str, context: str) -> None:
-    """Like any program that spawns, a script needs `if __name__ == "__main__":` around this."""
+def test_workers_play_the_same_matches(name: str, context: str) -> None:
+    """In a script this needs `if __name__ == "__main__":`, like any program that spawns."""
     with warnings.catch_warnings():
-        # From 3.12 on Python warns of forks in general; here they are safe: matches/test_fork.py.
+        # Python 3.12 and later warn of forks; matches/test_fork.py shows ours to be safe.
         warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
         workers = gymnasium.make_vec(
             f"rsoccer/{name}", N, "async", vector_kwargs={"context": context}, max_steps=9
         )
     envs = gymnasium.make_vec(f"rsoccer/{name}", N, max_steps=9, threads=2)
     try:
-        assert plain(workers.reset(seed=3)) == plain(envs.reset(seed=3))
+        assert comparable(workers.reset(seed=3)) == comparable(envs.reset(seed=3))
         rng = np.random.default_rng(0)
         for _ in range(12):
             actions = rng.uniform(-1.0, 1.0, envs.action_space.shape or ()).astype(np.float32)
-            assert plain(workers.step(actions)) == plain(envs.step(actions))
+            assert comparable(workers.step(actions)) == comparable(envs.step(actions))
     finally:
         workers.close()
 
@@ -143,15 +146,15 @@ def test_pettingzoo_makes_every_task(name: str) -> None:
     match = pettingzoo.make("parallel", f"rsoccer/{name}", max_cycles=7)
     assert isinstance(match, SoccerParallelEnv)
     assert (match.task.name, match.max_cycles) == (name, 7)
-    turns = pettingzoo.make("aec", f"rsoccer/{name}", max_cycles=7)
-    assert isinstance(turns, AECEnv)
+    in_turn = pettingzoo.make("aec", f"rsoccer/{name}", max_cycles=7)
+    assert isinstance(in_turn, AECEnv)
     match.reset(seed=2)
-    turns.reset(seed=2)
+    in_turn.reset(seed=2)
     agent = match.agents[0]
-    assert plain(turns.observe(agent)) == plain(match.reset(seed=2)[0][agent])
+    assert comparable(in_turn.observe(agent)) == comparable(match.reset(seed=2)[0][agent])
 
 
-def test_an_older_pettingzoo_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pettingzoo_without_a_registry_is_supported(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("register", "parallel_registry", "aec_registry"):
         monkeypatch.delattr(pettingzoo, name, raising=False)
 
@@ -162,7 +165,7 @@ def test_an_older_pettingzoo_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> N
     assert "rsoccer/Mine-v0" in gymnasium.registry
 
 
-# -- Tasks of one's own -----------------------------------------------------------------------
+# -- Tasks of users ---------------------------------------------------------------------------
 
 
 @needs_zoo_registry
@@ -174,7 +177,7 @@ def test_a_new_task_gets_its_ids() -> None:
         pass
 
     rsoccer.register("Mine-v3", Mine)
-    rsoccer.register("Mine-v3", Mine)  # as a module that is loaded twice does
+    rsoccer.register("Mine-v3", Mine)  # like a module that is loaded twice
     rsoccer.register("Together-v0", Together)
     env: Any = gymnasium.make("rsoccer/Mine-v3").unwrapped
     assert type(env.task) is Mine
@@ -183,7 +186,7 @@ def test_a_new_task_gets_its_ids() -> None:
     assert {"rsoccer/Mine-v3", "rsoccer/Together-v0"} <= pettingzoo.aec_registry.keys()
 
 
-def test_a_task_that_nobody_can_make_without_options_has_no_id() -> None:
+def test_a_task_that_needs_options_has_no_id() -> None:
     class Plain(VssSingle):
         def __init__(self, speed: float) -> None:
             super().__init__(ball_speed=speed)

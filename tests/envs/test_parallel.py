@@ -1,3 +1,5 @@
+"""PettingZoo's environments: results, spaces, metadata and images."""
+
 import importlib
 import warnings
 from typing import Any
@@ -6,7 +8,8 @@ import numpy as np
 import pytest
 
 from rsoccer.envs.parallel import env, parallel_env
-from tests.one_match import SELF_PLAY, TASKS, as_bytes, random_actions, shot_at
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, TASKS, random_actions, shot_at
 
 with warnings.catch_warnings():
     # PettingZoo's tests import a path that PettingZoo itself has deprecated.
@@ -21,7 +24,7 @@ with warnings.catch_warnings():
 def test_pettingzoo_accepts_the_parallel_env(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     match = parallel_env(name)
     official.parallel_api_test(match, num_cycles=60)
-    assert match.max_cycles == 60, "the tester's clock was not taken over"
+    assert match.max_cycles == 60, "the test's time limit was ignored"
     official.parallel_seed_test(lambda: parallel_env(name), num_cycles=50)
     assert "Passed" in capsys.readouterr().out
 
@@ -31,13 +34,13 @@ def test_pettingzoo_accepts_long_matches() -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_pettingzoo_accepts_the_turn_by_turn_env(name: str) -> None:
+def test_pettingzoo_accepts_the_aec_env(name: str) -> None:
     official.api_test(env(name, max_cycles=30), num_cycles=100)
     official.seed_test(lambda: env(name), num_cycles=100)
     official.state_test(env(name), parallel_env(name))
 
 
-# -- What is returned -------------------------------------------------------------------------
+# -- Results ----------------------------------------------------------------------------------
 
 
 def test_a_goal_terminates_for_all_agents() -> None:
@@ -58,7 +61,7 @@ def test_a_goal_terminates_for_all_agents() -> None:
     assert 0.0 < match.clock < 1.0
 
 
-def test_the_clock_truncates_for_all_agents() -> None:
+def test_the_time_limit_truncates_for_all_agents() -> None:
     match = parallel_env(SELF_PLAY, max_cycles=3)
     match.reset(seed=0)
     for _ in range(3):
@@ -73,7 +76,7 @@ def test_the_clock_truncates_for_all_agents() -> None:
     assert match.clock == pytest.approx(0.075)
 
 
-def test_what_is_returned_belongs_to_the_caller() -> None:
+def test_results_belong_to_the_caller() -> None:
     match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
     rng, twin_rng = np.random.default_rng(0), np.random.default_rng(0)
     before, infos = match.reset(seed=0)
@@ -85,17 +88,17 @@ def test_what_is_returned_belongs_to_the_caller() -> None:
             random_actions(match, rng)
         )
         expected = twin.step(random_actions(twin, twin_rng))
-        assert as_bytes(observations) == as_bytes(expected[0])
-        assert as_bytes(before) == as_bytes(kept), "an earlier observation has changed"
+        assert comparable(observations) == comparable(expected[0])
+        assert comparable(before) == comparable(kept), "an earlier observation has changed"
         for agent in match.agents:
             assert not np.shares_memory(before[agent], observations[agent])
         before = observations
-        for flags in (terminations, truncations):  # as RLlib does
+        for flags in (terminations, truncations):  # RLlib adds such a key
             assert not flags.get("__all__")
             flags["__all__"] = True
         for info in infos.values():
             assert info == {}
-            info["mine"] = 1
+            info["added"] = 1
         rewards.clear()
     for observation in before.values():
         observation[:] = 7.0
@@ -103,7 +106,7 @@ def test_what_is_returned_belongs_to_the_caller() -> None:
     assert match.possible_agents[0] == "blue_0"
 
 
-def test_numbers_stay_in_their_spaces() -> None:
+def test_observations_and_states_stay_in_their_spaces() -> None:
     match = parallel_env(SELF_PLAY)
     observations, _ = match.reset(seed=1)
     rng = np.random.default_rng(1)
@@ -119,7 +122,7 @@ def test_numbers_stay_in_their_spaces() -> None:
         assert space.dtype == np.float32
 
 
-def test_spaces_are_each_agents_own_and_stay_the_same_objects() -> None:
+def test_each_agent_has_its_own_space_objects() -> None:
     match = parallel_env(SELF_PLAY)
     spaces = [match.action_space(agent) for agent in match.possible_agents]
     assert spaces == [match.action_space(agent) for agent in match.possible_agents]
@@ -129,7 +132,7 @@ def test_spaces_are_each_agents_own_and_stay_the_same_objects() -> None:
     )
 
 
-def test_facts_about_itself() -> None:
+def test_metadata() -> None:
     match = parallel_env(SELF_PLAY)
     assert match.metadata == {
         "name": SELF_PLAY,
@@ -142,10 +145,10 @@ def test_facts_about_itself() -> None:
     assert match.max_num_agents == 6
 
 
-# -- Pictures ---------------------------------------------------------------------------------
+# -- Images -----------------------------------------------------------------------------------
 
 
-def test_pictures_show_the_match() -> None:
+def test_images_show_the_match() -> None:
     pytest.importorskip("pygame")
     match = parallel_env(SELF_PLAY, "rgb_array")
     with pytest.raises(RuntimeError, match="render before reset"):
@@ -167,7 +170,7 @@ def test_pictures_show_the_match() -> None:
     match.close()
 
 
-def test_without_a_mode_nothing_is_drawn() -> None:
+def test_render_without_a_mode_warns() -> None:
     match = parallel_env(SELF_PLAY)
     assert match.render_mode is None
     match.reset()

@@ -1,4 +1,4 @@
-"""Options and actions from outside: taken as told, or refused by name before anything moves."""
+"""Options and actions of PettingZoo environments: used as given, or refused without a change."""
 
 from collections.abc import Callable
 from typing import Any
@@ -12,17 +12,18 @@ from hypothesis.extra import numpy as arrays
 import rsoccer
 from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
 from rsoccer.frame import Floats
-from tests.one_match import SELF_PLAY, as_bytes, crowded, play_episode, random_actions, shot_at
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, crowded, play_episode, random_actions, shot_at
 
 # -- Options ----------------------------------------------------------------------------------
 
 
-def test_controllers_take_robots_from_the_learners() -> None:
+def test_robots_with_controllers_are_no_agents() -> None:
     match = parallel_env(SELF_PLAY, controllers={"yellow": "zero", "blue_1": "chase"})
     assert match.possible_agents == ["blue_0", "blue_2"]
     observations, _ = match.reset(seed=0)
     assert list(observations) == ["blue_0", "blue_2"]
-    with pytest.raises(ValueError, match="at least one robot must learn"):
+    with pytest.raises(ValueError, match="expected at least one learner, got none"):
         parallel_env(SELF_PLAY, controllers={"all": "ou"})
 
 
@@ -42,7 +43,7 @@ def test_wrong_options_are_named(make: Callable[[], object], message: str) -> No
         make()
 
 
-def test_the_clock_can_be_set_without_touching_the_callers_task() -> None:
+def test_the_time_limit_can_be_set_without_a_change_of_the_callers_task() -> None:
     task = rsoccer.make_task(SELF_PLAY, max_steps=9)
     match = SoccerParallelEnv(task)
     match.max_cycles = 2
@@ -68,9 +69,7 @@ def test_a_match_starts_from_a_given_frame() -> None:
         (crowded(), ValueError, "blue_0.*yellow_2"),
     ],
 )
-def test_wrong_frames_are_refused_and_change_nothing(
-    row: object, error: type[Exception], message: str
-) -> None:
+def test_refused_frames_change_nothing(row: object, error: type[Exception], message: str) -> None:
     match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
     rng = np.random.default_rng(0)
     for each in (match, twin):
@@ -78,11 +77,11 @@ def test_wrong_frames_are_refused_and_change_nothing(
     with pytest.raises(error, match=message):
         match.reset(seed=1, options={"frame": row})
     actions = random_actions(match, rng)
-    assert as_bytes(match.step(actions)[0]) == as_bytes(twin.step(actions)[0])
-    assert as_bytes(match.reset()[0]) == as_bytes(twin.reset()[0])
+    assert comparable(match.step(actions)[0]) == comparable(twin.step(actions)[0])
+    assert comparable(match.reset()[0]) == comparable(twin.reset()[0])
 
 
-def test_options_of_another_kind_are_refused() -> None:
+def test_options_must_be_a_dictionary() -> None:
     options: Any = ["frame"]
     with pytest.raises(TypeError, match="options: expected a dictionary, got list"):
         parallel_env(SELF_PLAY).reset(options=options)
@@ -97,7 +96,7 @@ def test_wrong_seeds_are_refused(seed: Any, error: type[Exception]) -> None:  # 
 # -- Actions ----------------------------------------------------------------------------------
 
 
-def test_stepping_out_of_turn_says_what_to_do() -> None:
+def test_a_step_without_an_episode_raises() -> None:
     match = parallel_env(SELF_PLAY, max_cycles=1)
     actions = {agent: np.zeros(2, np.float32) for agent in match.possible_agents}
     with pytest.raises(RuntimeError, match=r"step before reset: call reset\(\)"):
@@ -147,7 +146,7 @@ WRONG_ACTIONS = {
 
 
 @pytest.mark.parametrize(("actions", "error", "message"), WRONG_ACTIONS.values(), ids=WRONG_ACTIONS)
-def test_wrong_actions_name_the_agent_and_move_nothing(
+def test_errors_of_actions_name_the_agent_and_change_nothing(
     actions: Any,  # noqa: ANN401
     error: type[Exception],
     message: str,
@@ -157,8 +156,8 @@ def test_wrong_actions_name_the_agent_and_move_nothing(
         each.reset(seed=0)
     with pytest.raises(error, match=message):
         match.step(actions)
-    fine = random_actions(match, np.random.default_rng(0))
-    assert as_bytes(match.step(fine)[0]) == as_bytes(twin.step(fine)[0])
+    valid = random_actions(match, np.random.default_rng(0))
+    assert comparable(match.step(valid)[0]) == comparable(twin.step(valid)[0])
 
 
 @given(
@@ -168,12 +167,12 @@ def test_wrong_actions_name_the_agent_and_move_nothing(
     )
 )
 @settings(deadline=None, max_examples=60)
-def test_any_action_is_either_taken_or_refused_by_name(action: Floats) -> None:
+def test_any_action_is_either_used_or_refused_by_name(action: Floats) -> None:
     match = parallel_env(SELF_PLAY)
     match.reset(seed=0)
     before = match.state()
-    fine = action.shape == (2,) and action.dtype.kind == "f" and np.isfinite(action).all()
-    if fine:
+    valid = action.shape == (2,) and action.dtype.kind == "f" and np.isfinite(action).all()
+    if valid:
         observations = match.step(actions_with(blue_1=action))[0]
         assert all(np.isfinite(observation).all() for observation in observations.values())
         return
@@ -182,11 +181,11 @@ def test_any_action_is_either_taken_or_refused_by_name(action: Floats) -> None:
     assert np.array_equal(match.state(), before)
 
 
-def test_actions_beyond_the_bounds_count_as_the_bound() -> None:
+def test_actions_beyond_the_bounds_are_clipped() -> None:
     match, twin = parallel_env(SELF_PLAY), parallel_env(SELF_PLAY)
     for each in (match, twin):
         each.reset(seed=0)
-    far = {agent: np.array([1e30, -7.0]) for agent in SIX}
-    near = {agent: np.array([1.0, -1.0], np.float32) for agent in SIX}
+    beyond = {agent: np.array([1e30, -7.0]) for agent in SIX}
+    clipped = {agent: np.array([1.0, -1.0], np.float32) for agent in SIX}
     for _ in range(3):
-        assert as_bytes(match.step(far)[0]) == as_bytes(twin.step(near)[0])
+        assert comparable(match.step(beyond)[0]) == comparable(twin.step(clipped)[0])

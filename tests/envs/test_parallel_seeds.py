@@ -1,4 +1,4 @@
-"""The same seed, or a copy, gives the same episodes to the last bit; nothing else decides."""
+"""Seeds and copies of PettingZoo environments: they alone determine episodes, bit for bit."""
 
 import copy
 import pickle
@@ -12,20 +12,14 @@ import pytest
 
 import rsoccer
 from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
-from tests.one_match import (
-    SELF_PLAY,
-    TASKS,
-    as_bytes,
-    play_episode,
-    random_actions,
-    shot_at,
-)
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, TASKS, play_episode, random_actions, shot_at
 
 FIXED_STARTS = {"SSLDribbling-v0"}
 
 
-class Forgetful(SoccerParallelEnv):
-    """A planted fault: what it shows depends on a generator that no seed reaches."""
+class Unseeded(SoccerParallelEnv):
+    """A faulty environment: an observation depends on a generator without a seed."""
 
     def step(self, actions: Any) -> Any:  # noqa: ANN401
         observations, *rest = super().step(actions)
@@ -35,7 +29,7 @@ class Forgetful(SoccerParallelEnv):
 
 
 def seeded_transcripts(make: Callable[[], SoccerParallelEnv]) -> tuple[list[Any], list[Any]]:
-    """The same seeded episodes twice: in a fresh environment, and in one that played others."""
+    """The same episodes twice: in a fresh environment, and in one that has played others."""
     used = make()
     play_episode(used, 77, options={"frame": shot_at(1)})
     used.reset(seed=78)
@@ -49,30 +43,30 @@ def seeded_transcripts(make: Callable[[], SoccerParallelEnv]) -> tuple[list[Any]
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_seed_fixes_the_episodes_of_every_task(name: str) -> None:
+def test_a_seed_determines_the_episodes_of_every_task(name: str) -> None:
     fresh, used = (parallel_env(name, max_cycles=150) for _ in range(2))
     play_episode(used, 77)
     used.reset(seed=78)
     used.step(random_actions(used, np.random.default_rng(5)))
     episodes = [[play_episode(match, seed) for seed in (3, None)] for match in (fresh, used)]
     assert episodes[0] == episodes[1]
-    assert episodes[0][0] != episodes[0][1], "the streams did not go on: both are the same"
+    assert episodes[0][0] != episodes[0][1], "the streams did not continue: both episodes are equal"
     other = play_episode(parallel_env(name), 5)[0]
     assert (other == episodes[0][0][0]) == (name in FIXED_STARTS)
 
 
-def test_a_seed_fixes_whole_episodes() -> None:
+def test_a_seed_determines_whole_episodes() -> None:
     fresh, used = seeded_transcripts(lambda: parallel_env(SELF_PLAY))
     assert fresh == used
-    assert fresh[0] != fresh[1], "the streams did not go on: both episodes are the same"
+    assert fresh[0] != fresh[1], "the streams did not continue: both episodes are equal"
     steps = [episode[-1]["steps"] for episode in fresh]
     scores = [episode[-1]["goal_score"] for episode in fresh]
     assert max(steps) > 200, "no long episode was compared"
     assert scores[2] == 1.0, "no episode with a goal was compared"
 
 
-def test_the_seed_test_finds_a_planted_fault() -> None:
-    fresh, used = seeded_transcripts(lambda: Forgetful(rsoccer.make_task(SELF_PLAY)))
+def test_the_comparison_finds_a_faulty_environment() -> None:
+    fresh, used = seeded_transcripts(lambda: Unseeded(rsoccer.make_task(SELF_PLAY)))
     assert fresh != used
 
 
@@ -81,10 +75,10 @@ def test_unseeded_environments_differ() -> None:
     assert not np.array_equal(first, second)
 
 
-def test_global_generators_are_neither_used_nor_touched() -> None:
+def test_global_generators_are_neither_used_nor_changed() -> None:
     def episode(global_seed: int) -> list[Any]:
         random.seed(global_seed)
-        np.random.seed(global_seed)  # noqa: NPY002  (the very generator that must not matter)
+        np.random.seed(global_seed)  # noqa: NPY002  (the generator that must not matter)
         before = random.getstate(), repr(np.random.get_state())  # noqa: NPY002
         transcript = play_episode(parallel_env("VSSMulti-v0", max_cycles=50), 1)
         assert (random.getstate(), repr(np.random.get_state())) == before  # noqa: NPY002
@@ -94,7 +88,7 @@ def test_global_generators_are_neither_used_nor_touched() -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_it_plays_what_matches_play(name: str) -> None:
+def test_it_plays_the_same_as_matches(name: str) -> None:
     match, matches = parallel_env(name), rsoccer.Matches(name, 1, seed=11)
     observations, _ = match.reset(seed=11)
     rng = np.random.default_rng(0)
@@ -124,7 +118,7 @@ def test_it_plays_what_matches_play(name: str) -> None:
     ],
     ids=[*TASKS, "cloudpickle", "deepcopy"],
 )
-def test_a_copy_goes_on_with_the_same_match(
+def test_a_copy_continues_with_the_same_match(
     name: str, copied: Callable[[SoccerParallelEnv], SoccerParallelEnv]
 ) -> None:
     match = parallel_env(name, max_cycles=60)
@@ -133,28 +127,28 @@ def test_a_copy_goes_on_with_the_same_match(
     rng = np.random.default_rng(0)
     for _ in range(8):
         actions = random_actions(match, rng)
-        # Without kicks: a random one would end the passing tasks at once.
+        # Without kicks, because a random kick ends the passing tasks at once.
         match.step({agent: -np.abs(action) for agent, action in actions.items()})
     assert match.agents, "it ended too early to compare what follows"
     twin = copied(match)
     assert twin is not match
     rng, twin_rng = np.random.default_rng(1), np.random.default_rng(1)
-    for _ in range(2):  # through the end and the next start, which no seed fixes
+    for _ in range(2):  # two ends, and a reset without a seed
         while match.agents:
             ours, theirs = (
-                each.step(random_actions(each, chance))
-                for each, chance in ((match, rng), (twin, twin_rng))
+                each.step(random_actions(each, generator))
+                for each, generator in ((match, rng), (twin, twin_rng))
             )
-            assert [as_bytes(part) for part in ours] == [as_bytes(part) for part in theirs]
+            assert [comparable(part) for part in ours] == [comparable(part) for part in theirs]
         assert twin.agents == []
         assert twin.last_metrics == match.last_metrics != {}
-        assert as_bytes(match.reset()[0]) == as_bytes(twin.reset()[0])
+        assert comparable(match.reset()[0]) == comparable(twin.reset()[0])
     assert np.array_equal(
         twin.action_space("blue_0").sample(), match.action_space("blue_0").sample()
     )
 
 
-def test_a_copy_of_a_match_that_has_not_begun_says_so() -> None:
+def test_a_copy_of_a_match_that_has_not_begun_raises() -> None:
     twin = pickle.loads(pickle.dumps(parallel_env(SELF_PLAY)))
     with pytest.raises(RuntimeError, match="before reset"):
         twin.step({})

@@ -1,4 +1,4 @@
-"""PettingZoo's tests of clocks and pictures on every task; `test_parallel.py` runs its others."""
+"""PettingZoo's tests of time limits and rendering; `test_parallel.py` runs its other tests."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,14 +12,14 @@ from pettingzoo.utils.conversions import parallel_to_aec
 import rsoccer
 from rsoccer.envs.parallel import SoccerParallelEnv, env
 from tests.envs.test_parallel import official
-from tests.one_match import TASKS
-from tests.stand_ins import assert_filmed, moviepy
+from tests.fake_moviepy import assert_filmed, moviepy
+from tests.parallel_matches import TASKS
 
 
 class Seeded(SoccerParallelEnv):
-    """The match of one seed with the actions of one, though the tester gives none.
+    """A match with a fixed seed and fixed actions, although the test sets none.
 
-    Else an episode might now and then end before the clock, by right.
+    With random ones an episode might end before the time limit.
     """
 
     def reset(self, seed: int | None = None, options: Mapping[str, Any] | None = None) -> Any:  # noqa: ANN401
@@ -33,14 +33,14 @@ def test_episodes_last_exactly_max_cycles(name: str) -> None:
     def match(max_cycles: int) -> Seeded:
         return Seeded(rsoccer.make_task(name, max_steps=max_cycles))
 
-    def turns(max_cycles: int) -> Any:  # noqa: ANN401
+    def in_turn(max_cycles: int) -> Any:  # noqa: ANN401
         return parallel_to_aec(match(max_cycles))
 
-    official.max_cycles_test(SimpleNamespace(parallel_env=match, env=turns))
+    official.max_cycles_test(SimpleNamespace(parallel_env=match, env=in_turn))
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_pettingzoo_accepts_what_is_rendered(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pettingzoo_accepts_the_rendering(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pygame")
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     official.render_test(lambda render_mode: env(name, render_mode=render_mode))
@@ -56,10 +56,12 @@ def test_pettingzoo_records_videos(
     pytest.importorskip("pygame")
     clips = moviepy(monkeypatch)
     match = Seeded(rsoccer.make_task(name, max_steps=3), "rgb_array")
-    film = wrappers.RecordVideoParallel(match, str(tmp_path / "films"), bool)
+    recorder = wrappers.RecordVideoParallel(match, str(tmp_path / "videos"), bool)
     for _ in range(2):
-        film.reset()
-        while film.agents:
-            film.step({agent: film.action_space(agent).sample() for agent in film.agents})
-    film.close()
+        recorder.reset()
+        while recorder.agents:
+            recorder.step(
+                {agent: recorder.action_space(agent).sample() for agent in recorder.agents}
+            )
+    recorder.close()
     assert_filmed(clips, 4)

@@ -1,4 +1,4 @@
-"""Gymnasium's Env: what it returns, who learns, and what is shown."""
+"""Gymnasium's Env: results, learners and images."""
 
 from pathlib import Path
 from typing import Any
@@ -12,15 +12,16 @@ from gymnasium.utils.env_checker import check_env
 import rsoccer
 from rsoccer.envs.single import SoccerEnv, single_env
 from rsoccer.task import LEARN
-from tests.one_match import SELF_PLAY, shot_at
-from tests.solo_learner import DISCRETE, LONE, TASKS, draw, hurried, lone, plain
-from tests.stand_ins import assert_filmed, moviepy
+from tests.fake_moviepy import assert_filmed, moviepy
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, shot_at
+from tests.single_learner import DISCRETE, ONE_LEARNER, TASKS, draw, learner_options, short_env
 
 # -- Gymnasium's own checks -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LONE)
-def test_gymnasium_accepts_what_it_makes(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", ONE_LEARNER)
+def test_gymnasium_accepts_registered_tasks(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pygame")
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     env = gymnasium.make(f"rsoccer/{name}", max_steps=60)
@@ -30,20 +31,20 @@ def test_gymnasium_accepts_what_it_makes(name: str, monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize("name", TASKS)
 def test_gymnasium_accepts_every_task(name: str) -> None:
-    check_env(single_env(name, **lone(name)), skip_render_check=True)
+    check_env(single_env(name, **learner_options(name)), skip_render_check=True)
 
 
 @pytest.mark.parametrize("name", DISCRETE)
-def test_gymnasium_accepts_choices(name: str) -> None:
-    check_env(single_env(name, discrete=True, **lone(name)), skip_render_check=True)
+def test_gymnasium_accepts_discrete_actions(name: str) -> None:
+    check_env(single_env(name, discrete=True, **learner_options(name)), skip_render_check=True)
 
 
-# -- What is returned -------------------------------------------------------------------------
+# -- Results ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_the_last_info_holds_the_metrics_and_all_others_nothing(name: str) -> None:
-    env = hurried(name, max_steps=9)
+def test_only_the_last_info_holds_metrics(name: str) -> None:
+    env = short_env(name, max_steps=9)
     metrics = env.task.metrics(env._matches.play)
     for seed in range(3):
         observation, info = env.reset(seed=seed)
@@ -57,7 +58,7 @@ def test_the_last_info_holds_the_metrics_and_all_others_nothing(name: str) -> No
             assert env.observation_space.contains(observation)
             steps, ended = steps + 1, terminated or truncated
         assert set(info) == {*metrics, "steps"}
-        assert all(type(fact) is float for fact in info.values())
+        assert all(type(value) is float for value in info.values())
         assert info["steps"] == steps <= 9
         assert terminated is not truncated
         assert truncated is (steps == 9 and not terminated)
@@ -75,8 +76,11 @@ def test_a_goal_terminates() -> None:
 
 
 @pytest.mark.parametrize("name", DISCRETE)
-def test_a_choice_is_a_row_of_the_table(name: str) -> None:
-    env, twin = hurried(name), single_env(name, discrete=True, max_steps=40, **lone(name))
+def test_a_discrete_action_is_a_row_of_the_table(name: str) -> None:
+    env, twin = (
+        short_env(name),
+        single_env(name, discrete=True, max_steps=40, **learner_options(name)),
+    )
     assert isinstance(twin.action_space, Discrete)
     table = twin.task.action_table
     assert table is not None
@@ -85,13 +89,13 @@ def test_a_choice_is_a_row_of_the_table(name: str) -> None:
     twin.reset(seed=1)
     for choice in range(len(table)):
         ours, theirs = env.step(table[choice]), twin.step(np.int64(choice))
-        assert plain(ours) == plain(theirs)
+        assert comparable(ours) == comparable(theirs)
         if ours[2] or ours[3]:
             env.reset(seed=choice)
             twin.reset(seed=choice)
 
 
-def test_facts_about_itself() -> None:
+def test_metadata() -> None:
     env = single_env("VSS-v0")
     assert env.metadata == {
         "name": "VSS-v0",
@@ -102,32 +106,32 @@ def test_facts_about_itself() -> None:
     assert (env.task.name, env.learner, env.render_mode) == ("VSS-v0", "blue_0", None)
 
 
-# -- Who learns -------------------------------------------------------------------------------
+# -- Learners ---------------------------------------------------------------------------------
 
 
-def test_the_learner_is_named_where_there_are_several() -> None:
+def test_the_learner_is_set_by_name() -> None:
     env = single_env(SELF_PLAY, learner="yellow_2", controllers={"all": "ou", "blue_0": "chase"})
     assert env.learner == "yellow_2"
     given: dict[str, Any] = {"all": "ou", "blue_1": LEARN}
     assert single_env(SELF_PLAY, controllers=given).learner == "blue_1"
-    wins = single_env(SELF_PLAY, learner="blue_1", controllers={"all": "ou", "blue_1": "zero"})
-    assert wins.learner == "blue_1"
+    both = single_env(SELF_PLAY, learner="blue_1", controllers={"all": "ou", "blue_1": "zero"})
+    assert both.learner == "blue_1"
 
 
-def test_a_task_may_be_given_itself() -> None:
+def test_the_task_may_be_an_object() -> None:
     task = rsoccer.make_task("VSS-v0", n_blue=1)
     env = single_env(task, max_steps=3)
     assert (env.task.max_steps, task.max_steps) == (3, 1200)
     assert single_env(task).task is task
 
 
-# -- Pictures ---------------------------------------------------------------------------------
+# -- Images -----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_pictures_show_the_match(name: str) -> None:
+def test_images_show_the_match(name: str) -> None:
     pytest.importorskip("pygame")
-    env = single_env(name, "rgb_array", **lone(name))
+    env = single_env(name, "rgb_array", **learner_options(name))
     with pytest.raises(RuntimeError, match="render before reset"):
         env.render()
     env.reset(seed=0)
@@ -138,17 +142,17 @@ def test_pictures_show_the_match(name: str) -> None:
     assert first.shape[2:] == (3,)
     assert np.array_equal(first, again)
     env.step(draw(env, np.random.default_rng(0)))
-    assert plain(first) != plain(env.render())
+    assert comparable(first) != comparable(env.render())
     env.close()
     env.close()
 
 
-def test_without_a_mode_nothing_is_drawn() -> None:
+def test_render_without_a_mode_warns() -> None:
     env = single_env("VSS-v0")
     env.reset()
     with pytest.warns(UserWarning, match="rgb_array") as warned:
         assert env.render() is None
-    assert warned[0].filename == __file__, "the warning does not point at who called"
+    assert warned[0].filename == __file__, "the warning does not point at the caller"
 
 
 @pytest.mark.parametrize("name", ["VSS-v0", "SSLDribbling-v0"])  # one of each league
@@ -158,13 +162,13 @@ def test_gymnasium_records_videos(
     pytest.importorskip("pygame")
     clips = moviepy(monkeypatch)
     env = gymnasium.make(f"rsoccer/{name}", render_mode="rgb_array", max_steps=3)
-    film = gymnasium.wrappers.RecordVideo(env, str(tmp_path / "films"), episode_trigger=bool)
+    recorder = gymnasium.wrappers.RecordVideo(env, str(tmp_path / "videos"), episode_trigger=bool)
     for seed in range(2):
-        film.reset(seed=seed)
-        film.action_space.seed(seed)
+        recorder.reset(seed=seed)
+        recorder.action_space.seed(seed)
         steps, ended = 0, False
         while not ended:
-            _, _, terminated, truncated, _ = film.step(film.action_space.sample())
+            _, _, terminated, truncated, _ = recorder.step(recorder.action_space.sample())
             steps, ended = steps + 1, bool(terminated or truncated)
-    film.close()  # type: ignore[no-untyped-call]
+    recorder.close()  # type: ignore[no-untyped-call]
     assert_filmed(clips, 1 + steps)

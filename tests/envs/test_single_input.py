@@ -1,4 +1,4 @@
-"""Options and actions from outside: taken as told, or refused before anything moves."""
+"""Options and actions of Gymnasium's Env: used as given, or refused without a change."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,8 +8,9 @@ import pytest
 
 import rsoccer
 from rsoccer.envs.single import single_env
-from tests.one_match import SELF_PLAY, crowded, shot_at
-from tests.solo_learner import draw, plain
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, crowded, shot_at
+from tests.single_learner import draw
 
 
 @pytest.mark.parametrize(
@@ -19,7 +20,11 @@ from tests.solo_learner import draw, plain
         (lambda: single_env("VSS-v0", bal_speed=1), ValueError, "unknown option bal_speed"),
         (lambda: single_env("VSS-v0", max_steps=0), ValueError, "max_steps.*at least 1.*0"),
         (lambda: single_env("VSS-v0", "ansi"), ValueError, "render_mode.*rgb_array.*'ansi'"),
-        (lambda: single_env(SELF_PLAY), ValueError, r"'yellow_2'\]: name it.*learner='blue_0'"),
+        (
+            lambda: single_env(SELF_PLAY),
+            ValueError,
+            r"'yellow_2'\]: name the learner.*learner='blue_0'",
+        ),
         (
             lambda: single_env("VSS-v0", learner="blue_1"),
             ValueError,
@@ -28,7 +33,7 @@ from tests.solo_learner import draw, plain
         (
             lambda: single_env("VSS-v0", controllers={"all": "ou"}),
             ValueError,
-            "expected one robot that learns, got none",
+            "expected exactly one learner, got none",
         ),
         (
             lambda: single_env("VSS-v0", learner="red_0"),
@@ -48,7 +53,7 @@ from tests.solo_learner import draw, plain
         (
             lambda: single_env(rsoccer.make_task("VSS-v0"), ball_speed=1.0),
             TypeError,
-            r"a task that is made has its own, got \['ball_speed'\]",
+            r"a Task object has its own options, got \['ball_speed'\]",
         ),
         (lambda: single_env(3), TypeError, "task: expected a task or its name, got 3"),  # type: ignore[arg-type]
         (
@@ -94,8 +99,8 @@ def test_a_refused_reset_changes_nothing(
         env.reset(**{"seed": 1, **reset})
     assert env.np_random_seed == 0
     action = draw(env, np.random.default_rng(0))
-    assert plain(env.step(action)) == plain(twin.step(action))
-    assert plain(env.reset()) == plain(twin.reset())
+    assert comparable(env.step(action)) == comparable(twin.step(action))
+    assert comparable(env.reset()) == comparable(twin.reset())
 
 
 WRONG_ACTIONS = {
@@ -108,7 +113,7 @@ WRONG_ACTIONS = {
     "NaN": (np.array([0.0, np.nan]), ValueError, "finite numbers, got nan"),
     "infinite": (np.array([-np.inf, 0.0]), ValueError, "finite numbers, got -inf"),
 }
-WRONG_CHOICES = {
+WRONG_INDICES = {
     "fraction": (1.0, TypeError, "expected whole numbers, got float64"),
     "too high": (9, ValueError, "expected 0 to 8, got 9"),
     "negative": (np.int64(-1), ValueError, "expected 0 to 8, got -1"),
@@ -120,10 +125,10 @@ WRONG_CHOICES = {
 @pytest.mark.parametrize(
     ("discrete", "action", "error", "message"),
     [(False, *wrong) for wrong in WRONG_ACTIONS.values()]
-    + [(True, *wrong) for wrong in WRONG_CHOICES.values()],
-    ids=[*WRONG_ACTIONS, *WRONG_CHOICES],
+    + [(True, *wrong) for wrong in WRONG_INDICES.values()],
+    ids=[*WRONG_ACTIONS, *WRONG_INDICES],
 )
-def test_wrong_actions_move_nothing(
+def test_refused_actions_change_nothing(
     discrete: bool,
     action: Any,  # noqa: ANN401
     error: type[Exception],
@@ -135,12 +140,12 @@ def test_wrong_actions_move_nothing(
         each.action_space.seed(0)
     with pytest.raises(error, match=message):
         env.step(action)
-    assert plain(env.step(env.action_space.sample())) == plain(
+    assert comparable(env.step(env.action_space.sample())) == comparable(
         twin.step(twin.action_space.sample())
     )
 
 
-def test_stepping_out_of_turn_says_what_to_do() -> None:
+def test_a_step_without_an_episode_raises() -> None:
     env = single_env("VSS-v0", max_steps=1)
     still = np.zeros(2, np.float32)
     with pytest.raises(RuntimeError, match=r"step before reset: call reset\(\)"):
@@ -152,10 +157,13 @@ def test_stepping_out_of_turn_says_what_to_do() -> None:
             env.step(still)
 
 
-def test_actions_beyond_the_bounds_count_as_the_bound() -> None:
+def test_actions_beyond_the_bounds_are_clipped() -> None:
     env, twin = single_env("VSS-v0"), single_env("VSS-v0")
     for each in (env, twin):
         each.reset(seed=0)
     for _ in range(3):
-        far, near = env.step(np.array([1e300, -7.0])), twin.step(np.array([1, -1], np.float32))
-        assert plain(far) == plain(near)
+        beyond, clipped = (
+            env.step(np.array([1e300, -7.0])),
+            twin.step(np.array([1, -1], np.float32)),
+        )
+        assert comparable(beyond) == comparable(clipped)

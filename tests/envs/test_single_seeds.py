@@ -1,4 +1,4 @@
-"""One match is the same through every door, from every history and in every copy."""
+"""The same match from every interface, after any history, and in every copy."""
 
 import copy
 import pickle
@@ -12,14 +12,22 @@ import pytest
 import rsoccer
 from rsoccer.envs.parallel import parallel_env
 from rsoccer.envs.single import SoccerEnv, single_env
-from tests.solo_learner import TASKS, draw, hurried, lone, lone_controllers, plain, play_episode
+from tests.helpers import comparable
+from tests.single_learner import (
+    TASKS,
+    draw,
+    learner_controllers,
+    learner_options,
+    play_episode,
+    short_env,
+)
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_every_door_leads_to_the_same_match(name: str) -> None:
-    """Through several episodes, the later ones unseeded."""
-    controllers = lone_controllers(name)
-    env = hurried(name)
+def test_every_interface_plays_the_same_match(name: str) -> None:
+    """Over several episodes, the later ones without a seed."""
+    controllers = learner_controllers(name)
+    env = short_env(name)
     zoo = parallel_env(name, max_cycles=40, controllers=controllers)
     task = rsoccer.make_task(name, max_steps=40)
     matches = rsoccer.Matches(task, 1, 11, controllers=controllers)
@@ -29,7 +37,7 @@ def test_every_door_leads_to_the_same_match(name: str) -> None:
     observation, in_zoo = env.reset(seed=11)[0], zoo.reset(seed=11)[0]
     ends = 0
     for _ in range(130):
-        assert plain(observation) == plain(in_zoo[agent]) == plain(expected[0, 0])
+        assert comparable(observation) == comparable(in_zoo[agent]) == comparable(expected[0, 0])
         action = draw(env, rng)
         observation, reward, terminated, truncated, info = env.step(action)
         in_zoo, rewards, terminations, truncations, _ = zoo.step({agent: action})
@@ -39,7 +47,7 @@ def test_every_door_leads_to_the_same_match(name: str) -> None:
         assert terminated == outcome.terminated[0]
         assert truncated is truncations[agent]
         assert truncated == outcome.truncated[0]
-        assert plain(observation) == plain(outcome.final_observations[0, 0])
+        assert comparable(observation) == comparable(outcome.final_observations[0, 0])
         expected = outcome.observations
         if terminated or truncated:
             ends += 1
@@ -49,8 +57,8 @@ def test_every_door_leads_to_the_same_match(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_seed_fixes_episodes_whatever_was_played_before(name: str) -> None:
-    fresh, used = hurried(name), hurried(name)
+def test_a_seed_determines_episodes_after_any_history(name: str) -> None:
+    fresh, used = short_env(name), short_env(name)
     play_episode(used, 77)
     used.reset(seed=78)
     used.step(draw(used, np.random.default_rng(5)))
@@ -58,13 +66,13 @@ def test_a_seed_fixes_episodes_whatever_was_played_before(name: str) -> None:
     assert ours == theirs
     starts = rsoccer.Matches(name, 2)
     starts.reset()
-    if plain(starts.frame.rows[0]) == plain(starts.frame.rows[1]):
-        return  # a course, which starts in one way
-    assert ours[0][0] != ours[1][0], "the streams did not go on: both episodes start the same"
-    assert play_episode(fresh, 5)[0] != ours[0][0], "another seed starts the same"
+    if comparable(starts.frame.rows[0]) == comparable(starts.frame.rows[1]):
+        return  # a course with one initial state
+    assert ours[0][0] != ours[1][0], "the streams did not continue: both episodes start equally"
+    assert play_episode(fresh, 5)[0] != ours[0][0], "another seed starts equally"
 
 
-def test_gymnasium_sees_the_seed() -> None:
+def test_gymnasiums_attributes_hold_the_seed() -> None:
     env = single_env("VSS-v0")
     env.reset(seed=np.int64(5))  # type: ignore[arg-type]
     assert env.np_random_seed == 5
@@ -75,15 +83,15 @@ def test_gymnasium_sees_the_seed() -> None:
     assert env.np_random.random() == first
 
 
-def test_unseeded_environments_differ_and_tell_their_seed() -> None:
+def test_unseeded_environments_differ_and_report_their_seed() -> None:
     first, second = single_env("VSS-v0", max_steps=5), single_env("VSS-v0", max_steps=5)
     played = play_episode(first, None)
     assert played[0] != play_episode(second, None)[0]
     second.reset(seed=first.np_random_seed)
     assert second.np_random_seed == first.np_random_seed
     again, rng = single_env("VSS-v0", max_steps=5), np.random.default_rng(0)
-    transcript = [plain(again.reset(seed=first.np_random_seed))]
-    transcript += [plain(again.step(draw(again, rng))) for _ in range(5)]
+    transcript = [comparable(again.reset(seed=first.np_random_seed))]
+    transcript += [comparable(again.step(draw(again, rng))) for _ in range(5)]
     assert transcript == played
 
 
@@ -96,10 +104,10 @@ def test_unseeded_environments_differ_and_tell_their_seed() -> None:
     ],
     ids=[*TASKS, "cloudpickle", "deepcopy"],
 )
-def test_a_copy_goes_on_with_the_same_match(
+def test_a_copy_continues_with_the_same_match(
     name: str, copied: Callable[[SoccerEnv], SoccerEnv]
 ) -> None:
-    env, rng = hurried(name), np.random.default_rng(0)
+    env, rng = short_env(name), np.random.default_rng(0)
     env.reset(seed=5)
     env.action_space.seed(5)
     for _ in range(4):
@@ -107,19 +115,19 @@ def test_a_copy_goes_on_with_the_same_match(
     twin = copied(env)
     assert twin is not env
     twin.np_random.random()
-    assert plain(twin.action_space.sample()) == plain(env.action_space.sample())
+    assert comparable(twin.action_space.sample()) == comparable(env.action_space.sample())
     both: list[list[Any]] = []
     for each in (env, twin):
         rng = np.random.default_rng(1)
         given = [each.step(draw(each, rng))]
         while not (given[-1][2] or given[-1][3]):
             given.append(each.step(draw(each, rng)))
-        both.append([plain(given), play_episode(each, None)])
+        both.append([comparable(given), play_episode(each, None)])
     assert both[0] == both[1]
     assert env.np_random_seed == twin.np_random_seed == 5
 
 
-def test_a_copy_opens_a_window_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_copy_opens_its_own_window(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pygame")
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     env = single_env("VSS-v0", "human")
@@ -131,7 +139,7 @@ def test_a_copy_opens_a_window_of_its_own(monkeypatch: pytest.MonkeyPatch) -> No
         each.close()
 
 
-def test_lone_names_one_learner() -> None:
+def test_learner_options_leave_one_learner() -> None:
     for name in TASKS:
-        assert len(rsoccer.Matches(name, controllers=lone_controllers(name)).agents) == 1
-        assert hurried(name).learner == lone(name).get("learner", "blue_0")
+        assert len(rsoccer.Matches(name, controllers=learner_controllers(name)).agents) == 1
+        assert short_env(name).learner == learner_options(name).get("learner", "blue_0")

@@ -1,4 +1,4 @@
-"""Gymnasium's wrappers round one match: all of them at once, on every task."""
+"""Gymnasium's wrappers around one match: several at once, on every task."""
 
 import gymnasium
 import numpy as np
@@ -6,17 +6,17 @@ import pytest
 from gymnasium import wrappers
 
 from rsoccer.envs.single import single_env
-from tests.solo_learner import TASKS, draw, hurried, lone
+from tests.single_learner import TASKS, draw, learner_options, short_env
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_wrappers_change_what_they_should_and_nothing_else(name: str) -> None:
-    inner = single_env(name, max_steps=9, **lone(name))
+def test_wrappers_do_not_change_the_match(name: str) -> None:
+    inner = single_env(name, max_steps=9, **learner_options(name))
     four = np.full(inner.task.action_size, 4.0, np.float32)
     env: gymnasium.Env[np.ndarray, np.ndarray] = wrappers.RecordEpisodeStatistics(inner)
     env = wrappers.RescaleAction(env, -four, four)
     env = wrappers.NormalizeReward(wrappers.NormalizeObservation(env))
-    bare = hurried(name, max_steps=9)
+    bare = short_env(name, max_steps=9)
     rng = np.random.default_rng(0)
     for seed in range(3):
         env.reset(seed=seed)
@@ -25,13 +25,13 @@ def test_wrappers_change_what_they_should_and_nothing_else(name: str) -> None:
         while not ended:
             action = draw(bare, rng)
             observation, _, *given, info = env.step(action * 4)
-            _, reward, *expected, facts = bare.step(action)
+            _, reward, *expected, expected_info = bare.step(action)
             total, steps = total + reward, steps + 1
             assert given == expected
             assert np.isfinite(observation).all()
             ended = any(expected)
         statistics = info.pop("episode")
-        assert info == facts
+        assert info == expected_info
         assert statistics["l"] == steps
         assert statistics["r"] == pytest.approx(total)
         assert inner._matches.frame.rows.tolist() == bare._matches.frame.rows.tolist()

@@ -1,4 +1,4 @@
-"""Gymnasium's VectorEnv: row i is the single env with its seed, in every autoreset mode."""
+"""Gymnasium's VectorEnv: row i equals a single env with its seed, in every autoreset mode."""
 
 import copy
 import pickle
@@ -15,20 +15,23 @@ import rsoccer
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import SoccerVectorEnv, vector_env
 from rsoccer.frame import Array, Mask
-from tests.one_match import shot_at
-from tests.solo_learner import DISCRETE, TASKS, hurried, lone, lone_controllers, plain
+from tests.helpers import comparable
+from tests.parallel_matches import shot_at
+from tests.single_learner import DISCRETE, TASKS, learner_controllers, learner_options, short_env
 
 N = 3
 MODES = list(AutoresetMode)
 
 
 def many(name: str, mode: AutoresetMode | str = "next_step", **options: Any) -> SoccerVectorEnv:  # noqa: ANN401
-    return vector_env(name, N, autoreset_mode=mode, **{"max_steps": 9, **lone(name), **options})
+    return vector_env(
+        name, N, autoreset_mode=mode, **{"max_steps": 9, **learner_options(name), **options}
+    )
 
 
 def one_by_one(name: str, mode: AutoresetMode, **options: Any) -> SyncVectorEnv:  # noqa: ANN401
-    """Gymnasium's own loop over single envs: the reference."""
-    settings = {"max_steps": 9, **lone(name), **options}
+    """Gymnasium's own loop over single envs, as the reference."""
+    settings = {"max_steps": 9, **learner_options(name), **options}
     return SyncVectorEnv([lambda: single_env(name, **settings)] * N, autoreset_mode=mode)
 
 
@@ -43,41 +46,41 @@ def draw(envs: SoccerVectorEnv, rng: np.random.Generator) -> Array:
 
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
 @pytest.mark.parametrize("name", TASKS)
-def test_it_plays_and_tells_what_single_envs_do(name: str, mode: AutoresetMode) -> None:
+def test_results_equal_those_of_single_envs(name: str, mode: AutoresetMode) -> None:
     ours, theirs = many(name, mode), one_by_one(name, mode)
     rng = np.random.default_rng(0)
-    # Ends at different times: world 1 begins a second time, three steps later.
-    assert plain(ours.reset(seed=5)) == plain(theirs.reset(seed=5))
-    ends, infos_told = 0, 0
+    # Episodes end at different times: world 1 is reset again three steps later.
+    assert comparable(ours.reset(seed=5)) == comparable(theirs.reset(seed=5))
+    ends, infos_with_metrics = 0, 0
     for step in range(32):
         if step == 3:
-            late = np.array([False, True, False])
-            begun = [each.reset(options={"reset_mask": late}) for each in (ours, theirs)]
-            assert plain(begun[0]) == plain(begun[1])
+            mask = np.array([False, True, False])
+            begun = [each.reset(options={"reset_mask": mask}) for each in (ours, theirs)]
+            assert comparable(begun[0]) == comparable(begun[1])
         actions = draw(ours, rng)
         given = ours.step(actions)
-        assert plain(given) == plain(theirs.step(actions))
+        assert comparable(given) == comparable(theirs.step(actions))
         observations, rewards, terminations, truncations, infos = given
         assert ours.observation_space.contains(observations)
         assert rewards.dtype == np.float64
         ended: Mask = terminations | truncations
-        ends, infos_told = ends + int(ended.sum()), infos_told + bool(infos)
+        ends, infos_with_metrics = ends + int(ended.sum()), infos_with_metrics + bool(infos)
         if mode is AutoresetMode.DISABLED and ended.any():
             again = [each.reset(options={"reset_mask": ended.copy()}) for each in (ours, theirs)]
-            assert plain(again[0]) == plain(again[1])
+            assert comparable(again[0]) == comparable(again[1])
     assert ends >= 2 * N, "too few ends were compared"
-    assert infos_told >= 2
+    assert infos_with_metrics >= 2
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_a_step_is_that_of_matches(name: str) -> None:
+def test_results_equal_those_of_matches(name: str) -> None:
     envs = many(name, "same_step", threads=2)
     task = rsoccer.make_task(name, max_steps=9)
-    matches = rsoccer.Matches(task, N, controllers=lone_controllers(name))
+    matches = rsoccer.Matches(task, N, controllers=learner_controllers(name))
     observations, expected = envs.reset(seed=4)[0], matches.reset(seed=4)
     rng = np.random.default_rng(1)
     for _ in range(20):
-        assert plain(observations) == plain(expected[:, 0])
+        assert comparable(observations) == comparable(expected[:, 0])
         actions = draw(envs, rng)
         observations, rewards, _, truncations, infos = envs.step(actions)
         outcome = matches.step(actions[:, None])
@@ -85,42 +88,44 @@ def test_a_step_is_that_of_matches(name: str) -> None:
         assert np.array_equal(rewards, outcome.rewards[:, 0])
         assert np.array_equal(truncations, outcome.truncated)
         for world in np.flatnonzero(outcome.ended):
-            assert plain(infos["final_obs"][world]) == plain(outcome.final_observations[world, 0])
+            assert comparable(infos["final_obs"][world]) == comparable(
+                outcome.final_observations[world, 0]
+            )
 
 
 @pytest.mark.parametrize("name", DISCRETE)
-def test_choices_do_what_single_envs_do(name: str) -> None:
+def test_discrete_actions_equal_those_of_single_envs(name: str) -> None:
     ours = many(name, discrete=True)
     theirs = one_by_one(name, AutoresetMode.NEXT_STEP, discrete=True)
     assert isinstance(ours.action_space, MultiDiscrete)
     rng = np.random.default_rng(0)
-    assert plain(ours.reset(seed=5)) == plain(theirs.reset(seed=5))
+    assert comparable(ours.reset(seed=5)) == comparable(theirs.reset(seed=5))
     for _ in range(12):
         actions = draw(ours, rng)
-        assert plain(ours.step(actions)) == plain(theirs.step(actions))
+        assert comparable(ours.step(actions)) == comparable(theirs.step(actions))
 
 
 # -- Seeds ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_each_match_may_have_a_seed_of_its_own(name: str) -> None:
-    """Whatever was played before; where there is none, its streams go on."""
+def test_each_match_may_have_its_own_seed(name: str) -> None:
+    """After any history; matches without a seed continue their streams."""
     seeds: list[int | None] = [9, 2**64 + 1, 0]
     ours, theirs = many(name), one_by_one(name, AutoresetMode.NEXT_STEP)
     rng = np.random.default_rng(0)
     ours.reset(seed=77)
     ours.step(draw(ours, rng))
-    assert plain(ours.reset(seed=seeds)) == plain(theirs.reset(seed=seeds))
+    assert comparable(ours.reset(seed=seeds)) == comparable(theirs.reset(seed=seeds))
     for _ in range(12):
         actions = draw(ours, rng)
-        assert plain(ours.step(actions)) == plain(theirs.step(actions))
+        assert comparable(ours.step(actions)) == comparable(theirs.step(actions))
     mixed = [None, 4, None]
-    assert plain(ours.reset(seed=mixed)) == plain(theirs.reset(seed=mixed))
-    assert plain(ours.reset()) == plain(theirs.reset())
+    assert comparable(ours.reset(seed=mixed)) == comparable(theirs.reset(seed=mixed))
+    assert comparable(ours.reset()) == comparable(theirs.reset())
 
 
-def test_a_seed_reaches_only_the_matches_that_begin() -> None:
+def test_a_seed_affects_only_the_matches_that_are_reset() -> None:
     ours = many("VSS-v0")
     theirs = one_by_one("VSS-v0", AutoresetMode.NEXT_STEP)
     mask = np.array([True, False, True])
@@ -128,25 +133,25 @@ def test_a_seed_reaches_only_the_matches_that_begin() -> None:
         each.reset(seed=1)
     before = ours.reset(seed=1)[0]
     given = ours.reset(seed=50, options={"reset_mask": mask})
-    assert plain(given) == plain(theirs.reset(seed=50, options={"reset_mask": mask}))
-    assert plain(given[0][1]) == plain(before[1])
-    assert plain(given[0][2]) != plain(before[2])
+    assert comparable(given) == comparable(theirs.reset(seed=50, options={"reset_mask": mask}))
+    assert comparable(given[0][1]) == comparable(before[1])
+    assert comparable(given[0][2]) != comparable(before[2])
 
 
-def test_unseeded_environments_differ_and_tell_their_seed() -> None:
+def test_unseeded_environments_differ_and_report_their_seed() -> None:
     first, second = many("VSS-v0"), many("VSS-v0")
-    assert plain(first.reset()) != plain(second.reset())
+    assert comparable(first.reset()) != comparable(second.reset())
     again = many("VSS-v0")
     seed = second.np_random_seed
-    assert plain(again.reset(seed=seed)) == plain(second.reset(seed=seed))
-    single = hurried("VSS-v0")
+    assert comparable(again.reset(seed=seed)) == comparable(second.reset(seed=seed))
+    single = short_env("VSS-v0")
     assert seed is not None
-    assert plain(single.reset(seed=seed + 2)[0]) == plain(again.reset(seed=seed)[0][2])
+    assert comparable(single.reset(seed=seed + 2)[0]) == comparable(again.reset(seed=seed)[0][2])
     again.reset(seed=[1, 2, 3])
     assert again.np_random_seed == -1
 
 
-# -- Copies, and what is told about itself ----------------------------------------------------
+# -- Copies and metadata ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -158,7 +163,7 @@ def test_unseeded_environments_differ_and_tell_their_seed() -> None:
     ],
     ids=[*TASKS, "cloudpickle", "deepcopy"],
 )
-def test_a_copy_goes_on_with_the_same_matches(
+def test_a_copy_continues_with_the_same_matches(
     name: str, copied: Callable[[SoccerVectorEnv], SoccerVectorEnv]
 ) -> None:
     envs, rng = many(name), np.random.default_rng(0)
@@ -168,11 +173,11 @@ def test_a_copy_goes_on_with_the_same_matches(
     twin = copied(envs)
     for _ in range(15):
         actions = draw(envs, rng)
-        assert plain(envs.step(actions)) == plain(twin.step(actions))
+        assert comparable(envs.step(actions)) == comparable(twin.step(actions))
 
 
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
-def test_facts_about_itself(mode: AutoresetMode) -> None:
+def test_metadata(mode: AutoresetMode) -> None:
     for given in (mode, mode.name.lower(), mode.value):
         envs = many("VSS-v0", given)
         assert envs.autoreset_mode is envs.metadata["autoreset_mode"] is mode
@@ -189,7 +194,7 @@ def test_facts_about_itself(mode: AutoresetMode) -> None:
     assert envs.closed
 
 
-def test_what_is_returned_belongs_to_the_caller() -> None:
+def test_results_belong_to_the_caller() -> None:
     envs, twin = many("VSS-v0", "same_step"), many("VSS-v0", "same_step")
     rng, ends = np.random.default_rng(0), 0
     for each in (envs, twin):
@@ -197,7 +202,7 @@ def test_what_is_returned_belongs_to_the_caller() -> None:
     for _ in range(20):
         actions = draw(envs, rng)
         given = envs.step(actions)
-        assert plain(given) == plain(twin.step(actions))
+        assert comparable(given) == comparable(twin.step(actions))
         infos = given[4]
         for array in given[:4]:
             array[:] = 1

@@ -1,4 +1,4 @@
-"""Options and actions for many matches: taken as told, or refused before anything moves."""
+"""Options and actions of Gymnasium's VectorEnv: used as given, or refused without a change."""
 
 from collections.abc import Callable
 from typing import Any
@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from rsoccer.envs.vector import vector_env
-from tests.one_match import SELF_PLAY, crowded, shot_at
-from tests.solo_learner import TASKS, lone, plain
+from tests.helpers import comparable
+from tests.parallel_matches import SELF_PLAY, crowded, shot_at
+from tests.single_learner import TASKS, learner_options
 
 N = 3
 
@@ -46,10 +47,10 @@ def test_matches_start_from_given_frames() -> None:
     envs = vector_env("VSS-v0", N)
     left, right = shot_at(-1), shot_at(1)
     envs.reset(seed=0, options={"frame": right, "unknown": object()})
-    assert plain(envs._matches.frame.rows) == plain(np.stack([right] * N))
+    assert comparable(envs._matches.frame.rows) == comparable(np.stack([right] * N))
     rows, mask = np.stack([left, right, left]), np.array([True, False, True])
     envs.reset(options={"frame": rows, "reset_mask": mask})
-    assert plain(envs._matches.frame.rows) == plain(rows)
+    assert comparable(envs._matches.frame.rows) == comparable(rows)
     with pytest.raises(ValueError, match=r"options\['frame'\]: expected shape \(3, 80\)"):
         envs.reset(options={"frame": rows[:2], "reset_mask": mask})
 
@@ -85,8 +86,8 @@ def test_a_refused_reset_changes_nothing(
         envs.reset(**{"seed": 1, **reset})
     assert envs.np_random_seed == 0
     actions = np.ones((N, 2), np.float32)
-    assert plain(envs.step(actions)) == plain(twin.step(actions))
-    assert plain(envs.reset()) == plain(twin.reset())
+    assert comparable(envs.step(actions)) == comparable(twin.step(actions))
+    assert comparable(envs.reset()) == comparable(twin.reset())
 
 
 WRONG_ACTIONS = {
@@ -95,7 +96,7 @@ WRONG_ACTIONS = {
     "integers": (np.zeros((N, 2), int), TypeError, "float32.*int"),
     "NaN": (np.full((N, 2), np.nan), ValueError, "finite numbers, got nan"),
 }
-WRONG_CHOICES = {
+WRONG_INDICES = {
     "fractions": (np.zeros(N), TypeError, "expected whole numbers, got float64"),
     "too high": (np.array([0, 9, 0]), ValueError, "expected 0 to 8, got 9"),
     "one choice": (np.int64(3), ValueError, r"expected shape \(3,\), got \(\)"),
@@ -105,10 +106,10 @@ WRONG_CHOICES = {
 @pytest.mark.parametrize(
     ("discrete", "actions", "error", "message"),
     [(False, *wrong) for wrong in WRONG_ACTIONS.values()]
-    + [(True, *wrong) for wrong in WRONG_CHOICES.values()],
-    ids=[*WRONG_ACTIONS, *WRONG_CHOICES],
+    + [(True, *wrong) for wrong in WRONG_INDICES.values()],
+    ids=[*WRONG_ACTIONS, *WRONG_INDICES],
 )
-def test_wrong_actions_move_nothing(
+def test_refused_actions_change_nothing(
     discrete: bool,
     actions: Any,  # noqa: ANN401
     error: type[Exception],
@@ -121,11 +122,11 @@ def test_wrong_actions_move_nothing(
     with pytest.raises(error, match=message):
         envs.step(actions)
     given, expected = (each.step(each.action_space.sample()) for each in (envs, twin))
-    assert plain(given) == plain(expected)
+    assert comparable(given) == comparable(expected)
 
 
 @pytest.mark.parametrize("mode", ["next_step", "same_step", "disabled"])
-def test_nothing_steps_before_reset(mode: str) -> None:
+def test_a_step_before_reset_raises(mode: str) -> None:
     envs = vector_env("VSS-v0", N, autoreset_mode=mode)
     still = np.zeros((N, 2), np.float32)
     with pytest.raises(RuntimeError, match="step before reset"):
@@ -135,23 +136,23 @@ def test_nothing_steps_before_reset(mode: str) -> None:
         envs.step(still)
 
 
-def test_where_nobody_resets_no_match_steps_after_its_end() -> None:
+def test_without_autoreset_a_step_after_the_end_raises() -> None:
     envs = vector_env("VSS-v0", N, autoreset_mode="disabled", max_steps=2)
-    still, late = np.zeros((N, 2), np.float32), np.array([False, True, False])
+    still, mask = np.zeros((N, 2), np.float32), np.array([False, True, False])
     envs.reset(seed=0)
     envs.step(still)
-    envs.reset(options={"reset_mask": late})
+    envs.reset(options={"reset_mask": mask})
     envs.step(still)
     with pytest.raises(RuntimeError, match=r"after the end of the episode in worlds \[0, 2\]"):
         envs.step(still)
-    envs.reset(options={"reset_mask": ~late})
+    envs.reset(options={"reset_mask": ~mask})
     assert envs.step(still)[3].tolist() == [False, True, False]
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_pictures_show_each_match(name: str) -> None:
+def test_images_show_each_match(name: str) -> None:
     pytest.importorskip("pygame")
-    envs = vector_env(name, 2, "rgb_array", **lone(name))
+    envs = vector_env(name, 2, "rgb_array", **learner_options(name))
     with pytest.raises(RuntimeError, match="render before reset"):
         envs.render()
     envs.reset(seed=0)
@@ -161,10 +162,10 @@ def test_pictures_show_each_match(name: str) -> None:
     first, second = images
     assert first.dtype == np.uint8
     assert first.shape == second.shape
-    assert plain(first) != plain(second)
+    assert comparable(first) != comparable(second)
 
 
-def test_without_a_mode_nothing_is_drawn() -> None:
+def test_render_without_a_mode_warns() -> None:
     envs = vector_env("VSS-v0", N)
     envs.reset()
     with pytest.warns(UserWarning, match="rgb_array") as warned:

@@ -1,4 +1,4 @@
-"""Gymnasium's wrappers see in our matches what they see in its own loop over single envs."""
+"""Gymnasium's wrappers give the same results as around its own loop over single envs."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,10 +10,11 @@ from gymnasium.wrappers import vector as wrappers
 
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
-from tests.solo_learner import lone, plain
+from tests.helpers import comparable
+from tests.single_learner import learner_options
 
 N = 3
-NAMES = ["VSS-v0", "SSLPassEndurance-v0"]  # wrappers know no tasks: an early end and a late one
+NAMES = ["VSS-v0", "SSLPassEndurance-v0"]  # two suffice: wrappers do not depend on the task
 MODES = list(AutoresetMode)
 
 Envs = VectorEnv[Any, Any, Any]
@@ -21,7 +22,7 @@ Wrap = Callable[[Envs], Envs]
 
 
 def both(name: str, mode: AutoresetMode, wrap: Wrap) -> list[Envs]:
-    settings: dict[str, Any] = {"max_steps": 7, **lone(name)}
+    settings: dict[str, Any] = {"max_steps": 7, **learner_options(name)}
     theirs = SyncVectorEnv([lambda: single_env(name, **settings)] * N, autoreset_mode=mode)
     return [wrap(vector_env(name, N, autoreset_mode=mode, **settings)), wrap(theirs)]
 
@@ -32,16 +33,16 @@ def rescaled(envs: Envs) -> Envs:
 
 
 def played(envs: Envs, mode: AutoresetMode, high: float = 1.0) -> list[Any]:
-    """All that some episodes return but for the time they took; begins all anew at once."""
+    """Results of some episodes except their wall time; all matches are reset together."""
     rng = np.random.default_rng(0)
-    transcript = [plain(envs.reset(seed=3))]
+    transcript = [comparable(envs.reset(seed=3))]
     for _ in range(24):
         actions = rng.uniform(-high, high, envs.action_space.shape or ())
         *arrays, infos = envs.step(actions.astype(np.float32))
         infos.get("episode", {}).pop("t", None)
-        transcript.append(plain([*arrays, infos]))
+        transcript.append(comparable([*arrays, infos]))
         if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).any():
-            transcript.append(plain(envs.reset()))
+            transcript.append(comparable(envs.reset()))
     return transcript
 
 
@@ -70,8 +71,8 @@ def test_observations_can_be_normalized(name: str) -> None:
     assert played(ours, mode) == played(theirs, mode)
 
 
-def test_statistics_forget_only_the_matches_that_begin() -> None:
-    """Gymnasium's own loop takes the mask out of the options before its wrapper has read it."""
+def test_statistics_restart_only_in_the_matches_that_are_reset() -> None:
+    """Not compared: Gymnasium's loop removes the mask from the options before its wrapper."""
     envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
     envs.reset(seed=0)
     actions = np.zeros((2, 2), np.float32)
@@ -81,7 +82,7 @@ def test_statistics_forget_only_the_matches_that_begin() -> None:
     assert envs.episode_lengths.tolist() == [3, 0]
 
 
-def test_episodes_are_recorded_with_our_facts() -> None:
+def test_episode_statistics_come_with_our_metrics() -> None:
     envs = wrappers.RecordEpisodeStatistics(vector_env("VSS-v0", 2, max_steps=9))
     envs.reset(seed=0)
     for _ in range(9):

@@ -1,4 +1,4 @@
-"""What a failed call leaves: refused input nothing changed, a failure half way torn matches."""
+"""Failed calls: refused input changes nothing, a failure within a step is an inconsistency."""
 
 from collections.abc import Callable
 
@@ -8,40 +8,40 @@ import pytest
 from rsoccer import Matches
 from rsoccer.frame import Array, Floats
 from rsoccer.task import Play
-from tests.fragile import METHODS, Broken, Fragile, fragile
+from tests.failing import METHODS, FailingTask, InjectedError, failing_matches
 from tests.helpers import pushing, same, zeros
 
 
 def equal(a: dict[str, Array], b: dict[str, Array]) -> bool:
-    """Two saved states in every bit."""
+    """Compare every bit of two saved states."""
     return a.keys() == b.keys() and all(same(a[name], b[name]) for name in a)
 
 
-def goes_on_alike(ours: Matches, theirs: Matches) -> None:
+def expect_same_future(ours: Matches, theirs: Matches) -> None:
     rng = np.random.default_rng(1)
     ended = 0
     for _ in range(30):
         actions = pushing(rng, ours)
-        one, other = ours.step(actions), theirs.step(actions)
-        assert same(one.observations, other.observations)
-        assert same(one.rewards, other.rewards)
-        ended += int(one.ended.sum())
-    assert ended, "restarts were not compared"
+        outcome, expected = ours.step(actions), theirs.step(actions)
+        assert same(outcome.observations, expected.observations)
+        assert same(outcome.rewards, expected.rewards)
+        ended += int(outcome.ended.sum())
+    assert ended, "resets were not compared"
     assert equal(ours.state_dict(), theirs.state_dict())
 
 
 @pytest.mark.parametrize("autoreset", ["same_step", "next_step", "disabled"])
-def test_refused_input_changes_not_a_bit(autoreset: str) -> None:
-    matches, _ = fragile(autoreset=autoreset)
-    before, fine = matches.state_dict(), zeros(matches)
+def test_refused_input_changes_nothing(autoreset: str) -> None:
+    matches, _ = failing_matches(autoreset=autoreset)
+    before, valid = matches.state_dict(), zeros(matches)
     row = matches.frame.rows[:1].copy()
     outside = row.copy()
     outside[:, 0] = 9.0
-    one, nan = np.array([True, False, False, False]), np.full_like(fine, np.nan)
+    one, nan = np.array([True, False, False, False]), np.full_like(valid, np.nan)
     refused: list[Callable[[], object]] = [
         *(
             lambda wrong=wrong: matches.step(wrong)
-            for wrong in (fine[1:], nan, fine.astype(int), None)
+            for wrong in (valid[1:], nan, valid.astype(int), None)
         ),
         lambda: matches.reset(seed=-1),
         lambda: matches.reset(seed=[1]),
@@ -56,83 +56,85 @@ def test_refused_input_changes_not_a_bit(autoreset: str) -> None:
         with pytest.raises((TypeError, ValueError)):
             call()
         assert equal(matches.state_dict(), before)
-    control, _ = fragile(autoreset=autoreset)
-    goes_on_alike(matches, control) if autoreset != "disabled" else matches.step(fine)
+    control, _ = failing_matches(autoreset=autoreset)
+    expect_same_future(matches, control) if autoreset != "disabled" else matches.step(valid)
 
 
-@pytest.mark.parametrize("what", [*METHODS[:5], "policy", "simulator"])
-def test_after_a_failed_step_nothing_goes_on_until_it_is_mended(what: str) -> None:
-    """Some parts had moved on and others had not, and the next step went on from there."""
-    matches, fuse = fragile()
+@pytest.mark.parametrize("method", [*METHODS[:5], "policy", "simulator"])
+def test_after_a_failed_step_calls_are_refused_until_the_repair(method: str) -> None:
+    """Formerly the next step continued with some parts one step ahead of others."""
+    matches, failure = failing_matches()
     kept = matches.state_dict()
-    fuse.armed = what
-    with pytest.raises(Broken, match=what):
+    failure.method = method
+    with pytest.raises(InjectedError, match=method):
         matches.step(zeros(matches))
-    some = np.array([True, True, False, True])
+    mask = np.array([True, True, False, True])
     calls: list[Callable[[], object]] = [
         lambda: matches.step(zeros(matches)),
-        lambda: matches.reset(mask=some),
-        lambda: matches.reset(seed=3, mask=some),
+        lambda: matches.reset(mask=mask),
+        lambda: matches.reset(seed=3, mask=mask),
         matches.state_dict,
     ]
     for call in calls:
         with pytest.raises(
-            RuntimeError, match=rf"step 8 failed with Broken: {what} fails; call reset"
+            RuntimeError, match=rf"step 8 failed with InjectedError: {method} fails; call"
         ):
             call()
     matches.load_state_dict(kept)
-    control, _ = fragile()
-    goes_on_alike(matches, control)
+    control, _ = failing_matches()
+    expect_same_future(matches, control)
 
 
-@pytest.mark.parametrize("what", [*METHODS[:5], "policy", "simulator"])
-def test_after_a_failed_step_a_reset_of_all_is_as_a_fresh_start(what: str) -> None:
-    matches, fuse = fragile()
-    fuse.armed = what
-    with pytest.raises(Broken):
+@pytest.mark.parametrize("method", [*METHODS[:5], "policy", "simulator"])
+def test_after_a_failed_step_a_reset_of_all_equals_fresh_matches(method: str) -> None:
+    matches, failure = failing_matches()
+    failure.method = method
+    with pytest.raises(InjectedError):
         matches.step(zeros(matches))
-    fresh, _ = fragile()
+    fresh, _ = failing_matches()
     assert same(matches.reset(11), fresh.reset(11))
-    goes_on_alike(matches, fresh)
+    expect_same_future(matches, fresh)
     matches.reset(mask=np.array([True, False, False, True]))
 
 
-@pytest.mark.parametrize("what", ["new_memory", "get_initial_positions_frame"])
-def test_a_reset_that_fails_before_anything_is_placed_changes_nothing(what: str) -> None:
+@pytest.mark.parametrize("method", ["new_memory", "get_initial_positions_frame"])
+def test_a_reset_that_fails_before_placing_changes_nothing(method: str) -> None:
     for mask in (None, np.array([True, False, False, False])):
-        matches, fuse = fragile()
+        matches, failure = failing_matches()
         before = matches.state_dict()
-        fuse.armed = what
-        with pytest.raises(Broken):
+        failure.method = method
+        with pytest.raises(InjectedError):
             matches.reset(mask=mask)
         assert equal(matches.state_dict(), before)
-        goes_on_alike(matches, fragile()[0])
+        expect_same_future(matches, failing_matches()[0])
 
 
-def test_a_reset_that_fails_later_tears_the_matches_too() -> None:
-    matches, fuse = fragile()
-    fuse.armed = "frame_to_observations"
-    with pytest.raises(Broken):
+def test_a_reset_that_fails_after_placing_is_an_inconsistency() -> None:
+    matches, failure = failing_matches()
+    failure.method = "frame_to_observations"
+    with pytest.raises(InjectedError):
         matches.reset(mask=np.array([True, False, False, False]))
-    with pytest.raises(RuntimeError, match="reset failed with Broken: frame_to_observations fails"):
+    with pytest.raises(
+        RuntimeError, match="reset failed with InjectedError: frame_to_observations"
+    ):
         matches.step(zeros(matches))
-    assert same(matches.reset(4), fragile()[0].reset(4))
+    assert same(matches.reset(4), failing_matches()[0].reset(4))
 
 
-def test_a_start_within_a_step_that_fails_tears_the_matches() -> None:
-    matches, fuse = fragile()
+def test_a_failed_reset_within_a_step_is_an_inconsistency() -> None:
+    matches, failure = failing_matches()
     matches.play.steps[2] = matches.task.max_steps
-    fuse.armed = "get_initial_positions_frame"
-    with pytest.raises(Broken):
+    failure.method = "get_initial_positions_frame"
+    with pytest.raises(InjectedError):
         matches.step(zeros(matches))
     with pytest.raises(RuntimeError, match="step 8 failed"):
         matches.step(zeros(matches))
 
 
-def test_a_refused_reset_of_torn_matches_mends_nothing() -> None:
-    matches, fuse = fragile()
-    fuse.armed = "metrics"
-    with pytest.raises(Broken):
+def test_a_refused_reset_of_inconsistent_matches_repairs_nothing() -> None:
+    matches, failure = failing_matches()
+    failure.method = "metrics"
+    with pytest.raises(InjectedError):
         matches.step(zeros(matches))
     outside = matches.frame.rows.copy()
     outside[:, 0] = 9.0
@@ -142,8 +144,8 @@ def test_a_refused_reset_of_torn_matches_mends_nothing() -> None:
         matches.step(zeros(matches))
 
 
-def test_an_interrupt_in_the_middle_of_a_step_tears_the_matches() -> None:
-    class Interrupted(Fragile):
+def test_an_interrupt_within_a_step_is_an_inconsistency() -> None:
+    class Interrupted(FailingTask):
         def metrics(self, play: Play) -> dict[str, Floats]:
             raise KeyboardInterrupt
 

@@ -1,5 +1,8 @@
-"""The same seed, the same match, bit for bit: alone or in a batch, on any number of threads,
-after other matches, and from a saved state. All of it while robots push each other."""
+"""The same seed gives the same match, bit for bit.
+
+This holds alone or in a batch, on any number of threads, after other matches, and from a saved
+state, while robots push each other.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +17,7 @@ from rsoccer.frame import Floats, Mask
 from rsoccer.matches import Outcome
 from rsoccer.task import Play, Task
 from tests.helpers import Crowd, pushing, same, ssl_crowd, touches
-from tests.one_match import TASKS, VSS_TASKS
+from tests.parallel_matches import TASKS, VSS_TASKS
 
 WORLDS = 5
 STEPS = 130
@@ -37,7 +40,7 @@ DRIVEN: list[tuple[str, Controllers | None]] = [
     ("SSLGoToBall-v0", {"all": "ou", "blue_0": "fetch"}),
     ("SSLPassEnduranceMulti-v0", {"all": "ou", "blue_0": "passer"}),
 ]
-"""Every policy once: what it draws and remembers is its own in each task."""
+"""Every policy once, with its random numbers and memory."""
 
 
 def test_every_task_and_every_script_is_among_the_cases() -> None:
@@ -48,7 +51,7 @@ def test_every_task_and_every_script_is_among_the_cases() -> None:
 
 each_task = pytest.mark.parametrize(("name", "controllers"), ALONE)
 everywhere = pytest.mark.parametrize(("name", "controllers"), ALONE + DRIVEN)
-# Threads share out the physics, the views, what robots see, and what rewards are made of.
+# Threads share the work of physics, views, observations and potentials.
 every_kind = pytest.mark.parametrize(
     ("name", "controllers"),
     [*DRIVEN[:3], ("SSLStaticDefenders-v0", None), ("SSLPassEnduranceMulti-v0", None)],
@@ -63,14 +66,14 @@ def crowded(
     threads: int = 1,
     autoreset: str = "same_step",
 ) -> Matches:
-    """Matches of a task of which every episode begins in a crowd round the ball."""
+    """Matches of a task in which every episode begins with all robots close to the ball."""
     task_class = type(rsoccer.make_task(name))
     options: dict[str, Any] = {"max_steps": 40}
     if name in SCRIPTS:
-        options["velocity_frame"] = "robot"  # so that pushing forward is pushing towards the ball
+        options["velocity_frame"] = "robot"  # forward actions then push towards the ball
 
         def late(task: Task, play: Play) -> tuple[dict[str, Floats], Mask]:
-            """Nothing ends it as early as contact would."""
+            """Ends of the task, but not in the first 20 steps."""
             terms, done = task_class.calculate_reward_and_done(task, play)
             return terms, done & (play.steps > 20)
 
@@ -81,7 +84,8 @@ def crowded(
     return Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
 
 
-def facts(outcome: Outcome) -> dict[str, np.ndarray]:
+def arrays_of(outcome: Outcome) -> dict[str, np.ndarray]:
+    """All arrays of an outcome by name."""
     arrays = {name: value for name, value in vars(outcome).items() if isinstance(value, np.ndarray)}
     return arrays | outcome.terms | outcome.metrics
 
@@ -89,7 +93,7 @@ def facts(outcome: Outcome) -> dict[str, np.ndarray]:
 def play_both(
     ours: Matches, steps: int, compare: Callable[[np.ndarray, Outcome, int], None]
 ) -> tuple[int, int]:
-    """Push on, comparing every step; the touches seen, and the episodes that ended."""
+    """Step and compare; return the number of touches and of episodes that ended."""
     rng = np.random.default_rng(1)
     touched = ended = 0
     for step in range(steps):
@@ -102,30 +106,30 @@ def play_both(
 
 
 def expect_equal(ours: Matches, theirs: list[Matches], steps: int = STEPS) -> None:
-    """What one does, the others do together, row by row."""
+    """Compare one batch with several, row by row."""
 
     def compare(actions: np.ndarray, outcome: Outcome, step: int) -> None:
         first, parts = 0, []
         for other in theirs:
-            parts.append(facts(other.step(actions[first : first + other.worlds])))
+            parts.append(arrays_of(other.step(actions[first : first + other.worlds])))
             first += other.worlds
-        for name, array in facts(outcome).items():
+        for name, array in arrays_of(outcome).items():
             assert same(array, np.concatenate([part[name] for part in parts])), (name, step)
         rows = np.concatenate([other.frame.rows for other in theirs])
         assert same(ours.frame.rows, rows), step
 
     touched, ended = play_both(ours, steps, compare)
-    fewest = 2 if ours.task.name in SCRIPTS else 10  # of SSL tasks some have but one robot
+    fewest = 2 if ours.task.name in SCRIPTS else 10  # some SSL tasks have only one robot
     assert touched > ours.worlds * fewest, "without contacts the comparison would prove little"
-    assert ended >= ours.worlds, "without an end no restart was compared"
+    assert ended >= ours.worlds, "without an end no reset was compared"
 
 
 @everywhere
-def test_row_i_of_a_batch_is_a_single_world(name: str, controllers: Controllers | None) -> None:
-    many = crowded(name, controllers, WORLDS, seed=7)
-    ones = [crowded(name, controllers, 1, seed=7 + i) for i in range(WORLDS)]
-    assert same(many.reset(), np.concatenate([one.reset() for one in ones]))
-    expect_equal(many, ones)
+def test_row_i_of_a_batch_equals_a_single_world(name: str, controllers: Controllers | None) -> None:
+    batch = crowded(name, controllers, WORLDS, seed=7)
+    singles = [crowded(name, controllers, 1, seed=7 + i) for i in range(WORLDS)]
+    assert same(batch.reset(), np.concatenate([single.reset() for single in singles]))
+    expect_equal(batch, singles)
 
 
 @every_kind
@@ -138,7 +142,7 @@ def test_threads_do_not_change_results(name: str, controllers: Controllers | Non
 
 
 @each_task
-def test_after_other_matches_a_match_is_as_a_fresh_one(
+def test_matches_after_others_equal_fresh_matches(
     name: str, controllers: Controllers | None
 ) -> None:
     used = crowded(name, controllers, WORLDS, seed=100)
@@ -151,12 +155,12 @@ def test_after_other_matches_a_match_is_as_a_fresh_one(
 
 
 @everywhere
-def test_restored_is_as_never_stopped(name: str, controllers: Controllers | None) -> None:
+def test_restored_matches_continue_exactly(name: str, controllers: Controllers | None) -> None:
     expect_restored(name, controllers, "same_step")
 
 
 @every_kind
-def test_restored_without_autoreset_is_as_never_stopped(
+def test_restored_matches_without_autoreset_continue_exactly(
     name: str, controllers: Controllers | None
 ) -> None:
     expect_restored(name, controllers, "disabled")
@@ -195,7 +199,7 @@ def test_a_saved_state_does_not_change_with_the_matches() -> None:
     assert not same(matches.state_dict()["frame"], saved["frame"])
 
 
-def test_global_random_numbers_are_left_alone() -> None:
+def test_global_random_numbers_are_not_used() -> None:
     np.random.seed(0)  # noqa: NPY002
     before = np.random.get_state()[1].copy()  # type: ignore[index]  # noqa: NPY002
     matches = crowded("VSSMulti-v0", {"blue_0": "chase"}, 3)

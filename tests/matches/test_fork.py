@@ -1,7 +1,7 @@
-"""A worker process must play on, also when its parent had a pool of threads.
+"""Matches in a forked worker process, also if the parent process has a pool of threads.
 
-A fork copies a pool without its threads, so whoever waits for them waits for ever; workers of
-vectorised environments are forks.
+A fork copies a pool without its threads, so a worker that waits for them would wait for ever.
+Workers of vectorised environments are forks.
 """
 
 import hashlib
@@ -18,10 +18,10 @@ import pytest
 from rsoccer import Matches, parallel_env
 
 SECONDS = 60.0
-"""Far more than a worker needs, so that only one that hangs runs into it."""
+"""Time limit of a worker; far more than it needs unless it hangs."""
 
 inherited: list[Matches] = []
-"""Matches that forked workers find as their parent left them."""
+"""Matches of the parent process, which forked workers inherit."""
 
 
 def play_env() -> str:
@@ -59,11 +59,11 @@ def work(job: Callable[[], str], answer: Connection) -> None:
 
 
 def run_in_worker(context: BaseContext, job: Callable[[], str]) -> str:
-    """What the job returns in a process of its own, or a failure if it takes for ever."""
+    """Return the result of a job in another process; fail if the job hangs."""
     ours, theirs = context.Pipe(duplex=False)
     worker = context.Process(target=work, args=(job, theirs), daemon=True)  # type: ignore[attr-defined]
     with warnings.catch_warnings():
-        # From 3.12 on Python warns of what this file shows to be safe here.
+        # Python 3.12 and later warn of forks in general; this file shows ours to be safe.
         warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
         worker.start()
     theirs.close()
@@ -77,21 +77,21 @@ def run_in_worker(context: BaseContext, job: Callable[[], str]) -> str:
 
 @pytest.mark.parametrize("method", ["fork", "spawn"])
 @pytest.mark.parametrize("job", [play_env, play_threads])
-def test_a_worker_plays_as_its_parent(method: str, job: Callable[[], str]) -> None:
+def test_a_worker_plays_the_same_matches(method: str, job: Callable[[], str]) -> None:
     expected = [play_env(), play_threads()]  # now the parent has a pool of threads
     assert expected[0] != expected[1]
     context = multiprocessing.get_context(method)
     assert run_in_worker(context, job) == expected[[play_env, play_threads].index(job)]
 
 
-def test_a_fork_goes_on_with_the_matches_of_its_parent() -> None:
+def test_a_fork_continues_the_matches_of_its_parent() -> None:
     matches = Matches("VSSSelfPlay-v0", worlds=8, seed=4, threads=2)
     matches.reset()
     play(matches)
     inherited[:] = [matches]
     in_worker = run_in_worker(multiprocessing.get_context("fork"), play_inherited)
     assert in_worker == play(matches)
-    assert in_worker != play(matches), "the matches stand still"
+    assert in_worker != play(matches), "the matches do not advance"
 
 
 def test_a_worker_that_hangs_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -101,6 +101,5 @@ def test_a_worker_that_hangs_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def hang() -> str:
-
     threading.Event().wait()
     return "never"

@@ -1,3 +1,5 @@
+"""The step loop: autoreset modes, outcomes, resets and pickling."""
+
 import pickle
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +16,7 @@ from tests.helpers import Crowd, begun, pushing, same, zeros
 
 @dataclass(frozen=True)
 class Counting(VssSelfPlay):
-    """Ends when its own counter says so: world i after i + 2 steps; shows the counter."""
+    """World i ends after i + 2 steps of a counter in memory, which is also the observation."""
 
     max_steps: int = 5
 
@@ -31,7 +33,7 @@ class Counting(VssSelfPlay):
         return {"time": one, "twice": 2 * one}, play.memory["count"] == 2 + np.arange(len(one))
 
 
-def test_same_step_begins_anew_at_once_and_keeps_the_last_observation() -> None:
+def test_same_step_resets_at_once_and_keeps_the_final_observation() -> None:
     matches = begun(Counting())
     matches.step(zeros(matches))
     outcome = matches.step(zeros(matches))
@@ -42,18 +44,18 @@ def test_same_step_begins_anew_at_once_and_keeps_the_last_observation() -> None:
     assert not matches.done.any()
 
 
-def test_the_clock_truncates_what_the_task_has_not_ended() -> None:
+def test_the_time_limit_truncates_what_the_task_has_not_ended() -> None:
     matches = begun(Counting())
     for _ in range(5):
         outcome = matches.step(zeros(matches))
-    # worlds 0 and 1 began anew, 3 ends by the task in its last step, 4 by the clock
+    # Worlds 0 and 1 were reset, world 3 ends by the task in its last step, world 4 by time.
     assert outcome.terminated.tolist() == [False, False, False, True, False]
     assert outcome.truncated.tolist() == [False, False, False, False, True]
     assert outcome.ended.tolist() == [False, False, False, True, True]
     assert outcome.final_observations[4, 0, 0] == 5
 
 
-def test_next_step_begins_anew_one_step_later() -> None:
+def test_next_step_resets_one_step_later() -> None:
     matches = begun(Counting(), autoreset="next_step")
     matches.step(zeros(matches))
     outcome = matches.step(zeros(matches))
@@ -89,16 +91,16 @@ def test_disabled_waits_for_a_reset() -> None:
     assert matches.done.tolist() == [False, True, True, True, False]
 
 
-def test_worlds_that_wait_draw_no_random_numbers() -> None:
+def test_waiting_worlds_draw_no_random_numbers() -> None:
     options: dict[str, Any] = {"autoreset": "disabled", "controllers": {"yellow": "ou"}}
-    waits, goes = begun(Counting(), **options), begun(Counting(), **options)
+    waiting, control = begun(Counting(), **options), begun(Counting(), **options)
     for _ in range(2):
-        waits.step(zeros(waits))
-        goes.step(zeros(goes))
-    held = waits.state_dict()
-    assert held["rng.yellow_0"].tolist() == goes.state_dict()["rng.yellow_0"].tolist()
-    waits.step(zeros(waits))
-    after = waits.state_dict()
+        waiting.step(zeros(waiting))
+        control.step(zeros(control))
+    held = waiting.state_dict()
+    assert held["rng.yellow_0"].tolist() == control.state_dict()["rng.yellow_0"].tolist()
+    waiting.step(zeros(waiting))
+    after = waiting.state_dict()
     for name in ("rng.yellow_0", "yellow_0.walk", "rng.start", "rng.task", "frame", "steps"):
         assert same(after[name][0], held[name][0]), name
     for name in ("rng.yellow_0", "yellow_0.walk", "frame", "steps"):
@@ -113,7 +115,7 @@ def test_rewards_are_the_sum_of_terms() -> None:
     assert outcome.rewards == pytest.approx(sum(outcome.terms.values()))
 
 
-def test_what_an_outcome_holds_is_the_receivers_own() -> None:
+def test_an_outcome_belongs_to_the_caller() -> None:
     matches, control = begun(Crowd()), begun(Crowd())
     rng = np.random.default_rng(0)
     for _ in range(60):
@@ -124,14 +126,14 @@ def test_what_an_outcome_holds_is_the_receivers_own() -> None:
         for array in arrays:
             if isinstance(array, np.ndarray):
                 array[...] = 1
-        assert other.observations.min() < 1, "arrays of one outcome share nothing with another's"
+        assert other.observations.min() < 1, "outcomes share no memory"
     matches.reset(mask=np.zeros(5, np.bool_))[:] = 7.0
     assert same(
         matches.reset(mask=np.zeros(5, np.bool_)), control.reset(mask=np.zeros(5, np.bool_))
     )
 
 
-def test_after_a_reset_the_last_frame_is_the_frame() -> None:
+def test_after_a_reset_the_last_frame_equals_the_frame() -> None:
     matches = begun(Crowd())
     rng = np.random.default_rng(0)
     for _ in range(7):
@@ -147,17 +149,17 @@ def test_after_a_reset_the_last_frame_is_the_frame() -> None:
     assert play.actions[~mask].any()
 
 
-def test_a_reset_with_a_seed_is_a_new_pair_of_matches() -> None:
+def test_a_reset_with_a_seed_equals_new_matches() -> None:
     used = begun(Crowd(), seed=5)
     rng = np.random.default_rng(0)
     for _ in range(50):
         used.step(pushing(rng, used))
     assert same(used.reset(seed=11), Matches(Crowd(), 5, seed=11).reset())
     first = used.reset()
-    assert not same(first, used.reset()), "without a seed the streams go on"
+    assert not same(first, used.reset()), "without a seed the streams continue"
 
 
-def test_a_reset_of_nobody_changes_nothing() -> None:
+def test_a_reset_of_no_world_changes_nothing() -> None:
     matches = begun(Crowd())
     before = matches.state_dict()
     matches.reset(mask=np.zeros(5, np.bool_))
@@ -182,7 +184,7 @@ def test_step_before_reset_is_an_error() -> None:
         matches.step(zeros(matches))
 
 
-def test_matches_can_be_pickled_in_the_middle_of_a_match() -> None:
+def test_matches_can_be_pickled_within_an_episode() -> None:
     ours = begun(Crowd(), controllers={"yellow": "chase"})
     rng = np.random.default_rng(0)
     for _ in range(20):

@@ -5,14 +5,14 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, RobotColumns, length, span
+from rsoccer.frame import Array, Floats, RobotColumns, length, column_slice
 from rsoccer.view import View
 
 CLOSENESS_RATE: Final = np.float32(8.0)  # 1/m: closeness is about a third at 12 cm
 TINY: Final = np.float32(1e-6)  # m; avoids a division by zero
-PLANE = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
-WITH_BEAM = span(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta", "infrared")
-BALL = span(BALL_COLUMNS, "x", "y", "z", "v_x", "v_y", "v_z")
+PLANE = column_slice(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
+WITH_BEAM = column_slice(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta", "infrared")
+BALL = column_slice(BALL_COLUMNS, "x", "y", "z", "v_x", "v_y", "v_z")
 
 
 def blocks(view: View, config: SimConfig) -> dict[str, Array]:

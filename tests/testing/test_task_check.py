@@ -1,4 +1,4 @@
-"""Every planted fault must be found; what finds nothing proves nothing."""
+"""`check_task` accepts every task of the package and finds every planted fault."""
 
 import random
 from dataclasses import dataclass
@@ -28,15 +28,15 @@ def test_every_task_of_the_package_passes(name: str) -> None:
         rsoccer.make_task("VSSSelfPlay-v0", n_yellow=0),
         Crowd(),
     ],
-    ids=["chase", "odd teams", "nobody against", "crowd"],
+    ids=["chase", "odd teams", "no opponents", "crowd"],
 )
 def test_options_pass(task: Task) -> None:
     check_task(task, worlds=3, steps=60)
 
 
 @dataclass(frozen=True)
-class Sound(Crowd):
-    """What the faults below are planted in: uses memory, both frames, chance, also to end."""
+class Correct(Crowd):
+    """A correct task, base of the faulty ones: it uses memory, both frames and random numbers."""
 
     def new_memory(self, n: int) -> dict[str, Array]:
         return {"run": np.zeros(n, np.float32)}
@@ -49,120 +49,120 @@ class Sound(Crowd):
         return terms, done | (play.rng.uniform(0.0, 1.0) < 0.05)
 
 
-class KeepsOnSelf(Sound):
+class KeepsOnSelf(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         vars(self)["steps"] = vars(self).get("steps", 0) + 1
         return super().calculate_reward_and_done(play)
 
 
-class KeepsInAList(Sound):
-    seen: tuple[list[int], ...] = ([],)
+class KeepsInAList(Correct):
+    calls: tuple[list[int], ...] = ([],)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         terms, done = super().calculate_reward_and_done(play)
-        self.seen[0].append(1)
-        return {"goal": terms["goal"] + np.float32(len(self.seen[0]))}, done
+        self.calls[0].append(1)
+        return {"goal": terms["goal"] + np.float32(len(self.calls[0]))}, done
 
 
-class ReadsItsNeighbours(Sound):
+class ReadsOtherWorlds(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         terms, done = super().calculate_reward_and_done(play)
         return {"goal": terms["approach"] - terms["approach"].mean()}, done
 
 
-class RemembersForAll(Sound):
+class SharesMemory(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         play.memory["run"][:] = play.memory["run"].max()
         return super().calculate_reward_and_done(play)
 
 
-class EndsAllWhenOneEnds(Sound):
+class EndsAllWhenOneEnds(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         terms, done = super().calculate_reward_and_done(play)
         return terms, np.full_like(done, done.any())
 
 
-class ShowsHowManyWorlds(Sound):
+class ObservesTheNumberOfWorlds(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         count = np.full((len(play.frame), len(play.observers), 1), len(play.frame), np.float32)
         return super().frame_to_observations(play) | {"count": count}
 
 
-class StartsFromNumpyRandom(Sound):
+class StartsFromNumpyRandom(Correct):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = super().get_initial_positions_frame(rng)
         frame.ball.velocity[:, 0] = np.random.uniform(-1, 1, len(rng))  # noqa: NPY002
         return frame
 
 
-class StartsFromRandom(Sound):
+class StartsFromRandom(Correct):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = super().get_initial_positions_frame(rng)
         random.random()
         return frame
 
 
-class StartsFromAFixedSeed(Sound):
+class StartsFromAFixedSeed(Correct):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = super().get_initial_positions_frame(rng)
         frame.ball.velocity[:, 0] = np.random.default_rng(0).uniform(-1, 1, len(rng))
         return frame
 
 
-class StartsAllAlike(Sound):
+class StartsAllAlike(Correct):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = super().get_initial_positions_frame(rng)
         frame.rows[:] = frame.rows[0]
         return frame
 
 
-class ForgetsToForget(Sound):
-    """Its memory goes on where some episode before has left off."""
+class KeepsMemoryAfterReset(Correct):
+    """Its memory continues from an earlier episode."""
 
-    left: tuple[dict[int, Array], ...] = ({},)
+    kept: tuple[dict[int, Array], ...] = ({},)
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        kept = self.left[0].get(n)
-        return {"run": np.zeros(n, np.float32) if kept is None else kept}
+        last = self.kept[0].get(n)
+        return {"run": np.zeros(n, np.float32) if last is None else last}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         outcome = super().calculate_reward_and_done(play)
-        self.left[0][len(play.frame)] = play.memory["run"].copy()
+        self.kept[0][len(play.frame)] = play.memory["run"].copy()
         return outcome
 
 
-class MovesTheBall(Sound):
+class MovesTheBall(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         play.frame.ball.position[:, 0] *= 0.5
         return super().calculate_reward_and_done(play)
 
 
-class ScalesItsView(Sound):
+class ScalesItsView(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         play.view.robots.data[...] /= 2.0
         return super().frame_to_observations(play)
 
 
-class ShowsDoubles(Sound):
+class ObservesFloat64(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         blocks = super().frame_to_observations(play)
         return blocks | {"ball": blocks["ball"].astype(np.float64)}
 
 
-class ShowsNothingSensible(Sound):
+class ObservesNaN(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         blocks = super().frame_to_observations(play)
         return blocks | {"ball": np.full_like(blocks["ball"], np.nan)}
 
 
-class PaysInfinity(Sound):
+class RewardsInfinity(Correct):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         terms, done = super().calculate_reward_and_done(play)
         return {"goal": terms["goal"] + np.float32(np.inf)}, done
 
 
-def test_what_the_faults_are_planted_in_is_sound() -> None:
-    check_task(Sound(), worlds=4, steps=60)
+def test_the_base_of_the_faulty_tasks_is_correct() -> None:
+    check_task(Correct(), worlds=4, steps=60)
 
 
 @pytest.mark.parametrize(
@@ -170,28 +170,28 @@ def test_what_the_faults_are_planted_in_is_sound() -> None:
     [
         (KeepsOnSelf, "keeps state on self"),
         (KeepsInAList, "differ"),
-        (ReadsItsNeighbours, "differ from the same worlds alone"),
-        (RemembersForAll, "differ from the same worlds alone"),
+        (ReadsOtherWorlds, "differ from the same worlds alone"),
+        (SharesMemory, "differ from the same worlds alone"),
         (EndsAllWhenOneEnds, "differ from the same worlds alone"),
-        (ShowsHowManyWorlds, "differ from the same worlds alone"),
+        (ObservesTheNumberOfWorlds, "differ from the same worlds alone"),
         (StartsFromNumpyRandom, "differ"),
         (StartsFromRandom, "global random numbers"),
         (StartsFromAFixedSeed, r"worlds \[1, 2, 3\] of a batch differ"),
         (StartsAllAlike, r"worlds \[1, 2, 3\] of a batch differ"),
-        (ForgetsToForget, "differ"),
+        (KeepsMemoryAfterReset, "differ"),
         (MovesTheBall, "writes into play.frame"),
         (ScalesItsView, "writes into play.frame or play.view"),
-        (ShowsDoubles, "'ball' is float64, not float32"),
-        (ShowsNothingSensible, "'ball' has NaN"),
-        (PaysInfinity, "'goal' has NaN or infinite"),
+        (ObservesFloat64, "'ball' is float64, not float32"),
+        (ObservesNaN, "'ball' has NaN"),
+        (RewardsInfinity, "'goal' has NaN or infinite"),
     ],
 )
-def test_a_planted_fault_is_found(faulty: type[Sound], message: str) -> None:
+def test_a_planted_fault_is_found(faulty: type[Correct], message: str) -> None:
     with pytest.raises(TaskError, match=message):
         check_task(faulty(), worlds=4, steps=60)
 
 
-def test_a_check_in_which_nothing_ends_is_no_check() -> None:
+def test_a_check_without_an_end_of_an_episode_fails() -> None:
     class Endless(VssSelfPlay):
         def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
             terms, done = super().calculate_reward_and_done(play)
@@ -202,12 +202,12 @@ def test_a_check_in_which_nothing_ends_is_no_check() -> None:
         check_task(Endless(), worlds=2, steps=20)
 
 
-def test_one_world_has_no_neighbours_to_compare() -> None:
+def test_one_world_is_too_few() -> None:
     with pytest.raises(ValueError, match="worlds: expected at least 2"):
         check_task(VssSelfPlay(), worlds=1)
 
 
-def test_the_task_itself_is_left_alone() -> None:
+def test_the_checked_task_does_not_change() -> None:
     task = Crowd()
     before = dict(vars(task))
     check_task(task, worlds=2, steps=20)

@@ -1,4 +1,4 @@
-"""Faults that show only when robots press on each other must be found too."""
+"""`check_task` also finds faults that need robots pressing on each other."""
 
 from dataclasses import dataclass
 
@@ -13,51 +13,51 @@ from rsoccer.testing import TaskError, check_task
 from tests.helpers import Crowd
 
 
-class RaisesInACrowd(VssSelfPlay):
+class RaisesUnderPressure(VssSelfPlay):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         if ((play.frame.robots.touched_ball > 0.0).sum(axis=1) > 2).any():
             raise IndexError("too many to count")
         return super().calculate_reward_and_done(play)
 
 
-class PaysNothingSensibleToACrowd(VssSelfPlay):
-    """Per metre between the ball and the nearest wall that a robot's corner still fits behind."""
+class RewardsNaNUnderPressure(VssSelfPlay):
+    """The root is of a negative number where the ball is closer to a wall than a robot's corner."""
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         terms, done = super().calculate_reward_and_done(play)
-        room = 0.65 - 0.0215 - np.abs(play.frame.ball.position[:, 1])
+        gap = 0.65 - 0.0215 - np.abs(play.frame.ball.position[:, 1])
         with np.errstate(invalid="ignore"):
-            terms["room"] = np.sqrt(room)[:, None].astype(np.float32)
+            terms["gap"] = np.sqrt(gap)[:, None].astype(np.float32)
         return terms, done
 
 
-class BringsTheBallBackForAll(SslSelfPlay):
-    """A ball that comes back is the faster, the more worlds there are."""
+class RepositionDependsOnTheBatch(SslSelfPlay):
+    """The velocity of a repositioned ball depends on the number of worlds."""
 
     def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        found = super().reposition_ball(frame)
-        if found is not None:
-            BallColumns(found[1]).velocity[:, 0] = 0.01 * len(frame)
-        return found
+        result = super().reposition_ball(frame)
+        if result is not None:
+            BallColumns(result[1]).velocity[:, 0] = 0.01 * len(frame)
+        return result
 
 
-class LosesTheBall(SslSelfPlay):
-    """Puts a ball back in the middle of a robot."""
+class RepositionsIntoARobot(SslSelfPlay):
+    """The new position of the ball is the centre of a robot."""
 
     def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        found = super().reposition_ball(frame)
-        if found is not None:
-            found[1][:, :2] = frame.robots.position[found[0], 0]
-        return found
+        result = super().reposition_ball(frame)
+        if result is not None:
+            result[1][:, :2] = frame.robots.position[result[0], 0]
+        return result
 
 
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
-        (RaisesInACrowd, "IndexError in step .* under pressure.*too many to count"),
-        (PaysNothingSensibleToACrowd, "'room' has NaN or infinite numbers in step .* pressure"),
-        (BringsTheBallBackForAll, "differ from the same worlds alone"),
-        (LosesTheBall, "ValueError in step .* under pressure.*ball and blue_0 overlap"),
+        (RaisesUnderPressure, "IndexError in step .* under pressure.*too many to count"),
+        (RewardsNaNUnderPressure, "'gap' has NaN or infinite numbers in step .* pressure"),
+        (RepositionDependsOnTheBatch, "differ from the same worlds alone"),
+        (RepositionsIntoARobot, "ValueError in step .* under pressure.*ball and blue_0 overlap"),
     ],
 )
 def test_a_fault_that_shows_only_under_pressure_is_found(
@@ -67,9 +67,7 @@ def test_a_fault_that_shows_only_under_pressure_is_found(
         check_task(faulty())
 
 
-def test_what_is_driven_by_other_actions_is_pressed_by_pushes_that_last() -> None:
-    """Where nothing is known of what actions do, robots still meet."""
-
+def test_robots_press_even_if_the_meaning_of_actions_is_unknown() -> None:
     @dataclass(frozen=True)
     class Forward(Crowd):
         action_size = 1

@@ -1,6 +1,6 @@
-"""RLlib's wrapper of a whole match, and its runners, which play episodes for training.
+"""RLlib's wrapper of a match, and its runners, which play episodes for training.
 
-The runners are called here, without an algorithm: that would start a cluster on this machine.
+The runners are called without an algorithm, which would start a cluster.
 """
 
 from typing import Any
@@ -11,7 +11,7 @@ import pytest
 import rsoccer
 from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
 from rsoccer.envs.vector import SoccerVectorEnv
-from tests.one_match import TASKS
+from tests.parallel_matches import TASKS
 
 wrappers = pytest.importorskip("ray.rllib.env.wrappers.pettingzoo_env")
 ppo = pytest.importorskip("ray.rllib.algorithms.ppo")
@@ -24,12 +24,12 @@ MAX_CYCLES = 5
 
 
 def short_match() -> SoccerParallelEnv:
-    """A match that the clock ends soon."""
+    """A match with a short time limit."""
     return parallel_env("VSSSelfPlay-v0", max_cycles=MAX_CYCLES)
 
 
 def wrapped(_: object = None) -> Any:  # noqa: ANN401  (types only where it is installed)
-    """The same for RLlib."""
+    """The same in RLlib's wrapper."""
     return wrappers.ParallelPettingZooEnv(short_match())
 
 
@@ -72,13 +72,13 @@ def test_its_runner_plays_a_match_with_one_policy_for_all() -> None:
     runner.stop()
     assert [len(episode) for episode in episodes] == [MAX_CYCLES] * 2
     for episode in episodes:
-        # Ray 2.60 calls every common end `is_terminated` as well, so that says nothing.
+        # Ray 2.60 sets `is_terminated` for every common end, so it is not compared.
         assert episode.is_truncated
         assert sorted(episode.agent_episodes) == sorted(short_match().possible_agents)
         assert {len(robot) for robot in episode.agent_episodes.values()} == {MAX_CYCLES}
 
 
-def test_its_runner_plays_many_lone_matches_at_once() -> None:
+def test_its_runner_plays_many_single_learner_matches() -> None:
     config = (
         ppo.PPOConfig()
         .environment("rsoccer/VSS-v0", env_config={"max_steps": MAX_CYCLES})

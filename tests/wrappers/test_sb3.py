@@ -1,4 +1,4 @@
-"""Stable-Baselines3 checks one robot's match, and trains on it and, by an example, on many."""
+"""Stable-Baselines3: its checker, training on one match, and the example with many matches."""
 
 import runpy
 from pathlib import Path
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from tests.solo_learner import LONE
+from tests.single_learner import ONE_LEARNER
 
 stable_baselines3 = pytest.importorskip("stable_baselines3")
 env_checker = pytest.importorskip("stable_baselines3.common.env_checker")
@@ -20,22 +20,22 @@ MAX_STEPS = 20
 EXAMPLE = Path(__file__).parents[2] / "examples" / "10_stable_baselines3.py"
 
 
-def lone_match(**options: Any) -> gymnasium.Env[Any, Any]:  # noqa: ANN401
-    """A short match by its id."""
+def short_match(**options: Any) -> gymnasium.Env[Any, Any]:  # noqa: ANN401
+    """A short match by id."""
     return gymnasium.make("rsoccer/VSS-v0", max_steps=MAX_STEPS, **options)
 
 
 @pytest.mark.parametrize("options", [{}, {"discrete": True}, {"render_mode": "rgb_array"}])
-def test_its_checker_accepts_us(options: dict[str, Any]) -> None:
+def test_its_checker_accepts_the_env(options: dict[str, Any]) -> None:
     if "render_mode" in options:
         pytest.importorskip("pygame")
-    env_checker.check_env(lone_match(**options))
+    env_checker.check_env(short_match(**options))
 
 
 def learned(seed: int) -> Any:  # noqa: ANN401  (types only where it is installed)
-    """What PPO has become after some episodes."""
+    """PPO after some episodes."""
     model = stable_baselines3.PPO(
-        "MlpPolicy", lone_match(), n_steps=64, batch_size=32, n_epochs=1, seed=seed, device="cpu"
+        "MlpPolicy", short_match(), n_steps=64, batch_size=32, n_epochs=1, seed=seed, device="cpu"
     )
     return model.learn(128)
 
@@ -45,14 +45,14 @@ def test_ppo_trains_the_same_from_the_same_seed() -> None:
     episodes = [episode["l"] for episode in model.ep_info_buffer]
     assert sum(episodes) > 128 - MAX_STEPS
     assert max(episodes) == MAX_STEPS
-    seen = np.zeros(model.observation_space.shape, np.float32)
-    actions = [each.predict(seen, deterministic=True)[0] for each in (model, again, other)]
+    observation = np.zeros(model.observation_space.shape, np.float32)
+    actions = [each.predict(observation, deterministic=True)[0] for each in (model, again, other)]
     np.testing.assert_array_equal(actions[0], actions[1])
     assert (actions[0] != actions[2]).any()
 
 
-def test_the_clock_truncates_so_that_values_are_carried_over_the_end() -> None:
-    model = stable_baselines3.PPO("MlpPolicy", lone_match(), n_steps=8, batch_size=8, device="cpu")
+def test_the_time_limit_truncates_for_bootstrapped_values() -> None:
+    model = stable_baselines3.PPO("MlpPolicy", short_match(), n_steps=8, batch_size=8, device="cpu")
     envs = model.get_env()
     envs.reset()
     ended = [envs.step(np.zeros((1, 2), np.float32))[2:] for _ in range(MAX_STEPS)][-1]
@@ -66,14 +66,14 @@ def test_the_clock_truncates_so_that_values_are_carried_over_the_end() -> None:
 
 
 def many(name: str = "VSS-v0", matches: int = 3, **options: Any) -> Any:  # noqa: ANN401
-    """Short matches as the example has them."""
+    """Short matches in the example's class."""
     return runpy.run_path(str(EXAMPLE))["StableMatches"](
         f"rsoccer/{name}", matches, **{"max_steps": MAX_STEPS, **options}
     )
 
 
 @pytest.mark.parametrize("discrete", [False, True])
-@pytest.mark.parametrize("name", LONE)
+@pytest.mark.parametrize("name", ONE_LEARNER)
 def test_ppo_makes_a_first_update_on_every_task(name: str, discrete: bool) -> None:
     envs = many(name, discrete=discrete)
     model = stable_baselines3.PPO(
@@ -88,8 +88,8 @@ def test_ppo_makes_a_first_update_on_every_task(name: str, discrete: bool) -> No
     envs.close()
 
 
-def test_matches_of_the_example_are_those_of_single_environments() -> None:
-    """Which Stable-Baselines3 can make by itself, if slowly."""
+def test_matches_of_the_example_equal_single_environments() -> None:
+    """Stable-Baselines3 itself can make such a vector environment, which is slower."""
     make_vec_env = pytest.importorskip("stable_baselines3.common.env_util").make_vec_env
     theirs = make_vec_env("rsoccer/VSS-v0", 3, seed=5, env_kwargs={"max_steps": MAX_STEPS})
     ours = many()
@@ -99,17 +99,19 @@ def test_matches_of_the_example_are_those_of_single_environments() -> None:
     for _ in range(MAX_STEPS - 1):
         actions = rng.uniform(-1.0, 1.0, (3, 2)).astype(np.float32)
         given, expected = ours.step(actions), theirs.step(actions)
-        for mine, other in zip(given[:3], expected[:3], strict=True):
-            np.testing.assert_array_equal(mine, other)
+        for value, reference in zip(given[:3], expected[:3], strict=True):
+            np.testing.assert_array_equal(value, reference)
         assert given[3] == [{}] * 3
     given, expected = ours.step(actions), theirs.step(actions)
     np.testing.assert_array_equal(given[1], expected[1])
     assert given[2].tolist() == expected[2].tolist() == [True] * 3
-    for mine, other in zip(given[3], expected[3], strict=True):
-        np.testing.assert_array_equal(mine["terminal_observation"], other["terminal_observation"])
-        for fact in ("TimeLimit.truncated", "goal_score", "steps"):
-            assert mine[fact] == other[fact]
-        assert mine["TimeLimit.truncated"] is True
+    for info, reference in zip(given[3], expected[3], strict=True):
+        np.testing.assert_array_equal(
+            info["terminal_observation"], reference["terminal_observation"]
+        )
+        for name in ("TimeLimit.truncated", "goal_score", "steps"):
+            assert info[name] == reference[name]
+        assert info["TimeLimit.truncated"] is True
 
 
 def test_the_example_runs(capsys: pytest.CaptureFixture[str]) -> None:

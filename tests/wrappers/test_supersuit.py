@@ -1,4 +1,4 @@
-"""SuperSuit's vector environments: a robot of each match becomes one of their environments."""
+"""SuperSuit's vector environments: each robot of a match is one of their environments."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ import pytest
 
 from rsoccer.envs.parallel import parallel_env
 from rsoccer.frame import Floats
-from tests.one_match import TASKS
+from tests.parallel_matches import TASKS
 
 supersuit = pytest.importorskip("supersuit")
 
@@ -22,7 +22,7 @@ def robots() -> Any:  # noqa: ANN401  (SuperSuit has no types)
     return supersuit.pettingzoo_env_to_vec_env_v1(match)
 
 
-def test_the_robots_of_a_match_are_a_vector_and_begin_anew() -> None:
+def test_the_robots_of_a_match_are_a_vector_with_autoreset() -> None:
     envs = robots()
     assert envs.num_envs == ROBOTS
     assert len(envs.reset(seed=0)[0]) == ROBOTS
@@ -70,7 +70,7 @@ def test_copies_of_a_match_follow_their_own_seeds() -> None:
     assert len(np.unique(last, axis=0)) == MATCHES * ROBOTS
 
 
-# From 3.12 on Python warns of forks in general; tests/matches/test_fork.py shows ours to be safe.
+# Python 3.12 and later warn of forks; tests/matches/test_fork.py shows ours to be safe.
 @pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
 def test_copies_in_other_processes_play_the_same() -> None:
     envs = supersuit.concat_vec_envs_v1(robots(), 2, num_cpus=2)
@@ -85,9 +85,9 @@ def test_copies_in_other_processes_play_the_same() -> None:
 
 
 def test_its_stable_baselines3_form_trains() -> None:
-    """Its wrapper cannot seed, so copies play one and the same match until seeded below it.
+    """Its wrapper has no seed, so the vector environment below it is seeded, and PPO is not.
 
-    That is also why PPO gets no seed.
+    Without these seeds all copies would play the same match.
     """
     ppo = pytest.importorskip("stable_baselines3").PPO
     envs = supersuit.concat_vec_envs_v1(robots(), MATCHES, base_class="stable_baselines3")

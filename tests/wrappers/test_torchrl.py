@@ -1,4 +1,4 @@
-"""TorchRL's wrappers of a match with its teams as groups, a lone robot's, and many of these."""
+"""TorchRL's wrappers of a PettingZoo match, a Gymnasium match, and many Gymnasium matches."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ import pytest
 import rsoccer
 from rsoccer.envs.parallel import parallel_env
 from rsoccer.envs.vector import SoccerVectorEnv
-from tests.one_match import TASKS
+from tests.parallel_matches import TASKS
 
 pettingzoo_lib = pytest.importorskip("torchrl.envs.libs.pettingzoo")
 gym_lib = pytest.importorskip("torchrl.envs.libs.gym")
@@ -17,19 +17,21 @@ utils = pytest.importorskip("torchrl.envs.utils")
 gymnasium.register_envs(rsoccer)
 
 MAX_CYCLES = 5
-STEPS = 12  # two ends, and a beginning after each
+STEPS = 12  # two episodes and the beginning of a third
 
-# TorchRL says that it has tried only PettingZoo 1.24.3; we run with the newest.
-untried = pytest.mark.filterwarnings("ignore:PettingZoo in TorchRL is tested using:UserWarning")
+# TorchRL warns that it was tested with PettingZoo 1.24.3 only; ours is newer.
+ignore_version_warning = pytest.mark.filterwarnings(
+    "ignore:PettingZoo in TorchRL is tested using:UserWarning"
+)
 
 
 def ends(rollout: Any) -> list[int]:  # noqa: ANN401  (types only where it is installed)
-    """Steps after which an episode was cut by the clock; none may end otherwise."""
+    """Steps after which the time limit ended an episode; no other ends may occur."""
     assert not rollout["next", "terminated"].any()
     return [int(step) for step in rollout["next", "truncated"].squeeze(-1).nonzero()[..., -1]]
 
 
-@untried
+@ignore_version_warning
 def test_a_match_has_its_teams_as_groups() -> None:
     match = parallel_env("VSSSelfPlay-v0", max_cycles=MAX_CYCLES)
     env = pettingzoo_lib.PettingZooWrapper(match, return_state=True, seed=0)
@@ -47,7 +49,7 @@ def test_a_match_has_its_teams_as_groups() -> None:
         assert (rollout[team, "truncated"] == rollout["truncated"].unsqueeze(1)).all()
 
 
-@untried
+@ignore_version_warning
 @pytest.mark.parametrize("name", TASKS)
 def test_every_task_is_wrapped(name: str) -> None:
     env = pettingzoo_lib.PettingZooWrapper(parallel_env(name), return_state=True, seed=0)
@@ -56,14 +58,14 @@ def test_every_task_is_wrapped(name: str) -> None:
 
 
 @pytest.mark.parametrize("discrete", [False, True])
-def test_a_lone_match_is_wrapped(discrete: bool) -> None:
+def test_a_single_learner_match_is_wrapped(discrete: bool) -> None:
     match = gymnasium.make("rsoccer/VSS-v0", max_steps=MAX_CYCLES, discrete=discrete)
     env = gym_lib.GymWrapper(match)
     utils.check_env_specs(env)
     assert ends(env.rollout(STEPS, break_when_any_done=False)) == [4, 9]
 
 
-def test_many_matches_are_wrapped_if_they_begin_anew_in_the_same_step() -> None:
+def test_many_matches_with_same_step_autoreset_are_wrapped() -> None:
     matches = gymnasium.make_vec(
         "rsoccer/VSS-v0", 3, max_steps=MAX_CYCLES, autoreset_mode="same_step"
     )

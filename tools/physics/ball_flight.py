@@ -66,13 +66,13 @@ def chip(name: str, speed: float, seconds: float, degrees: float = 45.0) -> Traj
     """Simulate a chip along x (m/s) on an empty field, one row per tick."""
     scene = Scene(SimConfig(LONG, 0, 0, ball=name, time_step=TICK))
     scene.ball.velocity[:, 0] = speed * np.cos(radians(degrees))
-    scene.ball.rise[:] = speed * sin(radians(degrees))
+    scene.ball.vertical_velocity[:] = speed * sin(radians(degrees))
     return scene.play(seconds)
 
 
 def touch_downs(trajectory: Trajectory) -> Array:
     """Return the indices of ticks in which the ball hopped or landed for good."""
-    rises = np.diff(trajectory.ball.rise[:, 0], prepend=np.inf) > 0
+    rises = np.diff(trajectory.ball.vertical_velocity[:, 0], prepend=np.inf) > 0
     down = trajectory.ball.height[:, 0] == 0.0
     came_down = down & ~np.roll(down, 1)
     found: Array = np.flatnonzero((rises & ~down) | came_down)
@@ -109,7 +109,7 @@ def _chips_at_a_robot(rises: Array) -> Trajectory:
     scene.robots.position[:, 0] = (1.2, 0.0)
     scene.face(0, 180.0)
     scene.ball.velocity[:, 0] = 3.0
-    scene.ball.rise[:] = rises
+    scene.ball.vertical_velocity[:] = rises
     return scene.play(0.7)
 
 
@@ -148,7 +148,7 @@ def _at_the_bar() -> Checks:
         heights = np.linspace(lowest, highest, 15)
         scene = Scene(SimConfig("ssl_b", 0, 0), len(heights))
         scene.ball.position[:, 0], scene.ball.velocity[:, 0] = 3.0, 6.0
-        scene.ball.rise[:] = rise_to(heights, 0.25)
+        scene.ball.vertical_velocity[:] = rise_to(heights, 0.25)
         ball = scene.play(0.5).ball
         goals = (ball.crossed == CROSSINGS.index("goal_right")).any(axis=0).sum()
         if criterion is NO_GOALS:

@@ -139,7 +139,7 @@ def _chip() -> Checks:
     scene.command(0, kick_v_x=3.0, kick_v_z=3.0)
     ball = scene.play(0.1).ball
     yield CHIP_ALONG("45 degrees", 3.0, ball.velocity[-1, 0, 0])
-    yield CHIP_UP("45 degrees", 3.0 - 0.1 * G, ball.rise[-1, 0])
+    yield CHIP_UP("45 degrees", 3.0 - 0.1 * G, ball.vertical_velocity[-1, 0])
 
 
 def _moving() -> Checks:
@@ -154,7 +154,7 @@ def _limits() -> Checks:
         scene = with_ball(name, worlds=2)
         scene.command(0, kick_v_x=20.0, kick_v_z=np.array([0.0, 20.0]))
         ball = scene.play(TICK).ball
-        speed = length(ball.velocity[-1, :, 0], ball.rise[-1])
+        speed = length(ball.velocity[-1, :, 0], ball.vertical_velocity[-1])
         yield MAX_KICK(f"`{name}`", robot.max_kick, speed[0])
         yield MAX_CHIP(f"`{name}`", robot.max_chip, speed[1])
 

@@ -97,9 +97,11 @@ def _floor() -> Checks:
     scene.ball.velocity[:, 0], scene.ball.spin[:, 1] = 2.0, 2.0 / BALL.radius
     yield from _ratios("ball rolling_deceleration", 2 - scene.play(0.5).ball.velocity[-1, :, 0])
     scene = _ball("hop")
-    scene.ball.rise[:], fall = 3.0, 2 * 3.0 / G
+    scene.ball.vertical_velocity[:], fall = 3.0, 2 * 3.0 / G
     after = round((fall + TICK) / TICK) * TICK
-    yield from _ratios("ball hop", scene.play(after).ball.rise[-1] + G * (after - fall))
+    yield from _ratios(
+        "ball hop", scene.play(after).ball.vertical_velocity[-1] + G * (after - fall)
+    )
 
 
 def _bounces() -> Checks:
@@ -173,7 +175,7 @@ def _heights() -> Checks:
     scene.robots.position[:, 0] = (0.6, 0.0)
     scene.vary_robot(0, "height", FACTORS)
     scene.ball.velocity[:, 0] = 3.0
-    scene.ball.rise[:] = 0.17 / 0.2 + G * 0.2 / 2  # 0.17 m up after 0.2 s
+    scene.ball.vertical_velocity[:] = 0.17 / 0.2 + G * 0.2 / 2  # 0.17 m up after 0.2 s
     over = scene.play(0.35).ball.position[-1, :, 0] > 0.8
     for factor, got in zip(FACTORS, over, strict=True):
         yield HEIGHT(f"robot height x {factor:g}", float(factor <= 1), got)

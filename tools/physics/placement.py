@@ -73,7 +73,7 @@ def moving(config: SimConfig) -> Scene:
     scene.robots.velocity[:] = rng.uniform(-1, 1, (robots, 2))
     scene.robots.spin[:] = rng.uniform(-5, 5, robots)
     scene.ball.velocity[:] = rng.uniform(-1, 1, 2)
-    scene.ball.height[:], scene.ball.rise[:] = 0.3, 0.7
+    scene.ball.height[:], scene.ball.vertical_velocity[:] = 0.3, 0.7
     scene.ball.spin[:] = rng.uniform(-30, 30, 3)
     return scene
 

@@ -124,7 +124,7 @@ def _set_rolling_ball(scene: Scene) -> None:
 def _chip() -> Scene:
     scene = _posed("ssl_b", [(-2.0, 0.0, 0.0), (2.0, 0.5, 180.0)])
     scene.ball.position[:], scene.ball.velocity[:] = (0.2, -0.3), (-1.0, 0.7)
-    scene.ball.rise[:] = 3.0
+    scene.ball.vertical_velocity[:] = 3.0
     return scene
 
 

@@ -1,4 +1,4 @@
-"""Dictionaries by agent name to arrays of one match, and back."""
+"""Conversion between dictionaries by agent name and arrays of one match."""
 
 from __future__ import annotations
 
@@ -12,23 +12,54 @@ from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
 
-def stack(actions: Mapping[str, Array], agents: Sequence[str], task: Task) -> Array:
-    """Actions side by side, (1, agents, action); what they hold is for `Matches` to check."""
-    rows = [np.asarray(spaces.numbers(task, actions[agent])) for agent in agents]
+def stack_actions(actions: Mapping[str, Array], agents: Sequence[str], task: Task) -> Array:
+    """Stack the actions of all agents.
+
+    Args:
+        actions: an element of the action space by agent name.
+        agents: names of the agents, in the order of the array.
+        task: the task that is played.
+
+    Returns:
+        (1, agents, action) actions; `Matches` checks their values.
+
+    Raises:
+        LookupError: an agent without an action.
+        TypeError: actions of the wrong type.
+        ValueError: a wrong number of actions, or of numbers in an action. `check_actions` names
+            the agent.
+    """
+    rows = [np.asarray(spaces.action_vectors(task, actions[agent])) for agent in agents]
     if len(actions) != len(agents) or any(row.dtype.kind != "f" for row in rows):
-        raise ValueError("see name_fault")  # else one agent's integers would pass unseen
+        # Stacking would convert one agent's integers to floats without an error.
+        raise ValueError("actions: see check_actions")
     return np.array([rows])
 
 
-def split(agents: Sequence[str], rows: Floats) -> dict[str, Floats]:
-    """Rows of `rows` (1, agents, ...) by name; views, so nobody else may hold that array."""
+def split_by_agent(agents: Sequence[str], rows: Floats) -> dict[str, Floats]:
+    """Return the rows of one match by agent name.
+
+    Args:
+        agents: names of the agents, in the order of the array.
+        rows: (1, agents, ...) values; the dictionary holds views of this array.
+    """
     return dict(zip(agents, rows[0], strict=True))
 
 
-def name_fault(actions: object, agents: Sequence[str], task: Task) -> None:
-    """Raise an error that names the agent whose action is missing, unknown or wrong, if any.
+def check_actions(actions: object, agents: Sequence[str], task: Task) -> None:
+    """Find the agent whose action is missing, unknown or wrong, if any.
 
-    Asked only after a failure: looking at each agent on its own costs more than a step's rest.
+    A check of each agent takes longer than the rest of a step outside the simulator, so it runs
+    only after `stack_actions` or `Matches.step` failed.
+
+    Args:
+        actions: argument of `step`.
+        agents: names of the agents.
+        task: the task that is played.
+
+    Raises:
+        TypeError: not a dictionary, or an action of the wrong type.
+        ValueError: a missing or unknown agent, or an action with a wrong shape or value.
     """
     if not isinstance(actions, Mapping):
         raise TypeError(f"actions: expected a dictionary by agent, got {type(actions).__name__}")
@@ -42,7 +73,7 @@ def name_fault(actions: object, agents: Sequence[str], task: Task) -> None:
     for agent in agents:
         name = f"actions[{agent!r}]"
         try:
-            row = spaces.numbers(task, actions[agent])
+            row = spaces.action_vectors(task, actions[agent])
         except (TypeError, ValueError) as error:
             raise type(error)(name + str(error).removeprefix("actions")) from None
         checks.floats(name, row, (task.action_size,))

@@ -1,4 +1,4 @@
-"""Matches behind an environment: they can be copied, and they know score and clock."""
+"""Matches behind an environment, with copying, scores and clocks."""
 
 from __future__ import annotations
 
@@ -13,20 +13,31 @@ from rsoccer.task import Task
 
 
 class EnvMatches(Matches):
-    """Matches that can be copied: a copy, or one in another process, goes on with the same."""
+    """Matches that `copy.deepcopy` and `pickle` can copy; a copy continues with the same future."""
 
     def __init__(self, task: Task, worlds: int, seed: int, **settings: Any) -> None:  # noqa: ANN401
-        """Prepare matches; `settings` are the others of `Matches`."""
+        """Prepare matches; `reset` begins them.
+
+        Args:
+            task: the task that is played.
+            worlds: number of matches, at least 1.
+            seed: seed of the first match, at least 0.
+            **settings: further arguments of `Matches`.
+        """
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
 
     @property
     def begun(self) -> bool:
-        """Whether every match has begun an episode."""
+        """True if every match has begun an episode."""
         return bool(np.count_nonzero(self._begun) == self.worlds)
 
-    def check_turn(self) -> None:
-        """RuntimeError unless every match has begun and none has ended."""
+    def check_running(self) -> None:
+        """Refuse a step that needs a reset first.
+
+        Raises:
+            RuntimeError: a match that has not begun, or whose episode has ended.
+        """
         hint = "call reset() to begin an episode"
         if not self.begun:
             raise RuntimeError(f"step before reset: {hint}")
@@ -35,44 +46,58 @@ class EnvMatches(Matches):
             raise RuntimeError(f"step after the end of the episode{where}: {hint}")
 
     def score(self, world: int = 0) -> tuple[int, int]:
-        """Goals of blue and of yellow in a match: 0 to 0 until a goal ends it."""
+        """Return the goals of blue and of yellow in one match; 0 and 0 until a goal ends it.
+
+        Args:
+            world: index of the match.
+        """
         crossed = self.frame.ball.crossed[world]
         return int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
 
     def clock(self, world: int = 0) -> float:
-        """Seconds played of a match."""
+        """Return the time since the episode of one match began, in seconds.
+
+        Args:
+            world: index of the match.
+        """
         return float(self.play.steps[world]) * self.task.config.time_step
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """All that the future depends on."""
+        """Return a constructor, the constructor's arguments and the complete state."""
         return _resumed, (self.task, self.worlds, self._settings, self.state_dict())
 
 
 class SingleLearner:
-    """What both of Gymnasium's environments tell of who plays what."""
+    """Properties that both of Gymnasium's environments have."""
 
     _matches: EnvMatches
 
     @property
     def task(self) -> Task:
-        """The task that is played."""
+        """Task that is played."""
         return self._matches.task
 
     @property
     def learner(self) -> str:
-        """The robot that learns."""
+        """Name of the robot that learns, such as "blue_0"."""
         return str(self._matches.agents[0])
 
 
 def episode_info(outcome: Outcome, matches: Matches) -> dict[str, float]:
-    """What there is to tell of a lone match that ended: the task's metrics, and steps."""
-    told = {name: float(fact[0]) for name, fact in outcome.metrics.items()}
-    return {**told, "steps": float(matches.play.steps[0])}
+    """Return the metrics of a single match whose episode has ended, and its `steps`.
+
+    Args:
+        outcome: outcome of the last step.
+        matches: the single match.
+    """
+    metrics = {name: float(value[0]) for name, value in outcome.metrics.items()}
+    return {**metrics, "steps": float(matches.play.steps[0])}
 
 
 def _resumed(
     task: Task, worlds: int, settings: Mapping[str, Any], state: Mapping[str, Array]
 ) -> EnvMatches:
+    """Matches that continue from a state."""
     matches = EnvMatches(task, worlds, 0, **settings)
     matches.load_state_dict(state)
     return matches

@@ -1,27 +1,32 @@
-"""The tasks' ids in Gymnasium's and PettingZoo's registries: `rsoccer/VSS-v0`."""
+"""Ids of tasks in the registries of Gymnasium and PettingZoo, such as `rsoccer/VSS-v0`."""
 
 import gymnasium
 import pettingzoo
 
 
-def announce(name: str, learners: int | None) -> None:
-    """Let Gymnasium make a task with one learner, and PettingZoo one with any, by its id.
+def register_ids(name: str, learners: int | None) -> None:
+    """Register a task as `rsoccer/{name}`.
 
-    `learners` is None where only options say how many there are; such a task has no id. Entry
-    points are names, so that nothing is imported before somebody asks.
+    Gymnasium gets tasks with one learner, PettingZoo (1.27 and later) tasks with any number of
+    learners. Entry points are registered as text, so registration imports no environment.
+
+    Args:
+        name: name of the task, such as "VSS-v0".
+        learners: number of robots that learn by default. 0, and None for a task whose options have
+            no defaults, register nothing.
     """
-    ident = f"rsoccer/{name}"
+    env_id = f"rsoccer/{name}"
     if learners == 1:
-        gymnasium.registry.pop(ident, None)
+        gymnasium.registry.pop(env_id, None)
         gymnasium.register(
-            ident,
+            env_id,
             entry_point="rsoccer.envs.single:single_env",
             vector_entry_point="rsoccer.envs.vector:vector_env",
             kwargs={"task": name},
         )
     if learners and hasattr(pettingzoo, "register"):  # since 1.27
-        pettingzoo.parallel_registry.pop(ident, None)
-        pettingzoo.aec_registry.pop(ident, None)
+        pettingzoo.parallel_registry.pop(env_id, None)
+        pettingzoo.aec_registry.pop(env_id, None)
         kwargs = {"name": name}
-        pettingzoo.register("parallel", ident, "rsoccer.envs.parallel:parallel_env", kwargs=kwargs)
-        pettingzoo.register("aec", ident, "rsoccer.envs.parallel:env", kwargs=kwargs)
+        pettingzoo.register("parallel", env_id, "rsoccer.envs.parallel:parallel_env", kwargs=kwargs)
+        pettingzoo.register("aec", env_id, "rsoccer.envs.parallel:env", kwargs=kwargs)

@@ -10,59 +10,112 @@ import numpy as np
 from gymnasium.spaces import Space
 
 from rsoccer import checks
-from rsoccer.controllers import Controllers, given_by_name, resolve
+from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
 from rsoccer.envs import spaces
 from rsoccer.frame import Array, Floats, Mask
 from rsoccer.registry import as_task, make_task
 from rsoccer.task import LEARN, Task
 
 
-def chosen_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
-    """A task from its name and options, or itself; with a clock of its own if asked for."""
+def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
+    """Return the task that an environment plays.
+
+    Args:
+        task: a task, or the name of a registered one.
+        max_steps: time limit of an episode in control steps; None for the task's own.
+        options: options of a registered task, by name.
+
+    Raises:
+        TypeError: not a task, or options for a Task object.
+        ValueError: an unknown task or option, or a value out of range.
+    """
     if isinstance(task, str):
-        clock = {} if max_steps is None else {"max_steps": max_steps}
-        return make_task(task, **options, **clock)
+        time_limit = {} if max_steps is None else {"max_steps": max_steps}
+        return make_task(task, **options, **time_limit)
     if options:
-        raise TypeError(f"options: a task that is made has its own, got {sorted(options)} besides")
+        raise TypeError(
+            f"options: a Task object has its own options, got {sorted(options)} in addition"
+        )
     task = as_task(task)
-    return task if max_steps is None else timed(task, "max_steps", max_steps)
+    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
 
 
-def timed(task: Task, name: str, limit: int) -> Task:
-    """A copy with another clock: the caller's own task keeps its own."""
+def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
+    """Return a copy of a task with another time limit; the caller's task does not change.
+
+    Args:
+        task: the task.
+        max_steps: time limit of an episode in control steps, at least 1.
+        name: name of the caller's argument, for the error message.
+
+    Raises:
+        TypeError: not an integer.
+        ValueError: less than 1.
+    """
     task = copy.copy(task)
-    object.__setattr__(task, "max_steps", checks.integer(name, limit, 1))
+    object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
     return task
 
 
-def one_learner(task: Task, learner: str | None, controllers: Controllers | None) -> Controllers:
-    """A driver for each robot, one of them the learner; or an error that says how to get there."""
+def single_learner_controllers(
+    task: Task, learner: str | None, controllers: Controllers | None
+) -> dict[str, Controller]:
+    """Return a controller for each robot, exactly one of them `LEARN`.
+
+    Args:
+        task: the task that is played.
+        learner: the robot that learns; None if the task and the controllers leave one only.
+        controllers: controllers of the other robots, by robot, team or "all".
+
+    Raises:
+        TypeError: something that is not a controller.
+        ValueError: an unknown robot, or none or several robots that learn.
+    """
     given = given_by_name(controllers)
     if learner is not None:
         if learner not in task.robots:
             raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")
         given[learner] = LEARN
-    chosen = resolve(task, given)
-    learners = [robot for robot, controller in chosen.items() if controller is LEARN]
+    resolved = resolve(task, given)
+    learners = [robot for robot, controller in resolved.items() if controller is LEARN]
     if len(learners) != 1:
         raise ValueError(
-            f"{task.name}: expected one robot that learns, got {learners or 'none'}: name it and "
-            f"who drives the others, as in learner={task.robots[0]!r}, controllers={{'all': 'ou'}}"
+            f"{task.name}: expected exactly one learner, got {learners or 'none'}: name the "
+            "learner and the other robots' controllers, as in "
+            f"learner={task.robots[0]!r}, controllers={{'all': 'ou'}}"
         )
-    return chosen
+    return resolved
 
 
 def reset_options(options: object) -> Mapping[str, Any]:
-    """What was given to `reset` as options; keys that nobody here knows are for others."""
+    """Return the options of a `reset` as a dictionary; an empty one for None.
+
+    Args:
+        options: argument of `reset`; unknown keys are ignored, wrappers may read them.
+
+    Raises:
+        TypeError: not a dictionary.
+    """
     if not isinstance(options, Mapping | None):
         raise TypeError(f"options: expected a dictionary, got {type(options).__name__}")
     return options or {}
 
 
-def starts(options: Mapping[str, Any], task: Task, mask: Mask) -> Floats | None:
-    """Rows (k, row) to start the k worlds of the mask from, if `options["frame"]` gives any.
+def initial_rows(options: Mapping[str, Any], task: Task, mask: Mask) -> Floats | None:
+    """Return the initial state rows that `options["frame"]` sets, if any.
 
-    It is one row (row,) for all, or a row for each of all worlds (n, row).
+    Args:
+        options: options of a `reset`. "frame" is one row (row,) for all matches, or a row for
+            each of all matches (n, row).
+        task: the task that is played.
+        mask: (n,) matches to reset, k of them.
+
+    Returns:
+        (k, row) float32, or None without the option.
+
+    Raises:
+        TypeError: not an array of floats.
+        ValueError: a wrong shape, or numbers that are not finite.
     """
     given, size = options.get("frame"), task.config.row_size
     if given is None:
@@ -72,9 +125,22 @@ def starts(options: Mapping[str, Any], task: Task, mask: Mask) -> Floats | None:
     return np.tile(checks.floats("options['frame']", given, (size,)), (int(mask.sum()), 1))
 
 
-def actions_of(task: Task, given: object, space: Space[Any]) -> Array:
-    """What was chosen in `space` as numbers (..., action); `Matches` checks their values."""
-    chosen = np.asarray(given)
-    if chosen.shape != space.shape:
-        raise ValueError(f"actions: expected shape {space.shape}, got {chosen.shape}")
-    return spaces.numbers(task, chosen)
+def action_array(task: Task, actions: object, space: Space[Any]) -> Array:
+    """Return an element of an action space as action vectors.
+
+    Args:
+        task: the task that is played.
+        actions: argument of `step`: vectors or, for a task with an `action_table`, indices.
+        space: the space that the actions are from.
+
+    Returns:
+        (..., action) numbers; `Matches` checks their values.
+
+    Raises:
+        TypeError: indices that are not integers.
+        ValueError: a wrong shape, or an index out of range.
+    """
+    array = np.asarray(actions)
+    if array.shape != space.shape:
+        raise ValueError(f"actions: expected shape {space.shape}, got {array.shape}")
+    return spaces.action_vectors(task, array)

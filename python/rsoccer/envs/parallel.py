@@ -1,4 +1,4 @@
-"""One match for PettingZoo: dictionaries by robot name, all robots at once or one after another.
+"""One match for PettingZoo, as a ParallelEnv (all agents at once) or an AECEnv (in turn).
 
 >>> import rsoccer
 >>> env = rsoccer.parallel_env("VSSSelfPlay-v0")
@@ -23,7 +23,7 @@ from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts, spaces
 from rsoccer.envs.env_matches import EnvMatches, episode_info
-from rsoccer.envs.options import reset_options, starts, timed
+from rsoccer.envs.options import initial_rows, reset_options, with_max_steps
 from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.frame import Floats
@@ -42,10 +42,32 @@ def parallel_env(
     max_cycles: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerParallelEnv:
-    """A registered task as a PettingZoo ParallelEnv; `options` are the task's own.
+    """Return a registered task as a PettingZoo ParallelEnv: one match, all agents act at once.
 
-    `controllers` names drivers for robots that shall not learn, as for `Matches`; `max_cycles`
-    is PettingZoo's word for the task's `max_steps`.
+    Args:
+        name: name of the task, one of `rsoccer.list_tasks()` or an alias.
+        render_mode: "rgb_array" for images from `render`, "human" for a window that `reset` and
+            `step` update, or None for no rendering.
+        controllers: policies of robots that do not learn, by robot ("blue_0"), team ("blue") or
+            "all": a policy, its name or its file; `LEARN` makes a robot an agent. The task's
+            defaults apply elsewhere.
+        max_cycles: time limit of an episode in control steps, at least 1; PettingZoo's name for
+            the task's option `max_steps`. None for the task's own.
+        **options: options of the task, the fields of its class.
+
+    Returns:
+        An environment to `reset`. `SoccerParallelEnv` describes spaces, infos and ends.
+
+    Raises:
+        TypeError: an argument of the wrong type.
+        ValueError: an unknown task, option, controller or render mode, a value out of range, or no
+            robot that learns.
+
+    Example:
+        >>> import rsoccer
+        >>> env = rsoccer.parallel_env("VSSSelfPlay-v0", controllers={"yellow": "ou"})
+        >>> env.possible_agents
+        ['blue_0', 'blue_1', 'blue_2']
     """
     if max_cycles is not None:
         options["max_steps"] = max_cycles
@@ -57,33 +79,98 @@ def env(
     render_mode: str | None = None,
     **options: Any,  # noqa: ANN401  (those of parallel_env)
 ) -> AECEnv[str, Floats, Floats | None]:
-    """The same match for PettingZoo's turn-by-turn API (AEC): agents act one after another."""
-    return OrderEnforcingWrapper(Turns(parallel_env(name, render_mode, **options)))
+    """Return a registered task as a PettingZoo AECEnv: one match, agents act in turn.
+
+    The match advances by one control step after the last agent's action.
+
+    Args:
+        name: name of the task, one of `rsoccer.list_tasks()` or an alias.
+        render_mode: "rgb_array", "human" or None, as for `parallel_env`.
+        **options: further arguments of `parallel_env`: `controllers`, `max_cycles` and the options
+            of the task.
+
+    Returns:
+        An environment to `reset`, within PettingZoo's `OrderEnforcingWrapper`. Spaces, infos and
+        ends are those of `SoccerParallelEnv`.
+
+    Raises:
+        TypeError: an argument of the wrong type.
+        ValueError: an unknown task, option, controller or render mode, a value out of range, or no
+            robot that learns.
+
+    Example:
+        >>> import rsoccer
+        >>> env = rsoccer.env("VSSSelfPlay-v0")
+        >>> env.reset(seed=0)
+        >>> for agent in env.agent_iter():
+        ...     observation, reward, terminated, truncated, info = env.last()
+        ...     ended = terminated or truncated
+        ...     env.step(None if ended else env.action_space(agent).sample())
+    """
+    return OrderEnforcingWrapper(SoccerAECEnv(parallel_env(name, render_mode, **options)))
 
 
-class Turns(parallel_to_aec_wrapper[str, Floats, Any]):
-    """Agents act one after another; the match moves once all have chosen."""
+class SoccerAECEnv(parallel_to_aec_wrapper[str, Floats, Any]):
+    """One match of a task in which agents act in turn; `env` creates it."""
 
     def __init__(self, match: SoccerParallelEnv) -> None:
-        """Play this match."""
+        """Wrap a match.
+
+        Args:
+            match: environment in which all agents act at once.
+        """
         super().__init__(match)
         self._match = match
 
-    def step(self, action: Any) -> None:  # noqa: ANN401  (whatever the agent's space holds)
-        """The agent whose turn it is chooses, unless the match was closed."""
-        self._match.expect_open("step")
+    def step(self, action: Any) -> None:  # noqa: ANN401  (an element of the agent's space)
+        """Set the action of the agent in turn; the last agent's action advances the match.
+
+        Args:
+            action: element of the agent's action space; None for an agent that is terminated or
+                truncated.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: the match is inconsistent after a failure.
+            TypeError: an action of the wrong type.
+            ValueError: an action with a wrong shape or value.
+        """
+        self._match.check_open("step")
         super().step(action)
 
 
 class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
-    """One match of a task; everything in and out is a dictionary by robot name.
+    """One match of a task as a PettingZoo ParallelEnv; arguments and results are by agent name.
 
-    All agents play from `reset` until the episode ends for all of them in one step: by
-    termination (a goal) or by truncation (the clock), never some by one and some by the other.
+    Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;
+    values beyond are clipped. Tasks with an `action_table` have Discrete actions instead.
 
-    Infos are empty. Trainers turn what they find in the infos of a reset into a fixed set of
-    numbers that every later step must repeat, which metrics of an ended match cannot; these are in
+    Ends: all agents play from `reset` until the episode ends for all of them in the same step, by
+    termination (the task's end, such as a goal) or by truncation (the time limit). `agents` is
+    empty from then on, until the next `reset`.
+
+    Infos: one empty dictionary per agent. Trainers derive a fixed set of numbers from the infos of
+    a reset and expect all of them in every step, so metrics of an ended episode are in
     `last_metrics` instead.
+
+    Seeding: `reset(seed=s)` begins the same episode in every environment of the same task, whatever
+    was played before. Without a seed the random streams continue; those of a new environment begin
+    with a seed from the operating system. The sampling of each agent's action space has a seed of
+    its own: `env.action_space(agent).seed(s)`.
+
+    Rendering: `render_mode` is None, "rgb_array" (`render` returns an image) or "human" (`reset`
+    and `step` draw into a window).
+
+    Copies by `copy.deepcopy` or `pickle` continue with the same future.
+
+    Attributes:
+        agents: names of the agents that act in the next step; all or none.
+        possible_agents: names of all robots that learn, such as "blue_0", blue first.
+        render_mode: "human", "rgb_array" or None.
+        metadata: `name`, `render_modes`, `render_fps` and `is_parallelizable`.
+        last_metrics: metrics of the last episode that ended, such as `goal_score`, and its
+            `steps`; empty before.
+        state_space: Box (state,) float32 of `state`.
     """
 
     def __init__(
@@ -93,91 +180,158 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         *,
         controllers: Controllers | None = None,
     ) -> None:
-        """A match that `reset` will begin; `render_mode` is "human", "rgb_array" or None."""
+        """Prepare a match; `reset` begins it.
+
+        Args:
+            task: the task that is played.
+            render_mode: "human", "rgb_array" or None.
+            controllers: policies of robots that do not learn, by robot, team or "all", as for
+                `parallel_env`.
+
+        Raises:
+            TypeError: something that is not a controller.
+            ValueError: an unknown render mode or controller, or no robot that learns.
+        """
         self._viewer = Viewer(render_mode, task)
         self.render_mode = render_mode
         self.last_metrics: dict[str, float] = {}
-        """Facts of the last episode that ended, such as goal_score and steps; empty before."""
-        # Seeded anywhere, so that two environments that nobody seeds do not play the same match.
+        # A random seed: two environments without a seed must not play the same match.
         self._matches = EnvMatches(
             task, 1, secrets.randbits(63), controllers=controllers, autoreset="disabled"
         )
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
         if not self.possible_agents:
-            raise ValueError("controllers: at least one robot must learn; Matches does without")
+            raise ValueError(
+                "controllers: expected at least one learner, got none; rsoccer.Matches runs "
+                "without learners"
+            )
         self.metadata = metadata(task) | {"is_parallelizable": True}
-        # A space for each agent: seeding one agent's samples must not seed another's.
+        # One space per agent: a seed for one agent's samples must not affect another's.
         agents = self.possible_agents
         self._observation_spaces = {agent: spaces.observation_space(task) for agent in agents}
         self._action_spaces = {agent: spaces.action_space(task) for agent in agents}
-        self._scale = StateEncoder(task.config)
-        self.state_space = Box(-LIMIT, LIMIT, (self._scale.size,))
+        self._state_encoder = StateEncoder(task.config)
+        self.state_space = Box(-LIMIT, LIMIT, (self._state_encoder.size,))
 
     @property
     def task(self) -> Task:
-        """The task that is played."""
+        """Task that is played."""
         return self._matches.task
 
     @property
     def max_cycles(self) -> int:
-        """Steps after which the clock ends an episode; can be set, as PettingZoo's tests do."""
+        """Time limit of an episode in control steps; can be set, as PettingZoo's tests do."""
         return self.task.max_steps
 
     @max_cycles.setter
     def max_cycles(self, limit: int) -> None:
-        self._matches.task = timed(self.task, "max_cycles", limit)
+        self._matches.task = with_max_steps(self.task, limit, "max_cycles")
 
     def observation_space(self, agent: str) -> Box[np.float32]:
-        """Bounds of what the agent sees, (o,) float32."""
+        """Return the observation space of an agent.
+
+        Args:
+            agent: name of the agent.
+
+        Returns:
+            Box (o,) float32, always the same object; `task.blocks` names the parts.
+
+        Raises:
+            KeyError: an unknown agent.
+        """
         return self._observation_spaces[agent]
 
     def action_space(self, agent: str) -> ActionSpace:
-        """What the agent does: (action,) float32 in [-1, 1], or a choice of a discrete task."""
+        """Return the action space of an agent.
+
+        Args:
+            agent: name of the agent.
+
+        Returns:
+            Box (action,) float32 from -1 to 1, or Discrete for tasks with an `action_table`;
+            always the same object.
+
+        Raises:
+            KeyError: an unknown agent.
+        """
         return self._action_spaces[agent]
 
     def state(self) -> Floats:
-        """The whole game, absolute, (state,) float32: for critics that may see everything."""
-        state: Floats = self._scale.encode(self._matches.frame.rows)[0]
+        """Return the global state for centralised critics.
+
+        Returns:
+            (state,) float32 in `state_space`: ball, blue robots, yellow robots, in absolute
+            coordinates, scaled to about 1.
+        """
+        state: Floats = self._state_encoder.encode(self._matches.frame.rows)[0]
         return state
 
     @property
     def score(self) -> tuple[int, int]:
-        """Goals of blue and of yellow in this match: 0 to 0 until a goal ends it."""
+        """Goals of blue and of yellow in this episode; 0 and 0 until a goal ends it."""
         return self._matches.score()
 
     @property
     def clock(self) -> float:
-        """Seconds played of this match."""
+        """Time since the episode began, in seconds."""
         return self._matches.clock()
 
     def reset(
         self, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[dict[str, Floats], Infos]:
-        """Begin an episode; the same seed gives the same one, whatever was played before.
+        """Begin an episode.
 
-        Without a seed the random streams go on. `options["frame"]` is a row (row,) to start from
-        in place of the task's own starts, laid out as `Frame.rows`; other options are left to
-        whoever else may read them.
+        Args:
+            seed: seed of the episode and of those that follow, at least 0. The same seed gives the
+                same episode, whatever was played before. None: the random streams continue.
+            options: `options["frame"]` (row,) is an initial state in the layout of a row of
+                `Frame.rows`, in place of the task's own. Other keys are ignored.
+
+        Returns:
+            Observations (o,) and empty infos by agent name.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            TypeError: a seed or options of the wrong type. Nothing has changed.
+            ValueError: a negative seed, or an initial state with a wrong shape or with bodies that
+                overlap or are outside. Nothing has changed.
         """
-        self.expect_open("reset")
-        row = starts(reset_options(options), self.task, np.ones(1, np.bool_))
-        observations = self._matches.reset(seed, rows=row)
+        self.check_open("reset")
+        rows = initial_rows(reset_options(options), self.task, np.ones(1, np.bool_))
+        observations = self._matches.reset(seed, rows=rows)
         self.agents = self.possible_agents.copy()
         if self.render_mode == "human":
             self.render()
-        return agent_dicts.split(self.possible_agents, observations), self._no_infos()
+        return agent_dicts.split_by_agent(self.possible_agents, observations), self._empty_infos()
 
     def step(
         self, actions: Mapping[str, Any]
     ) -> tuple[dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], Infos]:
-        """All agents act for one control step; actions beyond [-1, 1] count as the bound."""
-        self.expect_open("step")
-        self._matches.check_turn()
+        """Advance the match by one control step.
+
+        Args:
+            actions: action of every agent by name: (action,) floats, clipped to [-1, 1], or an
+                index for tasks with an `action_table`.
+
+        Returns:
+            Five dictionaries by agent name: observations (o,), rewards (sums of the task's
+            terms), terminations, truncations, and empty infos.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: no episode has begun or it has ended, or the match is inconsistent after
+                a failure.
+            TypeError: actions of the wrong type. Nothing has changed.
+            ValueError: a missing or unknown agent, or an action with a wrong shape or value.
+                Nothing has changed.
+        """
+        self.check_open("step")
+        self._matches.check_running()
         try:
-            outcome = self._matches.step(agent_dicts.stack(actions, self.agents, self.task))
+            outcome = self._matches.step(agent_dicts.stack_actions(actions, self.agents, self.task))
         except (LookupError, TypeError, ValueError):
-            agent_dicts.name_fault(actions, self.agents, self.task)
+            agent_dicts.check_actions(actions, self.agents, self.task)
             raise
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         if terminated or truncated:
@@ -186,27 +340,43 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
         if self.render_mode == "human":
             self.render()
         return (
-            agent_dicts.split(self.possible_agents, outcome.observations),
+            agent_dicts.split_by_agent(self.possible_agents, outcome.observations),
             dict(zip(self.possible_agents, outcome.rewards[0].tolist(), strict=True)),
             dict.fromkeys(self.possible_agents, terminated),
             dict.fromkeys(self.possible_agents, truncated),
-            self._no_infos(),
+            self._empty_infos(),
         )
 
-    def _no_infos(self) -> Infos:
+    def _empty_infos(self) -> Infos:
         return {agent: {} for agent in self.possible_agents}
 
-    def expect_open(self, call: str) -> None:
-        """ClosedEnvironmentError for a call that comes after `close`."""
-        self._viewer.expect_open(call)
+    def check_open(self, call: str) -> None:
+        """Refuse a call after `close`.
+
+        Args:
+            call: name of the called method, for the error message.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+        """
+        self._viewer.check_open(call)
 
     def render(self) -> Image | None:
-        """The match as an image (height, width, 3), or in a window."""
-        return self._viewer.show(self._matches)
+        """Render the match.
+
+        Returns:
+            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
+            image in a window, and without a render mode, which warns.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: no episode has begun.
+        """
+        return self._viewer.render(self._matches)
 
     def close(self) -> None:
-        """End its use: `reset`, `step` and `render` raise ClosedEnvironmentError from now on.
+        """Close the window, if any; may be repeated.
 
-        A window closes too. May be repeated.
+        `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
         self._viewer.close()

@@ -1,4 +1,4 @@
-"""One match with one learner for Gymnasium; policies drive the other robots.
+"""One match with one learner for Gymnasium; policies control the other robots.
 
 >>> import rsoccer
 >>> env = rsoccer.single_env("VSS-v0")
@@ -24,12 +24,19 @@ from rsoccer import checks
 from rsoccer.controllers import Controllers
 from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SingleLearner, episode_info
-from rsoccer.envs.options import actions_of, chosen_task, one_learner, reset_options, starts
+from rsoccer.envs.options import (
+    action_array,
+    initial_rows,
+    reset_options,
+    resolve_task,
+    single_learner_controllers,
+)
 from rsoccer.envs.viewer import RENDER_MODES, Image, Viewer, metadata
 from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
-Action = Array | np.integer[Any] | int  # numbers, or the choice of a discrete task
+Action = Array | np.integer[Any] | int
+"""(action,) vector, or an index for tasks with an `action_table`."""
 Info = dict[str, Any]
 
 
@@ -42,25 +49,69 @@ def single_env(
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerEnv:
-    """A task, or a registered one by its name and options, as a Gymnasium Env.
+    """Return a task as a Gymnasium Env: one match with one learner.
 
-    `learner` is the robot that learns and may be left out where the task has only one; then
-    `controllers` names drivers for the others, as for `Matches`, and `learner` wins over it.
+    Args:
+        task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
+        render_mode: "rgb_array" for images from `render`, "human" for a window that `reset` and
+            `step` update, or None for no rendering.
+        learner: the robot that learns, such as "blue_0"; needed for tasks with several learners.
+            It takes precedence over `controllers`.
+        controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
+            policy, its name or its file. The task's defaults apply elsewhere.
+        max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
+        **options: options of a registered task, the fields of its class.
+
+    Returns:
+        An environment to `reset`. `SoccerEnv` describes spaces, infos and seeding.
+
+    Raises:
+        TypeError: an argument of the wrong type, or options for a `Task` object.
+        ValueError: an unknown task, option, robot, controller or render mode, a value out of
+            range, or not exactly one learner.
+
+    Example:
+        >>> import rsoccer
+        >>> others = {"blue": "chase", "yellow": "ou"}
+        >>> env = rsoccer.single_env("VSSSelfPlay-v0", learner="blue_0", controllers=others)
+        >>> env.action_space
+        Box(-1.0, 1.0, (2,), float32)
     """
-    chosen = chosen_task(task, max_steps, options)
-    return SoccerEnv(chosen, render_mode, learner=learner, controllers=controllers)
+    task = resolve_task(task, max_steps, options)
+    return SoccerEnv(task, render_mode, learner=learner, controllers=controllers)
 
 
-# Where `gymnasium.make` looks for the modes, to offer lists of images too.
+# `gymnasium.make` reads the modes here, and so offers "rgb_array_list" too.
 single_env.metadata = {"render_modes": list(RENDER_MODES)}  # type: ignore[attr-defined]
 
 
 class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
-    """One match of a task, seen and played by one robot.
+    """One match of a task with one learner, as a Gymnasium Env.
 
-    Infos are empty but for that of the last step of an episode, which holds the task's metrics
-    (such as `goal_score`) and `steps`, as floats. Who is not seeded draws a seed, which
-    `np_random_seed` tells; from then on only `reset(seed=...)` matters, not `np_random`.
+    Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;
+    values beyond are clipped. Tasks with an `action_table` have Discrete actions instead.
+
+    Ends: `terminated` is the task's end of the episode (such as a goal), `truncated` the time
+    limit.
+
+    Infos: empty, except for the last step of an episode. The last info holds the task's metrics,
+    such as `goal_score`, and `steps`, as floats.
+
+    Seeding: `reset(seed=s)` begins the same episode in every environment of the same task, whatever
+    was played before. Without a seed the random streams continue; those of a new environment begin
+    with a random seed, `np_random_seed`. The generator `np_random` is not used. The sampling of
+    the action space has a seed of its own: `env.action_space.seed(s)`.
+
+    Rendering: `render_mode` is None, "rgb_array" (`render` returns an image) or "human" (`reset`
+    and `step` draw into a window).
+
+    Copies by `copy.deepcopy` or `pickle` continue with the same future.
+
+    Attributes:
+        observation_space: Box (o,) float32; `task.blocks` names the parts.
+        action_space: Box (action,) float32 from -1 to 1, or Discrete.
+        render_mode: "human", "rgb_array" or None.
+        metadata: `name`, `render_modes` and `render_fps`.
     """
 
     def __init__(
@@ -71,7 +122,18 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
         learner: str | None = None,
         controllers: Controllers | None = None,
     ) -> None:
-        """A match that `reset` will begin; `render_mode` is "human", "rgb_array" or None."""
+        """Prepare a match; `reset` begins it.
+
+        Args:
+            task: the task that is played.
+            render_mode: "human", "rgb_array" or None.
+            learner: the robot that learns; needed for tasks with several learners.
+            controllers: policies of the other robots, as for `single_env`.
+
+        Raises:
+            TypeError: something that is not a controller.
+            ValueError: an unknown render mode, robot or controller, or not exactly one learner.
+        """
         self._viewer = Viewer(render_mode, task)
         self.render_mode = render_mode
         self.metadata = metadata(task)
@@ -79,7 +141,7 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
             task,
             1,
             self.np_random_seed,
-            controllers=one_learner(task, learner, controllers),
+            controllers=single_learner_controllers(task, learner, controllers),
             autoreset="disabled",
         )
         self.observation_space = spaces.observation_space(task)
@@ -88,15 +150,26 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
     def reset(
         self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
     ) -> tuple[Floats, Info]:
-        """Begin an episode; the same seed gives the same one, whatever was played before.
+        """Begin an episode.
 
-        Without a seed the random streams go on. `options["frame"]` is a row (row,) to start from
-        in place of the task's own starts, laid out as `Frame.rows`; other options are left to
-        whoever else may read them.
+        Args:
+            seed: seed of the episode and of those that follow, at least 0. The same seed gives the
+                same episode, whatever was played before. None: the random streams continue.
+            options: `options["frame"]` (row,) is an initial state in the layout of a row of
+                `Frame.rows`, in place of the task's own. Other keys are ignored.
+
+        Returns:
+            Observation (o,) float32 and an empty info.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            TypeError: a seed or options of the wrong type. Nothing has changed.
+            ValueError: a negative seed, or an initial state with a wrong shape or with bodies that
+                overlap or are outside. Nothing has changed.
         """
-        self._viewer.expect_open("reset")
+        self._viewer.check_open("reset")
         seed = None if seed is None else checks.integer("seed", seed, 0)
-        rows = starts(reset_options(options), self.task, np.ones(1, np.bool_))
+        rows = initial_rows(reset_options(options), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=rows)
         super().reset(seed=seed)
         if self.render_mode == "human":
@@ -104,11 +177,27 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
         return observations[0, 0], {}
 
     def step(self, action: Action) -> tuple[Floats, float, bool, bool, Info]:
-        """The learner acts for one control step; an action beyond [-1, 1] counts as the bound."""
-        self._viewer.expect_open("step")
-        self._matches.check_turn()
-        chosen = actions_of(self.task, action, self.action_space)
-        outcome = self._matches.step(chosen[None, None])
+        """Advance the match by one control step.
+
+        Args:
+            action: (action,) floats, clipped to [-1, 1], or an index for tasks with an
+                `action_table`.
+
+        Returns:
+            Observation (o,) float32, reward (sum of the task's terms), terminated, truncated and
+            info; the info of the last step of an episode holds the metrics and `steps`.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: no episode has begun or it has ended, or the match is inconsistent after
+                a failure.
+            TypeError: an action of the wrong type. Nothing has changed.
+            ValueError: an action with a wrong shape or value. Nothing has changed.
+        """
+        self._viewer.check_open("step")
+        self._matches.check_running()
+        vector = action_array(self.task, action, self.action_space)
+        outcome = self._matches.step(vector[None, None])
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         info = episode_info(outcome, self._matches) if terminated or truncated else {}
         if self.render_mode == "human":
@@ -117,12 +206,21 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
         return outcome.observations[0, 0], reward, terminated, truncated, info
 
     def render(self) -> Image | None:
-        """The match as an image (height, width, 3), or in a window."""
-        return self._viewer.show(self._matches)
+        """Render the match.
+
+        Returns:
+            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
+            image in a window, and without a render mode, which warns.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: no episode has begun.
+        """
+        return self._viewer.render(self._matches)
 
     def close(self) -> None:
-        """End its use: `reset`, `step` and `render` raise ClosedEnvironmentError from now on.
+        """Close the window, if any; may be repeated.
 
-        A window closes too. May be repeated.
+        `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
         self._viewer.close()

@@ -1,7 +1,8 @@
-"""What agents may see and do, as spaces; and discrete choices as actions.
+"""Observation and action spaces of one agent.
 
-Inside, an action is a row of numbers in [-1, 1]. A task with an `action_table` lets each agent
-choose one of its rows instead; only the front doors know.
+`Matches` takes actions as vectors of numbers in [-1, 1]. For a task with an `action_table`, an
+agent of an environment chooses the index of one of the table's rows; only the environments convert
+indices to vectors.
 """
 
 import numpy as np
@@ -14,27 +15,56 @@ ActionSpace = Box[np.float32] | Discrete[np.int64]
 
 
 def observation_space(task: Task) -> Box[np.float32]:
-    """Bounds of what an agent sees, (o,) float32."""
+    """Return the observation space of one agent.
+
+    Args:
+        task: the task that is played.
+
+    Returns:
+        Box (o,) float32 from `task.observation_low` to `task.observation_high`; `task.blocks`
+        names its parts.
+    """
     return Box(task.observation_low, task.observation_high)
 
 
 def action_space(task: Task) -> ActionSpace:
-    """What an agent does: (action,) float32 in [-1, 1], or one of the rows of the task's table."""
+    """Return the action space of one agent.
+
+    Args:
+        task: the task that is played.
+
+    Returns:
+        Box (action,) float32 from -1 to 1; for a task with an `action_table`, Discrete with the
+        number of its rows.
+    """
     if task.action_table is None:
         return Box(-1.0, 1.0, (task.action_size,))
     return Discrete(len(task.action_table))
 
 
-def numbers(task: Task, chosen: Array) -> Array:
-    """Actions (..., action) for what agents chose: that itself, or rows of the table for ints."""
+def action_vectors(task: Task, actions: Array) -> Array:
+    """Return actions as vectors.
+
+    Args:
+        task: the task that is played.
+        actions: (..., action) vectors, returned unchanged; for a task with an `action_table`,
+            (...) indices of its rows.
+
+    Returns:
+        (..., action) vectors.
+
+    Raises:
+        TypeError: indices that are not integers.
+        ValueError: an index out of range.
+    """
     table = task.action_table
     if table is None:
-        return chosen
-    choices = np.asarray(chosen)
-    if choices.dtype.kind not in "iu":
-        raise TypeError(f"actions: expected whole numbers, got {choices.dtype}")
-    if ((choices < 0) | (choices >= len(table))).any():
-        wrong = choices[(choices < 0) | (choices >= len(table))].flat[0]
-        raise ValueError(f"actions: expected 0 to {len(table) - 1}, got {wrong}")
-    rows: Floats = table[choices]
-    return rows
+        return actions
+    indices = np.asarray(actions)
+    if indices.dtype.kind not in "iu":
+        raise TypeError(f"actions: expected whole numbers, got {indices.dtype}")
+    outside = (indices < 0) | (indices >= len(table))
+    if outside.any():
+        raise ValueError(f"actions: expected 0 to {len(table) - 1}, got {indices[outside].flat[0]}")
+    vectors: Floats = table[indices]
+    return vectors

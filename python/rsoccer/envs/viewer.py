@@ -22,22 +22,46 @@ RENDER_MODES: Final = ("human", "rgb_array")
 
 
 class Viewer:
-    """Shows matches in the way that was asked for, until it is closed for good.
+    """Renderer of matches in the render mode of an environment.
 
-    What draws is imported only when there is something to show.
+    The drawing code is imported with the first image.
+
+    Attributes:
+        closed: True after `close`.
     """
 
     def __init__(self, mode: str | None, task: Task, modes: Sequence[str] = RENDER_MODES) -> None:
-        """`mode` is one of `modes` or None."""
+        """Prepare rendering.
+
+        Args:
+            mode: render mode, one of `modes`; None for no rendering.
+            task: the task that is played; its time step sets the frame rate of a window.
+            modes: render modes that the environment supports.
+
+        Raises:
+            ValueError: an unknown render mode.
+        """
         if mode is not None and mode not in modes:
             raise ValueError(f"render_mode: expected one of {modes} or None, got {mode!r}")
         self._mode, self._modes, self._fps = mode, modes, frames_per_second(task)
         self._window: Window | None = None
         self.closed = False
 
-    def show(self, matches: EnvMatches) -> Image | None:
-        """A lone match as an image (height, width, 3), or in a window."""
-        self.expect_open("render")
+    def render(self, matches: EnvMatches) -> Image | None:
+        """Render a single match.
+
+        Args:
+            matches: the single match.
+
+        Returns:
+            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
+            image in a window, and without a render mode, which warns.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: the match has not begun.
+        """
+        self.check_open("render")
         if self._mode is None:
             text = f"render() needs a render_mode, one of {self._modes}"
             warnings.warn(text, stacklevel=3)
@@ -53,8 +77,20 @@ class Viewer:
         return None
 
     def image(self, matches: EnvMatches, world: int = 0) -> Image:
-        """One of the matches as an image (height, width, 3)."""
-        self.expect_open("render")
+        """Return an image of one match.
+
+        Args:
+            matches: all matches.
+            world: index of the match.
+
+        Returns:
+            (height, width, 3) uint8.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: a match has not begun.
+        """
+        self.check_open("render")
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
         from rsoccer.render.image import draw_image
@@ -68,25 +104,37 @@ class Viewer:
             extras=task_overlay(matches, world),
         )
 
-    def expect_open(self, call: str) -> None:
-        """ClosedEnvironmentError, Gymnasium's own, for calls that come after `close`."""
+    def check_open(self, call: str) -> None:
+        """Refuse a call after `close`.
+
+        Args:
+            call: name of the called method, for the error message.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed; Gymnasium's own class.
+        """
         if self.closed:
             raise ClosedEnvironmentError(f"{call} after close: make another environment")
 
     def close(self) -> None:
-        """Close the window, if there is one; may be repeated."""
+        """Close the window, if there is one, and refuse later calls; may be repeated."""
         self.closed = True
         if self._window is not None:
             self._window.close()
             self._window = None
 
     def __getstate__(self) -> dict[str, Any]:
-        """All but the window: a copy opens its own."""
+        """Return all attributes except the window; a copy opens its own."""
         return {**self.__dict__, "_window": None}
 
 
 def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:
-    """What environments of all libraries tell of themselves."""
+    """Return the metadata of an environment: `name`, `render_modes` and `render_fps`.
+
+    Args:
+        task: the task that is played.
+        modes: render modes that the environment supports.
+    """
     return {
         "name": task.name,
         "render_modes": list(modes),
@@ -95,5 +143,9 @@ def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:
 
 
 def frames_per_second(task: Task) -> int:
-    """Steps in a second of the match."""
+    """Return the number of control steps in a second of a match.
+
+    Args:
+        task: the task that is played.
+    """
     return round(1.0 / task.config.time_step)

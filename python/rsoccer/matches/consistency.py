@@ -1,4 +1,4 @@
-"""Consistency of matches: after a failure half way through a step, parts are a step apart."""
+"""Consistency of matches: a failure in the middle of a step leaves parts one step apart."""
 
 
 class Consistency:
@@ -9,7 +9,11 @@ class Consistency:
         self._fault = ""
 
     def check(self) -> None:
-        """Raise a RuntimeError if the matches are inconsistent."""
+        """Refuse to continue after a failure.
+
+        Raises:
+            RuntimeError: the matches are inconsistent.
+        """
         if self._fault:
             raise RuntimeError(
                 f"the matches are inconsistent: {self._fault}; call reset() for all worlds or "

@@ -21,7 +21,7 @@ from rsoccer.matches.paused import PausedWorlds
 from rsoccer.play import Play
 from rsoccer.registry import as_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
-from rsoccer.simulator import Worlds
+from rsoccer.simulator import SimulatorLike
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -71,7 +71,7 @@ class Matches:
         *,
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
-        simulator: Worlds | None = None,
+        simulator: SimulatorLike | None = None,
     ) -> None:
         """Prepare matches; `reset` begins them.
 
@@ -241,9 +241,9 @@ class Matches:
         play.steps += 1
 
     def _reposition_balls(self, active: Mask | None) -> None:
-        """Move balls as the task demands, and equal the last frame to the frame there.
+        """Move balls as the task demands, and set the last frame equal to the frame there.
 
-        So no reward term pays for the ball's way to its new position.
+        A reward term that compares the two frames then pays nothing for the move.
         """
         play = self.play
         repositioned = self.task.reposition_ball(play.frame)

@@ -10,21 +10,24 @@ from rsoccer.controllers import PolicyGroup
 from rsoccer.frame import Array
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
-from rsoccer.simulator import Worlds, snapshots
+from rsoccer.simulator import SimulatorLike, require_snapshots
 
 
 @dataclass
 class MatchState:
     """References to all parts of the state of matches: simulator, arrays, random streams."""
 
-    simulator: Worlds
+    simulator: SimulatorLike
+    """Simulator of all worlds."""
     arrays: dict[str, Array]
+    """(n, ...) arrays by name."""
     streams: dict[str, WorldRng]
+    """(n,) random streams by name."""
 
     @classmethod
     def of(
         cls,
-        simulator: Worlds,
+        simulator: SimulatorLike,
         play: Play,
         groups: Sequence[PolicyGroup],
         start: WorldRng,
@@ -38,6 +41,9 @@ class MatchState:
             groups: policies with their memory and random streams.
             start: random streams of initial positions.
             others: further arrays by name.
+
+        Returns:
+            The parts; arrays are not copied.
         """
         arrays = play.arrays() | others
         for group in groups:
@@ -51,7 +57,7 @@ class MatchState:
         Raises:
             TypeError: the simulator has no `snapshot`.
         """
-        snapshot = np.frombuffer(snapshots(self.simulator).snapshot(), np.uint8)
+        snapshot = np.frombuffer(require_snapshots(self.simulator).snapshot(), np.uint8)
         arrays = {name: array.copy() for name, array in self.arrays.items()}
         return {"simulator": snapshot.copy(), **arrays, **self._stream_arrays()}
 
@@ -65,7 +71,7 @@ class MatchState:
             TypeError: the simulator has no `restore`.
             ValueError: arrays that do not fit these matches. Nothing has changed.
         """
-        simulator = snapshots(self.simulator)
+        simulator = require_snapshots(self.simulator)
         checks.state(state, {"simulator": np.empty(0), **self.arrays, **self._stream_arrays()})
         simulator.restore(state["simulator"].tobytes())
         for name, array in self.arrays.items():

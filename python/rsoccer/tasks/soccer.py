@@ -9,7 +9,7 @@ import numpy as np
 from rsoccer._core import Sight, limit
 from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
-from rsoccer.view import slots
+from rsoccer.view import slot_counts
 
 OBSERVATION_LIMITS: Final = {
     "ball": 4.0,
@@ -113,7 +113,9 @@ class Soccer(Task):
     def ego_features(self) -> Sight:
         """Encoder of the observation, in half field lengths and the robot's top speeds."""
         config = self.config
-        return Sight(config.field, config.robot, *slots(self.n_blue, self.n_yellow, self.sides))
+        return Sight(
+            config.field, config.robot, *slot_counts(self.n_blue, self.n_yellow, self.sides)
+        )
 
     @cached_property
     def position_scale(self) -> np.float32:

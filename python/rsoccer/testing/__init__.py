@@ -1,4 +1,4 @@
-"""Tests for tasks that users write."""
+"""Checks for tasks that users write: `check_task(MyTask())`."""
 
 from rsoccer.testing.task_check import TaskError, check_task
 

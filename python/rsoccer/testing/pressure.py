@@ -1,7 +1,7 @@
-"""Actions under which robots press: every learner drives at the ball, and all meet there.
+"""Actions that cause contacts: every learner drives at the ball, so robots press on each other.
 
-Random actions seldom do that: robots drift apart. Whoever learns drives at the ball soon, and keeps
-on driving, also when robots, walls and ball are in the way.
+Under random actions robots drift apart and contacts are rare. Trained robots drive at the ball and
+keep driving while robots, walls and the ball are in the way; these actions do the same.
 """
 
 from typing import Final
@@ -13,54 +13,70 @@ from rsoccer.matches import Matches
 from rsoccer.task import Task
 from rsoccer.tasks.ssl import Ssl
 
-NOISE: Final = 0.3  # on every number of an action: crowds that stir
-KICKS: Final = 0.03  # share of actions of the SSL that kick
-HELD: Final = 20  # steps for which a push lasts where nothing is known of what actions do
+NOISE: Final = 0.3
+"""Half width of the uniform noise on every number of an action."""
+KICK_FRACTION: Final = 0.03
+"""Fraction of the SSL robots' actions that kick."""
+PUSH_STEPS: Final = 20
+"""Control steps between new random actions where the meaning of actions is unknown."""
 
 
 class Pressing:
-    """Drives all learners of matches at the ball; random numbers are its own."""
+    """Actions that drive all learners of matches at the ball, with random streams of their own."""
 
     def __init__(self, task: Task, seed: int = 0) -> None:
-        """Find out from its robots what the actions of `task` do."""
+        """Find the meaning of the task's actions.
+
+        Args:
+            task: the task that is played. The actions of wheels and of SSL velocities are known;
+                any other robots get random actions, mostly forward, that last `PUSH_STEPS` steps.
+            seed: seed of the noise.
+        """
         self._rng = np.random.default_rng(seed)
         self._pushes: Floats = np.zeros((0, 0, 0), np.float32)
         self._steps = 0
-        self._drive = _known_drive(task)
+        self._action_kind = _action_kind(task)
 
     def actions(self, matches: Matches) -> Floats:
-        """What to do now, (n, agents, action)."""
-        shape = (matches.worlds, len(matches.agents), matches.action_size)
-        if self._drive == "unknown":
-            return self._lasting(shape)
-        ahead, left, x, y = _to_ball(matches)
-        noise = self._rng.uniform(-NOISE, NOISE, shape)
-        if self._drive == "wheels":
-            way = np.stack([ahead - left, ahead + left], axis=-1)
-            return _action(way + noise)
-        if self._drive == "robot":
-            x, y = ahead, left
-        way = np.stack([x, y, left, np.full_like(x, -1.0), np.ones_like(x)], axis=-1) + noise
-        kicks = self._rng.random(shape[:2]) < KICKS
-        way[..., 3] = np.where(kicks, self._rng.random(shape[:2]), -1.0)
-        return _action(way)
+        """Return the actions of the next step.
 
-    def _lasting(self, shape: tuple[int, int, int]) -> Floats:
-        """Pushes that last, mostly forward."""
-        if self._steps % HELD == 0 or self._pushes.shape != shape:
-            self._pushes = _action(self._rng.uniform(-0.5, 1.5, shape))
+        Args:
+            matches: matches of the task.
+
+        Returns:
+            (n, agents, action) float32 in [-1, 1].
+        """
+        shape = (matches.worlds, len(matches.agents), matches.action_size)
+        if self._action_kind == "unknown":
+            return self._lasting_pushes(shape)
+        ahead, left, x, y = _directions_to_ball(matches)
+        noise = self._rng.uniform(-NOISE, NOISE, shape)
+        if self._action_kind == "wheels":
+            wheels = np.stack([ahead - left, ahead + left], axis=-1)
+            return _clipped(wheels + noise)
+        if self._action_kind == "robot":
+            x, y = ahead, left
+        action = np.stack([x, y, left, np.full_like(x, -1.0), np.ones_like(x)], axis=-1) + noise
+        kicks = self._rng.random(shape[:2]) < KICK_FRACTION
+        action[..., 3] = np.where(kicks, self._rng.random(shape[:2]), -1.0)
+        return _clipped(action)
+
+    def _lasting_pushes(self, shape: tuple[int, int, int]) -> Floats:
+        """Random actions, mostly forward, that change every `PUSH_STEPS` steps."""
+        if self._steps % PUSH_STEPS == 0 or self._pushes.shape != shape:
+            self._pushes = _clipped(self._rng.uniform(-0.5, 1.5, shape))
         self._steps += 1
         return self._pushes.copy()
 
 
-def _action(numbers: Array) -> Floats:
-    """Numbers as an action may have them."""
-    action: Floats = np.clip(numbers, -1.0, 1.0).astype(np.float32)
-    return action
+def _clipped(numbers: Array) -> Floats:
+    """Actions within [-1, 1], float32."""
+    actions: Floats = np.clip(numbers, -1.0, 1.0).astype(np.float32)
+    return actions
 
 
-def _known_drive(task: Task) -> str:
-    """What the actions of a task ask of its robots, as its league's tasks have it, or "unknown"."""
+def _action_kind(task: Task) -> str:
+    """Meaning of a task's actions: "wheels", velocities in "field" or "robot", or "unknown"."""
     drives = {robot.drive for robot in task.config.robots}
     if drives == {"differential"} and task.action_size == 2:
         return "wheels"
@@ -69,10 +85,11 @@ def _known_drive(task: Task) -> str:
     return "unknown"
 
 
-def _to_ball(matches: Matches) -> tuple[Floats, Floats, Floats, Floats]:
-    """The way from each learner to the ball, (n, agents): ahead, left, along x and y; length 1."""
+def _directions_to_ball(matches: Matches) -> tuple[Floats, Floats, Floats, Floats]:
+    """Unit vectors (n, agents) from each learner to the ball: ahead, left, and along x, y."""
     view = matches.play.view.select(matches.assignment.learner_indices)
-    way = view.ball.position - view.ego.position
-    x, y = np.moveaxis(way / np.maximum(np.linalg.norm(way, axis=-1, keepdims=True), 1e-6), -1, 0)
+    offset = view.ball.position - view.ego.position
+    distance = np.maximum(np.linalg.norm(offset, axis=-1, keepdims=True), 1e-6)
+    x, y = np.moveaxis(offset / distance, -1, 0)
     cos, sin = view.ego.heading[..., 0], view.ego.heading[..., 1]
     return x * cos + y * sin, y * cos - x * sin, x, y

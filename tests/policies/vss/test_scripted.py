@@ -14,7 +14,7 @@ from rsoccer.policies.vss.scripted import Scripted
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslSelfPlay, VssMulti, VssSelfPlay, VssSingle
 from tests.helpers import Crowd, same
-from tests.test_view import turned
+from tests.test_view import rotated
 
 TASK = VssSelfPlay()
 
@@ -97,7 +97,7 @@ def test_the_keeper_stays_home() -> None:
 def test_both_sides_act_alike() -> None:
     rows = Crowd().get_initial_positions_frame(WorldRng.seeded(0, 8)).rows
     actions = []
-    for start in (rows, turned(Frame(rows, 3, 3)).rows):
+    for start in (rows, rotated(Frame(rows, 3, 3)).rows):
         matches = Matches(TASK, 8, controllers={"all": "scripted"})
         matches.reset(rows=start)
         matches.step(no_actions(8))

@@ -1,4 +1,4 @@
-"""One match, played and compared: what several tests of the environments share."""
+"""Initial states, random actions and transcripts for tests of PettingZoo environments."""
 
 from typing import Any
 
@@ -7,6 +7,7 @@ import numpy as np
 import rsoccer
 from rsoccer.envs.parallel import SoccerParallelEnv
 from rsoccer.frame import Floats, Frame
+from tests.helpers import comparable
 
 TASKS = rsoccer.list_tasks()
 VSS_TASKS = [name for name in TASKS if name.startswith("VSS")]
@@ -14,7 +15,7 @@ SELF_PLAY = "VSSSelfPlay-v0"
 
 
 def shot_at(goal_side: int) -> Floats:
-    """A row in which the ball rolls into the goal at +x (1) or -x (-1), robots out of its way."""
+    """State row: the ball rolls into the goal at +x (1) or -x (-1), and no robot is near."""
     frame = Frame.empty(1, 3, 3)
     frame.robots.position[0] = [[-0.5 + 0.2 * i, 0.45] for i in range(6)]
     frame.ball.position[0] = [0.6 * goal_side, 0.0]
@@ -24,7 +25,7 @@ def shot_at(goal_side: int) -> Floats:
 
 
 def crowded() -> Floats:
-    """A row with two robots in each other."""
+    """State row with two robots at the same position."""
     row = shot_at(1)
     robots = Frame(row[None], 3, 3).robots
     robots.position[0, 5] = robots.position[0, 0]
@@ -36,18 +37,11 @@ def random_actions(match: SoccerParallelEnv, rng: np.random.Generator) -> dict[s
     return {agent: rng.uniform(-1, 1, size).astype(np.float32) for agent in match.agents}
 
 
-def as_bytes(value: Any) -> Any:  # noqa: ANN401
-    """Arrays as bytes, dictionaries by key: what `==` can compare to the last bit."""
-    if isinstance(value, dict):
-        return {key: as_bytes(part) for key, part in value.items()}
-    return (value.dtype.str, value.shape, value.tobytes()) if hasattr(value, "tobytes") else value
-
-
 def play_episode(match: SoccerParallelEnv, seed: int | None, **reset: Any) -> list[Any]:  # noqa: ANN401
-    """All that one episode returns, from reset to end, as bytes."""
+    """All results of one episode, from reset to end, as comparable values."""
     rng = np.random.default_rng(0 if seed is None else seed)
-    transcript = [as_bytes(part) for part in match.reset(seed=seed, **reset)]
+    transcript = [comparable(part) for part in match.reset(seed=seed, **reset)]
     while match.agents:
-        transcript.append([as_bytes(part) for part in match.step(random_actions(match, rng))])
+        transcript.append([comparable(part) for part in match.step(random_actions(match, rng))])
         transcript.append((match.state().tobytes(), list(match.agents)))
     return [*transcript, match.last_metrics]

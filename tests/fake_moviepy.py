@@ -1,4 +1,4 @@
-"""What stands in for packages that tests shall not need."""
+"""A fake MoviePy module, which records the frames of videos."""
 
 import sys
 from pathlib import Path
@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 
 Clip = tuple[list[Any], int, str]
-"""Frames, frames a second, the file's name."""
+"""Frames, frames per second, name of the file."""
 
 
 def moviepy(monkeypatch: pytest.MonkeyPatch) -> list[Clip]:
-    """Where the frames go that wrappers hand to MoviePy, which wants an older Pillow than ours."""
+    """Replace MoviePy, which needs an older Pillow than ours; return the recorded videos."""
     clips: list[Clip] = []
 
     class ImageSequenceClip:
@@ -34,7 +34,7 @@ def moviepy(monkeypatch: pytest.MonkeyPatch) -> list[Clip]:
 
 
 def assert_filmed(clips: list[Clip], frames: int) -> None:
-    """One film, of the second episode of two, with a picture of its own for each moment."""
-    [(pictures, fps, file)] = clips
-    assert (len(pictures), fps, file) == (frames, 40, "rl-video-episode-1.mp4")
-    assert len({picture.tobytes() for picture in pictures}) == frames
+    """Expect one video, of the second of two episodes, in which no two images are equal."""
+    [(images, fps, file)] = clips
+    assert (len(images), fps, file) == (frames, 40, "rl-video-episode-1.mp4")
+    assert len({image.tobytes() for image in images}) == frames

@@ -1,0 +1,166 @@
+"""Every field of `Play` takes part in copying, overwriting and saving of worlds.
+
+The tests find the fields by `dataclasses.fields`, not by the list that `Play` itself works through.
+"""
+
+import copy
+from collections.abc import Callable, Mapping
+from dataclasses import Field, fields
+
+import numpy as np
+import pytest
+
+from rsoccer import Matches, WorldRng
+from rsoccer import play as play_module
+from rsoccer.frame import Array, Frame
+from rsoccer.play import Play
+from rsoccer.view import View
+from tests.failing import FailingTask
+from tests.helpers import pushing, same
+
+WORLDS = 7  # unlike the numbers of robots and observers, 6
+SOME = np.array([4, 1, 5])
+
+FIELDS: dict[str, Field[object]] = {each.name: each for each in fields(Play)}
+ROLES = {name: each.metadata.get("role", "saved") for name, each in FIELDS.items()}
+PER_WORLD = [name for name, role in ROLES.items() if role != "shared"]
+SAVED = [name for name, role in ROLES.items() if role == "saved"]
+
+
+def arrays_in(value: object) -> list[Array]:
+    """All arrays of a field, not copied."""
+    if isinstance(value, np.ndarray):
+        return [value]
+    if isinstance(value, Frame):
+        return [value.rows]
+    if isinstance(value, View):
+        return [value.ball.data, value.robots.data]
+    if isinstance(value, WorldRng):
+        return [value._state]
+    if isinstance(value, Mapping):
+        return list(value.values())
+    raise TypeError(f"a field of a new type: {type(value).__name__}")
+
+
+def copies_of(play: Play) -> dict[str, list[Array]]:
+    """Copies of all arrays by field."""
+    return {name: [array.copy() for array in arrays_in(getattr(play, name))] for name in FIELDS}
+
+
+def played(seed: int, steps: int) -> Matches:
+    """Matches of a task with memory and random numbers, after some steps."""
+    matches = Matches(FailingTask(max_steps=99), WORLDS, seed, autoreset="disabled")
+    matches.reset()
+    rng = np.random.default_rng(seed)
+    for _ in range(steps):
+        matches.step(pushing(rng, matches))
+    return matches
+
+
+def two_plays() -> tuple[Play, Play]:
+    """Two plays that differ in every array with values per world."""
+    ours = played(seed=1, steps=5).play
+    theirs = copy.deepcopy(ours)
+    for name in PER_WORLD:
+        arrays = arrays_in(getattr(theirs, name))
+        assert arrays, f"{name} has no array: nothing would be compared"
+        for array, other in zip(arrays, arrays_in(getattr(ours, name)), strict=True):
+            array += 1
+            assert len(array) == WORLDS, name
+            assert not any(same(array[i], other[i]) for i in range(WORLDS)), name
+    return ours, theirs
+
+
+def expect_take() -> None:
+    play, _ = two_plays()
+    before, part = copies_of(play), play.take(SOME)
+    for name in PER_WORLD:
+        for array, kept in zip(arrays_in(getattr(part, name)), before[name], strict=True):
+            assert same(array, kept[SOME]), f"take: {name}"
+            array[...] = 0
+    for name, kept_arrays in before.items():
+        for array, kept in zip(arrays_in(getattr(play, name)), kept_arrays, strict=True):
+            assert same(array, kept), f"take shares memory: {name}"
+
+
+def expect_put() -> None:
+    ours, theirs = two_plays()
+    expected, source = copies_of(ours), copies_of(theirs)
+    ours.put(SOME, theirs.take(SOME))
+    for name in PER_WORLD:
+        for array, kept, new in zip(
+            arrays_in(getattr(ours, name)), expected[name], source[name], strict=True
+        ):
+            kept[SOME] = new[SOME]
+            assert same(array, kept), f"put: {name}"
+
+
+def expect_arrays() -> None:
+    play, _ = two_plays()
+    listed = play.arrays()
+    for name in SAVED:
+        keys = [key for key in listed if key.split(".")[0] == name]
+        for array in arrays_in(getattr(play, name)):
+            assert any(listed[key] is array for key in keys), f"arrays: {name}"
+
+
+def expect_saving() -> None:
+    ours, theirs = played(seed=1, steps=5), played(seed=2, steps=3)
+    theirs.load_state_dict(ours.state_dict())
+    for name in FIELDS:
+        values = arrays_in(getattr(ours.play, name)), arrays_in(getattr(theirs.play, name))
+        for array, restored in zip(*values, strict=True):
+            assert same(array, restored), f"saving: {name}"
+
+
+CHECKS = [expect_take, expect_put, expect_arrays, expect_saving]
+
+
+def test_every_role_is_known_and_used() -> None:
+    assert set(ROLES.values()) == {"saved", "derived", "shared", "stream"}
+    assert len(FIELDS) == len(PER_WORLD) + list(ROLES.values()).count("shared")
+
+
+def test_shared_fields_have_no_value_per_world() -> None:
+    play, _ = two_plays()
+    for name in FIELDS.keys() - set(PER_WORLD):
+        assert all(len(array) != WORLDS for array in arrays_in(getattr(play, name))), name
+
+
+@pytest.mark.parametrize("check", CHECKS)
+def test_every_field_takes_part(check: Callable[[], None]) -> None:
+    check()
+
+
+@pytest.mark.parametrize("name", PER_WORLD)
+def test_a_field_left_out_of_copying_would_be_found(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def without(value: object, worlds: Array, part: object) -> None:
+        if value is not getattr(ours, name):
+            put(value, worlds, part)
+
+    put, (ours, theirs) = play_module._put, two_plays()
+    monkeypatch.setattr(play_module, "_put", without)
+    monkeypatch.setitem(globals(), "two_plays", lambda: (ours, theirs))
+    with pytest.raises(AssertionError, match=f"put: {name}"):
+        expect_put()
+    monkeypatch.setattr(
+        play_module, "_PER_WORLD", tuple(each for each in PER_WORLD if each != name)
+    )
+    with pytest.raises(TypeError, match=name):
+        expect_take()
+
+
+@pytest.mark.parametrize("name", SAVED)
+def test_a_field_left_out_of_saving_would_be_found(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = play_module._names
+    monkeypatch.setattr(
+        play_module, "_names", lambda *roles: tuple(each for each in names(*roles) if each != name)
+    )
+    with pytest.raises(AssertionError, match=f"arrays: {name}"):
+        expect_arrays()
+    with pytest.raises(AssertionError, match="saving: "):
+        expect_saving()
