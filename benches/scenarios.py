@@ -66,7 +66,7 @@ class Scenario:
     def radius(self) -> np.float32:
         """Distance from a robot's centre to its nearest side, m."""
         robot = self.config.robot
-        return np.float32(robot.side / 2 if self.has_wheel_commands else robot.radius)
+        return np.float32(robot.side_length / 2 if self.has_wheel_commands else robot.radius)
 
     def start(self, rng: WorldRng) -> Frame:
         """Return n random starts at rest and without contacts."""

@@ -50,7 +50,9 @@ def touches(frame: Frame, config: SimConfig) -> int:
     """Number of pairs that certainly touch: their inscribed circles are within a millimetre."""
     robot = config.robot
     # Round robots meet the ball with a flat front, and each other as discs.
-    half, front = (robot.radius, robot.front) if robot.has_mouth else (robot.side / 2,) * 2
+    half, front = (
+        (robot.radius, robot.front_distance) if robot.has_mouth else (robot.side_length / 2,) * 2
+    )
     robots, ball = frame.robots.position, frame.ball.position[:, None]
     to_ball = _distances(robots, ball) < front + config.ball.radius + 1e-3
     to_robots = _distances(robots[:, :, None], robots[:, None]) < 2 * half + 1e-3

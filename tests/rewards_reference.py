@@ -39,7 +39,7 @@ def approach_behind_ball(play: Play, config: SimConfig) -> Floats:
 
 def approach_mouth(play: Play, config: SimConfig) -> Floats:
     """Decrease of the distance between the ball and each observer's mouth."""
-    mouth_offset = np.float32(config.robot.front) + np.float32(config.ball.radius)
+    mouth_offset = np.float32(config.robot.front_distance) + np.float32(config.ball.radius)
 
     def distance(view: View) -> Floats:
         ego, ball = view.ego, view.ball.position

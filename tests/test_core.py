@@ -21,8 +21,8 @@ from rsoccer._core import (
     SimConfig,
     Simulator,
     build_info,
-    clipped,
-    limit,
+    clip_actions,
+    clip_in_place,
 )
 from rsoccer.frame import Array, Floats
 
@@ -87,8 +87,16 @@ def test_a_bad_configuration_is_refused_by_name(options: dict[str, Any], words: 
 def test_a_field_by_numbers_keeps_the_robots_of_its_league() -> None:
     """An SSL field whose goals have no walls of their own got a VSSS robot and ball."""
     for field, robot, ball in (
-        (Field("ssl_b", goal_wall=0.0, goal_line_margin=0.0), "ssl_generic", "ssl_tigers"),
-        (Field("vss_3v3", goal_wall=0.01, goal_line_margin=0.3), "vss_440rpm", "vss_rsim"),
+        (
+            Field("ssl_b", goal_wall_thickness=0.0, goal_line_margin=0.0),
+            "ssl_generic",
+            "ssl_tigers",
+        ),
+        (
+            Field("vss_3v3", goal_wall_thickness=0.01, goal_line_margin=0.3),
+            "vss_440rpm",
+            "vss_rsim",
+        ),
     ):
         config = SimConfig(field, 1, 1)
         assert (config.robot.name, config.ball.name) == (robot, ball)
@@ -259,17 +267,17 @@ def test_other_threads_run_during_a_step() -> None:
 
 def test_limits_hold_on_both_sides_and_nan_stays() -> None:
     numbers = np.array([[[-9.0, 0.5, 9.0], [np.nan, -np.inf, -0.0]]], np.float32)
-    limit(numbers, np.array([2.0, 1.0, 4.0], np.float32))
+    clip_in_place(numbers, np.array([2.0, 1.0, 4.0], np.float32))
     expected = np.array([[[-2.0, 0.5, 4.0], [np.nan, -1.0, -0.0]]], np.float32)
     assert numbers.tobytes() == expected.tobytes()
     with pytest.raises(ValueError, match=r"most must have shape \(3,\), got \(2,\)"):
-        limit(numbers, np.ones(2, np.float32))
+        clip_in_place(numbers, np.ones(2, np.float32))
     with pytest.raises(ValueError, match="most must be 0 or above"):
-        limit(numbers, np.array([1.0, -1.0, np.nan], np.float32))
+        clip_in_place(numbers, np.array([1.0, -1.0, np.nan], np.float32))
     with pytest.raises(ValueError, match="numbers must be writeable"):
         frozen = numbers.copy()
         frozen.flags.writeable = False
-        limit(frozen, np.ones(3, np.float32))
+        clip_in_place(frozen, np.ones(3, np.float32))
 
 
 def test_clipped_returns_a_copy_or_none_for_the_caller_to_handle() -> None:
@@ -278,12 +286,12 @@ def test_clipped_returns_a_copy_or_none_for_the_caller_to_handle() -> None:
         (numbers, [[-1.0, 0.5], [1.0, 1.0]]),
         (numbers.T, [[-1.0, 1.0], [0.5, 1.0]]),
     ]:
-        copied = clipped(array, (2, 2))
+        copied = clip_actions(array, (2, 2))
         assert copied is not None
         assert np.array_equal(copied, expected)
     assert numbers[0, 0] == -9.0
     for other in (numbers.astype(np.float64), numbers[0], [[0.0] * 2] * 2, numbers * np.inf, None):
-        assert clipped(other, (2, 2)) is None
+        assert clip_actions(other, (2, 2)) is None
 
 
 def test_commands_may_have_any_memory_layout() -> None:

@@ -30,7 +30,7 @@ def test_the_state_of_ssl_has_heights_and_beams_too() -> None:
     top, half_length = config.robot.top_speed, config.field.half_length
     frame = Frame.empty(1, 2, 0)
     frame.robots.position[0] = [[-1.0, 0.5], [1.0, 0.0]]
-    frame.ball.position[0] = [-1.0 + config.robot.front + config.ball.radius, 0.5]
+    frame.ball.position[0] = [-1.0 + config.robot.front_distance + config.ball.radius, 0.5]
     match.reset(seed=0, options={"frame": frame.rows[0]})
     ball, first, second = np.split(match.state(), [6, 14])
     assert ball == pytest.approx([frame.ball.position[0, 0] / 3.0, 0.5 / 3.0, 0, 0, 0, 0])

@@ -20,7 +20,10 @@ UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0"
             lambda: Field("ssl_b", goal_depth=5.0),
             "must fit into .*goal_line_margin of 0.3 m, got 5",
         ),
-        (lambda: RobotModel("ssl_generic", front=0.2), "front must not be beyond .*, got 0.2 m"),
+        (
+            lambda: RobotModel("ssl_generic", front_distance=0.2),
+            "front must not be beyond .*, got 0.2 m",
+        ),
         (lambda: RobotModel.from_json(UNORDERED_WHEELS), r"in rising order.*, got \[160.0, 135.0"),
         (lambda: Field.from_json("{}"), "text is not a Field: missing field `name`"),
         (lambda: SimConfig(robot=[RobotModel("vss_440rpm")]), "each of 6 robots, got 1"),

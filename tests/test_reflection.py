@@ -67,7 +67,7 @@ def free_of_contact(frame: Frame, task: Task) -> Mask:
     field, robots = task.config.field, frame.robots
     bound = np.array([field.half_length, field.half_width]) - WALL
     inside = (np.abs(robots.position) < bound).all(axis=(1, 2))
-    met = (robots.touched_ball + robots.crash_speed).any(axis=1)
+    met = (robots.touched_ball + robots.collision_speed).any(axis=1)
     return np.logical_and(inside, ~met)
 
 

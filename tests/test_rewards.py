@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from rsoccer import list_tasks, make_task, rewards
-from rsoccer._core import Potential, efforts, nearest
+from rsoccer._core import Potential, mean_action_magnitude, nearest_to_ball
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Floats
 from rsoccer.matches import Matches
 from rsoccer.task import Play
@@ -166,13 +166,13 @@ def test_wrong_arrays_are_refused_by_name() -> None:
     last, view = play.last_view, play.view
     potential = Potential.ball_to_goal(FIELD)
     with pytest.raises(ValueError, match=r"last_ball must have shape \(2, 6, 14\)"):
-        potential.gained(last.ball.data[:1], last.robots.data, view.ball.data, view.robots.data)
+        potential.difference(last.ball.data[:1], last.robots.data, view.ball.data, view.robots.data)
     with pytest.raises(ValueError, match="robots must have 4 axes"):
-        potential.gained(last.ball.data, last.robots.data, view.ball.data, view.ball.data)
+        potential.difference(last.ball.data, last.robots.data, view.ball.data, view.ball.data)
     with pytest.raises(TypeError, match="ball must be an array of float32, got float64"):
         balls = view.ball.data.astype(np.float64)
         views = last.ball.data, last.robots.data, balls, view.robots.data
-        potential.gained(*views)  # type: ignore[arg-type]
+        potential.difference(*views)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="robot must be one with a mouth, got vss_440rpm"):
         rewards.approach_mouth(play, TASK.config)
     for distance in (0.0, -1.0, np.nan, np.inf):
@@ -180,8 +180,8 @@ def test_wrong_arrays_are_refused_by_name() -> None:
             Potential.behind_ball(FIELD, distance)
     for observer in (-1, 6):
         with pytest.raises(ValueError, match=f"observers must be robots below 6, got {observer}"):
-            nearest(play.frame.rows, 3, np.array([0, observer]))
+            nearest_to_ball(play.frame.rows, 3, np.array([0, observer]))
         with pytest.raises(ValueError, match=f"observers must be robots below 6, got {observer}"):
-            efforts(play.actions, np.array([0, observer]))
+            mean_action_magnitude(play.actions, np.array([0, observer]))
     with pytest.raises(TypeError, match="observers must be an array of int64"):
-        nearest(play.frame.rows, 3, np.array([0.0]))
+        nearest_to_ball(play.frame.rows, 3, np.array([0.0]))

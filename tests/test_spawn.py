@@ -22,7 +22,7 @@ def test_positions_are_apart_and_clear_of_walls_and_corners() -> None:
     assert (x + radii <= field.half_length).all()
     assert (y + radii <= field.half_width).all()
     # distance from the face of the corner block
-    clear = (field.half_length + field.half_width - field.corner - x - y) / 2**0.5
+    clear = (field.half_length + field.half_width - field.corner_leg - x - y) / 2**0.5
     assert (clear >= radii).all()
     assert gaps.min() < 0.102, "the minimal distance is reached"
     assert clear.min() < 0.03, "corners are reached"

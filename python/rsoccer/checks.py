@@ -212,7 +212,7 @@ def actions(value: object, shape: tuple[int, ...]) -> Floats:
         TypeError: not an array of a floating-point type.
         ValueError: another shape, NaN or infinity.
     """
-    if (clipped := _core.clipped(value, shape)) is not None:
+    if (clipped := _core.clip_actions(value, shape)) is not None:
         return clipped
     array = np.asarray(value)
     if array.dtype == np.float64:  # before the cast, which would turn the largest to infinity

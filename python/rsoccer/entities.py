@@ -173,8 +173,8 @@ class FieldParams:
             goal_width=field.goal_width,
             goal_depth=field.goal_depth,
             ball_radius=config.ball.radius,
-            robot_radius=robot.side / 2 if two_wheels else robot.radius,
-            robot_front=robot.side / 2 if two_wheels else robot.front,
+            robot_radius=robot.side_length / 2 if two_wheels else robot.radius,
+            robot_front=robot.side_length / 2 if two_wheels else robot.front_distance,
             wheel_radius=robot.wheel_radius,
             wheel_angles=(90.0, 270.0) if two_wheels else tuple(robot.wheel_angles),
             max_wheel_speed=robot.max_wheel_speed,
@@ -201,7 +201,9 @@ def from_frame(frame: Frame, world: int) -> Entities:
     """
     position, velocity = frame.ball.position[world], frame.ball.velocity[world]
     (x, y), (v_x, v_y) = position.tolist(), velocity.tolist()
-    ball = Ball(x, y, float(frame.ball.height[world]), v_x, v_y, float(frame.ball.vertical_velocity[world]))
+    ball = Ball(
+        x, y, float(frame.ball.height[world]), v_x, v_y, float(frame.ball.vertical_velocity[world])
+    )
     return Entities(ball, _robots(frame.blue, world, False), _robots(frame.yellow, world, True))
 
 

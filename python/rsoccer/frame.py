@@ -123,8 +123,8 @@ class RobotColumns:
     _SPIN = ROBOT_COLUMNS.index("v_theta")
     _INFRARED = ROBOT_COLUMNS.index("infrared")
     _TOUCHED_BALL = ROBOT_COLUMNS.index("touched_ball")
-    _TOUCHED_FOE = ROBOT_COLUMNS.index("touched_foe")
-    _CRASH_SPEED = ROBOT_COLUMNS.index("crash_speed")
+    _TOUCHED_OPPONENT = ROBOT_COLUMNS.index("touched_opponent")
+    _COLLISION_SPEED = ROBOT_COLUMNS.index("collision_speed")
 
     def __init__(self, data: Floats) -> None:
         """Name the columns of an array.
@@ -165,14 +165,14 @@ class RobotColumns:
         return self.data[..., self._TOUCHED_BALL]
 
     @property
-    def touched_foe(self) -> Floats:
+    def touched_opponent(self) -> Floats:
         """(...) 1 if the robot touched a robot of the other team in the last step, else 0."""
-        return self.data[..., self._TOUCHED_FOE]
+        return self.data[..., self._TOUCHED_OPPONENT]
 
     @property
-    def crash_speed(self) -> Floats:
+    def collision_speed(self) -> Floats:
         """(...) closing speed of the hardest contact with a robot in the last step, m/s."""
-        return self.data[..., self._CRASH_SPEED]
+        return self.data[..., self._COLLISION_SPEED]
 
 
 class Frame:

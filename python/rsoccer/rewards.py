@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer import _core
-from rsoccer._core import CROSSINGS, Field, Potential, SimConfig, efforts
+from rsoccer._core import CROSSINGS, Field, Potential, SimConfig, mean_action_magnitude
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns, Floats, Mask
 from rsoccer.task import Play
 
@@ -65,7 +65,7 @@ def potential_difference(play: Play, potential: Potential) -> Floats:
         (n, observers) metres.
     """
     last, view = play.last_view, play.view
-    return potential.gained(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
+    return potential.difference(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
@@ -131,7 +131,7 @@ def nearest_to_ball(play: Play) -> Mask:
     Returns:
         (n, observers).
     """
-    return _core.nearest(play.last_frame.rows, play.last_frame.n_blue, play.observers)
+    return _core.nearest_to_ball(play.last_frame.rows, play.last_frame.n_blue, play.observers)
 
 
 def energy(play: Play) -> Floats:
@@ -143,7 +143,7 @@ def energy(play: Play) -> Floats:
     Returns:
         (n, observers) in [-1, 0].
     """
-    effort = efforts(play.actions, play.observers)
+    effort = mean_action_magnitude(play.actions, play.observers)
     return np.negative(effort, out=effort)
 
 

@@ -68,7 +68,7 @@ def positions(
     radius = np.asarray(radii, np.float32) + np.float32(MARGIN)
     box = np.array([field.half_length, field.half_width], np.float32) - radius[:, None]
     # The face of a corner block is the line |x| + |y| = const at 45 degrees, hence the root of 2.
-    diagonal = field.half_length + field.half_width - field.corner - np.float32(2**0.5) * radius
+    diagonal = field.half_length + field.half_width - field.corner_leg - np.float32(2**0.5) * radius
 
     def in_corner(drawn: Floats) -> Mask:
         beyond: Mask = np.abs(drawn[..., 0]) + np.abs(drawn[..., 1]) > diagonal

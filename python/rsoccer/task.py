@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, limit
+from rsoccer._core import SimConfig, clip_in_place
 from rsoccer.frame import Array, Floats, Frame, Mask, robot_names
 from rsoccer.markers import Marker
 from rsoccer.play import Play
@@ -285,7 +285,7 @@ class Task(ABC):
             blocks = self.frame_to_observations(play).values()
             flat_blocks = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks]
             np.concatenate(flat_blocks, axis=-1, out=flat, casting="same_kind")
-            limit(flat, self.observation_high)
+            clip_in_place(flat, self.observation_high)
         return flat
 
     def new_viewpoint(self, observers: Sequence[int]) -> Viewpoint:

@@ -54,14 +54,14 @@ def test_field_parameters_are_those_of_the_page() -> None:
 def test_the_page_has_the_models_numbers() -> None:
     robot, text = SSL_ROBOT, PAGE.read_text()
     for phrase in (
-        f"holds with {robot.grip:g} N",
-        f"up to {robot.max_kick:g} m/s, then {robot.recharge:g} s",
-        f"{robot.speed_up:.2f} m/s² up and {robot.brake:.2f} m/s² down",
+        f"holds with {robot.dribbler_grip:g} N",
+        f"up to {robot.max_kick_speed:g} m/s, then {robot.kicker_recharge_time:g} s",
+        f"{robot.max_acceleration:.2f} m/s² up and {robot.max_deceleration:.2f} m/s² down",
         f"slides at {SSL_BALL.sliding_deceleration} m/s² (VSS: {VSS_BALL.sliding_deceleration})",
         f"{SSL_BALL.rolling_deceleration:.2f} m/s² (VSS: {VSS_BALL.rolling_deceleration:.2f})",
         f"by up to {MAX_OVERLAP * 100:g} cm",
         f"{VSS_FIELDS[0].wall_height:g} m high",
-        f"corners of {VSS_FIELDS[0].corner:g} m",
+        f"corners of {VSS_FIELDS[0].corner_leg:g} m",
         f"{VSS_FIELDS[0].max_robots} a side (VSS), {SSL_FIELDS[0].max_robots} (SSL)",
     ):
         assert phrase in text

@@ -6,7 +6,7 @@ from rsoccer.compat.separation import MAX_OVERLAP, separate
 from rsoccer.entities import Doubles, headings
 
 RADIUS = SSL_BALL.radius
-FRONT = SSL_ROBOT.front + RADIUS
+FRONT = SSL_ROBOT.front_distance + RADIUS
 FAR_BALL = np.array([9.0, 9.0])
 
 

@@ -39,15 +39,15 @@ def test_a_pocket_is_as_wide_and_deep_as_its_goal(field: Field) -> None:
 def test_walls_of_a_free_standing_goal_reach_the_wall_behind(field: Field) -> None:
     walls = [s for s in goal_shapes(field, EDGE) if s.color == palette.YELLOW]
     solid = [wall.points for wall in walls if isinstance(wall, Polygon)]
-    assert len(solid) == (3 if field.goal_wall else 0)
+    assert len(solid) == (3 if field.goal_wall_thickness else 0)
     if not solid:
         return
-    sides = [points for points in solid if max(x for x, _ in points) == field.reach_x]
+    sides = [points for points in solid if max(x for x, _ in points) == field.max_x]
     assert len(sides) == 2
     inner = field.goal_width / 2
-    outer = inner + field.goal_wall
+    outer = inner + field.goal_wall_thickness
     spans = sorted(sorted({y for _, y in points}) for points in sides)
     assert spans == [[-outer, -inner], [inner, outer]]
     (back,) = (points for points in solid if points not in sides)
     x = field.half_length + field.goal_depth
-    assert {x for x, _ in back} == {x, x + field.goal_wall}
+    assert {x for x, _ in back} == {x, x + field.goal_wall_thickness}

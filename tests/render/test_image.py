@@ -43,7 +43,9 @@ def check_colors(config: SimConfig, row: Floats, width: int | None) -> None:
         pose = Pose((position[0], position[1]), *heading)
         # Parts of the cover beside number and front.
         x, y = (
-            (-0.34 * model.side, 0.24 * model.side) if hasattr(model, "side") else (-0.012, 0.058)
+            (-0.34 * model.side_length, 0.24 * model.side_length)
+            if hasattr(model, "side_length")
+            else (-0.012, 0.058)
         )
         for place in pose.to_world(((x, y), (x, -y))):
             assert close(pixel(image, config, place), color), (place, color)
@@ -91,7 +93,7 @@ def test_a_field_without_robots_is_drawn() -> None:
 
 
 def reach(model: RobotModel) -> float:
-    return model.side / 2 if hasattr(model, "side") else model.radius
+    return model.side_length / 2 if hasattr(model, "side_length") else model.radius
 
 
 @pytest.mark.parametrize("width", SIZES)
@@ -114,7 +116,7 @@ def test_goals_and_lines_are_visible(name: str) -> None:
     left, right = (pixel(image, config, (x, 0.02)) for x in (-pocket, pocket))
     assert left[2] - floor[2] > 40  # blue's
     assert right[0] - floor[0] > 40  # yellow's
-    wall = pixel(image, config, (0.3, field.reach_y + wall_thickness(field) / 2))
+    wall = pixel(image, config, (0.3, field.max_y + wall_thickness(field) / 2))
     assert close(wall, palette.WALL, 8)
 
 
@@ -122,14 +124,14 @@ def test_goals_and_lines_are_visible(name: str) -> None:
 def test_corner_blocks_have_the_walls_colour_and_margins_the_carpets(name: str) -> None:
     field = Field(name)
     image, config = ground_image(SimConfig(name, 1, 1), 1280), SimConfig(name, 1, 1)
-    if field.corner:
-        inside = field.corner / 4
+    if field.corner_leg:
+        inside = field.corner_leg / 4
         block = (field.half_length - inside, field.half_width - inside)
         assert close(pixel(image, config, block), palette.WALL, 8)
     if field.touch_line_margin:
         beyond = (0.2 * field.length, field.half_width + field.touch_line_margin / 2)
         assert close(pixel(image, config, beyond), palette.CARPET, 2)
-    assert field.corner or field.touch_line_margin
+    assert field.corner_leg or field.touch_line_margin
 
 
 def test_extras_are_drawn(config: SimConfig, row: Floats) -> None:

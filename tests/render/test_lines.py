@@ -53,8 +53,8 @@ def test_touch_lines_are_drawn_unless_a_wall_stands_on_them(field: Field) -> Non
 def test_marks_are_at_the_fields_positions(field: Field) -> None:
     marks = [shape.center for shape in line_shapes(field) if isinstance(shape, Circle)]
     expected = {(0.0, 0.0)}
-    if field.penalty_mark:
-        expected |= {(s * (field.half_length - field.penalty_mark), 0.0) for s in (-1, 1)}
+    if field.penalty_mark_distance:
+        expected |= {(s * (field.half_length - field.penalty_mark_distance), 0.0) for s in (-1, 1)}
     x, y = field.free_ball_x, field.free_ball_y
     if x:
         expected |= {(i * x, j * y) for i in (-1, 1) for j in (-1, 1)}
@@ -65,7 +65,7 @@ def test_marks_are_at_the_fields_positions(field: Field) -> None:
 @FIELDS
 def test_an_arc_on_an_area_has_the_chord_and_height_of_the_field(field: Field) -> None:
     center, *arcs = (shape for shape in line_shapes(field) if isinstance(shape, Arc))
-    assert (center.center, center.radius) == ((0.0, 0.0), field.center_radius)
+    assert (center.center, center.radius) == ((0.0, 0.0), field.center_circle_radius)
     assert len(arcs) == (2 if field.area_arc_width else 0)
     front = field.half_length - field.goal_area_depth
     for arc, side in zip(arcs, (-1, 1), strict=False):
@@ -83,7 +83,7 @@ def test_an_arc_on_an_area_has_the_chord_and_height_of_the_field(field: Field) -
 
 def test_every_part_that_only_some_leagues_have_is_tested() -> None:
     fields = list(map(Field, Field.PRESETS))
-    for part in ("inner_area_depth", "area_arc_width", "penalty_mark", "free_ball_x"):
+    for part in ("inner_area_depth", "area_arc_width", "penalty_mark_distance", "free_ball_x"):
         assert {bool(getattr(field, part)) for field in fields} == {True, False}
     for part in ("goal_line_margin", "touch_line_margin"):
         assert {bool(getattr(field, part)) for field in fields} == {True, False}

@@ -64,10 +64,10 @@ def test_everything_lies_within_the_picture(field: Field) -> None:
 def test_the_floor_reaches_the_walls(field: Field) -> None:
     ground = floor(field)
     assert ground.color == (palette.TABLE if is_table(field) else palette.CARPET)
-    assert max(y for _, y in ground.points) == pytest.approx(field.reach_y)
+    assert max(y for _, y in ground.points) == pytest.approx(field.max_y)
     pocket = field.goal_depth if is_table(field) else 0.0
-    assert max(x for x, _ in ground.points) == pytest.approx(field.reach_x - pocket)
-    assert len(ground.points) == (8 if field.corner else 4)
+    assert max(x for x, _ in ground.points) == pytest.approx(field.max_x - pocket)
+    assert len(ground.points) == (8 if field.corner_leg else 4)
     margin = max(x for x, _ in ground.points) - field.half_length
     assert margin == pytest.approx(field.goal_line_margin)
 

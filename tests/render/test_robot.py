@@ -27,14 +27,14 @@ def points(shapes: tuple[Shape, ...]) -> list[Point]:
 
 def reach(model: RobotModel) -> tuple[float, float, float]:
     """Distances from the centre to the back, the front and a side."""
-    if hasattr(model, "side"):
-        return model.side / 2, model.side / 2, model.side / 2
-    return model.radius, model.front, model.radius
+    if hasattr(model, "side_length"):
+        return model.side_length / 2, model.side_length / 2, model.side_length / 2
+    return model.radius, model.front_distance, model.radius
 
 
 def test_all_kinds_of_robots_are_tested() -> None:
     assert len(MODELS) > 10
-    assert {(hasattr(m, "side"), m.has_mouth) for m in MODELS} == {
+    assert {(hasattr(m, "side_length"), m.has_mouth) for m in MODELS} == {
         (square, mouth) for square in (False, True) for mouth in (False, True)
     }
 
@@ -82,7 +82,7 @@ def test_a_dribbler_has_the_mouths_width_and_lights_up_with_the_ball(model: Robo
     assert set(glowing) == set(bars) != set()
     assert len(glowing) > len(bars)  # with a glow around it
     _, front, side = reach(model)
-    flat = side if hasattr(model, "side") else math.sqrt(side**2 - front**2)
+    flat = side if hasattr(model, "side_length") else math.sqrt(side**2 - front**2)
     assert max(y for _, y in bars[0]) == pytest.approx(min(model.mouth_width / 2, flat))
 
 
@@ -116,7 +116,7 @@ def test_a_round_robot_contrasts_with_the_carpet() -> None:
 
 
 def test_a_round_robot_without_a_flat_front_shows_its_heading() -> None:
-    blunt = RobotModel("ssl_generic", front=ROUND.radius)
+    blunt = RobotModel("ssl_generic", front_distance=ROUND.radius)
     shapes = robot_shapes(blunt, ORIGIN, palette.BLUE, 0)
     arrows = [s for s in shapes if isinstance(s, Polygon) and s.color == palette.WHITE]
     assert [arrow.points[0] > (0.0, 0.0) for arrow in arrows] == [True]

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, RobotColumns, length, column_slice
+from rsoccer.frame import Array, Floats, RobotColumns, column_slice, length
 from rsoccer.view import View
 
 CLOSENESS_RATE: Final = np.float32(8.0)  # 1/m: closeness is about a third at 12 cm

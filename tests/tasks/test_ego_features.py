@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import list_tasks, make_task
-from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, Sight
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, EgoFeatures
 from rsoccer.matches import Matches
 from rsoccer.tasks.soccer import Soccer
 from tests.tasks import ego_features_reference
@@ -30,9 +30,9 @@ def test_features_equal_the_reference(name: str) -> None:
         np.testing.assert_allclose(blocks[block], values, rtol=1e-6, atol=1e-7, err_msg=block)
 
 
-def encoder() -> Sight:
+def encoder() -> EgoFeatures:
     config = make_task("VSSSelfPlay-v0").config
-    return Sight(config.field, config.robot, 2, 3)
+    return EgoFeatures(config.field, config.robot, 2, 3)
 
 
 def views(n: int, slots: int = 6) -> tuple[np.ndarray, np.ndarray]:
@@ -45,17 +45,17 @@ def views(n: int, slots: int = 6) -> tuple[np.ndarray, np.ndarray]:
 def test_features_of_an_observer_depend_on_its_view_only() -> None:
     ball, robots = views(5)
     shared = encoder()
-    features, again = shared.look(ball, robots), shared.look(ball, robots)
+    features, again = shared.encode(ball, robots), shared.encode(ball, robots)
     assert np.array_equal(features, again)
     assert not np.shares_memory(features, again), "each call returns an array of its own"
     for world in range(5):
         for observer in range(4):
             one = (slice(world, world + 1), slice(observer, observer + 1))
             assert np.array_equal(
-                encoder().look(ball[one], robots[one])[0, 0], features[world, observer]
+                encoder().encode(ball[one], robots[one])[0, 0], features[world, observer]
             )
     copied = pickle.loads(pickle.dumps(encoder()))
-    assert np.array_equal(copied.look(ball, robots), features)
+    assert np.array_equal(copied.encode(ball, robots), features)
     assert copied.blocks == encoder().blocks
     assert features.shape[2] == sum(int(np.prod(shape)) for _, shape in encoder().blocks)
 
@@ -63,15 +63,15 @@ def test_features_of_an_observer_depend_on_its_view_only() -> None:
 def test_wrong_views_are_refused_by_name() -> None:
     ball, robots = views(2)
     with pytest.raises(ValueError, match=r"ball must have 3 axes, got shape \(14,\)"):
-        encoder().look(ball[0, 0], robots)
+        encoder().encode(ball[0, 0], robots)
     with pytest.raises(ValueError, match=r"robots must have shape \(2, 4, 6, 11\)"):
-        encoder().look(ball, robots[:, :, :5])
+        encoder().encode(ball, robots[:, :, :5])
     with pytest.raises(TypeError, match="robots must be an array of float32, got float64"):
-        encoder().look(ball, robots.astype(np.float64))
+        encoder().encode(ball, robots.astype(np.float64))
     with pytest.raises(ValueError, match="n_teammates"):
-        Sight(make_task("VSS-v0").config.field, make_task("VSS-v0").config.robot, -1, 3)
+        EgoFeatures(make_task("VSS-v0").config.field, make_task("VSS-v0").config.robot, -1, 3)
 
 
 def test_no_observers_have_no_features() -> None:
     ball, robots = views(3)
-    assert encoder().look(ball[:, :0], robots[:, :0]).shape[:2] == (3, 0)
+    assert encoder().encode(ball[:, :0], robots[:, :0]).shape[:2] == (3, 0)

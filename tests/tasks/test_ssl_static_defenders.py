@@ -68,7 +68,7 @@ def test_a_soft_touch_of_an_opponent_terminates() -> None:
     start = scene(TASK, ball=(1.5, 1.0), blue_0=(1.0, 0.0), yellow_0=(1.25, 0.0))
     outcome, matches = run(TASK, start, drive(0.05, 0.0))
     assert outcome.terminated[0]
-    assert matches.frame.blue.crash_speed[0, 0] < 0.3
+    assert matches.frame.blue.collision_speed[0, 0] < 0.3
 
 
 def test_initial_positions_are_in_the_half_and_outside_the_goal_area() -> None:

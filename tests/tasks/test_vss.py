@@ -5,7 +5,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer._core import FASTEST
+from rsoccer._core import MAX_PLACED_SPEED
 from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 from rsoccer.rng import WorldRng
@@ -239,11 +239,14 @@ def test_invalid_options_are_refused(
 
 def test_the_ball_may_start_at_the_fastest_speed_of_the_simulator() -> None:
     """A task with 30 m/s was valid, and its matches failed at a later reset."""
-    task = VssSelfPlay(ball_speed=FASTEST)
+    task = VssSelfPlay(ball_speed=MAX_PLACED_SPEED)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
     fastest = np.hypot(*frame.ball.velocity.T).max()
-    assert fastest > 0.99 * FASTEST
-    frame.ball.velocity[0] = [0.6 * FASTEST * (1 + 1e-7), 0.8 * FASTEST * (1 + 1e-7)]
+    assert fastest > 0.99 * MAX_PLACED_SPEED
+    frame.ball.velocity[0] = [
+        0.6 * MAX_PLACED_SPEED * (1 + 1e-7),
+        0.8 * MAX_PLACED_SPEED * (1 + 1e-7),
+    ]
     Matches(task, 2000).reset(rows=frame.rows)
 
 

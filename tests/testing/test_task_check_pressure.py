@@ -77,7 +77,7 @@ def test_robots_press_even_if_the_meaning_of_actions_is_unknown() -> None:
             return super().get_commands(play, np.repeat(actions, 2, axis=2))
 
         def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-            if (play.frame.robots.touched_foe.sum(axis=1) > 3).any():
+            if (play.frame.robots.touched_opponent.sum(axis=1) > 3).any():
                 raise IndexError("too many to count")
             return super().calculate_reward_and_done(play)
 

@@ -98,15 +98,15 @@ def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
 def test_sliding_tyres_agree_with_closed_forms() -> None:
     robot = cited.VSS_ROBOTS["vss_440rpm"]
     ahead = motion_after(robot, 1.0, Motion(), 0.1)
-    assert ahead.forward == pytest.approx(robot.forward_grip * 0.1, rel=1e-3), "acceleration"
+    assert ahead.forward == pytest.approx(robot.longitudinal_grip * 0.1, rel=1e-3), "acceleration"
     assert motion_after(robot, 1.0, Motion(), 0.3).forward == pytest.approx(1.0), (
         "then the wheels roll"
     )
     aside = motion_after(robot, 0.0, Motion(left=1.0), 0.05)
-    assert aside.left == pytest.approx(1.0 - robot.side_grip * 0.05, rel=1e-3)
-    inertia = robot.side**2 / 6
+    assert aside.left == pytest.approx(1.0 - robot.lateral_grip * 0.05, rel=1e-3)
+    inertia = robot.side_length**2 / 6
     turned = motion_after(robot, 0.0, Motion(spin=20.0), 0.05)
-    lost = robot.forward_grip * robot.track / 2 / inertia * 0.05
+    lost = robot.longitudinal_grip * robot.track_width / 2 / inertia * 0.05
     assert turned.spin == pytest.approx(20.0 - lost, rel=1e-3)
 
 

@@ -94,11 +94,15 @@ def _hops(name: str, ball: Ball) -> Checks:
     speeds = trajectory.ball.velocity[during, 0, 0]
     tops = [part.max() for part in np.split(high, downs)[:-1]]
     for nth, (before, after) in enumerate(pairwise(speeds[:-1])):
-        criterion, ratio = (HOP_LATER, ball.hop_later) if nth else (HOP_FIRST, ball.hop_first)
+        criterion, ratio = (
+            (HOP_LATER, ball.later_hop_factor) if nth else (HOP_FIRST, ball.first_hop_factor)
+        )
         yield criterion(f"`{name}`, hop {nth + 1}", ratio, after / before)
     for nth, (before, after) in enumerate(pairwise(tops)):
         if after > 0.02:
-            yield HOP_UP(f"`{name}`, hop {nth + 1}", ball.hop_up, sqrt(after / before))
+            yield HOP_UP(
+                f"`{name}`, hop {nth + 1}", ball.vertical_restitution, sqrt(after / before)
+            )
     rim = trajectory.ball.spin[-1, 0, 1] * ball.radius
     yield ROLLS(f"`{name}`", 0.0, trajectory.ball.velocity[-1, 0, 0] - rim)
 

@@ -146,8 +146,8 @@ def _spins(name: str, ball: Ball) -> Checks:
         return round(seconds / STEP) - 1
 
     yield ROLLS(case, 1.0 - 0.5 * ball.rolling_deceleration, rolling[at(0.5)])
-    # Of the initial slip of 5 m/s, sliding removes 1 - rolling_share from the ball's speed.
-    share = ball.rolling_share
+    # Of the initial slip of 5 m/s, sliding removes 1 - slide_to_roll_ratio from the ball's speed.
+    share = ball.slide_to_roll_ratio
     rolls_at = 5.0 * (1 - share) / ball.sliding_deceleration
     yield BACK_SPIN(case, 1.0 - 0.1 * ball.sliding_deceleration, back[at(0.1)])
     step = at(np.ceil(rolls_at / STEP) * STEP)

@@ -19,11 +19,11 @@ class Ball:
     mass: float = 0.046
     sliding_deceleration: float = 3.0
     rolling_deceleration: float = 0.26
-    rolling_share: float = 2 / 3
+    slide_to_roll_ratio: float = 2 / 3
     spin_deceleration: float = 10.0
-    hop_first: float = 0.80
-    hop_later: float = 0.85
-    hop_up: float = 0.47
+    first_hop_factor: float = 0.80
+    later_hop_factor: float = 0.85
+    vertical_restitution: float = 0.47
     robot_restitution: float = 0.55
     robot_friction: float = 0.2
     wall_restitution: float = 0.3
@@ -38,10 +38,10 @@ ERFORCE = replace(
     source="ER-Force, field-properties/field.txt, and their measured restitution",
     sliding_deceleration=2.79,
     rolling_deceleration=0.33,
-    rolling_share=0.70,
-    hop_first=0.60,
-    hop_later=1.0,
-    hop_up=0.70,
+    slide_to_roll_ratio=0.70,
+    first_hop_factor=0.60,
+    later_hop_factor=1.0,
+    vertical_restitution=0.70,
     robot_restitution=0.60,
 )
 VISION = replace(
@@ -49,15 +49,15 @@ VISION = replace(
     source="ssl-vision, `field.cpp`: default before calibration at a venue",
     sliding_deceleration=3.0,
     rolling_deceleration=0.40,
-    hop_later=0.95,
+    later_hop_factor=0.95,
 )
 GRSIM = replace(
     ERFORCE,
     source="grSim's report and measurements of rSim's SSL ball (along an axis)",
     sliding_deceleration=10.3,
     rolling_deceleration=0.70,
-    hop_later=0.96,
-    hop_up=0.42,
+    later_hop_factor=0.96,
+    vertical_restitution=0.42,
     wall_restitution=0.5,
     goal_back_restitution=0.5,
     goal_back_friction=0.35,
@@ -85,16 +85,16 @@ class SslRobot:
     radius: float
     height: float
     mass: float
-    max_kick: float
-    max_chip: float
+    max_kick_speed: float
+    max_chip_speed: float
     front: float
     mouth_width: float
     max_speed: float = 3.7
     max_turn_rate: float = 26.2
-    speed_up: float = 4.7
+    max_acceleration: float = 4.7
     brake: float = 5.9
-    turn_speed_up: float = 50.8
-    turn_brake: float = 51.6
+    max_angular_acceleration: float = 50.8
+    max_angular_deceleration: float = 51.6
 
 
 SSL_ROBOTS = {
@@ -125,23 +125,25 @@ SPECS = "`robot-specs.yaml`, all listed teams"
 SSL_SHARED = {
     "max_speed": Number(3.7, "m/s", SPECS),
     "max_turn_rate": Number(26.2, "rad/s", SPECS),
-    "speed_up": Number(4.7, "m/s²", SPECS),
-    "brake": Number(5.9, "m/s²", SPECS),
-    "turn_speed_up": Number(50.8, "rad/s²", SPECS),
-    "turn_brake": Number(51.6, "rad/s²", SPECS),
-    "traction": Number(6.9, "m/s²", "SSL-A-Team: wheel on carpet, 0.7 g"),
+    "max_acceleration": Number(4.7, "m/s²", SPECS),
+    "max_deceleration": Number(5.9, "m/s²", SPECS),
+    "max_angular_acceleration": Number(50.8, "rad/s²", SPECS),
+    "max_angular_deceleration": Number(51.6, "rad/s²", SPECS),
+    "max_traction": Number(6.9, "m/s²", "SSL-A-Team: wheel on carpet, 0.7 g"),
     "beam_distance": Number(0.010, "m", "rSim: ball within 10 mm of the kicker plate"),
     "beam_height": Number(0.0215, "m", "own choice: height of a resting ball's centre"),
-    "recharge": Number(0.1, "s", "ER-Force's simulator: minimum"),
-    "kick_keeps": Number(0.35, "", "TIGERs: share of the tangential speed kept in a redirect"),
-    "jerk": Number(0.0, "m/s³", "no limit; TIGERs estimate 20 m/s³ for other teams' robots"),
-    "grip": Number(
+    "kicker_recharge_time": Number(0.1, "s", "ER-Force's simulator: minimum"),
+    "kick_lateral_factor": Number(
+        0.35, "", "TIGERs: share of the tangential speed kept in a redirect"
+    ),
+    "max_jerk": Number(0.0, "m/s³", "no limit; TIGERs estimate 20 m/s³ for other teams' robots"),
+    "dribbler_grip": Number(
         0.12, "N", "own choice, fitted to the limits of TIGERs with the ball: 1.2 m/s² and 5 rad/s"
     ),
-    "bar_force": Number(0.5, "N", "TIGERs: minimum force of the dribbler bar on the ball"),
-    "bar_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s surface speed of the bar"),
-    "bar_restitution": Number(0.2, "", "ER-Force: ball on dribbler bar"),
-    "bar_friction": Number(1.5, "", "ER-Force: ball on dribbler bar"),
+    "dribbler_force": Number(0.5, "N", "TIGERs: minimum force of the dribbler bar on the ball"),
+    "dribbler_speed": Number(2.0, "m/s", "TIGERs: 2 to 5 m/s surface speed of the bar"),
+    "dribbler_restitution": Number(0.2, "", "ER-Force: ball on dribbler bar"),
+    "dribbler_friction": Number(1.5, "", "ER-Force: ball on dribbler bar"),
     "restitution": Number(0.2, "", "TIGERs' simulator, robot on robot"),
     "friction": Number(
         0.2, "", "no published value for two robots; ER-Force's value for ball on robot"
@@ -160,13 +162,13 @@ class VssRobot:
     """Differential-drive robot in SI units."""
 
     source: str
-    side: float
+    side_length: float
     mass: float
     wheel_radius: float
-    track: float
+    track_width: float
     rpm: float
-    forward_grip: float  # m/s², along the wheels
-    side_grip: float  # m/s², along the axle
+    longitudinal_grip: float  # m/s², along the wheels
+    lateral_grip: float  # m/s², along the axle
     height: float
     motor_torque: float
 
@@ -197,16 +199,37 @@ def _pitch(source: str, *sizes: float, **others: float) -> Pitch:
 
 
 # Numbers that all SSL fields and both VSSS fields share, by their rules.
-_SSL = {"touch_line_margin": 0.3, "goal_wall": 0.02, "center_radius": 0.5, "line_width": 0.01}
-_VSS = {"corner": 0.07, "wall_height": 0.05, "penalty_mark": 0.375, "line_width": 0.003}
+_SSL = {
+    "touch_line_margin": 0.3,
+    "goal_wall_thickness": 0.02,
+    "center_circle_radius": 0.5,
+    "line_width": 0.01,
+}
+_VSS = {"corner_leg": 0.07, "wall_height": 0.05, "penalty_mark_distance": 0.375, "line_width": 0.003}
 FIELDS = {
     "vss_3v3": _pitch("VSSS rules, VSSReferee", 1.5, 1.3, 0.4, 0.1, 0.05, **_VSS),
     "vss_5v5": _pitch("VSSReferee", 2.2, 1.8, 0.4, 0.15, 0.05, **_VSS),
     "ssl_a": _pitch(
-        "SSL rules 2026", 12, 9, 1.8, 0.18, 0.16, goal_line_margin=0.6, penalty_mark=8, **_SSL
+        "SSL rules 2026",
+        12,
+        9,
+        1.8,
+        0.18,
+        0.16,
+        goal_line_margin=0.6,
+        penalty_mark_distance=8,
+        **_SSL,
     ),
     "ssl_b": _pitch(
-        "SSL rules 2026", 9, 6, 1.0, 0.18, 0.16, goal_line_margin=0.3, penalty_mark=6, **_SSL
+        "SSL rules 2026",
+        9,
+        6,
+        1.0,
+        0.18,
+        0.16,
+        goal_line_margin=0.3,
+        penalty_mark_distance=6,
+        **_SSL,
     ),
     "ssl_challenge": _pitch("SSL hardware challenges 2021", 6, 4, 0.7, 0.18, 0.16, **_SSL),
 }

@@ -19,7 +19,7 @@ class StraightKick:
     @property
     def rolling_speed(self) -> float:
         """Speed at the start of rolling, m/s."""
-        return self.ball.rolling_share * self.kick
+        return self.ball.slide_to_roll_ratio * self.kick
 
     @property
     def slide_time(self) -> float:
@@ -68,7 +68,7 @@ def floor(ball: Ball, velocity: Array, spin: Array, time: float) -> tuple[Array,
     rim = np.array([spin[1], -spin[0], 0.0]) * ball.radius
     slip = velocity - rim
     slipping = float(np.linalg.norm(slip))
-    gain = ball.rolling_share / (1 - ball.rolling_share)
+    gain = ball.slide_to_roll_ratio / (1 - ball.slide_to_roll_ratio)
     sliding = 0.0
     displacement = np.zeros(3)
     if slipping > 1e-9:

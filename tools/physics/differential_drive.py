@@ -79,9 +79,9 @@ def _forward(name: str, robot: VssRobot) -> Checks:
     trajectory = scene.play(1.2)
     speed = trajectory.robots.velocity[:, 0, 0, 0]
     yield TOP_SPEED(f"`{name}`", top_rim_speed(robot), speed[-1])
-    yield SPEED_UP(f"`{name}`", robot.forward_grip, speed[round(0.1 / TICK) - 1] / 0.1)
+    yield SPEED_UP(f"`{name}`", robot.longitudinal_grip, speed[round(0.1 / TICK) - 1] / 0.1)
     reached = trajectory.times[first_true(speed >= 0.9 * top_rim_speed(robot))]
-    yield TO_TOP(f"`{name}`", 0.9 * top_rim_speed(robot) / robot.forward_grip, reached)
+    yield TO_TOP(f"`{name}`", 0.9 * top_rim_speed(robot) / robot.longitudinal_grip, reached)
     yield DRIFT(f"`{name}`", 0.0, 1000 * trajectory.robots.position[-1, 0, 0, 1])
 
 
@@ -90,10 +90,12 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     scene.command(0, left=-1e3, right=1e3)
     trajectory = scene.play(1.0)
     spin = trajectory.robots.spin[:, 0, 0]
-    yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track, spin[-1])
+    yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, spin[-1])
     # Both tyres push with their full grip on a lever of half the track; inertia of a square plate.
-    inertia = robot.side**2 / 6
-    yield TURN_UP(f"`{name}`", robot.forward_grip * robot.track / 2 / inertia, spin[3] / (4 * TICK))
+    inertia = robot.side_length**2 / 6
+    yield TURN_UP(
+        f"`{name}`", robot.longitudinal_grip * robot.track_width / 2 / inertia, spin[3] / (4 * TICK)
+    )
     yield SPOT(f"`{name}`", 0.0, 1000 * length(*trajectory.robots.position[-1, 0, 0]))
 
 
@@ -102,9 +104,9 @@ def _arc(name: str, robot: VssRobot) -> Checks:
     scene = lone_robot(name, STEP)
     scene.command(0, left=left, right=right)
     robots = scene.play(4.0).robots
-    radius = robot.track / 2 * (right + left) / (right - left)
+    radius = robot.track_width / 2 * (right + left) / (right - left)
     yield ARC(f"`{name}`", radius, radius_of(robots.position[40::30, 0, 0]))
-    turn = robot.wheel_radius * (right - left) / robot.track
+    turn = robot.wheel_radius * (right - left) / robot.track_width
     yield ARC_TURN(f"`{name}`", turn, robots.spin[-1, 0, 0])
 
 
@@ -120,7 +122,7 @@ def _skid(name: str, robot: VssRobot) -> Checks:
     scene.robots.velocity[:, 0, 1] = 1.0
     robots = scene.play(1.0).robots
     distance = robots.position[-1, 0, 0, 1] if robots.velocity[-1, 0, 0, 1] < 1e-4 else np.nan
-    yield SKID(f"`{name}`", 1.0 / (2 * robot.side_grip), distance)
+    yield SKID(f"`{name}`", 1.0 / (2 * robot.lateral_grip), distance)
 
 
 def _rsim_reference() -> Checks:

@@ -15,8 +15,8 @@ from tools.physics.scene import STEP, TICK, Scene, Trajectory
 TOPIC = "dribbler"
 BALL = BALLS["ssl_tigers"]
 FAST = 7.0  # rad/s: 4.6 m/s² centripetal, more than floor friction provides
-GRIP = SSL_SHARED["grip"].value  # N
-BAR_SPEED = SSL_SHARED["bar_speed"].value  # m/s
+GRIP = SSL_SHARED["dribbler_grip"].value  # N
+BAR_SPEED = SSL_SHARED["dribbler_speed"].value  # m/s
 MOVES = {
     "turning left at 3 rad/s": (0.0, 0.0, 3.0),
     "turning right at 3 rad/s": (0.0, 0.0, -3.0),
@@ -194,7 +194,9 @@ def _driving_scene(speeds: Array, robot: RobotModel | str = "ssl_generic") -> Sc
 
 def _keeps_ball(brake: float) -> bool:
     """Return whether a robot keeps the ball from 3 m/s to 1.9 m/s backwards at `brake`, m/s²."""
-    scene = _driving_scene(np.array([3.0]), RobotModel("ssl_generic", brake=brake, speed_up=brake))
+    scene = _driving_scene(
+        np.array([3.0]), RobotModel("ssl_generic", max_deceleration=brake, max_acceleration=brake)
+    )
     scene.command(0, v_x=-1.9)
     kept = scene.play(np.ceil(4.9 / brake / STEP) * STEP + 0.25).robots.infrared[-1, 0, 0]
     return bool(kept)

@@ -155,8 +155,8 @@ def _limits() -> Checks:
         scene.command(0, kick_v_x=20.0, kick_v_z=np.array([0.0, 20.0]))
         ball = scene.play(TICK).ball
         speed = length(ball.velocity[-1, :, 0], ball.vertical_velocity[-1])
-        yield MAX_KICK(f"`{name}`", robot.max_kick, speed[0])
-        yield MAX_CHIP(f"`{name}`", robot.max_chip, speed[1])
+        yield MAX_KICK(f"`{name}`", robot.max_kick_speed, speed[0])
+        yield MAX_CHIP(f"`{name}`", robot.max_chip_speed, speed[1])
 
 
 def _misses() -> Checks:

@@ -88,7 +88,7 @@ def _acceleration() -> Checks:
     trajectory = stopping.play(1.0)
     stopped = trajectory.times[first_true(speeds(trajectory) < 0.001)]
     for world, degrees in enumerate(DIRECTIONS):
-        yield SPEED_UP(f"{degrees:g} degrees", 3.0 / GENERIC.speed_up, reached[world])
+        yield SPEED_UP(f"{degrees:g} degrees", 3.0 / GENERIC.max_acceleration, reached[world])
         yield BRAKE(f"{degrees:g} degrees", 3.0 / GENERIC.brake, stopped[world])
 
 
@@ -102,8 +102,8 @@ def _turning() -> Checks:
     trajectory = scene.play(1.0)
     stopped = trajectory.times[first_true(abs(trajectory.robots.spin[:, :, 0]) < 0.01)]
     for world, direction in enumerate(("counterclockwise", "clockwise")):
-        yield TURN(direction, 20.0 / GENERIC.turn_speed_up, reached[world])
-        yield STOP_TURN(direction, 20.0 / GENERIC.turn_brake, stopped[world])
+        yield TURN(direction, 20.0 / GENERIC.max_angular_acceleration, reached[world])
+        yield STOP_TURN(direction, 20.0 / GENERIC.max_angular_deceleration, stopped[world])
 
 
 def _top_speeds() -> Checks:
@@ -158,10 +158,10 @@ def s_curve_time(change: float, max_acceleration: float, jerk: float) -> float:
 
 
 def _jerk_limit() -> Checks:
-    robot = RobotModel("ssl_generic", jerk=JERK)
+    robot = RobotModel("ssl_generic", max_jerk=JERK)
     for speed in (0.5, 1.0, 3.0):
         for criterion, start, target, limit in (
-            (JERKED_UP, 0.0, speed, GENERIC.speed_up),
+            (JERKED_UP, 0.0, speed, GENERIC.max_acceleration),
             (JERKED_DOWN, speed, 0.0, GENERIC.brake),
         ):
             scene = lone_robot(robot)

@@ -115,8 +115,8 @@ def _crash() -> Checks:
     scene.command(0, v_x=2.0)
     scene.command(1, v_x=1.0)
     robots = scene.play(1.5).robots
-    yield CRASH("2 and 1 m/s, head on", 3.0, robots.crash_speed.max())
-    yield OPPONENT("2 and 1 m/s, head on", 2, (robots.touched_foe == 1).any(axis=0).sum())
+    yield CRASH("2 and 1 m/s, head on", 3.0, robots.collision_speed.max())
+    yield OPPONENT("2 and 1 m/s, head on", 2, (robots.touched_opponent == 1).any(axis=0).sum())
 
 
 def _crossings() -> Checks:

@@ -73,7 +73,7 @@ def field_table() -> str:
                 _numbers(field, "length", "width"),
                 _numbers(field, "goal_width", "goal_depth", "goal_height"),
                 _numbers(field, "goal_line_margin", "touch_line_margin"),
-                _numbers(field, "corner", "wall_height") if field.wall_height else "-",
+                _numbers(field, "corner_leg", "wall_height") if field.wall_height else "-",
                 str(field.max_robots),
                 FIELDS[name].source,
             )
@@ -106,8 +106,8 @@ def ball_table() -> str:
                 f"`{name}`",
                 f"{1000 * ball.radius:.4g}",
                 _numbers(ball, "sliding_deceleration", "rolling_deceleration"),
-                f"{ball.rolling_share:.3g}",
-                _numbers(ball, "hop_first", "hop_later", "hop_up"),
+                f"{ball.slide_to_roll_ratio:.3g}",
+                _numbers(ball, "first_hop_factor", "later_hop_factor", "vertical_restitution"),
                 *surfaces,
                 BALLS[name].source,
             )
@@ -131,7 +131,7 @@ def ssl_table() -> str:
     for name in SSL_ROBOTS:
         robot = RobotModel(name)
         command = "wheel speeds" if robot.drive == "omni_wheels" else "body velocity"
-        sizes = (1000 * size for size in (robot.radius, robot.front, robot.height))
+        sizes = (1000 * size for size in (robot.radius, robot.front_distance, robot.height))
         rows.append(
             (
                 f"`{name}`",
@@ -139,7 +139,7 @@ def ssl_table() -> str:
                 " / ".join(f"{size:.4g}" for size in sizes),
                 f"{robot.mass:.4g}",
                 f"{1000 * robot.mouth_width:.4g}",
-                _numbers(robot, "max_kick", "max_chip"),
+                _numbers(robot, "max_kick_speed", "max_chip_speed"),
                 _numbers(robot, "top_speed", "top_turn_rate"),
                 " ".join(f"{angle:g}" for angle in robot.wheel_angles),
             )
@@ -175,12 +175,12 @@ def vss_table() -> str:
         rows.append(
             (
                 f"`{name}`",
-                f"{1000 * robot.side:.4g} / {1000 * robot.height:.4g}",
+                f"{1000 * robot.side_length:.4g} / {1000 * robot.height:.4g}",
                 f"{1000 * robot.mass:.4g}",
-                f"{1000 * robot.wheel_radius:.4g} / {1000 * robot.track:.4g}",
+                f"{1000 * robot.wheel_radius:.4g} / {1000 * robot.track_width:.4g}",
                 _numbers(robot, "top_speed", "top_turn_rate"),
                 _numbers(robot, "motor_torque"),
-                _numbers(robot, "forward_grip", "side_grip"),
+                _numbers(robot, "longitudinal_grip", "lateral_grip"),
                 cited.source,
             )
         )

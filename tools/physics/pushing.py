@@ -114,13 +114,13 @@ def _vss() -> Checks:
             scene.command(index, left=46.0, right=46.0)
         blue, yellow = _final_x(scene.play(5.0))
         yield VSS_STALL(f"`{name}`", 0.0, 1000 * (blue + yellow) / 2)
-        yield VSS_APART(f"`{name}`", 1000 * robot.side, 1000 * (yellow - blue))
+        yield VSS_APART(f"`{name}`", 1000 * robot.side_length, 1000 * (yellow - blue))
         scene = Scene(SimConfig("vss_3v3", 1, 0, robot=name))
         scene.robots.position[0, 0] = (0.4, -0.3)
         scene.command(0, left=46.0, right=46.0)
         robots = scene.play(5.0).robots
         gap = 1000 * (0.75 - robots.position[-1, 0, 0, 0])
-        yield VSS_WALL(f"`{name}`", 1000 * robot.side / 2, gap)
+        yield VSS_WALL(f"`{name}`", 1000 * robot.side_length / 2, gap)
         yield VSS_SPEED(f"`{name}`", 0.0, length(*robots.velocity[-1, 0, 0]))
 
 

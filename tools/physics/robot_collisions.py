@@ -75,7 +75,7 @@ def _squares(name: str, speed: float) -> Checks:
 def _random_collisions(name: str) -> Checks:
     """Let one spinning robot run into another; all wheel commands are zero."""
     vss, rng = VSS_ROBOTS.get(name), np.random.default_rng(5)
-    field, size = ("vss_3v3", vss.side) if vss else ("ssl_b", 2 * GENERIC.radius)
+    field, size = ("vss_3v3", vss.side_length) if vss else ("ssl_b", 2 * GENERIC.radius)
     scene = Scene(SimConfig(field, 1, 1, robot=name, time_step=TICK), COLLISIONS)
     scene.ball.position[:] = (0.0, 0.6)
     scene.robots.position[:, :, 0] = (-size, size)
@@ -86,13 +86,13 @@ def _random_collisions(name: str) -> Checks:
     for index in (0, 1):
         scene.face(index, rng.uniform(-180, 180, COLLISIONS))
     trajectory = scene.play(0.5)
-    mass, inertia = (vss.mass, vss.side**2 / 6) if vss else (GENERIC.mass, GENERIC.radius**2 / 2)
+    mass, inertia = (vss.mass, vss.side_length**2 / 6) if vss else (GENERIC.mass, GENERIC.radius**2 / 2)
     energy = np.concatenate(
         [_energy(scene, mass, inertia)[None], _energy(trajectory, mass, inertia)]
     )
     gains = (np.diff(energy, axis=0) > 1e-3 * energy[0]).any(axis=0)
     yield ENERGY(f"`{name}`, {COLLISIONS} collisions", 0, gains.sum())
-    met = (trajectory.robots.touched_foe > 0).any(axis=(0, 2)).sum()
+    met = (trajectory.robots.touched_opponent > 0).any(axis=(0, 2)).sum()
     yield CONTACT(f"`{name}`", 1, met > COLLISIONS / 2)
 
 

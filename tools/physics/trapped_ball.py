@@ -142,7 +142,7 @@ def _at_wall(name: str, speed: float, tick: float) -> Checks:
     vss = VSS_ROBOTS.get(name)
     field, wall, y = ("vss_3v3", 0.75, 0.4) if vss else ("ssl_b", 4.8, 1.2)
     ball = BALLS["vss_rsim" if vss else "ssl_tigers"]
-    front, mass = (vss.side / 2, vss.mass) if vss else (GENERIC.front, GENERIC.mass)
+    front, mass = (vss.side_length / 2, vss.mass) if vss else (GENERIC.front, GENERIC.mass)
     scene = Scene(SimConfig(field, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (wall - GAP - ball.radius, y)
     scene.robots.position[:, 0] = (wall - GAP - 2 * ball.radius - front - 0.02, y)

@@ -42,13 +42,13 @@ def _step(robot: VssRobot, rim: float, motion: Motion) -> Motion:
     Each tyre carries half the weight; the body is a uniform square plate.
     """
     forward = left = turning = 0.0
-    for lever in (-robot.track / 2, robot.track / 2):
+    for lever in (-robot.track_width / 2, robot.track_width / 2):
         along = motion.forward + motion.spin * lever - rim
         slip = max(hypot(along, motion.left), CREEP)
-        push = -robot.forward_grip / 2 * along / slip
+        push = -robot.longitudinal_grip / 2 * along / slip
         forward += push
-        left -= robot.side_grip / 2 * motion.left / slip
-        turning += push * lever / (robot.side**2 / 6)
+        left -= robot.lateral_grip / 2 * motion.left / slip
+        turning += push * lever / (robot.side_length**2 / 6)
     return replace(
         motion,
         forward=motion.forward + (forward + motion.spin * motion.left) * STEP,

@@ -118,7 +118,7 @@ def _reversals(name: str, robot: VssRobot) -> Checks:
         scene.commands[:] = rng.choice([-1e3, 1e3], scene.commands.shape)
         robots = match.run(scene.config.time_step).robots
         velocity, heading = robots.velocity[-1, :, 0], robots.heading[-1, :, 0]
-        turning = abs(robots.spin[-1, :, 0]) * robot.track / 2
+        turning = abs(robots.spin[-1, :, 0]) * robot.track_width / 2
         max_tyre = max(max_tyre, float((abs((velocity * heading).sum(axis=-1)) + turning).max()))
         max_centre = max(max_centre, float(np.hypot(*velocity.T).max()))
     yield RIM(f"`{name}`, 5 s", top_rim_speed(robot), max_tyre)

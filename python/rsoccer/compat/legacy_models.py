@@ -22,7 +22,7 @@ VSS_ROBOT: Final = RobotModel("vss_440rpm")  # same as in rSim: 440 rpm, 120 g, 
 SSL_ROBOT: Final = RobotModel(
     "ssl_generic",
     radius=0.09,
-    front=0.081,
+    front_distance=0.081,
     height=0.15,
     mass=2.42,  # body 2.2, four wheels of 0.05, kicker 0.02 kg
     wheel_radius=0.02475,
@@ -32,15 +32,15 @@ SSL_ROBOT: Final = RobotModel(
     max_speed=6.0,
     max_turn_rate=50.0,
     # Measured step responses, forward; sideways rSim reaches 2.41 m/s².
-    speed_up=3.33,
-    brake=3.80,
-    turn_speed_up=96.0,
-    turn_brake=96.0,
+    max_acceleration=3.33,
+    max_deceleration=3.80,
+    max_angular_acceleration=96.0,
+    max_angular_deceleration=96.0,
     mouth_width=0.08,
     beam_distance=0.01,
     # rSim has no limit; this is the strongest kicker of the league.
-    max_kick=10.0,
-    max_chip=10.0,
+    max_kick_speed=10.0,
+    max_chip_speed=10.0,
 )
 
 KICKER_THICKNESS: Final = (
@@ -64,7 +64,7 @@ def vss_parameters(field: Field) -> dict[str, float]:
         "rbt_kicker_thickness": -1.0,
         "rbt_kicker_width": -1.0,
         **_wheel_parameters([90.0, 270.0, -1.0, -1.0], VSS_ROBOT),
-        "rbt_radius": VSS_ROBOT.side / 2,
+        "rbt_radius": VSS_ROBOT.side_length / 2,
     }
 
 
@@ -79,7 +79,7 @@ def ssl_parameters(field: Field) -> dict[str, float]:
     """
     return {
         **_field_parameters(field, SSL_BALL),
-        "rbt_distance_center_kicker": SSL_ROBOT.front,
+        "rbt_distance_center_kicker": SSL_ROBOT.front_distance,
         "rbt_kicker_thickness": KICKER_THICKNESS,
         "rbt_kicker_width": SSL_ROBOT.mouth_width,
         **_wheel_parameters(SSL_ROBOT.wheel_angles, SSL_ROBOT),

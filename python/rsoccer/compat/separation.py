@@ -56,7 +56,9 @@ def _separate_robots(robots: Doubles, headings: Doubles, model: RobotModel) -> b
     for i, j in np.argwhere(np.triu(near, 1)):
         offset = robots[j] - robots[i]
         if model.drive == "differential":
-            depth, normal = _square_overlap(offset, headings[i], headings[j], model.side / 2.0)
+            depth, normal = _square_overlap(
+                offset, headings[i], headings[j], model.side_length / 2.0
+            )
         else:
             depth, normal = _disc_overlap(offset, model.radius)
         if 0.0 < depth <= MAX_OVERLAP:
@@ -102,8 +104,8 @@ def _disc_overlap(offset: Doubles, radius: float) -> tuple[float, Doubles]:
 def _nearest_point(local: Doubles, model: RobotModel) -> Doubles:
     """The point of a robot's body nearest to `local`, both in the body frame."""
     if model.drive == "differential":
-        return np.clip(local, -model.side / 2.0, model.side / 2.0)
-    half_front = np.sqrt(model.radius**2 - model.front**2)
+        return np.clip(local, -model.side_length / 2.0, model.side_length / 2.0)
+    half_front = np.sqrt(model.radius**2 - model.front_distance**2)
     if local[0] > 0.0 and abs(local[1]) <= half_front:
-        return np.array([min(local[0], model.front), local[1]])
+        return np.array([min(local[0], model.front_distance), local[1]])
     return local * min(1.0, model.radius / max(float(np.hypot(*local)), TOLERANCE))

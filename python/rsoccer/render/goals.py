@@ -36,7 +36,9 @@ def _goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shape, ..
     mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
     y = field.goal_width / 2
     pocket = ((mouth, y), (back, y), (back, -y), (mouth, -y))
-    frame = _frame(field, side, color) if field.goal_wall > 0 else stroke(pocket, edge, color)
+    frame = (
+        _frame(field, side, color) if field.goal_wall_thickness > 0 else stroke(pocket, edge, color)
+    )
     return (
         Polygon(pocket, palette.mix(palette.TABLE, color, TINT)),
         *_net(field, side, palette.fade(color, 0.45)),
@@ -48,7 +50,7 @@ def _frame(field: Field, side: int, color: Color) -> tuple[Shape, ...]:
     """Walls of a free-standing goal: its sides reach the wall behind and close the gap."""
     mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
     behind = side * (field.half_length + field.goal_line_margin)
-    y, wall = field.goal_width / 2, field.goal_wall
+    y, wall = field.goal_width / 2, field.goal_wall_thickness
     return (
         Polygon(rectangle(back, -y, behind, y), palette.mix(palette.TABLE, color, 0.08)),
         Polygon(rectangle(mouth, y, behind, y + wall), color),

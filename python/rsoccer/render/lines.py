@@ -47,7 +47,7 @@ def _center(field: Field) -> tuple[Shape, ...]:
     y, width = field.half_width, field.line_width
     return (
         *_lines(field, ((0.0, -y), (0.0, y))),
-        Arc((0.0, 0.0), field.center_radius, 0.0, math.tau, width, palette.LINES),
+        Arc((0.0, 0.0), field.center_circle_radius, 0.0, math.tau, width, palette.LINES),
         Circle((0.0, 0.0), MARK_RADIUS * width, palette.LINES),
     )
 
@@ -87,8 +87,8 @@ def _area_arc(field: Field, side: int) -> tuple[Shape, ...]:
 def _marks(field: Field) -> tuple[Shape, ...]:
     """Penalty marks and the four free-ball marks."""
     x, y = field.free_ball_x, field.free_ball_y
-    penalty_x = field.half_length - field.penalty_mark
-    penalty = ((-penalty_x, 0.0), (penalty_x, 0.0)) if field.penalty_mark else ()
+    penalty_x = field.half_length - field.penalty_mark_distance
+    penalty = ((-penalty_x, 0.0), (penalty_x, 0.0)) if field.penalty_mark_distance else ()
     centers = (*penalty, *(rectangle(-x, -y, x, y) if x * y else ()))
     return tuple(Circle(c, MARK_RADIUS * field.line_width, palette.LINES) for c in centers)
 

@@ -42,7 +42,7 @@ def arena_bounds(field: Field) -> Bounds:
         The rectangle, with a margin around the walls, metres.
     """
     border = wall_thickness(field) + MARGIN * field.length
-    x, y = field.reach_x + border, field.reach_y + border
+    x, y = field.max_x + border, field.max_y + border
     return Bounds(-x, -y, x, y)
 
 
@@ -86,7 +86,7 @@ def is_table(field: Field) -> bool:
     Returns:
         True for a table, whose walls stand on the lines; False for a carpet.
     """
-    return field.goal_wall == 0
+    return field.goal_wall_thickness == 0
 
 
 def _pockets(field: Field) -> tuple[Shape, ...]:
@@ -106,7 +106,7 @@ def _wall_distances(field: Field) -> Point:
 def _floor(field: Field) -> tuple[Point, ...]:
     """Outline of the floor between the walls: a rectangle less the corner blocks."""
     x, y = _wall_distances(field)
-    leg = field.corner
+    leg = field.corner_leg
     corners = (
         *((x, -y + leg), (x, y - leg), (x - leg, y), (-x + leg, y)),
         *((-x, y - leg), (-x, -y + leg), (-x + leg, -y), (x - leg, -y)),

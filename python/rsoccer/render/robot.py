@@ -105,9 +105,9 @@ def robot_outlines(model: RobotModel) -> Outlines:
         Outlines of a square robot with its two wheels, or of a round one with a flat front.
     """
     mouth = model.mouth_width if model.has_mouth else 0.0
-    side: float | None = getattr(model, "side", None)
+    side: float | None = getattr(model, "side_length", None)
     if side is None:
-        return _round(model.radius, model.front, mouth)
+        return _round(model.radius, model.front_distance, mouth)
     return _square(side, model.wheel_radius if model.drive == "differential" else 0.0, mouth)
 
 

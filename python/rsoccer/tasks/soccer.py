@@ -6,7 +6,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer._core import Sight, limit
+from rsoccer._core import EgoFeatures, clip_in_place
 from rsoccer.frame import Floats
 from rsoccer.task import Play, Task
 from rsoccer.view import slot_counts
@@ -24,17 +24,6 @@ OBSERVATION_LIMITS: Final = {
     "body_positions": 3.0,
 }
 """Bounds of the observation blocks, in their units; a struck ball is faster than a robot."""
-
-
-_NEW: Final = {
-    "me": "ego",
-    "mates": "teammates",
-    "foes": "opponents",
-    "ball_from_me": "ball_polar",
-    "goal_from_me": "goal_polar",
-    "motion_from_me": "body_velocities",
-    "places_from_me": "body_positions",
-}
 
 
 class Soccer(Task):
@@ -97,7 +86,7 @@ class Soccer(Task):
         if type(self).frame_to_observations is not Soccer.frame_to_observations:
             return super().observe(play)
         flat = self._features(play)  # no subclass adds blocks: the columns are in order already
-        limit(flat, self.observation_high)
+        clip_in_place(flat, self.observation_high)
         return flat
 
     def observation_limits(self) -> dict[str, float]:
@@ -110,10 +99,10 @@ class Soccer(Task):
         return self.DISCRETE_ACTIONS if self.discrete else None
 
     @cached_property
-    def ego_features(self) -> Sight:
+    def ego_features(self) -> EgoFeatures:
         """Encoder of the observation, in half field lengths and the robot's top speeds."""
         config = self.config
-        return Sight(
+        return EgoFeatures(
             config.field, config.robot, *slot_counts(self.n_blue, self.n_yellow, self.sides)
         )
 
@@ -126,8 +115,7 @@ class Soccer(Task):
     def _flat_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
         """Name, columns and shape of each block in the result of `_features`."""
         blocks, first = [], 0
-        core = [(_NEW.get(name, name), shape) for name, shape in self.ego_features.blocks]
-        for name, shape in (*core, ("action", (self.action_size,))):
+        for name, shape in (*self.ego_features.blocks, ("action", (self.action_size,))):
             blocks.append((name, slice(first, first + math.prod(shape)), shape))
             first += math.prod(shape)
         return tuple(blocks)
@@ -135,6 +123,6 @@ class Soccer(Task):
     def _features(self, play: Play) -> Floats:
         """Unclipped flat observation (n, observers, columns), a new array."""
         size = self.action_size
-        flat = self.ego_features.look(play.view.ball.data, play.view.robots.data, size)
+        flat = self.ego_features.encode(play.view.ball.data, play.view.robots.data, size)
         flat[:, :, -size:] = play.actions[:, play.observers]
         return flat

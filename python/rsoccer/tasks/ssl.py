@@ -137,13 +137,13 @@ class Ssl(Soccer):
     @cached_property
     def mouth_offset(self) -> np.float32:
         """Distance from a robot's centre to the centre of a ball in its mouth, m."""
-        return np.float32(self.config.robot.front + self.config.ball.radius)
+        return np.float32(self.config.robot.front_distance + self.config.ball.radius)
 
     @cached_property
     def action_scales(self) -> Floats:
         """(5,) values of a full deflection: m/s, m/s, rad/s, m/s of a kick, 1 for the dribbler."""
         robot = self.config.robot
-        kick = min(robot.max_kick, MAX_LEGAL_KICK_SPEED)
+        kick = min(robot.max_kick_speed, MAX_LEGAL_KICK_SPEED)
         return np.array([robot.top_speed, robot.top_speed, MAX_TURN_RATE, kick, 1.0], np.float32)
 
     @cached_property

@@ -112,4 +112,4 @@ class SslAttack(Ssl):
 
     def _has_fouled(self, frame: Frame) -> Mask:
         """(n,) whether the attacker touched an opponent in the last step."""
-        return np.greater(frame.blue.touched_foe[:, 0], 0.5)
+        return np.greater(frame.blue.touched_opponent[:, 0], 0.5)

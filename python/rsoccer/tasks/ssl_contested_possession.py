@@ -66,7 +66,7 @@ class SslContestedPossession(SslAttack):
         """(n,) whether the attacker hit the opponent too hard, or at all if `strict_contact`."""
         if self.strict_contact:
             return super()._has_fouled(frame)
-        return np.greater(frame.blue.crash_speed[:, 0], FOUL_SPEED)
+        return np.greater(frame.blue.collision_speed[:, 0], FOUL_SPEED)
 
     def _opponent_positions(self, rng: WorldRng) -> Floats:
         """Random positions (n, 1, 2) with enough margin that the ball is inside too."""

@@ -190,5 +190,5 @@ class SslDribbling(Ssl):
         x, y = frame.blue.position[:, 0].T
         outside = (x < x_min) | (x > x_max) | (y < y_min) | (y > y_max)
         ball_out = self.is_off_field(frame.ball.position)
-        failed: Mask = outside | ball_out | (frame.blue.touched_foe[:, 0] > 0.5)
+        failed: Mask = outside | ball_out | (frame.blue.touched_opponent[:, 0] > 0.5)
         return failed

@@ -9,7 +9,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import FASTEST, Field, SimConfig
+from rsoccer._core import MAX_PLACED_SPEED, Field, SimConfig
 from rsoccer.frame import Floats, Frame, Mask
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
@@ -112,7 +112,7 @@ class Vss(Soccer):
         checks.integer("n_blue", self.n_blue, 1)
         checks.integer("n_yellow", self.n_yellow, 0)
         checks.integer("max_steps", self.max_steps, 1)
-        checks.number_in_range("ball_speed", self.ball_speed, 0.0, FASTEST)
+        checks.number_in_range("ball_speed", self.ball_speed, 0.0, MAX_PLACED_SPEED)
         checks.boolean("discrete", self.discrete)
         object.__setattr__(
             self,

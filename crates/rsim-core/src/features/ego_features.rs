@@ -91,7 +91,7 @@ impl EgoFeatures {
     /// | block | numbers |
     /// | --- | --- |
     /// | `ball` | position and velocity, in the plane, or in space for robots with a mouth |
-    /// | `self`, `teammates`, `opponents` | x, y, cos, sin, velocity, turn rate, and the break beam of robots with a mouth |
+    /// | `ego`, `teammates`, `opponents` | x, y, cos, sin, velocity, turn rate, and the break beam of robots with a mouth |
     /// | `ball_polar`, `goal_polar` | distance, cosine and sine of the bearing |
     /// | `shot` | cosine and sine of the bearing from the ball to the goal; nearness of the ball, falling from 1 to 0; nearness times the cosine of the angle between ball and goal |
     /// | `body_velocities` | own velocity and the ball's, forward and left |
@@ -100,7 +100,7 @@ impl EgoFeatures {
         let robot = if self.have_mouths { 8 } else { 7 };
         vec![
             ("ball", vec![if self.have_mouths { 6 } else { 4 }]),
-            ("self", vec![robot]),
+            ("ego", vec![robot]),
             ("teammates", vec![self.n_teammates, robot]),
             ("opponents", vec![self.n_slots - 1 - self.n_teammates, robot]),
             ("ball_polar", vec![3]),

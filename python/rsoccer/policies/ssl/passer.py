@@ -48,7 +48,7 @@ class Passer(Policy):
             raise ValueError(f"task: passer needs a teammate, got {task.name}")
         self._region = Region.of_field(task.config.field, LINE_MARGIN)
         ball = task.config.ball
-        share = ball.rolling_share**2
+        share = ball.slide_to_roll_ratio**2
         # A kicked ball slides until its speed is the rolling share of the kick, then it rolls:
         # v² = a k² - 2 d s.
         self._slides = np.float32((1.0 - share) / (2.0 * ball.sliding_deceleration))

@@ -141,7 +141,7 @@ class Strike(Policy):
         kicks &= length(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
         zero = np.float32(0.0)
         v_x, v_y = (np.where(aims, zero, v) for v in self._dribble(ego.position, robots))
-        kick = np.where(kicks, self._control.max_kick, zero)
+        kick = np.where(kicks, self._control.max_kick_speed, zero)
         velocity = self._control.limit_acceleration(ego, v_x, v_y, np.where(aims, spin, zero))
         return self._control.actions(ego, *velocity, kick)
 

@@ -59,7 +59,7 @@ class Weave(Policy):
         # Robot and ball together are longer than the robot, so their middle lies ahead of its
         # centre. A waypoint centres the two between the sides of a gate.
         ball, robot = task.config.ball, task.config.robot
-        ahead = 0.5 * (robot.front + 2.0 * ball.radius - robot.bounding_radius)
+        ahead = 0.5 * (robot.front_distance + 2.0 * ball.radius - robot.bounding_radius)
         self._waypoints = _waypoints(course, ahead)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:

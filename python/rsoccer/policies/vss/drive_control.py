@@ -122,7 +122,7 @@ def turn_damping(robot: RobotModel) -> np.float32:
     Args:
         robot: a robot on two wheels.
     """
-    return DAMPING * np.float32(0.5 * robot.track / robot.top_speed)
+    return DAMPING * np.float32(0.5 * robot.track_width / robot.top_speed)
 
 
 def back_off(velocity: Floats, min_speed: np.float32, pushing: Mask, slow_steps: Array) -> Mask:
