@@ -270,11 +270,11 @@ def test_limits_hold_on_both_sides_and_nan_stays() -> None:
     clip_in_place(numbers, np.array([2.0, 1.0, 4.0], np.float32))
     expected = np.array([[[-2.0, 0.5, 4.0], [np.nan, -1.0, -0.0]]], np.float32)
     assert numbers.tobytes() == expected.tobytes()
-    with pytest.raises(ValueError, match=r"most must have shape \(3,\), got \(2,\)"):
+    with pytest.raises(ValueError, match=r"bounds must have shape \(3,\), got \(2,\)"):
         clip_in_place(numbers, np.ones(2, np.float32))
-    with pytest.raises(ValueError, match="most must be 0 or above"):
+    with pytest.raises(ValueError, match="bounds must be 0 or above"):
         clip_in_place(numbers, np.array([1.0, -1.0, np.nan], np.float32))
-    with pytest.raises(ValueError, match="numbers must be writeable"):
+    with pytest.raises(ValueError, match="values must be writeable"):
         frozen = numbers.copy()
         frozen.flags.writeable = False
         clip_in_place(frozen, np.ones(3, np.float32))

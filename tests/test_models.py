@@ -15,14 +15,17 @@ UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0"
     [
         (lambda: Field("vss_3v3", gaol_width=1.0), 'no "gaol_width"; its numbers are length, '),
         (lambda: BallModel("vss_rsim", size=1.0), 'vss_rsim has no "size"; its numbers are '),
-        (lambda: RobotModel("vss_440rpm", radius=0.1), 'vss_440rpm has no "radius".* side, '),
+        (
+            lambda: RobotModel("vss_440rpm", radius=0.1),
+            'vss_440rpm has no "radius".* side_length, ',
+        ),
         (
             lambda: Field("ssl_b", goal_depth=5.0),
             "must fit into .*goal_line_margin of 0.3 m, got 5",
         ),
         (
             lambda: RobotModel("ssl_generic", front_distance=0.2),
-            "front must not be beyond .*, got 0.2 m",
+            "front_distance must not be beyond .*, got 0.2 m",
         ),
         (lambda: RobotModel.from_json(UNORDERED_WHEELS), r"in rising order.*, got \[160.0, 135.0"),
         (lambda: Field.from_json("{}"), "text is not a Field: missing field `name`"),

@@ -173,10 +173,10 @@ def test_wrong_arrays_are_refused_by_name() -> None:
         balls = view.ball.data.astype(np.float64)
         views = last.ball.data, last.robots.data, balls, view.robots.data
         potential.difference(*views)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="robot must be one with a mouth, got vss_440rpm"):
+    with pytest.raises(ValueError, match="robot must have a mouth, got vss_440rpm"):
         rewards.approach_mouth(play, TASK.config)
     for distance in (0.0, -1.0, np.nan, np.inf):
-        with pytest.raises(ValueError, match="behind must be metres above 0"):
+        with pytest.raises(ValueError, match="distance must be above 0 m"):
             Potential.behind_ball(FIELD, distance)
     for observer in (-1, 6):
         with pytest.raises(ValueError, match=f"observers must be robots below 6, got {observer}"):

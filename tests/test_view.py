@@ -141,5 +141,5 @@ def test_wrong_arrays_and_slots_are_refused_by_name() -> None:
         viewpoint.fill(frame.rows, ball, robots.astype(np.float64))
     with pytest.raises(ValueError, match="slots must hold robots below 4, got 4"):
         _core.Viewpoint(4, [[0, 4]], [False])
-    with pytest.raises(ValueError, match="slots must have a row for each of turned"):
+    with pytest.raises(ValueError, match="slots must have a row for each of rotated"):
         _core.Viewpoint(4, [[0, 1], [1]], [False, False])

@@ -60,6 +60,7 @@ class Evaluate:
     """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
     policy: Annotated[str, Positional, _POLICY]
+    """policy in the place of the learners"""
     opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=_DEFAULT_OPPONENT)] = ()
     """policies of the other team, names or paths; one row of the table for each"""
     matches: int = 200
@@ -107,6 +108,7 @@ class Watch:
     """Show a match in a window, or write it to a video file."""
 
     policy: Annotated[str, Positional, _POLICY] = "chase"
+    """policy in the place of the learners"""
     opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_OPPONENT)] = (
         None
     )

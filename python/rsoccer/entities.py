@@ -1,9 +1,13 @@
 """The paper's entities: one world at one instant as plain objects, for people and printing.
 
-    >>> state = entities.from_frame(matches.play.frame, 0)
-    >>> state.robots_blue[0].theta  # degrees
+    >>> import rsoccer
+    >>> from rsoccer import entities
+    >>> matches = rsoccer.Matches("VSSSelfPlay-v0")
+    >>> observations = matches.reset()
+    >>> state = entities.from_frame(matches.frame, 0)
+    >>> degrees = state.robots_blue[0].theta
     >>> state.ball.x = 0.1
-    >>> row = entities.to_row(state, n_blue=3, n_yellow=3)  # a start of a match
+    >>> row = entities.to_row(state, n_blue=3, n_yellow=3)  # an initial state for a match
 
 Positions are metres from the field's centre; a robot's angles are degrees, as in the paper. The
 objects are too slow for many worlds or every step: there `Frame` gives arrays.

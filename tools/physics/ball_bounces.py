@@ -137,7 +137,7 @@ def _front(name: str, ball: Ball) -> Checks:
     config = SimConfig("ssl_b", 1, 0, ball=frictionless_floor(name))
     scene = Scene(config)
     velocity = np.array([-2.0, 2.0, 0.0])
-    distance = GENERIC.front + ball.radius
+    distance = GENERIC.front_distance + ball.radius
     scene.ball.position[:] = (distance + 0.1, -0.1)
     scene.ball.velocity[:] = velocity[:2]
     after = scene.play(4 * STEP).ball
@@ -147,7 +147,7 @@ def _front(name: str, ball: Ball) -> Checks:
         ball.robot_restitution,
         ball.robot_friction,
         inverse_mass,
-        inverse_mass + GENERIC.front**2 / inertia,
+        inverse_mass + GENERIC.front_distance**2 / inertia,
     )
     velocity, spin = closed_form.bounce(
         ball, surface, velocity, np.zeros(3), np.array([1.0, 0.0, 0.0])

@@ -124,7 +124,7 @@ def _over_a_robot() -> Checks:
     for world, rise in enumerate(high):
         yield OVER(f"{rise:.2f} m/s up", 3.0 * 0.7, ball.position[-1, world, 0])
     # Between the floor and the robot's top at the time of contact with its front.
-    met = (1.2 - GENERIC.front - DIAMETER / 2) / 3
+    met = (1.2 - GENERIC.front_distance - DIAMETER / 2) / 3
     low = np.linspace(rise_to(0.01, met), rise_to(GENERIC.height - 0.01, met), 6)
     ball = _chips_at_a_robot(low).ball
     stopped = (ball.last_touch[-1] == 0) & (ball.position[-1, :, 0] < 1.2)

@@ -87,12 +87,12 @@ class SslRobot:
     mass: float
     max_kick_speed: float
     max_chip_speed: float
-    front: float
+    front_distance: float
     mouth_width: float
     max_speed: float = 3.7
     max_turn_rate: float = 26.2
     max_acceleration: float = 4.7
-    brake: float = 5.9
+    max_deceleration: float = 5.9
     max_angular_acceleration: float = 50.8
     max_angular_deceleration: float = 51.6
 
@@ -205,7 +205,12 @@ _SSL = {
     "center_circle_radius": 0.5,
     "line_width": 0.01,
 }
-_VSS = {"corner_leg": 0.07, "wall_height": 0.05, "penalty_mark_distance": 0.375, "line_width": 0.003}
+_VSS = {
+    "corner_leg": 0.07,
+    "wall_height": 0.05,
+    "penalty_mark_distance": 0.375,
+    "line_width": 0.003,
+}
 FIELDS = {
     "vss_3v3": _pitch("VSSS rules, VSSReferee", 1.5, 1.3, 0.4, 0.1, 0.05, **_VSS),
     "vss_5v5": _pitch("VSSReferee", 2.2, 1.8, 0.4, 0.15, 0.05, **_VSS),

@@ -151,11 +151,11 @@ def _losing() -> Checks:
     yield STEADY("full dribbler", max_turn_rate(), highest_kept(rates, kept))
     # The back-spin makes floor friction decelerate the ball as well, up to sliding friction.
     hardest = GRIP / BALL.mass + BALL.sliding_deceleration
-    candidates = np.append(np.arange(1.0, GENERIC.brake, 0.1), GENERIC.brake)
+    candidates = np.append(np.arange(1.0, GENERIC.max_deceleration, 0.1), GENERIC.max_deceleration)
     kept = np.array([_keeps_ball(brake) for brake in candidates])
     yield BRAKE("3 m/s to 1.9 m/s backwards", hardest, highest_kept(candidates, kept))
     yield PUBLISHED(f"{WITH_BALL:g} m/s²", 1.0, _keeps_ball(WITH_BALL))
-    yield FULL_BRAKE(f"{GENERIC.brake:g} m/s²", 0.0, kept[-1])
+    yield FULL_BRAKE(f"{GENERIC.max_deceleration:g} m/s²", 0.0, kept[-1])
     # Backwards faster than the bar the slip reverses, and floor friction exceeds the grip.
     speeds = np.arange(1.0, 3.0, 0.05)
     kept = _driving_scene(-speeds).play(1.0).robots.infrared[-1, :, 0] == 1.0

@@ -94,7 +94,7 @@ def draw_dribble() -> Figure:
 
 def _draw_robot(axes: Axes, robot: Array, ball: Array) -> None:
     """Draw a robot's outline with its flat front, and the ball."""
-    half = np.arccos(GENERIC.front / GENERIC.radius)
+    half = np.arccos(GENERIC.front_distance / GENERIC.radius)
     angles = np.arctan2(robot[3], robot[2]) + np.linspace(half, 2 * np.pi - half, 60)
     x, y = robot[:2, None] + GENERIC.radius * np.stack([np.cos(angles), np.sin(angles)])
     axes.fill(x, y, facecolor=BLUE, edgecolor=BLUE, alpha=0.25)

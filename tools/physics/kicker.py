@@ -85,7 +85,7 @@ def checks() -> Checks:
 
 def front_offset(robot: str = "ssl_generic") -> float:
     """Return the distance from a robot's centre to the centre of a ball at its front, m."""
-    return SSL_ROBOTS[robot].front + BALL.radius
+    return SSL_ROBOTS[robot].front_distance + BALL.radius
 
 
 def with_ball(

@@ -89,7 +89,7 @@ def _acceleration() -> Checks:
     stopped = trajectory.times[first_true(speeds(trajectory) < 0.001)]
     for world, degrees in enumerate(DIRECTIONS):
         yield SPEED_UP(f"{degrees:g} degrees", 3.0 / GENERIC.max_acceleration, reached[world])
-        yield BRAKE(f"{degrees:g} degrees", 3.0 / GENERIC.brake, stopped[world])
+        yield BRAKE(f"{degrees:g} degrees", 3.0 / GENERIC.max_deceleration, stopped[world])
 
 
 def _turning() -> Checks:
@@ -162,7 +162,7 @@ def _jerk_limit() -> Checks:
     for speed in (0.5, 1.0, 3.0):
         for criterion, start, target, limit in (
             (JERKED_UP, 0.0, speed, GENERIC.max_acceleration),
-            (JERKED_DOWN, speed, 0.0, GENERIC.brake),
+            (JERKED_DOWN, speed, 0.0, GENERIC.max_deceleration),
         ):
             scene = lone_robot(robot)
             scene.robots.velocity[:, 0, 0] = start

@@ -86,7 +86,9 @@ def _random_collisions(name: str) -> Checks:
     for index in (0, 1):
         scene.face(index, rng.uniform(-180, 180, COLLISIONS))
     trajectory = scene.play(0.5)
-    mass, inertia = (vss.mass, vss.side_length**2 / 6) if vss else (GENERIC.mass, GENERIC.radius**2 / 2)
+    mass, inertia = (
+        (vss.mass, vss.side_length**2 / 6) if vss else (GENERIC.mass, GENERIC.radius**2 / 2)
+    )
     energy = np.concatenate(
         [_energy(scene, mass, inertia)[None], _energy(trajectory, mass, inertia)]
     )

@@ -113,9 +113,11 @@ def gaps(trajectory: Trajectory) -> Array:
     cos, sin = np.moveaxis(trajectory.robots.heading.astype(np.float64), -1, 0)
     x = away[..., 0] * cos + away[..., 1] * sin
     y = abs(away[..., 1] * cos - away[..., 0] * sin)
-    half = np.sqrt(GENERIC.radius**2 - GENERIC.front**2)
-    front = np.where(y < half, x - GENERIC.front, np.hypot(x - GENERIC.front, y - half))
-    before_front = (x > 0) & (y * GENERIC.front < x * half)
+    half = np.sqrt(GENERIC.radius**2 - GENERIC.front_distance**2)
+    front = np.where(
+        y < half, x - GENERIC.front_distance, np.hypot(x - GENERIC.front_distance, y - half)
+    )
+    before_front = (x > 0) & (y * GENERIC.front_distance < x * half)
     found: Array = np.where(before_front, front, np.hypot(x, y) - GENERIC.radius) - BALL.radius
     return found
 
@@ -142,7 +144,7 @@ def _at_wall(name: str, speed: float, tick: float) -> Checks:
     vss = VSS_ROBOTS.get(name)
     field, wall, y = ("vss_3v3", 0.75, 0.4) if vss else ("ssl_b", 4.8, 1.2)
     ball = BALLS["vss_rsim" if vss else "ssl_tigers"]
-    front, mass = (vss.side_length / 2, vss.mass) if vss else (GENERIC.front, GENERIC.mass)
+    front, mass = (vss.side_length / 2, vss.mass) if vss else (GENERIC.front_distance, GENERIC.mass)
     scene = Scene(SimConfig(field, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (wall - GAP - ball.radius, y)
     scene.robots.position[:, 0] = (wall - GAP - 2 * ball.radius - front - 0.02, y)

@@ -43,9 +43,11 @@ class EpisodeRunner:
     """Plays matches in which one policy controls the robots that learn."""
 
     task: Task
+    """task that is played"""
     controllers: Mapping[str, Controller]
     """controllers by robot; `LEARN` for the robots of the policy"""
     policy: Policy
+    """policy in the place of the learners"""
     worlds: int
     """matches played at once, at least 1"""
     threads: int

@@ -20,6 +20,7 @@ class Interval:
     """A mean with its 95% bootstrap confidence interval."""
 
     mean: float
+    """mean of the values"""
     low: float
     """lower bound"""
     high: float
@@ -31,6 +32,7 @@ class Results:
     """Wins, draws, losses and mean score of some matches, by the task's success metric."""
 
     matches: int
+    """number of matches"""
     wins: int
     """matches with a score above 0"""
     draws: int

@@ -101,7 +101,9 @@ def make(policy: PolicyLike, task: Task) -> Policy:
         ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
 
     Example:
-        >>> policies.make("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
+        >>> import rsoccer
+        >>> from rsoccer import policies
+        >>> policy = policies.make("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
     """
     if not isinstance(policy, Policy):
         text = _text(policy)

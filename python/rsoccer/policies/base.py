@@ -49,7 +49,9 @@ class Policy(ABC):
     one object can drive several teams, and matches can be copied and saved.
 
     Example:
-        >>> class Forward(Policy):
+        >>> import numpy as np
+        >>> import rsoccer
+        >>> class Forward(rsoccer.Policy):
         ...     observes = "nothing"
         ...
         ...     def act(self, inputs, rng, memory):

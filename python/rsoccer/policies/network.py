@@ -38,8 +38,9 @@ class Network(Policy):
     The random draws are equal in all batch sizes.
 
     Example:
-        >>> network = Network.load("policy.safetensors", mode="mean")
-        >>> matches = rsoccer.Matches(network.task_name, 100, controllers={"blue": network})
+        >>> network = Network.load("policy.safetensors", mode="mean")  # doctest: +SKIP
+        >>> controllers = {"blue": network}  # doctest: +SKIP
+        >>> matches = rsoccer.Matches(network.task_name, controllers=controllers)  # doctest: +SKIP
     """
 
     observes: Observes = "observation"

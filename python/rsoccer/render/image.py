@@ -53,6 +53,9 @@ class Renderer:
     """A renderer of rows of one configuration at one size; draws the static background once.
 
     Example:
+        >>> import rsoccer
+        >>> matches = rsoccer.Matches("VSSSelfPlay-v0")
+        >>> observations = matches.reset()
         >>> renderer = Renderer(matches.task.config, width=640)
         >>> image = renderer.draw(matches.frame.rows[0], score=(1, 0), clock=12.5)
 

@@ -36,7 +36,8 @@ def record_match(
     """Play a match, episode after episode, and write it to a video file.
 
     Example:
-        >>> record_match("match.mp4", controllers={"blue": "chase", "yellow": "ou"}, seconds=10.0)
+        >>> teams = {"blue": "chase", "yellow": "ou"}
+        >>> record_match("match.mp4", controllers=teams, seconds=10.0)  # doctest: +SKIP
 
     Args:
         path: the file, ending in .mp4 or .gif.
