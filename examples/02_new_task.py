@@ -38,7 +38,10 @@ class Reach(Task):
         ego, offset = play.view.ego, play.view.ball.position - play.view.ego.position
         ahead = (offset * ego.heading).sum(axis=-1)
         left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
-        return {"ball_polar": np.stack([ahead, left], axis=-1), "spin": ego.spin / 10}
+        return {
+            "ball_polar": np.stack([ahead, left], axis=-1),
+            "turn_rate": ego.angular_velocity / 10,
+        }
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Reward the distance gained (m), and 1 for reaching the ball, which ends the episode."""

@@ -45,7 +45,7 @@ def test_a_row_survives_a_round_trip_through_entities() -> None:
 def test_robots_are_found_by_team_and_number() -> None:
     frame = Frame.empty(2, 2, 3)
     frame.yellow.position[1, 2] = 0.5, -0.5
-    frame.blue.spin[1, 0] = np.pi
+    frame.blue.angular_velocity[1, 0] = np.pi
     read_back = entities.from_frame(frame, 1)
     assert list(read_back.robots_blue) == [0, 1]
     assert (read_back.robots_yellow[2].x, read_back.robots_yellow[2].y) == (0.5, -0.5)

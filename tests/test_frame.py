@@ -33,7 +33,7 @@ def test_properties_read_the_cores_columns() -> None:
     assert frame.yellow.position[1, 1].tolist() == [third["x"], third["y"]]
     assert frame.robots.heading[1, 2].tolist() == [third["cos"], third["sin"]]
     assert frame.robots.velocity[1, 2].tolist() == [third["v_x"], third["v_y"]]
-    assert frame.robots.spin[1, 2] == third["v_theta"]
+    assert frame.robots.angular_velocity[1, 2] == third["v_theta"]
 
 
 def test_blue_comes_first() -> None:
@@ -46,7 +46,7 @@ def test_blue_comes_first() -> None:
 def test_properties_are_views_not_copies() -> None:
     frame = Frame.empty(2, 3, 3)
     frame.ball.velocity[1] = 5.0
-    frame.yellow.spin[:, 2] = 7.0
+    frame.yellow.angular_velocity[:, 2] = 7.0
     assert (frame.rows == 5.0).sum() == 2
     assert (frame.rows == 7.0).sum() == 2
 

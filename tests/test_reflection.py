@@ -46,7 +46,7 @@ def reflected(frame: Frame) -> Frame:
         *(other.robots.position, other.robots.velocity, other.robots.heading),
     ):
         vectors[..., 1] *= -1
-    other.robots.spin[...] *= -1
+    other.robots.angular_velocity[...] *= -1
     other.ball.spin[..., [0, 2]] *= -1
     other.ball.crossed[frame.ball.crossed == LEFT] = RIGHT
     other.ball.crossed[frame.ball.crossed == RIGHT] = LEFT

@@ -49,7 +49,7 @@ def test_slots_are_ego_then_teammates_in_ring_order_then_opponents() -> None:
     assert (view.robots.data[:, 0] == frame.robots.data[:, order]).all()
     assert (view.ego.data[:, 0] == frame.blue.data[:, 1]).all()
     assert (view.teammates.position[:, 0] == frame.blue.position[:, [2, 0]]).all()
-    assert (view.opponents.spin[:, 0] == frame.yellow.spin).all()
+    assert (view.opponents.angular_velocity[:, 0] == frame.yellow.angular_velocity).all()
     assert (view.ball.data[:, 0] == frame.ball.data).all()
 
 

@@ -240,7 +240,7 @@ def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
         frame.robots.position[0, i] = robot.x, robot.y
         frame.robots.heading[0, i] = headings(robot.theta)
         frame.robots.velocity[0, i] = robot.v_x, robot.v_y
-        frame.robots.spin[0, i] = np.radians(robot.v_theta)
+        frame.robots.angular_velocity[0, i] = np.radians(robot.v_theta)
         frame.robots.infrared[0, i] = robot.infrared
     if not np.isfinite(frame.rows).all():
         raise ValueError(f"entities: expected finite numbers, got\n{entities}")
@@ -300,7 +300,7 @@ def headings(angles: float | Array) -> Doubles:
 def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]:
     """Robots of a team in one world, by their number."""
     thetas = degrees(columns.heading[world])
-    turn_rates = np.degrees(columns.spin[world], dtype=np.float64)
+    turn_rates = np.degrees(columns.angular_velocity[world], dtype=np.float64)
     return {
         i: Robot(
             yellow,

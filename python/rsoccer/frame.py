@@ -120,7 +120,7 @@ class RobotColumns:
     _POSITION = column_slice(ROBOT_COLUMNS, "x", "y")
     _HEADING = column_slice(ROBOT_COLUMNS, "cos", "sin")
     _VELOCITY = column_slice(ROBOT_COLUMNS, "v_x", "v_y")
-    _SPIN = ROBOT_COLUMNS.index("v_theta")
+    _ANGULAR_VELOCITY = ROBOT_COLUMNS.index("v_theta")
     _INFRARED = ROBOT_COLUMNS.index("infrared")
     _TOUCHED_BALL = ROBOT_COLUMNS.index("touched_ball")
     _TOUCHED_OPPONENT = ROBOT_COLUMNS.index("touched_opponent")
@@ -150,9 +150,9 @@ class RobotColumns:
         return self.data[..., self._VELOCITY]
 
     @property
-    def spin(self) -> Floats:
+    def angular_velocity(self) -> Floats:
         """(...) turn rate in rad/s, positive to the left."""
-        return self.data[..., self._SPIN]
+        return self.data[..., self._ANGULAR_VELOCITY]
 
     @property
     def infrared(self) -> Floats:

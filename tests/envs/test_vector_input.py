@@ -171,3 +171,15 @@ def test_render_without_a_mode_warns() -> None:
     with pytest.warns(UserWarning, match="rgb_array") as warned:
         assert envs.render() is None
     assert [each.filename for each in warned] == [__file__]
+
+
+def test_render_modes_are_those_that_are_accepted() -> None:
+    for mode in vector_env(SELF_PLAY, N, learner="blue_0", controllers={"all": "ou"}).metadata[
+        "render_modes"
+    ]:
+        envs = vector_env(
+            SELF_PLAY, N, learner="blue_0", controllers={"all": "ou"}, render_mode=mode
+        )
+        envs.reset(seed=0)
+        assert envs.render() is not None
+        envs.close()

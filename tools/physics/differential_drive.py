@@ -89,7 +89,7 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     scene = lone_robot(name)
     scene.command(0, left=-1e3, right=1e3)
     trajectory = scene.play(1.0)
-    spin = trajectory.robots.spin[:, 0, 0]
+    spin = trajectory.robots.angular_velocity[:, 0, 0]
     yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, spin[-1])
     # Both tyres push with their full grip on a lever of half the track; inertia of a square plate.
     inertia = robot.side_length**2 / 6
@@ -107,7 +107,7 @@ def _arc(name: str, robot: VssRobot) -> Checks:
     radius = robot.track_width / 2 * (right + left) / (right - left)
     yield ARC(f"`{name}`", radius, radius_of(robots.position[40::30, 0, 0]))
     turn = robot.wheel_radius * (right - left) / robot.track_width
-    yield ARC_TURN(f"`{name}`", turn, robots.spin[-1, 0, 0])
+    yield ARC_TURN(f"`{name}`", turn, robots.angular_velocity[-1, 0, 0])
 
 
 def radius_of(points: Array) -> float:
@@ -134,4 +134,4 @@ def _rsim_reference() -> Checks:
     yield RSIM_STEP("440 rpm", 6.85, speed[round(0.1 / TICK) - 1] / 0.1)
     scene = lone_robot("vss_440rpm")
     scene.command(0, left=-40.0, right=40.0)
-    yield RSIM_TURN("440 rpm", 26.6, scene.play(0.5).robots.spin[-1, 0, 0])
+    yield RSIM_TURN("440 rpm", 26.6, scene.play(0.5).robots.angular_velocity[-1, 0, 0])

@@ -176,7 +176,7 @@ def turning_scene(
 ) -> Scene:
     """Return robots that already turn (rad/s), each with the ball and its back-spin."""
     scene = with_ball(worlds=worlds or np.size(rates), time_step=time_step)
-    scene.robots.spin[:, 0] = rates
+    scene.robots.angular_velocity[:, 0] = rates
     scene.ball.velocity[:, 1] = np.asarray(rates) * front_offset()
     scene.ball.spin[:, 1] = -BAR_SPEED / BALL.radius
     scene.command(0, v_theta=rates, dribbler=1.0)

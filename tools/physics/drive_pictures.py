@@ -61,7 +61,7 @@ def _values(trajectory: Trajectory, quantity: str) -> Array:
     values: Array = (
         omni_drive.speeds(trajectory)[:, 0]
         if quantity == "speed"
-        else trajectory.robots.spin[:, 0, 0]
+        else trajectory.robots.angular_velocity[:, 0, 0]
     )
     return values
 

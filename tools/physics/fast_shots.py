@@ -123,7 +123,7 @@ def _spinning() -> Checks:
         shots = _uniform([-0.4, 0, 0, 0, 0], [0.1, 0.3, 0.0, 0.8 * half, 180.0])
         scene.face(0, shots[:, 4])
         spins = np.where(np.arange(SHOTS) % 2, spin, -spin)
-        scene.robots.spin[:, 0] = spins
+        scene.robots.angular_velocity[:, 0] = spins
         if field == "ssl_b":
             scene.command(0, v_theta=spins)
         else:

@@ -96,11 +96,13 @@ def _turning() -> Checks:
     scene = lone_robot(worlds=2)
     scene.command(0, v_theta=np.array([20.0, -20.0]))
     trajectory = scene.play(1.0)
-    reached = trajectory.times[first_true(abs(trajectory.robots.spin[:, :, 0]) >= 19.99)]
+    reached = trajectory.times[
+        first_true(abs(trajectory.robots.angular_velocity[:, :, 0]) >= 19.99)
+    ]
     scene = lone_robot(worlds=2)
-    scene.robots.spin[:, 0] = [20.0, -20.0]
+    scene.robots.angular_velocity[:, 0] = [20.0, -20.0]
     trajectory = scene.play(1.0)
-    stopped = trajectory.times[first_true(abs(trajectory.robots.spin[:, :, 0]) < 0.01)]
+    stopped = trajectory.times[first_true(abs(trajectory.robots.angular_velocity[:, :, 0]) < 0.01)]
     for world, direction in enumerate(("counterclockwise", "clockwise")):
         yield TURN(direction, 20.0 / GENERIC.max_angular_acceleration, reached[world])
         yield STOP_TURN(direction, 20.0 / GENERIC.max_angular_deceleration, stopped[world])
@@ -115,7 +117,7 @@ def _top_speeds() -> Checks:
         scene.command(0, v_y=np.array([-9.0, 0.0]), v_theta=np.array([0.0, 99.0]))
         last = scene.play(1.2).robots
         yield TOP_SPEED(f"`{name}`", robot.max_speed, -last.velocity[-1, 0, 0, 1])
-        yield TOP_TURN(f"`{name}`", robot.max_turn_rate, last.spin[-1, 1, 0])
+        yield TOP_TURN(f"`{name}`", robot.max_turn_rate, last.angular_velocity[-1, 1, 0])
 
 
 def wheel_speeds(v_x: float, v_y: float, v_theta: float) -> dict[str, float]:
@@ -136,7 +138,7 @@ def _wheels() -> Checks:
         a, b = (scene.play(1.0).robots for scene in (by_wheels, by_body))
         case = f"{v_x:g} m/s, {v_y:g} m/s, {v_theta:g} rad/s"
         yield BY_WHEELS(case, hypot(v_x, v_y), length(*a.velocity[-1, 0, 0]))
-        yield WHEELS_TURN(case, v_theta, a.spin[-1, 0, 0])
+        yield WHEELS_TURN(case, v_theta, a.angular_velocity[-1, 0, 0])
         yield AGREE(case, 0.0, length(*(a.position[-1, 0, 0] - b.position[-1, 0, 0])))
 
 

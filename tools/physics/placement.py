@@ -71,7 +71,7 @@ def moving(config: SimConfig) -> Scene:
     headings = rng.uniform(-np.pi, np.pi, robots)
     scene.robots.heading[0] = np.stack([np.cos(headings), np.sin(headings)], axis=-1)
     scene.robots.velocity[:] = rng.uniform(-1, 1, (robots, 2))
-    scene.robots.spin[:] = rng.uniform(-5, 5, robots)
+    scene.robots.angular_velocity[:] = rng.uniform(-5, 5, robots)
     scene.ball.velocity[:] = rng.uniform(-1, 1, 2)
     scene.ball.height[:], scene.ball.vertical_velocity[:] = 0.3, 0.7
     scene.ball.spin[:] = rng.uniform(-30, 30, 3)

@@ -68,7 +68,7 @@ def _squares(name: str, speed: float) -> Checks:
         scene.command(index, left=rim, right=rim)
     robots = scene.play(2.0).robots
     case = f"`{name}`, {speed:g} m/s each"
-    yield TURNS(case, 0.0, abs(robots.spin).max())
+    yield TURNS(case, 0.0, abs(robots.angular_velocity).max())
     yield LATERAL(case, 0.0, 1000 * abs(robots.position[-1, ..., 1]).max())
 
 
@@ -82,7 +82,7 @@ def _random_collisions(name: str) -> Checks:
     scene.robots.position[:, 0, 1] = rng.uniform(-0.6 * size, 0.6 * size, COLLISIONS)
     scene.robots.velocity[:] = rng.uniform(-1, 1, (COLLISIONS, 2, 2))
     scene.robots.velocity[:, 0, 0] += 2.0
-    scene.robots.spin[:] = rng.uniform(-15, 15, (COLLISIONS, 2))
+    scene.robots.angular_velocity[:] = rng.uniform(-15, 15, (COLLISIONS, 2))
     for index in (0, 1):
         scene.face(index, rng.uniform(-180, 180, COLLISIONS))
     trajectory = scene.play(0.5)
@@ -102,7 +102,7 @@ def _energy(source: Scene | Trajectory, mass: float, inertia: float) -> Array:
     """Return the kinetic energy, J; `inertia` is that of a plate divided by its mass, m²."""
     velocity, spin = (
         source.robots.velocity.astype(np.float64),
-        source.robots.spin.astype(np.float64),
+        source.robots.angular_velocity.astype(np.float64),
     )
     energy: Array = mass / 2 * ((velocity**2).sum(axis=-1) + inertia * spin**2).sum(axis=-1)
     return energy

@@ -81,10 +81,10 @@ def _straight(name: str, spin: float, tick: float) -> float:
     """Return the time until the robot turns slower than SLOW, s; NaN if it never does."""
     scene = Scene(SimConfig(WIDE, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (0.0, 3.0)
-    scene.robots.spin[:] = spin
+    scene.robots.angular_velocity[:] = spin
     scene.command(0, left=1e3, right=1e3)
     trajectory = scene.play(3.0)
-    step = first_true(trajectory.robots.spin[:, 0, 0] < SLOW)
+    step = first_true(trajectory.robots.angular_velocity[:, 0, 0] < SLOW)
     return float(trajectory.times[step]) if step >= 0 else np.nan
 
 
@@ -118,7 +118,7 @@ def _reversals(name: str, robot: VssRobot) -> Checks:
         scene.commands[:] = rng.choice([-1e3, 1e3], scene.commands.shape)
         robots = match.run(scene.config.time_step).robots
         velocity, heading = robots.velocity[-1, :, 0], robots.heading[-1, :, 0]
-        turning = abs(robots.spin[-1, :, 0]) * robot.track_width / 2
+        turning = abs(robots.angular_velocity[-1, :, 0]) * robot.track_width / 2
         max_tyre = max(max_tyre, float((abs((velocity * heading).sum(axis=-1)) + turning).max()))
         max_centre = max(max_centre, float(np.hypot(*velocity.T).max()))
     yield RIM(f"`{name}`, 5 s", top_rim_speed(robot), max_tyre)

@@ -166,7 +166,7 @@ class _Simulation:
         """Poses and velocities (robots, numbers), degrees."""
         robots = self._frame.robots
         turned = np.mod(np.round(degrees(robots.heading[0]), 9), 360.0)  # -1e-20 is 0, not 360
-        turning = np.degrees(robots.spin[0], dtype=np.float64)
+        turning = np.degrees(robots.angular_velocity[0], dtype=np.float64)
         parts = [robots.position[0], turned[:, None], robots.velocity[0], turning[:, None]]
         return np.concatenate(parts, axis=1, dtype=np.float64)
 

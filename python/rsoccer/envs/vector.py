@@ -164,7 +164,7 @@ class SoccerVectorEnv(SingleLearner, VectorEnv[Floats, Array, Array]):
         self._viewer = Viewer(render_mode, task, RENDER_MODES)
         self.render_mode = render_mode
         self.autoreset_mode = _autoreset_mode(autoreset_mode)
-        self.metadata = metadata(task) | {"autoreset_mode": self.autoreset_mode}
+        self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
         self._matches = EnvMatches(
             task,
             num_envs,

@@ -82,7 +82,7 @@ def test_power_is_limited() -> None:
 
 def test_spin_turns_on_the_spot() -> None:
     ego = driven(4, 60, spin=-1.0, x=0.5).frame.blue
-    assert ego.spin.max() < -0.8 * ROBOT.top_speed / (ROBOT.track_width / 2)
+    assert ego.angular_velocity.max() < -0.8 * ROBOT.top_speed / (ROBOT.track_width / 2)
     assert np.abs(ego.position - [-0.4, -0.2]).max() < 0.02
 
 

@@ -77,7 +77,11 @@ class Passer(Policy):
         ego, ball, teammate = view.ego, view.ball, view.teammates
         x, y = (teammate.position[:, :, 0, i] - ball.position[..., i] for i in (0, 1))
         cos, sin = motion.heading_error(ego, x, y)
-        ready = (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE) & (np.abs(ego.spin) < MAX_KICK_SPIN)
+        ready = (
+            (cos > 0.0)
+            & (np.abs(sin) < MAX_AIM_SINE)
+            & (np.abs(ego.angular_velocity) < MAX_KICK_SPIN)
+        )
         # A ball that still moves has not been received yet.
         ball_speed = length(ball.velocity[..., 0], ball.velocity[..., 1])
         ready &= (ego.infrared > 0.5) & (ball_speed < MIN_BALL_SPEED)

@@ -121,12 +121,12 @@ class RobotControl:
         change = np.maximum(length(change_x, change_y), TINY)
         scale = np.minimum(self._max_change / change, np.float32(1.0))
         turn_change = np.minimum(
-            np.maximum(spin - ego.spin, -self._max_turn_change), self._max_turn_change
+            np.maximum(spin - ego.angular_velocity, -self._max_turn_change), self._max_turn_change
         )
         return (
             ego.velocity[..., 0] + change_x * scale,
             ego.velocity[..., 1] + change_y * scale,
-            ego.spin + turn_change,
+            ego.angular_velocity + turn_change,
         )
 
     def has_ball(self, view: View) -> Mask:

@@ -137,7 +137,7 @@ class Strike(Policy):
         spin = motion.turn_rate_to(ego, goal_x, goal_y, MAX_TURN_RATE)
         cos, sin = motion.heading_error(ego, goal_x, goal_y)
         kicks = aims & (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE)
-        kicks &= np.abs(ego.spin) < MAX_KICK_SPIN
+        kicks &= np.abs(ego.angular_velocity) < MAX_KICK_SPIN
         kicks &= length(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
         zero = np.float32(0.0)
         v_x, v_y = (np.where(aims, zero, v) for v in self._dribble(ego.position, robots))

@@ -60,7 +60,7 @@ class Chase(Policy):
         ahead, left = x * cos + y * sin, y * cos - x * sin
         scale = reciprocal(length(x, y), SLOWING_DISTANCE)
         forward, turn = ahead * scale, left * scale * np.sign(ahead) * TURN_GAIN
-        turn = turn - ego.spin * self._damping
+        turn = turn - ego.angular_velocity * self._damping
         # Slow steps count for all robots, but a teammate that keeps off need not push.
         all_robots = np.ones_like(chases)
         slow_steps = memory["slow_steps"]

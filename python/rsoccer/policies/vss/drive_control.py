@@ -88,7 +88,7 @@ class DriveController:
         forward, turn = power * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
         spins = target.spin != 0.0
         forward = np.where(spins, np.float32(0.0), forward)
-        return forward, np.where(spins, target.spin, turn - ego.spin * self._damping)
+        return forward, np.where(spins, target.spin, turn - ego.angular_velocity * self._damping)
 
 
 def require_two_wheels(policy: str, task: Task) -> None:
