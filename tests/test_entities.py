@@ -30,7 +30,7 @@ def test_a_row_survives_a_round_trip_through_entities() -> None:
     for _ in range(30):
         matches.step(np.ones((3, 6, 2), np.float32))
     frame = matches.play.frame
-    columns = ("position", "heading", "velocity", "spin", "infrared")
+    columns = ("position", "heading", "velocity", "angular_velocity", "infrared")
     for world in range(3):
         row = entities.to_row(entities.from_frame(frame, world), 3, 3)
         again = framed(row[None], 3, 3)
