@@ -19,7 +19,7 @@ from benches.table import RESULTS, ROOT
 from rsoccer import policies
 from rsoccer.tasks import legacy_names
 from tools.parts import filled, table
-from tools.site.meanings import PAGES, first_sentence
+from tools.site import task_docs
 from tools.speed import speed, summary
 
 README = ROOT / "README.md"
@@ -71,14 +71,14 @@ def written(text: str, name: str = README.name) -> str:
 def tasks() -> str:
     """Return the table of all registered tasks."""
     rows = [_task_row(name) for name in rsoccer.list_tasks()]
-    return table(("task", "goal", "robots", "learners", "success"), rows)
+    return table(("task", "summary", "robots", "learners", "success"), rows)
 
 
 def _task_row(name: str) -> tuple[str, ...]:
     task = rsoccer.make_task(name)
     return (
         f"`{name}`",
-        first_sentence(PAGES[name]),
+        task_docs.summary(task),
         f"{task.n_blue} v {task.n_yellow}",
         str(len(task.agents)),
         f"`{task.success}`",

@@ -11,20 +11,23 @@ import pytest
 import rsoccer
 from rsoccer._core import BALL_COLUMNS, build_info
 from rsoccer.registry import list_options
-from tools.site import api, docstrings, meanings, solved, source, stub, tasks
+from tools.site import api, docstrings, meanings, solved, source, stub, task_docs, tasks
 
 TASKS = rsoccer.list_tasks()
-
-
-def described(table: dict[str, str]) -> set[str]:
-    """Names without the task or league that stands before some of them."""
-    return {key.rpartition(":")[2] for key in table}
 
 
 @pytest.mark.parametrize("name", TASKS)
 def test_every_task_has_a_page_with_all_sections(name: str) -> None:
     page = tasks.page(name)
-    for title in ("Observation", "Action", "Reward", "End of an episode", "Options", "Metrics"):
+    for title in (
+        "Initial state",
+        "Observation",
+        "Action",
+        "Reward",
+        "End of an episode",
+        "Options",
+        "Metrics",
+    ):
         assert f"\n## {title}\n" in page
     assert f"# {name}\n" in page
     assert f"]({name}.png)" in page
@@ -44,9 +47,8 @@ def test_every_number_of_an_action_is_described(name: str) -> None:
     assert len(tasks.actions(task)) == len(tasks.action_scales(task)) == task.action_size
 
 
-def test_texts_cover_every_task_and_no_others() -> None:
-    for table in (meanings.PAGES, meanings.ENDS, meanings.SOLVERS):
-        assert set(table) == set(TASKS)
+def test_every_task_has_a_solver_and_no_other() -> None:
+    assert set(meanings.SOLVERS) == set(TASKS)
 
 
 def test_texts_cover_every_block_and_no_others() -> None:
@@ -54,41 +56,37 @@ def test_texts_cover_every_block_and_no_others() -> None:
     assert {*meanings.BLOCKS, "ball"} == blocks
 
 
-def test_texts_cover_every_reward_term_and_no_others() -> None:
-    terms = {(name, term) for name in TASKS for term in tasks.weights(name)}
-    assert all(meanings.text(meanings.REWARDS, name, term) for name, term in terms)
-    assert described(meanings.REWARDS) == {term for _, term in terms}
+@pytest.mark.parametrize("name", TASKS)
+def test_docstrings_state_every_fact_of_a_task(name: str) -> None:
+    task = rsoccer.make_task(name)
+    assert task_docs.summary(task).endswith(".")
+    for label in ("Goal of the task", "Initial state", "Source"):
+        assert task_docs.paragraph(task, label), label
+    assert set(task_docs.reward_terms(task)) == set(tasks.weights(name))
+    assert all(meaning and unit for meaning, unit in task_docs.reward_terms(task).values())
+    assert set(task_docs.metrics(task)) == set(tasks.metrics(task))
+    assert set(list_options(type(task))) <= set(task_docs.options(task))
+    assert task_docs.events(task)
 
 
-def test_texts_cover_every_option_and_no_others() -> None:
-    found = {
-        (name, option) for name in TASKS for option in list_options(type(rsoccer.make_task(name)))
-    }
-    assert all(meanings.text(meanings.OPTIONS, name, option) for name, option in found)
-    assert described(meanings.OPTIONS) == {option for _, option in found}
+def test_an_inherited_paragraph_is_that_of_the_base_class() -> None:
+    single, match = rsoccer.make_task("VSS-v0"), rsoccer.make_task("VSSSelfPlay-v0")
+    for label in ("Initial state", "Termination", "Metric"):
+        assert task_docs.paragraph(single, label) == task_docs.paragraph(match, label)
+    assert task_docs.paragraph(single, "Colour") == ""
 
 
-def test_texts_cover_every_metric_and_no_others() -> None:
-    found = {metric for name in TASKS for metric in tasks.metrics(rsoccer.make_task(name))}
-    assert set(meanings.METRICS) == found
+def test_an_exception_of_a_task_is_shown() -> None:
+    contested = rsoccer.make_task("SSLContestedPossession-v0")
+    assert "0.5 m/s" in task_docs.exceptions(contested)
+    assert task_docs.exceptions(rsoccer.make_task("VSS-v0")) == ""
 
 
-@pytest.mark.parametrize("table", [meanings.REWARDS, meanings.OPTIONS])
-def test_texts_of_one_task_name_a_task(table: dict[str, str]) -> None:
-    owners = {key.rpartition(":")[0] for key in table}
-    assert owners <= {"", "VSS", "SSL", *TASKS}
-
-
-def test_a_missing_text_is_named() -> None:
-    with pytest.raises(KeyError, match="VSS-v0: no text for 'beauty'"):
-        meanings.text(meanings.REWARDS, "VSS-v0", "beauty")
-
-
-def test_the_text_of_a_task_precedes_that_of_its_league() -> None:
-    table = {"x": "all", "SSL:x": "league", "SSLSelfPlay-v0:x": "task"}
-    assert meanings.text(table, "SSLSelfPlay-v0", "x") == "task"
-    assert meanings.text(table, "SSLGoToBall-v0", "x") == "league"
-    assert meanings.text(table, "VSS-v0", "x") == "all"
+def test_rows_of_a_table_join_their_lines() -> None:
+    terms = task_docs.reward_terms(rsoccer.make_task("VSS-v0"))
+    assert terms["ball_to_goal"][1] == "m"
+    assert terms["ball_to_goal"][0].count("  ") == 0
+    assert "own goal" in terms["ball_to_goal"][0]
 
 
 def test_solutions_are_of_this_physics() -> None:

@@ -10,8 +10,8 @@ import rsoccer
 from rsoccer import Matches, Task
 from rsoccer.task import LEARN, Block
 from tools.parts import table
-from tools.site import meanings, solved
-from tools.site.meanings import ROBOT, Number, Part, first_sentence, text
+from tools.site import meanings, solved, task_docs
+from tools.site.meanings import ROBOT, Number, Part
 
 WEIGHTS: Final = "reward_weights"
 """Option of all tasks that has the weights of the reward terms."""
@@ -53,17 +53,19 @@ def index(names: list[str]) -> str:
 def page(name: str) -> str:
     """Return the page of one task."""
     task = rsoccer.make_task(name)
+    goal = task_docs.paragraph(task, "Goal of the task")
     sections = (
         f"# {name}",
-        meanings.PAGES[name],
+        task_docs.summary(task),
         f"![A moment of {name}]({name}.png)",
-        _description(task),
+        f"**Goal.** {_sentence(goal)}",
         _facts(task),
+        "## Initial state\n\n" + _sentence(task_docs.paragraph(task, "Initial state")),
         "## Observation\n\n" + _observation(task),
         "## Action\n\n" + _action(task),
         "## Reward\n\n" + _reward(name, task),
-        "## End of an episode\n\n" + _end(name, task),
-        "## Options\n\n" + _options(name, task),
+        "## End of an episode\n\n" + _end(task),
+        "## Options\n\n" + _options(task),
         "## Metrics\n\n" + _metrics(task),
         "## Solution\n\n" + _solution(name),
     )
@@ -78,7 +80,7 @@ def _card(name: str) -> str:
             f":alt: A moment of {name}",
             f":target: {name}.html",
             "",
-            f"[{name}]({name}.md)<br>{first_sentence(meanings.PAGES[name])}",
+            f"[{name}]({name}.md)<br>{task_docs.summary(rsoccer.make_task(name))}",
             "::::",
         ]
     )
@@ -98,9 +100,9 @@ def _row(name: str) -> tuple[str, ...]:
     )
 
 
-def _description(task: Task) -> str:
-    """The docstring of the task's class as Markdown."""
-    return inspect.getdoc(type(task)) or ""
+def _sentence(text: str) -> str:
+    """Text that starts with a capital letter."""
+    return text[:1].upper() + text[1:]
 
 
 def _facts(task: Task) -> str:
@@ -121,6 +123,7 @@ def _facts(task: Task) -> str:
         ("Ball", f"`{config.ball.name}`"),
         ("Control step", f"{config.time_step * 1000:g} ms"),
         ("Environments", _environments(task)),
+        ("Source", task_docs.paragraph(task, "Source")),
     ]
     return table(("", ""), [(f"**{key}**", value) for key, value in rows])
 
@@ -237,15 +240,16 @@ def action_scales(task: Task) -> list[float]:
 def _reward(name: str, task: Task) -> str:
     """The table of reward terms with both sets of weights."""
     default, paper = weights(name), weights(name, "paper")
+    terms = task_docs.reward_terms(task)
     rows = [
-        (f"`{term}`", text(meanings.REWARDS, name, term), f"{weight:g}", f"{paper[term]:g}")
+        (f"`{term}`", *terms[term], f"{weight:g}", f"{paper[term]:g}")
         for term, weight in default.items()
     ]
     return (
-        "The reward of a step is the sum of these terms times their weights. Terms in metres are "
-        f"differences of a potential. `{WEIGHTS}` replaces weights by name; "
+        "The reward of a step is the sum of these terms times their weights, which are per unit. "
+        f"Terms in metres are differences of a potential. `{WEIGHTS}` replaces weights by name; "
         f'`{WEIGHTS}="paper"` takes those of the paper.\n\n'
-        f"{table(('term', 'value before the weight', 'weight', 'paper'), rows)}"
+        f"{table(('term', 'value before the weight', 'unit', 'weight', 'paper'), rows)}"
     )
 
 
@@ -255,24 +259,24 @@ def weights(name: str, given: str | None = None) -> dict[str, float]:
     return dict(getattr(task, WEIGHTS))
 
 
-def _end(name: str, task: Task) -> str:
+def _end(task: Task) -> str:
     """Events that terminate an episode, and its time limit."""
-    events = "\n".join(f"- {event}" for event in meanings.ENDS[name])
+    listed = "\n".join(f"- {event}" for event in task_docs.events(task))
     seconds = task.max_steps * task.config.time_step
-    return (
-        f"Terminated by:\n\n{events}\n\n"
-        f"Truncated after {task.max_steps:,} control steps ({seconds:g} s)."
-    )
+    parts = ("Terminated by:", listed, task_docs.exceptions(task))
+    limit = f"Truncated after {task.max_steps:,} control steps ({seconds:g} s)."
+    return "\n\n".join(part for part in (*parts, limit) if part)
 
 
-def _options(name: str, task: Task) -> str:
+def _options(task: Task) -> str:
     """The table of the options."""
+    meanings_of = task_docs.options(task)
     rows = []
     for option, parameter in inspect.signature(type(task)).parameters.items():
-        default = _default(parameter.default, getattr(task, option))
-        meaning = text(meanings.OPTIONS, name, option)
-        rows.append((f"`{option}`", _type(parameter.annotation), f"`{default}`", meaning))
-    return table(("option", "type", "default", "meaning"), rows)
+        default = f"`{_default(parameter.default, getattr(task, option))}`"
+        rows.append((f"`{option}`", _type(parameter.annotation), default, meanings_of[option]))
+    note = "[Physics](../physics.md#presets) lists the presets of fields, robots and balls."
+    return f"{table(('option', 'type', 'default', 'meaning'), rows)}\n\n{note}"
 
 
 def _default(default: object, value: object) -> str:
@@ -293,8 +297,8 @@ def _type(annotation: Any) -> str:  # noqa: ANN401  (annotations are anything)
 def _metrics(task: Task) -> str:
     """The table of the metrics; the one that counts as success is marked."""
     rows = [
-        (f"`{metric}`", meanings.METRICS[metric], "yes" if metric == task.success else "")
-        for metric in metrics(task)
+        (f"`{metric}`", meaning, "yes" if metric == task.success else "")
+        for metric, meaning in task_docs.metrics(task).items()
     ]
     full = task.full_success
     full_text = "The success has no upper bound." if full is None else f"Full success is {full:g}."
