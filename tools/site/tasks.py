@@ -101,8 +101,8 @@ def _row(name: str) -> tuple[str, ...]:
 
 
 def _sentence(text: str) -> str:
-    """Text that starts with a capital letter."""
-    return text[:1].upper() + text[1:]
+    """Text that starts with a capital letter, unless it starts with the name of a robot."""
+    return text if "_" in text.split(" ")[0] else text[:1].upper() + text[1:]
 
 
 def _facts(task: Task) -> str:
@@ -143,7 +143,7 @@ def _observation(task: Task) -> str:
     scales = (
         f"One learner observes {task.observation_size} numbers, float32, as its own team sees the "
         "field: every team attacks +x, and y points to the left of that. Below the name of a block "
-        "stands its shape; rows of absent robots are 0. A half field length is "
+        "stands its shape; rows of absent robots are 0 (in `body_positions` the centre of the field). A half field length is "
         f"{config.field.half_length:g} m, a top speed {robot.top_speed:.3g} m/s and a top turn "
         f"rate {robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
     )
@@ -242,14 +242,14 @@ def _reward(name: str, task: Task) -> str:
     default, paper = weights(name), weights(name, "paper")
     terms = task_docs.reward_terms(task)
     rows = [
-        (f"`{term}`", *terms[term], f"{weight:g}", f"{paper[term]:g}")
+        (f"`{term}`", "{} ({})".format(*terms[term]), f"{weight:g}", f"{paper[term]:g}")
         for term, weight in default.items()
     ]
     return (
         "The reward of a step is the sum of these terms times their weights, which are per unit. "
         f"Terms in metres are differences of a potential. `{WEIGHTS}` replaces weights by name; "
         f'`{WEIGHTS}="paper"` takes those of the paper.\n\n'
-        f"{table(('term', 'value before the weight', 'unit', 'weight', 'paper'), rows)}"
+        f"{table(('term', 'value before the weight (unit)', 'weight', 'paper'), rows)}"
     )
 
 
