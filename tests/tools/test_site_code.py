@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from rsoccer import cli
+
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 RUN = """
@@ -43,3 +45,34 @@ def test_blocks_that_do_not_run_are_python() -> None:
     assert len(skipped) >= 4
     for code in skipped:
         compile(code, "block", "exec")
+
+
+COMMANDS = sorted(
+    {
+        line.split("#")[0].strip()
+        for page in [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md"]
+        for block in re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE)
+        for line in block.splitlines()
+        if line.startswith(("rsoccer ", "make "))
+    }
+)
+
+
+@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("rsoccer ")])
+def test_commands_have_the_options_that_are_shown(
+    line: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("tyro")
+    words = line.split()
+    with pytest.raises(SystemExit) as left:
+        cli.main([words[1], "--help"])
+    assert left.value.code == 0
+    shown = capsys.readouterr().out
+    for option in (word for word in words if word.startswith("--")):
+        assert option in shown, f"`rsoccer {words[1]} --help` has no {option}"
+
+
+@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("make ")])
+def test_make_targets_exist(line: str) -> None:
+    makefile = (ROOT / "Makefile").read_text()
+    assert re.search(rf"^{re.escape(line.split()[1])}:", makefile, re.MULTILINE), line
