@@ -1,7 +1,7 @@
 """Lays out the pages that Sphinx reads, in one folder.
 
-Pages keep the relative links that they have in the repository. `TOP` moves pages of the root
-folder beside those of `docs/`; links between them are rewritten to match.
+Links in the repository's pages lead to its files, so that they work there too. Here they are
+rewritten to lead to the pages of the site.
 """
 
 import re
@@ -20,6 +20,13 @@ TOP: Final = {
     "CONTRIBUTING.md": "contributing.md",
 }
 """Pages of the repository's root, and their names on the site."""
+
+FOLDERS: Final = {
+    "README.md": "index.md",
+    "examples": "examples.md",
+    "python/rsoccer": "api/index.md",
+}
+"""Files and folders of the repository, and the pages that stand for them."""
 
 _LINK: Final = re.compile(r"(\]\()([^)#\s]+)(#[^)]*)?\)")
 
@@ -51,8 +58,7 @@ def linked(text: str, page: Path) -> str:
         page: Its path on the site, or in the repository's root if it comes from there.
 
     Returns:
-        The page with links to `TOP`, to `docs/` and to examples rewritten. A link to another file
-        of the repository becomes code, as the site does not hold that file.
+        The page with links to the pages that stand for files of the repository; see `on_site`.
     """
     up = "../" * (len(page.parts) - 1)
     root = page.name in TOP and len(page.parts) == 1
@@ -61,20 +67,34 @@ def linked(text: str, page: Path) -> str:
         link, anchor = match[2], match[3] or ""
         if "://" in link:
             return match[0]
-        path = _in_repository(link, page, root)
-        if path in TOP:
-            return f"{match[1]}{up}{TOP[path]}{anchor})"
-        if path == "README.md":
-            return f"{match[1]}{up}index.md)"
-        if path.startswith("examples"):
-            return f"{match[1]}{up}examples.md)"
-        if path.startswith("docs/"):
-            return f"{match[1]}{up}{path.removeprefix('docs/')}{anchor})"
-        if path.startswith("benches/results/"):
-            return f"{match[1]}{up}{path.removeprefix('benches/')})"
-        return match[0]
+        target = on_site(_in_repository(link, page, root), anchor)
+        return f"{match[1]}{up}{target})" if target else match[0]
 
     return _LINK.sub(replaced, text)
+
+
+def on_site(path: str, anchor: str) -> str:
+    """Return the place on the site of a file of the repository.
+
+    Args:
+        path: Path in the repository.
+        anchor: Anchor with its "#", or empty. For the folder of tasks it is the name of a task.
+
+    Returns:
+        The page with its anchor, from the top of the site; empty if the site has no such page.
+    """
+    module = path.removeprefix("python/").rpartition(".")[0].replace("/", ".")
+    if path in TOP:
+        return TOP[path] + anchor
+    if path == "docs/tasks":
+        return f"tasks/{anchor[1:] or 'index'}.md"
+    if path.startswith("docs/"):
+        return path.removeprefix("docs/") + anchor
+    if module in api.modules():
+        return f"api/{module}.md"
+    if path.startswith("benches/results/"):
+        return path.removeprefix("benches/")
+    return next((page for start, page in FOLDERS.items() if path.startswith(start)), "")
 
 
 def _in_repository(link: str, page: Path, root: bool) -> str:
