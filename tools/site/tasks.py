@@ -144,8 +144,9 @@ def _observation(task: Task) -> str:
         f"One learner observes {task.observation_size} numbers, float32, as its own team sees the "
         "field: every team attacks +x, and y points to the left of that. Below the name of a block "
         "stands its shape; rows of absent robots are 0 (in `body_positions` the centre of the "
-        f"field). A half field length is {config.field.half_length:g} m, a top speed {robot.top_speed:.3g} m/s and a top turn "
-        f"rate {robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
+        f"field). A half field length is {config.field.half_length:g} m, a top speed "
+        f"{robot.top_speed:.3g} m/s and a top turn rate "
+        f"{robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
     )
     rows = [row for name, block in task.blocks.items() for row in _block(task, name, block, limits)]
     return f"{scales}\n\n{table(('index', 'block', 'meaning', 'unit', 'range'), rows)}"
