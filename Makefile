@@ -20,7 +20,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python format docs physics golden soak coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site format docs site physics golden soak coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -31,9 +31,9 @@ venv: $(VENV)/made ## create the empty virtual environment, to install a PyTorch
 demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, record a match
 	$(BIN)/python -m rsoccer.demo
 
-test: ## run every check: formatting, lints, types, all tests
+test: ## run every check: formatting, lints, types, all tests, the documentation site
 	@echo "running two checks at a time; each prints its output when it has finished"
-	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) check-python check-rust check-lint check-format
+	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) check-python check-rust check-lint check-site check-format
 
 check-format: $(VENV)/tools ## check the formatting
 	$(CARGO) fmt --all --check
@@ -56,14 +56,22 @@ check-rust: $(VENV)/tools ## run the tests of the physics
 check-python: $(VENV)/built ## run the tests of the package, the README and the examples
 	$(BIN)/python -m pytest --numprocesses auto
 
+check-site: $(VENV)/site ## build the documentation site without the crates; warnings are errors
+	$(BIN)/python -m tools.site --without-rust
+
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
 
-docs: $(VENV)/built ## regenerate the tables and pictures of the README from code and results
+docs: $(VENV)/built ## regenerate tables and pictures of README.md and docs/ from code and results
 	$(BIN)/python -m tools.task_pictures
+	$(BIN)/python -m tools.site.solved
 	$(BIN)/python -m tools.write_readme
+
+site: $(VENV)/site ## build the documentation site: out/site/index.html
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --workspace --no-deps
+	$(BIN)/python -m tools.site
 
 physics: $(VENV)/built ## measure the physics and regenerate docs/physics.md with its pictures
 	$(BIN)/python -m tools.physics
@@ -105,4 +113,8 @@ $(VENV)/built: $(VENV)/tools $(RUST)
 	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
 	maturin develop --release --skip-install >/dev/null 2>&1 & \
 	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status
+	@touch $@
+
+$(VENV)/site: $(VENV)/built
+	$(PIP) --quiet --group docs
 	@touch $@

@@ -1,4 +1,4 @@
-"""README section on speed, generated from the tables of `make bench`."""
+"""Speed in README.md and docs/speed.md, generated from the tables of `make bench`."""
 
 from collections.abc import Callable, Sequence
 from itertools import groupby
@@ -9,6 +9,15 @@ from benches.thread_scaling import TIMED
 from tools.parts import table
 
 SPEED = "speed"
+MEANING = (
+    "A step is 25 ms of a match in five physics ticks. In random play commands change every ten "
+    "steps; in a crowd all robots drive at the ball. Speed-ups are relative to the simulator of "
+    "robocin's rSoccer, run in turn in the same process (slowest and fastest round in brackets)."
+)
+MORE = (
+    "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory and "
+    "VMAS, and the advice that follows from them. `make bench` measures your machine."
+)
 INTERFACES = {
     "Matches": "`Matches`",
     "ParallelEnv": "PettingZoo, `parallel_env`",
@@ -28,23 +37,49 @@ def speed() -> str:
     )
 
 
+def summary() -> str:
+    """Return the physics speed of every measured machine, and a link to the rest."""
+    parts = []
+    for path in sorted(RESULTS.glob("*.csv")):
+        machine, figures = load(path)
+        parts.append(f"{_source(machine, figures)} {MEANING}\n\n{physics_table(figures)}")
+    return "\n\n".join([*parts, MORE])
+
+
 def machine_speed(name: str, machine: Machine, figures: Sequence[Figure]) -> str:
     """Return tables and remarks for one machine; missing measurements are omitted."""
-    build = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
-    rounds = max(figure.rounds for figure in figures)
     picture = RESULTS / f"{name}.png"
-    image = f"![Speed on this machine]({picture.relative_to(ROOT)})" if picture.exists() else ""
-    intro = f"{build} of commit {machine.commit}; medians of {rounds} rounds."
+    image = f"![Speed on this machine](../{picture.relative_to(ROOT)})" if picture.exists() else ""
+    intro = _source(machine, figures)
     parts = (intro, image, physics(figures), interfaces(figures), remarks(figures))
     return "\n\n".join(part for part in parts if part)
 
 
+def _source(machine: Machine, figures: Sequence[Figure]) -> str:
+    """Return machine, date and build of the measurements."""
+    build = f"{machine.machine}, {machine.cores} cores, {machine.date}, {machine.profile} build"
+    rounds = max(figure.rounds for figure in figures)
+    return f"{build} of commit {machine.commit}; medians of {rounds} rounds."
+
+
 def physics(figures: Sequence[Figure]) -> str:
+    """Return the table of physics speed, and the description of the comparison with rSim."""
+    core = [figure for figure in figures if figure.group == "core"]
+    reference = _reference(core)
+    return physics_table(figures) + (f"\n\n{comparison(reference, core)}" if reference else "")
+
+
+def _reference(core: Sequence[Figure]) -> str | None:
+    """Return name and version of rSim, if it was measured."""
+    return next((f.variant.split(" / ")[1] for f in core if f.quantity == "ratio"), None)
+
+
+def physics_table(figures: Sequence[Figure]) -> str:
     """Return the table of physics speed by scenario, compared with rSim if that was measured."""
     core = [figure for figure in figures if figure.group == "core"]
     if not core:
         return ""
-    reference = next((f.variant.split(" / ")[1] for f in core if f.quantity == "ratio"), None)
+    reference = _reference(core)
     sizes = sorted({figure.worlds for figure in core})
     header = ["steps per second on one thread"]
     if reference:
@@ -60,7 +95,7 @@ def physics(figures: Sequence[Figure]) -> str:
             cells.append(_cell(mine, "Simulator", worlds))
             cells += [_cell(mine, f"Simulator / {reference}", worlds)] if reference else []
         rows.append(tuple(cells))
-    return table(tuple(header), rows) + (f"\n\n{comparison(reference, core)}" if reference else "")
+    return table(tuple(header), rows)
 
 
 def comparison(reference: str, core: Sequence[Figure]) -> str:

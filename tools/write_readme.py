@@ -1,6 +1,7 @@
-"""Writes the parts of the pages that code or measurements know better: `make docs`.
+"""Writes the generated parts of README.md and of pages in docs/: `make docs`.
 
-A test compares the pages with what this would write, so a table cannot drift from the code.
+Code and measurements are their source. A test compares the pages with what this would write, so a
+table cannot differ from the code.
 """
 
 import argparse
@@ -16,21 +17,26 @@ import pettingzoo
 import rsoccer
 from benches.table import RESULTS, ROOT
 from rsoccer import policies
-from rsoccer.registry import list_options
 from rsoccer.tasks import legacy_names
 from tools.parts import filled, table
-from tools.speed import speed
-from tools.task_pictures import path_of
+from tools.site import task_docs
+from tools.speed import speed, summary
 
 README = ROOT / "README.md"
-PAGES = (README, ROOT / "docs" / "robosim.md")
+DOCS = ROOT / "docs"
+WRITTEN = (
+    README,
+    DOCS / "coming-from-rsoccer-gym.md",
+    DOCS / "policies.md",
+    DOCS / "speed.md",
+    DOCS / "tutorials" / "new-task.md",
+)
 DEMO = RESULTS / "demo.json"
 PICTURES = {
-    "docs/match.gif": "A match after a few minutes of training",
-    "docs/curve.png": "Goal score over training",
+    "match": ("docs/match.gif", "A match after a few minutes of training"),
+    "curve": ("docs/curve.png", "Goal score over training"),
 }
-ABREAST = 3
-"""Pictures of tasks in a row."""
+"""Pictures that `make demo` draws: path and description."""
 
 
 def main() -> None:
@@ -38,7 +44,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--check", action="store_true", help="change nothing; 1 if one is stale")
     check = parser.parse_args().check
-    for page in PAGES:
+    for page in WRITTEN:
         text = page.read_text()
         if not check:
             page.write_text(written(text, page.name))
@@ -47,44 +53,40 @@ def main() -> None:
 
 
 def written(text: str, name: str = README.name) -> str:
-    """A page with every part as it should be now; ValueError for a part nobody writes."""
+    """Return a page with every generated part renewed.
+
+    Args:
+        text: The page.
+        name: Its name for error messages.
+
+    Returns:
+        The page as it should be.
+
+    Raises:
+        ValueError: The page has a part that no function writes.
+    """
     return filled(text, PARTS, name)
 
 
 def tasks() -> str:
-    """Every registered task with its sizes, and a picture of each."""
-    names = rsoccer.list_tasks()
-    rows = [_task_row(name) for name in names]
-    sizes = ("robots", "learners", "observation", "action", "time limit")
-    header = ("task", "what it is", "success", *sizes)
-    return f"{table(header, rows)}\n\n{_gallery(names)}"
-
-
-def _gallery(names: list[str]) -> str:
-    """Pictures side by side, as many as a page is wide, each under its name."""
-    cells = [f"`{name}`<br>![]({path_of(name).relative_to(ROOT)})" for name in names]
-    rows = [tuple(cells[i : i + ABREAST]) for i in range(0, len(cells), ABREAST)]
-    last = (*rows[-1], *("",) * (ABREAST - len(rows[-1])))
-    return table(("",) * ABREAST, [*rows[:-1], last])
+    """Return the table of all registered tasks."""
+    rows = [_task_row(name) for name in rsoccer.list_tasks()]
+    return table(("task", "summary", "robots", "learners", "success"), rows)
 
 
 def _task_row(name: str) -> tuple[str, ...]:
     task = rsoccer.make_task(name)
-    summary = (type(task).__doc__ or "").split("\n")[0]
     return (
         f"`{name}`",
-        summary,
-        f"`{task.success}`",
+        task_docs.summary(task),
         f"{task.n_blue} v {task.n_yellow}",
         str(len(task.agents)),
-        str(task.observation_size),
-        str(task.action_size),
-        f"{task.max_steps * task.config.time_step:g} s",
+        f"`{task.success}`",
     )
 
 
 def policy_names() -> str:
-    """The policies that come with the package, as a sentence."""
+    """Return the names of the shipped policies as a sentence."""
     names = ", ".join(f"`{name}`" for name in policies.names())
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
     return (
@@ -93,8 +95,27 @@ def policy_names() -> str:
     )
 
 
+def policy_table() -> str:
+    """Return the table of the shipped policies and the robots that they drive."""
+    rows = []
+    for name in policies.names():
+        fits = {task[:3]: made for task in rsoccer.list_tasks() if (made := _made(name, task))}
+        leagues = " and ".join({"SSL": "SSL", "VSS": "VSSS"}[league] for league in fits)
+        summary = (next(iter(fits.values())).__doc__ or "").split("\n")[0]
+        rows.append((f"`{name}`", leagues, summary))
+    return table(("policy", "robots", "behaviour"), rows)
+
+
+def _made(name: str, task: str) -> policies.Policy | None:
+    """A policy for the robots of a task, or None if it cannot drive them."""
+    try:
+        return policies.make(name, rsoccer.make_task(task))
+    except ValueError:
+        return None
+
+
 def demo() -> str:
-    """What `make demo` reached when its result was kept."""
+    """Return the results of `make demo` that were kept."""
     if not DEMO.exists():
         return ""
     kept = json.loads(DEMO.read_text())
@@ -119,67 +140,63 @@ def _evaluation_row(evaluation: dict[str, Any]) -> tuple[str, ...]:
     return (opponent, *counts, f"{evaluation['score']:+.2f}", interval)
 
 
-def pictures() -> str:
-    """The pictures that are there."""
-    found = [f"![{text}]({path})" for path, text in PICTURES.items() if (ROOT / path).exists()]
-    return "\n\n".join(found)
+def match_picture() -> str:
+    """Return the film of a match, if it is there."""
+    return _picture("match")
 
 
-def options() -> str:
-    """The options of each task: the fields of its dataclass."""
-    rows = []
-    for name in rsoccer.list_tasks():
-        names = list_options(type(rsoccer.make_task(name)))
-        rows.append((f"`{name}`", ", ".join(f"`{option}`" for option in names)))
-    return table(("task", "options"), rows)
+def curve_picture() -> str:
+    """Return the curve of a training run, if it is there."""
+    return _picture("curve")
+
+
+def _picture(name: str) -> str:
+    path, text = PICTURES[name]
+    return f"![{text}]({path})" if (ROOT / path).exists() else ""
 
 
 def old_names() -> str:
-    """rsoccer-gym's names of environments, and what they are here."""
-    rows = [(f"`{name}`", f"`{name}`", _doors(name)) for name in legacy_names.KEPT]
+    """Return the table of rsoccer-gym's environments and their names here."""
+    rows = [(f"`{name}`", f"`{name}`", _libraries(name)) for name in legacy_names.KEPT]
     for name, (task, given) in legacy_names.ALIASES.items():
-        told = [f"`{option}={value!r}`" for option, value in given.items()]
-        rows.append((f"`{name}`", ", ".join([f"`{task}`", *told]), _doors(name)))
+        options = [f"`{option}={value!r}`" for option, value in given.items()]
+        rows.append((f"`{name}`", ", ".join([f"`{task}`", *options]), _libraries(name)))
     rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.RETIRED.items()]
     return table(("rsoccer-gym 1.4", "here", "through"), rows)
 
 
-def _doors(name: str) -> str:
-    """The libraries that know a name."""
+def _libraries(name: str) -> str:
+    """Libraries that have an id of this name."""
     known = {"Gymnasium": [*gymnasium.registry], "PettingZoo": [*pettingzoo.parallel_registry]}
     return ", ".join(library for library in known if f"rsoccer/{name}" in known[library])
 
 
-def hello() -> str:
-    """The first example."""
-    return python_block((ROOT / "examples" / "01_hello.py").read_text())
-
-
 def new_task() -> str:
-    """The second example as far as its training: the task by itself."""
+    """Return the task of the second example, without its training."""
     text = (ROOT / "examples" / "02_new_task.py").read_text()
     return python_block(text[: text.index("def share_reached")])
 
 
 def python_block(code: str) -> str:
-    """Code as a block of Markdown."""
+    """Return code as a block of Markdown."""
     return f"```python\n{code.strip()}\n```"
 
 
 def _thousands(value: float) -> str:
-    """Three digits, which is about what repeats."""
+    """A number with three digits: more do not repeat."""
     return f"{float(f'{value:.3g}'):,.0f}"
 
 
 PARTS: dict[str, Callable[[], str]] = {
+    "curve": curve_picture,
     "demo": demo,
-    "hello": hello,
+    "match": match_picture,
     "new_task": new_task,
     "old_names": old_names,
-    "options": options,
-    "pictures": pictures,
     "policies": policy_names,
+    "policy_table": policy_table,
     "speed": speed,
+    "speed_summary": summary,
     "tasks": tasks,
 }
 

@@ -15,7 +15,7 @@ from rsoccer.compat.separation import MAX_OVERLAP
 
 Builder = Callable[..., VSS | SSL]
 
-PAGE = Path(__file__).parents[2] / "docs" / "robosim.md"
+PAGE = Path(__file__).parents[2] / "docs" / "coming-from-rsoccer-gym.md"
 BALL = [0.0, 0.5, 0.0, 0.0]
 
 

@@ -1,0 +1,78 @@
+"""The Python blocks of the documentation's pages run."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rsoccer import cli
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+RUN = """
+import sys, traceback
+from pathlib import Path
+
+names = {}
+for path in sorted(Path.cwd().glob("*.py")):
+    if "continued" not in path.name:
+        names = {"__name__": "__main__"}
+    exec(compile(path.read_text(), str(path), "exec"), names)
+"""
+FENCE = re.compile(r"^```python *(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+PAGES = sorted(page for page in DOCS.rglob("*.md") if FENCE.search(page.read_text()))
+
+
+def test_pages_with_code_are_found() -> None:
+    assert len(PAGES) >= 8
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(DOCS)) for page in PAGES])
+def test_blocks_run(page: Path, tmp_path: Path) -> None:
+    blocks = [(kind, code) for kind, code in FENCE.findall(page.read_text()) if kind != "notest"]
+    for number, (kind, code) in enumerate(blocks):
+        assert kind in ("", "continued")
+        (tmp_path / f"block_{number:02}{kind}.py").write_text(code)
+    command = [sys.executable, "-W", "error", "-c", RUN]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_blocks_that_do_not_run_are_python() -> None:
+    skipped = [code for page in PAGES for kind, code in FENCE.findall(page.read_text()) if kind]
+    assert len(skipped) >= 4
+    for code in skipped:
+        compile(code, "block", "exec")
+
+
+COMMANDS = sorted(
+    {
+        line.split("#")[0].strip()
+        for page in [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md"]
+        for block in re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE)
+        for line in block.splitlines()
+        if line.startswith(("rsoccer ", "make "))
+    }
+)
+
+
+@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("rsoccer ")])
+def test_commands_have_the_options_that_are_shown(
+    line: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("tyro")
+    words = line.split()
+    with pytest.raises(SystemExit) as left:
+        cli.main([words[1], "--help"])
+    assert left.value.code == 0
+    shown = capsys.readouterr().out
+    for option in (word for word in words if word.startswith("--")):
+        assert option in shown, f"`rsoccer {words[1]} --help` has no {option}"
+
+
+@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("make ")])
+def test_make_targets_exist(line: str) -> None:
+    makefile = (ROOT / "Makefile").read_text()
+    assert re.search(rf"^{re.escape(line.split()[1])}:", makefile, re.MULTILINE), line

@@ -1,0 +1,250 @@
+"""The reference of the Python package: which modules it shows, and in which order."""
+
+import importlib
+import inspect
+import pkgutil
+from pathlib import Path
+from typing import Final, NamedTuple
+
+import rsoccer
+from benches.table import ROOT
+from tools.parts import table
+from tools.site import stub
+
+
+class Group(NamedTuple):
+    """Modules that stand together in the reference."""
+
+    title: str
+    modules: tuple[str, ...]
+
+    @property
+    def page(self) -> str:
+        """Name of the group's page, without an ending."""
+        return self.title.lower().replace(" ", "-")
+
+
+GROUPS: Final = (
+    Group(
+        "Playing",
+        (
+            "rsoccer.matches.loop",
+            "rsoccer.matches.outcome",
+            "rsoccer.controllers",
+            "rsoccer.lineup",
+            "rsoccer.envs.parallel",
+            "rsoccer.envs.single",
+            "rsoccer.envs.vector",
+            "rsoccer.envs.spaces",
+            "rsoccer.global_state",
+        ),
+    ),
+    Group(
+        "Writing tasks",
+        (
+            "rsoccer.task",
+            "rsoccer.play",
+            "rsoccer.frame",
+            "rsoccer.view",
+            "rsoccer.rng",
+            "rsoccer.spawn",
+            "rsoccer.rewards",
+            "rsoccer.markers",
+            "rsoccer.registry",
+            "rsoccer.testing.task_check",
+        ),
+    ),
+    Group(
+        "Shipped tasks",
+        (
+            "rsoccer.tasks.soccer",
+            "rsoccer.tasks.vss",
+            "rsoccer.tasks.vss_single",
+            "rsoccer.tasks.vss_multi",
+            "rsoccer.tasks.vss_self_play",
+            "rsoccer.tasks.ssl",
+            "rsoccer.tasks.ssl_attack",
+            "rsoccer.tasks.ssl_contested_possession",
+            "rsoccer.tasks.ssl_dribbling",
+            "rsoccer.tasks.ssl_go_to_ball",
+            "rsoccer.tasks.ssl_pass",
+            "rsoccer.tasks.ssl_pass_endurance",
+            "rsoccer.tasks.ssl_pass_endurance_multi",
+            "rsoccer.tasks.ssl_self_play",
+            "rsoccer.tasks.ssl_static_defenders",
+        ),
+    ),
+    Group("Physics", ("rsoccer._core", "rsoccer.simulator")),
+    Group(
+        "Policies",
+        (
+            "rsoccer.policies",
+            "rsoccer.policies.base",
+            "rsoccer.policies.network",
+            "rsoccer.policies.policy_file",
+        ),
+    ),
+    Group("Training", ("rsoccer.train", "rsoccer.train.args")),
+    Group(
+        "Evaluation",
+        ("rsoccer.evaluate", "rsoccer.evaluate.results", "rsoccer.evaluate.tables"),
+    ),
+    Group(
+        "Pictures and videos",
+        (
+            "rsoccer.render.image",
+            "rsoccer.render.record",
+            "rsoccer.render.video",
+            "rsoccer.render.window",
+        ),
+    ),
+    Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
+)
+"""Every public module, once."""
+
+PRIVATE: Final = (
+    "rsoccer.__main__",
+    "rsoccer.checks",
+    "rsoccer.cli",
+    "rsoccer.commands",
+    "rsoccer.compat",
+    "rsoccer.compat.*",
+    "rsoccer.demo",
+    "rsoccer.envs",
+    "rsoccer.envs.*",
+    "rsoccer.evaluate.*",
+    "rsoccer.files",
+    "rsoccer.matches",
+    "rsoccer.matches.*",
+    "rsoccer.policies.*",
+    "rsoccer.render",
+    "rsoccer.render.*",
+    "rsoccer.tasks",
+    "rsoccer.tasks.*",
+    "rsoccer.testing",
+    "rsoccer.testing.*",
+    "rsoccer.train.*",
+)
+"""Modules without a page: parts of the implementation, and packages that only collect names.
+
+`package.*` stands for all modules of a package that are in no group.
+"""
+
+
+def write(folder: Path, rust: bool) -> None:
+    """Write the reference: its index and a page for each module.
+
+    Args:
+        folder: Folder of the pages.
+        rust: Whether the index may link to the reference of the crates.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "index.md").write_text(index(rust))
+    for group in GROUPS:
+        contents = ["```{toctree}", ":hidden:", "", *group.modules, "```"]
+        page = [f"# {group.title}", "", _modules(group), "", *contents, ""]
+        (folder / f"{group.page}.md").write_text("\n".join(page))
+    for module in modules():
+        (folder / f"{module}.md").write_text(_page(module))
+
+
+def modules() -> list[str]:
+    """Return the names of all modules in the reference."""
+    return [module for group in GROUPS for module in group.modules]
+
+
+def found() -> list[str]:
+    """Return the names of all modules that the package has."""
+    walked = pkgutil.walk_packages(rsoccer.__path__, "rsoccer.")
+    return sorted(module.name for module in walked)
+
+
+def index(rust: bool) -> str:
+    """Return the first page of the reference: the package's own names, then the modules."""
+    core = stub.load()
+    rows = [
+        (
+            f"{{py:obj}}`rsoccer.{name} <{home(name)}>`",
+            _summary(getattr(core, name, getattr(rsoccer, name))),
+        )
+        for name in sorted(public_names(), key=str.lower)
+    ]
+    parts = [
+        "# API reference",
+        "",
+        "`import rsoccer` needs NumPy, Gymnasium and PettingZoo only. These names are in the "
+        "package itself; each links to the module that defines it.",
+        "",
+        table(("name", "summary"), rows),
+    ]
+    for group in GROUPS:
+        parts += ["", f"## [{group.title}]({group.page}.md)", "", _modules(group)]
+    parts += ["", "## Rust", "", _rust(rust), ""]
+    parts += ["```{toctree}", ":hidden:", "", *(group.page for group in GROUPS), "```", ""]
+    return "\n".join(parts)
+
+
+RUST: Final = ROOT / "target" / "doc"
+"""Folder of the reference of the crates, where `cargo doc` has been run."""
+
+
+def _rust(linked: bool) -> str:
+    """A paragraph on the crates, with links where their reference is part of the site."""
+    text = "The physics is the crate `rsim_core`; `rsim_py` makes it the module `rsoccer._core`. "
+    if not (linked and RUST.is_dir()):
+        return text + "`make site` adds their reference by rustdoc."
+    link = '<a href="../rust/{0}/index.html">{0}</a>'
+    return text + f"Reference by rustdoc: {link.format('rsim_core')}, {link.format('_core')}."
+
+
+def _modules(group: Group) -> str:
+    """The modules of a group as a table."""
+    rows = [(f"[`{name}`]({name}.md)", _summary(_load(name))) for name in group.modules]
+    return table(("module", "summary"), rows)
+
+
+def public_names() -> list[str]:
+    """Return the names of `rsoccer.__all__` that are objects with a reference."""
+    return [name for name in rsoccer.__all__ if not name.startswith("__")]
+
+
+def home(name: str) -> str:
+    """Return the dotted name under which the reference has a public name of `rsoccer`.
+
+    Raises:
+        LookupError: No module of the reference has it.
+    """
+    thing = getattr(rsoccer, name)
+    for module in modules():
+        loaded = _load(module)
+        own = getattr(thing, "__module__", module) == module
+        if own and getattr(loaded, name, None) is thing:
+            return f"{module}.{name}"
+    raise LookupError(f"rsoccer.{name}: its module is not in tools/site/api.py")
+
+
+def _page(module: str) -> str:
+    """The page of one module."""
+    options = [":undoc-members:"] if module == "rsoccer._core" else []
+    return "\n".join(
+        [
+            f"# {module}",
+            "",
+            "```{eval-rst}",
+            f".. automodule:: {module}",
+            *(f"   {option}" for option in options),
+            "```",
+            "",
+        ]
+    )
+
+
+def _load(module: str) -> object:
+    return importlib.import_module(module)
+
+
+def _summary(thing: object) -> str:
+    """The first paragraph of a docstring, in one line."""
+    documented = inspect.ismodule(thing) or inspect.isclass(thing) or inspect.isroutine(thing)
+    text = inspect.getdoc(thing) if documented else inspect.getdoc(type(thing))
+    return " ".join((text or "").split("\n\n")[0].split()).replace("|", "\\|")

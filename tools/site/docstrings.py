@@ -1,0 +1,111 @@
+"""Prepares objects, docstrings and signatures for Sphinx's autodoc."""
+
+import dataclasses
+import importlib
+import inspect
+import re
+import sys
+from typing import Any, Final
+
+from tools.site import api, stub
+
+_ARRAY: Final = re.compile(
+    r"~?(?:numpy\.)?ndarray\[tuple\[~?(?:typing\.)?Any, \.\.\.\], "
+    r"~?(?:numpy\.)?dtype\[~?(?:numpy\.|typing\.)?(\w+)\]\]"
+)
+_FIELD: Final = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
+
+
+def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the checks)
+    """Connect the functions below to Sphinx's events."""
+    for module in api.modules():
+        importlib.import_module(module)  # with the compiled module, before the stub replaces it
+    sys.modules[stub.NAME] = stub.load()
+    from sphinx.pycode import ModuleAnalyzer
+
+    # Sphinx reads the order of members and the docstrings of constants from *.py files only.
+    ModuleAnalyzer.cache["module", stub.NAME] = ModuleAnalyzer.for_file(stub.PATH, stub.NAME)
+    app.connect("autodoc-process-signature", signature)
+    app.connect("autodoc-process-docstring", keep_colons, priority=900)
+    app.connect("autodoc-process-docstring", docstring)
+    app.connect("autodoc-skip-member", skip)
+    app.connect("doctree-resolved", polish)
+
+
+def private() -> str:
+    """Return a pattern of references that the site does not have: private names and modules."""
+    hidden = sorted(set(api.found()) - set(api.modules()))
+    modules = "|".join(re.escape(module) for module in hidden)
+    return rf"({modules})\.\w+|rsoccer\.(\w+\.)*_(?!core\.)\w+"
+
+
+def signature(
+    app: object, kind: str, name: str, obj: object, options: object, text: str, returns: str
+) -> tuple[str, str]:
+    """Return a signature with short names of arrays."""
+    return short(text), short(returns)
+
+
+def short(text: str) -> str:
+    """Return text in which types of arrays are written as the source writes them."""
+    return _ARRAY.sub(r"NDArray[\1]", text) if text else text
+
+
+def polish(app: object, doctree: Any, page: str) -> None:  # noqa: ANN401  (a node of docutils)
+    """Shorten the types of properties, drop bare bases, and name attributes by that word."""
+    from docutils import nodes
+    from sphinx import addnodes
+
+    for node in list(doctree.findall(addnodes.desc_annotation)):
+        text = node.astext()
+        if short(text) != text:
+            node.children = [nodes.Text(short(text))]
+    for node in list(doctree.findall(nodes.paragraph)):
+        if node.astext() == "Bases: object":
+            node.parent.remove(node)
+    for node in list(doctree.findall(nodes.field_name)):
+        if node.astext() == "Variables":
+            node.children = [nodes.Text("Attributes")]
+
+
+def skip(app: object, kind: str, name: str, obj: object, skipped: bool, options: object) -> Any:  # noqa: ANN401
+    """Skip the fields of named tuples: the class's own entry explains them."""
+    text = getattr(obj, "__doc__", None)
+    return True if isinstance(text, str) and text.startswith("Alias for field") else None
+
+
+def docstring(
+    app: object, kind: str, name: str, obj: object, options: object, lines: list[str]
+) -> None:
+    """Append comments of fields, and change what reStructuredText reads otherwise."""
+    if kind == "class" and ":ivar" not in "\n".join(lines):
+        fields = field_comments(obj)
+        lines += ["", *(f":ivar {field}: {text}" for field, text in fields.items())]
+    lines[:] = [*restructured(lines), ""]
+
+
+def keep_colons(
+    app: object, kind: str, name: str, obj: object, options: object, lines: list[str]
+) -> None:
+    """Undo that Google's style takes the text before a colon for the type of a property."""
+    types = [line for line in lines if line.startswith(":type: ")]
+    if kind in ("attribute", "data", "property") and types:
+        text = " ".join(line for line in lines if line not in types).strip()
+        lines[:] = [f"{types[0].removeprefix(':type: ')}: {text}", ""]
+
+
+def restructured(lines: list[str]) -> list[str]:
+    """Return lines without what only looks like markup: stars of shapes, Markdown's fences."""
+    return [re.sub(r"(?<![\\*\w`])(\*{1,2})(?=\w)(?!.*\w\1)", r"\\\1", line) for line in lines]
+
+
+def field_comments(cls: Any) -> dict[str, str]:  # noqa: ANN401  (any class)
+    """Return the comments behind the fields of a dataclass or a named tuple, by field."""
+    if not (dataclasses.is_dataclass(cls) or hasattr(cls, "_fields")):
+        return {}
+    try:
+        source = inspect.getsource(cls)
+    except (OSError, TypeError):
+        return {}
+    own = getattr(cls, "_fields", None) or {field.name for field in dataclasses.fields(cls)}
+    return {name: text for name, text in _FIELD.findall(source) if name in own}

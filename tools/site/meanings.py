@@ -1,0 +1,121 @@
+"""Facts about tasks that the code does not hold in a form that a program can read.
+
+These are the parts of observation blocks, the numbers of actions and the policy that plays each
+task best. `tests/tools/test_site.py` compares them with the registered tasks: a missing entry fails
+the tests, and so does one without use. `task_docs` reads the rest from docstrings.
+"""
+
+from typing import Final, NamedTuple
+
+ROBOT: Final = "robot"
+"""Marks a block whose rows are robots: `ROBOT_PARTS` says what one row holds."""
+
+
+class Part(NamedTuple):
+    """Neighbouring numbers of an observation block."""
+
+    size: int
+    meaning: str
+    unit: str
+
+
+LENGTH: Final = "half field lengths"
+SPEED: Final = "top speeds"
+
+ROBOT_PARTS: Final = (
+    Part(2, "position x, y", LENGTH),
+    Part(2, "heading: cosine, sine", "1"),
+    Part(2, "velocity x, y", SPEED),
+    Part(1, "turn rate, positive to the left", "top turn rates"),
+    Part(1, "break beam: 1 while the ball interrupts it, else 0", "0 or 1"),
+)
+"""One robot of an observation; robots without a break beam lack the last part."""
+
+BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
+    "ego": ROBOT,
+    "teammates": ROBOT,
+    "opponents": ROBOT,
+    "ball_polar": (
+        Part(1, "distance from the robot to the ball", LENGTH),
+        Part(2, "bearing of the ball from the robot's heading: cosine, sine", "1"),
+    ),
+    "goal_polar": (
+        Part(1, "distance from the robot to the middle of the goal it attacks", LENGTH),
+        Part(2, "bearing of that goal from the robot's heading: cosine, sine", "1"),
+    ),
+    "shot": (
+        Part(2, "bearing of the goal from the ball, in the robot's frame: cosine, sine", "1"),
+        Part(1, "nearness of the ball: 1 at the robot, 0.38 at 12 cm, 0 far away", "1"),
+        Part(1, "nearness times the cosine between ball and goal directions", "1"),
+    ),
+    "body_velocities": (
+        Part(2, "own velocity forward, left", SPEED),
+        Part(2, "velocity of the ball forward, left", SPEED),
+    ),
+    "body_positions": (
+        Part(2, "forward and left offsets: of the ball, each teammate, each opponent", LENGTH),
+    ),
+    "action": (Part(0, "last action of the robot, 0 after a reset", "1"),),
+    "gate": (
+        Part(2, "offset of the next gate's middle, forward and left", LENGTH),
+        Part(1, "direction of the crossing: +1 or -1", "1"),
+        Part(1, "share of all gates that are crossed", "1"),
+    ),
+}
+"""Parts of each block, in the order of its last axis. `BALL_PARTS` has those of the ball."""
+
+BALL_PARTS: Final = {
+    4: (Part(2, "position x, y", LENGTH), Part(2, "velocity x, y", SPEED)),
+    6: (
+        Part(3, "position x, y and height of the lowest point", LENGTH),
+        Part(3, "velocity x, y and upward", SPEED),
+    ),
+}
+"""Parts of the block `ball` by its size: robots with a break beam get its height too."""
+
+ROWS: Final = {"teammates": "teammate", "opponents": "opponent"}
+"""Noun for one row of a block with a row for each robot."""
+
+
+class Number(NamedTuple):
+    """One number of an action."""
+
+    name: str
+    meaning: str
+    unit: str
+
+
+ACTIONS: Final = {
+    "differential": (
+        Number("left wheel", "wheel speed, a share of the top wheel speed", "rad/s"),
+        Number("right wheel", "wheel speed, a share of the top wheel speed", "rad/s"),
+    ),
+    "omni": (
+        Number(
+            "velocity x", 'towards the goal attacked; forward with `velocity_frame="robot"`', "m/s"
+        ),
+        Number(
+            "velocity y",
+            'to the left of it; left of the robot with `velocity_frame="robot"`',
+            "m/s",
+        ),
+        Number("turn rate", "positive to the left", "rad/s"),
+        Number("kick", "speed of a straight kick; no kick at or below 0", "m/s"),
+        Number("dribbler", "dribbler speed as a share; off at or below 0", "1"),
+    ),
+}
+"""Numbers of an action by kind of drive, each in [-1, 1]."""
+
+SOLVERS: Final[dict[str, str]] = {
+    "SSLContestedPossession-v0": "strike",
+    "SSLDribbling-v0": "weave",
+    "SSLGoToBall-v0": "fetch",
+    "SSLPassEndurance-v0": "passer",
+    "SSLPassEnduranceMulti-v0": "passer",
+    "SSLSelfPlay-v0": "strike",
+    "SSLStaticDefenders-v0": "strike",
+    "VSS-v0": "scripted",
+    "VSSMulti-v0": "scripted",
+    "VSSSelfPlay-v0": "scripted",
+}
+"""Shipped policy that plays each task best."""

@@ -1,0 +1,46 @@
+"""Measures how well the shipped policies solve the tasks: `python -m tools.site.solved`.
+
+The results are kept in docs/solved.json, which the pages of the tasks show. `make docs` runs this.
+"""
+
+import json
+from typing import Any, Final
+
+import rsoccer
+from benches.table import ROOT
+from rsoccer._core import build_info
+from tools.site.meanings import SOLVERS
+
+FILE: Final = ROOT / "docs" / "solved.json"
+MATCHES: Final = 200
+
+
+def main() -> None:
+    """Play every task and write the results."""
+    results = {name: measured(name, policy) for name, policy in sorted(SOLVERS.items())}
+    kept = {"physics": build_info()["physics"], "matches": MATCHES, "tasks": results}
+    FILE.write_text(json.dumps(kept, indent=2) + "\n")
+
+
+def measured(task: str, policy: str) -> dict[str, Any]:
+    """Return the evaluation of a policy at a task, as numbers and texts for JSON."""
+    found = rsoccer.evaluate(policy, matches=MATCHES, task=task, seed=0)
+    return {
+        "policy": policy,
+        "opponent": found.opponent,
+        "metric": found.metric,
+        "score": round(found.score, 3),
+        "low": round(found.low, 3),
+        "high": round(found.high, 3),
+        "seconds": round(found.seconds.mean, 1),
+    }
+
+
+def load() -> dict[str, Any]:
+    """Return what was kept."""
+    kept: dict[str, Any] = json.loads(FILE.read_text())
+    return kept
+
+
+if __name__ == "__main__":
+    main()
