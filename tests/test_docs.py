@@ -30,8 +30,10 @@ def mapped_paths(text: str) -> Iterator[str]:
 
 
 def exists(path: str) -> bool:
-    """Whether a path is in the repository; names without a folder may be anywhere in it."""
-    return any(ROOT.glob(path)) or ("/" not in path and any(ROOT.glob(f"*/**/{path}")))
+    """Whether a path is in the repository, in the core or in the package; a name, anywhere."""
+    folders = (ROOT, ROOT / "crates/rsim-core/src", ROOT / "python/rsoccer")
+    named = "/" not in path and any(ROOT.glob(f"*/**/{path}"))
+    return named or any(any(folder.glob(path)) for folder in folders)
 
 
 @pytest.mark.parametrize("page", PAGES)
