@@ -25,7 +25,7 @@ from rsoccer.envs import agent_dicts, spaces
 from rsoccer.envs.env_matches import EnvMatches, episode_info
 from rsoccer.envs.options import initial_rows, reset_options, with_max_steps
 from rsoccer.envs.spaces import ActionSpace
-from rsoccer.envs.viewer import Image, Viewer, metadata
+from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
 from rsoccer.frame import Floats
 from rsoccer.global_state import LIMIT, StateEncoder
 from rsoccer.registry import make_task
@@ -139,7 +139,7 @@ class SoccerAECEnv(parallel_to_aec_wrapper[str, Floats, Any]):
         super().step(action)
 
 
-class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
+class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
     """One match of a task as a PettingZoo ParallelEnv; arguments and results are by agent name.
 
     Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;
@@ -360,23 +360,3 @@ class SoccerParallelEnv(ParallelEnv[str, Floats, Any]):
             ClosedEnvironmentError: the environment is closed.
         """
         self._viewer.check_open(call)
-
-    def render(self) -> Image | None:
-        """Render the match.
-
-        Returns:
-            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
-            image in a window, and without a render mode, which warns.
-
-        Raises:
-            ClosedEnvironmentError: the environment is closed.
-            RuntimeError: no episode has begun.
-        """
-        return self._viewer.render(self._matches)
-
-    def close(self) -> None:
-        """Close the window, if any; may be repeated.
-
-        `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
-        """
-        self._viewer.close()

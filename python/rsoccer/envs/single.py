@@ -31,7 +31,7 @@ from rsoccer.envs.options import (
     resolve_task,
     single_learner_controllers,
 )
-from rsoccer.envs.viewer import RENDER_MODES, Image, Viewer, metadata
+from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
 from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
@@ -85,7 +85,7 @@ def single_env(
 single_env.metadata = {"render_modes": list(RENDER_MODES)}  # type: ignore[attr-defined]
 
 
-class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
+class SoccerEnv(ViewedMatch, SingleLearner, gymnasium.Env[Floats, Any]):
     """One match of a task with one learner, as a Gymnasium Env.
 
     Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;
@@ -204,23 +204,3 @@ class SoccerEnv(SingleLearner, gymnasium.Env[Floats, Any]):
             self.render()
         reward = float(outcome.rewards[0, 0])
         return outcome.observations[0, 0], reward, terminated, truncated, info
-
-    def render(self) -> Image | None:
-        """Render the match.
-
-        Returns:
-            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
-            image in a window, and without a render mode, which warns.
-
-        Raises:
-            ClosedEnvironmentError: the environment is closed.
-            RuntimeError: no episode has begun.
-        """
-        return self._viewer.render(self._matches)
-
-    def close(self) -> None:
-        """Close the window, if any; may be repeated.
-
-        `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
-        """
-        self._viewer.close()

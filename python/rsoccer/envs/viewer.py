@@ -128,6 +128,33 @@ class Viewer:
         return {**self.__dict__, "_window": None}
 
 
+class ViewedMatch:
+    """Rendering and closing of an environment with a single match."""
+
+    _viewer: Viewer
+    _matches: EnvMatches
+
+    def render(self) -> Image | None:
+        """Render the match.
+
+        Returns:
+            Image (height, width, 3) uint8 with "rgb_array". None with "human", which shows the
+            image in a window, and without a render mode, which warns.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: no episode has begun.
+        """
+        return self._viewer.render(self._matches)
+
+    def close(self) -> None:
+        """Close the window, if any; may be repeated.
+
+        `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
+        """
+        self._viewer.close()
+
+
 def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:
     """Return the metadata of an environment: `name`, `render_modes` and `render_fps`.
 
