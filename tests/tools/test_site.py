@@ -208,6 +208,14 @@ def test_stars_of_shapes_are_no_emphasis() -> None:
     assert docstrings.restructured(["an *important* word"]) == ["an *important* word"]
 
 
+def test_tables_of_markdown_become_directives() -> None:
+    rows = ["| column | unit |", "| --- | --- |", "| `x` | m |", "| | rad |"]
+    found = docstrings.restructured(["Columns.", "", *rows, "", "More."])
+    directive = [".. list-table::", "   :header-rows: 1", ""]
+    cells = ["   * - column", "     - unit", "   * - `x`", "     - m", "   * - ", "     - rad"]
+    assert found == ["Columns.", "", "", *directive, *cells, "", "", "More."]
+
+
 def test_the_stub_has_the_values_of_the_compiled_module() -> None:
     module = stub.load()
     assert module.BALL_COLUMNS == BALL_COLUMNS

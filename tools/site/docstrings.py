@@ -5,6 +5,7 @@ import importlib
 import inspect
 import re
 import sys
+from itertools import groupby
 from typing import Any, Final
 
 from tools.site import api, stub
@@ -95,8 +96,35 @@ def keep_colons(
 
 
 def restructured(lines: list[str]) -> list[str]:
-    """Return lines without what only looks like markup: stars of shapes, Markdown's fences."""
-    return [re.sub(r"(?<![\\*\w`])(\*{1,2})(?=\w)(?!.*\w\1)", r"\\\1", line) for line in lines]
+    """Return lines as reStructuredText: stars of shapes are no markup, Markdown's tables are lists.
+
+    Args:
+        lines: A docstring.
+
+    Returns:
+        The docstring with tables of Markdown as directives, and stars before a name escaped.
+    """
+    found: list[str] = []
+    for is_row, group in groupby(lines, lambda line: line.lstrip().startswith("|")):
+        block = list(group)
+        found += _table(block) if is_row and len(block) > 2 else [_starred(line) for line in block]
+    return found
+
+
+def _starred(line: str) -> str:
+    """A line in which a star before a name, as in "(n, *shape)", does not begin emphasis."""
+    return re.sub(r"(?<![\\*\w`])(\*{1,2})(?=\w)(?!.*\w\1)", r"\\\1", line)
+
+
+def _table(rows: list[str]) -> list[str]:
+    """A table of Markdown as a directive."""
+    indent = rows[0][: len(rows[0]) - len(rows[0].lstrip())]
+    lines = ["", ".. list-table::", "   :header-rows: 1", ""]
+    for row in [rows[0], *rows[2:]]:
+        cells = [cell.strip() for cell in row.strip().strip("|").split("|")]
+        starts = ["   * - ", *["     - "] * (len(cells) - 1)]
+        lines += [start + cell for start, cell in zip(starts, cells, strict=True)]
+    return [indent + line for line in [*lines, ""]]
 
 
 def field_comments(cls: Any) -> dict[str, str]:  # noqa: ANN401  (any class)
