@@ -3,7 +3,6 @@
 import inspect
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -179,22 +178,6 @@ def test_every_hand_written_page_is_in_a_table_of_contents() -> None:
     for page in source.DOCS.rglob("*.md"):
         name = page.relative_to(source.DOCS).with_suffix("").as_posix()
         assert name == "index" or re.search(rf"^{re.escape(name)}$", listed, re.MULTILINE), name
-
-
-@dataclass
-class Commented:
-    """A dataclass with a comment."""
-
-    speed: float  # m/s
-    name: str = ""
-
-
-def test_comments_of_fields_are_read() -> None:
-    assert docstrings.field_comments(Commented) == {"speed": "m/s"}
-    assert docstrings.field_comments(rsoccer.Matches) == {}
-    lines = ["A dataclass with a comment."]
-    docstrings.docstring(None, "class", "Commented", Commented, None, lines)
-    assert ":ivar speed: m/s" in lines
 
 
 def test_types_of_arrays_are_short() -> None:

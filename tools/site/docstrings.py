@@ -1,8 +1,6 @@
 """Prepares objects, docstrings and signatures for Sphinx's autodoc."""
 
-import dataclasses
 import importlib
-import inspect
 import re
 import sys
 from itertools import groupby
@@ -14,7 +12,6 @@ _ARRAY: Final = re.compile(
     r"~?(?:numpy\.)?ndarray\[tuple\[~?(?:typing\.)?Any, \.\.\.\], "
     r"~?(?:numpy\.)?dtype\[~?(?:numpy\.|typing\.)?(\w+)\]\]"
 )
-_FIELD: Final = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 
 
 def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the checks)
@@ -29,7 +26,6 @@ def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the 
     app.connect("autodoc-process-signature", signature)
     app.connect("autodoc-process-docstring", keep_colons, priority=900)
     app.connect("autodoc-process-docstring", docstring)
-    app.connect("autodoc-skip-member", skip)
     app.connect("doctree-resolved", polish)
 
 
@@ -69,19 +65,10 @@ def polish(app: object, doctree: Any, page: str) -> None:  # noqa: ANN401  (a no
             node.children = [nodes.Text("Attributes")]
 
 
-def skip(app: object, kind: str, name: str, obj: object, skipped: bool, options: object) -> Any:  # noqa: ANN401
-    """Skip the fields of named tuples: the class's own entry explains them."""
-    text = getattr(obj, "__doc__", None)
-    return True if isinstance(text, str) and text.startswith("Alias for field") else None
-
-
 def docstring(
     app: object, kind: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
-    """Append comments of fields, and change what reStructuredText reads otherwise."""
-    if kind == "class" and ":ivar" not in "\n".join(lines):
-        fields = field_comments(obj)
-        lines += ["", *(f":ivar {field}: {text}" for field, text in fields.items())]
+    """Change the parts of a docstring that reStructuredText would misread."""
     lines[:] = [*restructured(lines), ""]
 
 
@@ -125,15 +112,3 @@ def _table(rows: list[str]) -> list[str]:
         starts = ["   * - ", *["     - "] * (len(cells) - 1)]
         lines += [start + cell for start, cell in zip(starts, cells, strict=True)]
     return [indent + line for line in [*lines, ""]]
-
-
-def field_comments(cls: Any) -> dict[str, str]:  # noqa: ANN401  (any class)
-    """Return the comments behind the fields of a dataclass or a named tuple, by field."""
-    if not (dataclasses.is_dataclass(cls) or hasattr(cls, "_fields")):
-        return {}
-    try:
-        source = inspect.getsource(cls)
-    except (OSError, TypeError):
-        return {}
-    own = getattr(cls, "_fields", None) or {field.name for field in dataclasses.fields(cls)}
-    return {name: text for name, text in _FIELD.findall(source) if name in own}
