@@ -3,7 +3,6 @@
 import inspect
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -181,22 +180,6 @@ def test_every_hand_written_page_is_in_a_table_of_contents() -> None:
         assert name == "index" or re.search(rf"^{re.escape(name)}$", listed, re.MULTILINE), name
 
 
-@dataclass
-class Commented:
-    """A dataclass with a comment."""
-
-    speed: float  # m/s
-    name: str = ""
-
-
-def test_comments_of_fields_are_read() -> None:
-    assert docstrings.field_comments(Commented) == {"speed": "m/s"}
-    assert docstrings.field_comments(rsoccer.Matches) == {}
-    lines = ["A dataclass with a comment."]
-    docstrings.docstring(None, "class", "Commented", Commented, None, lines)
-    assert ":ivar speed: m/s" in lines
-
-
 def test_types_of_arrays_are_short() -> None:
     long = "dict[str, ~numpy.ndarray[tuple[~typing.Any, ...], ~numpy.dtype[~numpy.float32]]]"
     assert docstrings.short(long) == "dict[str, NDArray[float32]]"
@@ -206,6 +189,14 @@ def test_types_of_arrays_are_short() -> None:
 def test_stars_of_shapes_are_no_emphasis() -> None:
     assert docstrings.restructured(["float32 (n, *shape)"]) == [r"float32 (n, \*shape)"]
     assert docstrings.restructured(["an *important* word"]) == ["an *important* word"]
+
+
+def test_tables_of_markdown_become_directives() -> None:
+    rows = ["| column | unit |", "| --- | --- |", "| `x` | m |", "| | rad |"]
+    found = docstrings.restructured(["Columns.", "", *rows, "", "More."])
+    directive = [".. list-table::", "   :header-rows: 1", ""]
+    cells = ["   * - column", "     - unit", "   * - `x`", "     - m", "   * - ", "     - rad"]
+    assert found == ["Columns.", "", "", *directive, *cells, "", "", "More."]
 
 
 def test_the_stub_has_the_values_of_the_compiled_module() -> None:

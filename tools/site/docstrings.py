@@ -1,10 +1,9 @@
 """Prepares objects, docstrings and signatures for Sphinx's autodoc."""
 
-import dataclasses
 import importlib
-import inspect
 import re
 import sys
+from itertools import groupby
 from typing import Any, Final
 
 from tools.site import api, stub
@@ -13,7 +12,6 @@ _ARRAY: Final = re.compile(
     r"~?(?:numpy\.)?ndarray\[tuple\[~?(?:typing\.)?Any, \.\.\.\], "
     r"~?(?:numpy\.)?dtype\[~?(?:numpy\.|typing\.)?(\w+)\]\]"
 )
-_FIELD: Final = re.compile(r"^    (\w+): .*?  # (.+)$", re.MULTILINE)
 
 
 def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the checks)
@@ -28,7 +26,6 @@ def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the 
     app.connect("autodoc-process-signature", signature)
     app.connect("autodoc-process-docstring", keep_colons, priority=900)
     app.connect("autodoc-process-docstring", docstring)
-    app.connect("autodoc-skip-member", skip)
     app.connect("doctree-resolved", polish)
 
 
@@ -68,19 +65,10 @@ def polish(app: object, doctree: Any, page: str) -> None:  # noqa: ANN401  (a no
             node.children = [nodes.Text("Attributes")]
 
 
-def skip(app: object, kind: str, name: str, obj: object, skipped: bool, options: object) -> Any:  # noqa: ANN401
-    """Skip the fields of named tuples: the class's own entry explains them."""
-    text = getattr(obj, "__doc__", None)
-    return True if isinstance(text, str) and text.startswith("Alias for field") else None
-
-
 def docstring(
     app: object, kind: str, name: str, obj: object, options: object, lines: list[str]
 ) -> None:
-    """Append comments of fields, and change what reStructuredText reads otherwise."""
-    if kind == "class" and ":ivar" not in "\n".join(lines):
-        fields = field_comments(obj)
-        lines += ["", *(f":ivar {field}: {text}" for field, text in fields.items())]
+    """Change the parts of a docstring that reStructuredText would misread."""
     lines[:] = [*restructured(lines), ""]
 
 
@@ -95,17 +83,32 @@ def keep_colons(
 
 
 def restructured(lines: list[str]) -> list[str]:
-    """Return lines without what only looks like markup: stars of shapes, Markdown's fences."""
-    return [re.sub(r"(?<![\\*\w`])(\*{1,2})(?=\w)(?!.*\w\1)", r"\\\1", line) for line in lines]
+    """Return lines as reStructuredText: stars of shapes are no markup, Markdown's tables are lists.
+
+    Args:
+        lines: A docstring.
+
+    Returns:
+        The docstring with tables of Markdown as directives, and stars before a name escaped.
+    """
+    found: list[str] = []
+    for is_row, group in groupby(lines, lambda line: line.lstrip().startswith("|")):
+        block = list(group)
+        found += _table(block) if is_row and len(block) > 2 else [_starred(line) for line in block]
+    return found
 
 
-def field_comments(cls: Any) -> dict[str, str]:  # noqa: ANN401  (any class)
-    """Return the comments behind the fields of a dataclass or a named tuple, by field."""
-    if not (dataclasses.is_dataclass(cls) or hasattr(cls, "_fields")):
-        return {}
-    try:
-        source = inspect.getsource(cls)
-    except (OSError, TypeError):
-        return {}
-    own = getattr(cls, "_fields", None) or {field.name for field in dataclasses.fields(cls)}
-    return {name: text for name, text in _FIELD.findall(source) if name in own}
+def _starred(line: str) -> str:
+    """A line in which a star before a name, as in "(n, *shape)", does not begin emphasis."""
+    return re.sub(r"(?<![\\*\w`])(\*{1,2})(?=\w)(?!.*\w\1)", r"\\\1", line)
+
+
+def _table(rows: list[str]) -> list[str]:
+    """A table of Markdown as a directive."""
+    indent = rows[0][: len(rows[0]) - len(rows[0].lstrip())]
+    lines = ["", ".. list-table::", "   :header-rows: 1", ""]
+    for row in [rows[0], *rows[2:]]:
+        cells = [cell.strip() for cell in row.strip().strip("|").split("|")]
+        starts = ["   * - ", *["     - "] * (len(cells) - 1)]
+        lines += [start + cell for start, cell in zip(starts, cells, strict=True)]
+    return [indent + line for line in [*lines, ""]]
