@@ -14,7 +14,7 @@ Code of others finds this module under the old name after `install()`:
     python -c "from rsoccer.compat import robosim; robosim.install(); import their_training"
 
 Arguments, actions, layout of states, sizes, wheels and motors are those of rc-robosim. The physics
-is this package's; `docs/robosim.md` lists the differences.
+is this package's; `docs/coming-from-rsoccer-gym.md` lists the differences.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""The Python blocks of the documentation's pages run."""
+"""Code on the pages: Python blocks run, commands and targets exist."""
 
 import re
 import subprocess
@@ -9,8 +9,8 @@ import pytest
 
 from rsoccer import cli
 
-ROOT = Path(__file__).parents[2]
-DOCS = ROOT / "docs"
+ROOT = Path(__file__).parents[1]
+WRITTEN = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
 RUN = """
 import sys, traceback
 from pathlib import Path
@@ -22,14 +22,15 @@ for path in sorted(Path.cwd().glob("*.py")):
     exec(compile(path.read_text(), str(path), "exec"), names)
 """
 FENCE = re.compile(r"^```python *(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-PAGES = sorted(page for page in DOCS.rglob("*.md") if FENCE.search(page.read_text()))
+PAGES = sorted(page for page in WRITTEN if FENCE.search(page.read_text()))
 
 
 def test_pages_with_code_are_found() -> None:
-    assert len(PAGES) >= 8
+    assert len(PAGES) >= 9
+    assert ROOT / "README.md" in PAGES
 
 
-@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(DOCS)) for page in PAGES])
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
 def test_blocks_run(page: Path, tmp_path: Path) -> None:
     blocks = [(kind, code) for kind, code in FENCE.findall(page.read_text()) if kind != "notest"]
     for number, (kind, code) in enumerate(blocks):
@@ -50,7 +51,7 @@ def test_blocks_that_do_not_run_are_python() -> None:
 COMMANDS = sorted(
     {
         line.split("#")[0].strip()
-        for page in [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md"]
+        for page in WRITTEN
         for block in re.findall(r"^```sh\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE)
         for line in block.splitlines()
         if line.startswith(("rsoccer ", "make "))
