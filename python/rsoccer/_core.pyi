@@ -901,13 +901,13 @@ class EgoFeatures:
     | --- | --- | --- | --- |
     | `ball` | (4,) or (6,) | position (in space with a mouth) | half length |
     | | | velocity (in space with a mouth) | top speed |
-    | `self` | (7,) or (8,) | x, y | half length |
+    | `ego` | (7,) or (8,) | x, y | half length |
     | | | cos, sin of the heading, -1 to 1 | 1 |
     | | | v_x, v_y | top speed |
     | | | turn rate | top turn rate |
     | | | break beam, 0 or 1, with a mouth | 1 |
-    | `teammates` | (n_teammates, 7 or 8) | as `self`; zeros for an empty slot | as `self` |
-    | `opponents` | (n_opponents, 7 or 8) | as `self`; zeros for an empty slot | as `self` |
+    | `teammates` | (n_teammates, 7 or 8) | as `ego`; zeros for an empty slot | as `ego` |
+    | `opponents` | (n_opponents, 7 or 8) | as `ego`; zeros for an empty slot | as `ego` |
     | `ball_polar` | (3,) | distance of the ball, 0 or above | half length |
     | | | cosine and sine of its bearing, -1 to 1 | 1 |
     | `goal_polar` | (3,) | distance of the attacked goal, 0 or above | half length |
