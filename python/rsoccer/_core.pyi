@@ -81,13 +81,17 @@ CROSSINGS: tuple[str, ...]
 """Names of the values of the ball's `crossed` column: `none`, the goals at +x (right) and -x
 (left), the goal lines beside or above the goals, the touch lines at +y (left) and -y (right)."""
 BALL_PARAMETERS: tuple[str, ...]
-"""Names of the factors on the ball's numbers that each world can have of its own."""
+"""Names of the factors on the ball's numbers that each world can have of its own.
+
+`hop` applies to `vertical_restitution`, `wall_restitution` and `wall_friction` also to the back of
+a goal, the others to the numbers of their names. Restitutions are capped at 1. Factors
+are 0 or above, that of `mass` above 0."""
 ROBOT_PARAMETERS: tuple[str, ...]
 """Names of the factors on each robot's numbers that each world can have of its own.
 
 `acceleration` applies to all accelerations and decelerations; `traction` to the maximum force of
 the wheels in every direction (omnidirectional) or along the axle (differential); `kick` to the
-speed of kicks; `grip` to the dribbler's; `speed` to the maximum speeds."""
+speed of kicks; `grip` to the dribbler's; `speed` to the maximum speeds. Factors are above 0."""
 
 def build_info() -> dict[str, str | int]:
     """Return information about this build.

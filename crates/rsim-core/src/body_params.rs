@@ -95,7 +95,8 @@ impl BodyParams {
                 0.0
             };
             if !(*factor >= bound && factor.is_finite()) {
-                let expected = "a finite factor, positive (0 allowed for friction and restitution)";
+                let expected =
+                    "a finite factor, positive (0 allowed for the ball, except its mass)";
                 return Err(ConfigError::Number { name: name_of(index), expected, got: *factor });
             }
         }

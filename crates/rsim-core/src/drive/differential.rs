@@ -14,8 +14,11 @@ const REFINEMENTS: usize = 4;
 /// Limits of one tick.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
+    /// m.
     half_track: f32,
+    /// m.
     wheel_radius: f32,
+    /// rad/s.
     max_wheel_speed: f32,
     /// Maximum impulse of a motor at the rim of its wheel, N s.
     motor_impulse: f32,
@@ -37,7 +40,9 @@ struct Slip {
 /// Friction of the floor on the tyres in a tick, N s.
 #[derive(Debug, Clone, Copy)]
 struct Friction {
+    /// Along the wheels: left, right.
     along: [f32; 2],
+    /// Along the axle: left, right.
     across: [f32; 2],
 }
 

@@ -29,7 +29,7 @@ pub struct EgoFeatures {
     have_mouths: bool,
 }
 
-/// Decay rate of the nearness of the ball in the block `shot`, 1/m: it is a third at 12 cm.
+/// Decay rate of the nearness of the ball in the block `shot`, 1/m: it is 1/e at 12.5 cm.
 const NEARNESS_DECAY: f32 = 8.0;
 
 /// Minimum length of a vector that is divided by its length, m.
@@ -47,12 +47,12 @@ impl Writer<'_> {
 }
 
 /// Position and heading of the observing robot.
-struct Frame {
+struct BodyFrame {
     position: Vector,
     heading: Vector,
 }
 
-impl Frame {
+impl BodyFrame {
     /// A vector of the field in the robot's own frame: forward, left.
     fn rotate(&self, vector: Vector) -> Vector {
         let (cos, sin) = (self.heading.x, self.heading.y);
@@ -153,8 +153,10 @@ impl EgoFeatures {
         writer: &mut Writer,
     ) {
         let (own, others) = robots.split_at(ROBOT_COLUMNS.len());
-        let frame =
-            Frame { position: Vector::new(own[0], own[1]), heading: Vector::new(own[2], own[3]) };
+        let frame = BodyFrame {
+            position: Vector::new(own[0], own[1]),
+            heading: Vector::new(own[2], own[3]),
+        };
         let to_ball = ball - frame.position;
         writer.write(&frame.polar(to_ball, self.position_scale));
         writer.write(&frame.polar(self.goal - frame.position, self.position_scale));
@@ -172,7 +174,7 @@ impl EgoFeatures {
 
 /// Cosine and sine of the bearing from the ball to the goal, nearness of the ball, and alignment of robot,
 /// ball and goal.
-fn shot(frame: &Frame, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
+fn shot(frame: &BodyFrame, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
     let goal_distance = to_goal.length().max(MIN_LENGTH);
     let ball_distance = to_ball.length().max(MIN_LENGTH);
     let bearing = frame.rotate(to_goal) / goal_distance;

@@ -28,9 +28,11 @@ numbers! {
         height: Positive, "m";
         /// Mass with wheels; heavier robots win shoving matches.
         mass: Positive, "kg";
-        /// Restitution of a collision with another robot or a wall.
+        /// Restitution of a collision with another robot (the mean of both) or a wall (the mean of this
+        /// number and 0.2).
         restitution: Fraction, "1";
-        /// Coulomb friction against other robots and walls.
+        /// Coulomb friction against another robot (the mean of both) or a wall (the mean of this number
+        /// and 0.2).
         friction: NotNegative, "1";
     }
 }
