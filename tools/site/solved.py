@@ -7,11 +7,11 @@ import json
 from typing import Any, Final
 
 import rsoccer
-from benches.table import ROOT
 from rsoccer._core import build_info
-from tools.site.meanings import SOLVERS
+from tools.paths import DOCS
+from tools.solvers import SOLVERS
 
-FILE: Final = ROOT / "docs" / "solved.json"
+FILE: Final = DOCS / "solved.json"
 MATCHES: Final = 200
 
 
@@ -37,7 +37,7 @@ def measured(task: str, policy: str) -> dict[str, Any]:
 
 
 def load() -> dict[str, Any]:
-    """Return what was kept."""
+    """Return the results that were written last."""
     kept: dict[str, Any] = json.loads(FILE.read_text())
     return kept
 
