@@ -7,7 +7,7 @@ and so does one without use. `task_docs` reads the other content of the pages fr
 from typing import Final, NamedTuple
 
 ROBOT: Final = "robot"
-"""Marks a block whose rows are robots: `ROBOT_PARTS` says what one row holds."""
+"""Marks a block whose rows are robots: `ROBOT_PARTS` lists the parts of a row."""
 
 
 class Part(NamedTuple):

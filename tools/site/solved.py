@@ -1,6 +1,6 @@
 """Measures how well the shipped policies solve the tasks: `python -m tools.site.solved`.
 
-The results are kept in docs/solved.json, which the pages of the tasks show. `make docs` runs this.
+The results are in docs/solved.json; the pages of the tasks show them. `make docs` runs this.
 """
 
 import json
