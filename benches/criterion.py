@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from benches.table import ROOT, Figure
+from benches.result_files import ROOT, Figure
 from rsoccer import _core
 
 CRITERION = ROOT / "target" / "criterion"

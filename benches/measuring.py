@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple
 
-from benches.table import Figure
+from benches.result_files import Figure
 
 
 class Quantity(NamedTuple):

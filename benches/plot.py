@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from benches.table import Figure, Machine, format_number, format_ratio
+from benches.result_files import Figure, Machine, format_number, format_ratio
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Final
 
 from benches.measuring import SPEED, Measure, Quantity, UnavailableError, Values
+from benches.result_files import ROOT
 from benches.scenarios import Scenario
-from benches.table import ROOT
 
 MEMORY: Final = Quantity("memory", "KiB per world")
 PROCESS_MEMORY: Final = Quantity("process memory", "GiB")

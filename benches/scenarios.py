@@ -1,7 +1,7 @@
 """Scenarios for the physics benchmarks: fields, teams, starts and commands for every simulator.
 
-In a random scenario commands are drawn anew every ten steps. In a crowd every robot drives at the
-ball, by the positions read from the simulator. At the end of an episode everything is placed anew,
+In a random scenario new commands are drawn every ten steps. In a crowd every robot drives at the
+ball, by the positions read from the simulator. At the end of an episode everything is placed again,
 anywhere on the field.
 """
 
@@ -112,8 +112,8 @@ class Driver:
         bearing = np.arctan2(left, ahead)
         if self._scenario.has_wheel_commands:
             turn = np.float32(0.3) * bearing
-            powers = np.stack([1 - turn, 1 + turn], axis=-1)
-            return powers * np.float32(self._scenario.config.robot.max_wheel_speed)
+            wheels = np.stack([1 - turn, 1 + turn], axis=-1)
+            return wheels * np.float32(self._scenario.config.robot.max_wheel_speed)
         scale = SPEED / np.maximum(np.hypot(ahead, left), np.float32(1e-3))
         commands = np.zeros((*ahead.shape, len(self._scenario.config.command_columns)), np.float32)
         commands[..., 0], commands[..., 1] = ahead * scale, left * scale
@@ -121,8 +121,8 @@ class Driver:
         return commands
 
 
-# A crowd is placed anew earlier: once it is dense, a single step of eleven a side takes rSim half a
-# second. The last column is the number of steps that rSim simulates in acceptable time.
+# A crowd is placed again earlier: once it is dense, a single step of eleven a side takes rSim half
+# a second. The last column is the number of steps that rSim simulates in acceptable time.
 _TEAMS: Final = (
     ("VSSS 3 v 3", "vss_3v3", 3, 200),
     ("VSSS 5 v 5", "vss_5v5", 5, 100),

@@ -193,7 +193,7 @@ def run_episode(
 
 
 def check_contacts(scenario: Scenario, share: float, samples: int) -> None:
-    """Check that a scenario had the contacts that it is meant to have.
+    """Check that a scenario had the contacts of its kind.
 
     Raises:
         RuntimeError: The share of robots in contact is too small.

@@ -1,4 +1,7 @@
-"""Optional third-party simulators for comparison: rSim and VMAS. Only this module imports them."""
+"""Optional third-party simulators for comparison: rSim (rc-robosim 1.2) and VMAS.
+
+Only this module imports them.
+"""
 
 import os
 import warnings

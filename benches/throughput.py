@@ -12,8 +12,16 @@ from pathlib import Path
 from benches.criterion import core_figures
 from benches.measuring import measure, select
 from benches.plot import draw
+from benches.result_files import (
+    RESULTS,
+    ROOT,
+    Figure,
+    file_name,
+    format_number,
+    store,
+    this_machine,
+)
 from benches.suite import Sizes, benchmarks
-from benches.table import RESULTS, ROOT, Figure, file_name, format_number, store, this_machine
 from benches.third_party import PACKAGES, import_optional
 
 PARTIAL = ROOT / "out" / "bench"
@@ -74,9 +82,9 @@ def format_line(figure: Figure) -> str:
     """Return a figure as one line of text."""
     title = f"{figure.group}: {figure.scenario}, {figure.variant}"
     case = f"{title}, {figure.worlds} worlds, {figure.threads} threads"
-    spread = f"({format_number(figure.minimum)} to {format_number(figure.maximum)})"
+    interval = f"({format_number(figure.minimum)} to {format_number(figure.maximum)})"
     return (
-        f"{case:<84} {format_number(figure.median):>9} {figure.unit} {figure.quantity} {spread}\n"
+        f"{case:<84} {format_number(figure.median):>9} {figure.unit} {figure.quantity} {interval}\n"
     )
 
 

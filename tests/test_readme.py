@@ -16,12 +16,12 @@ def test_parts_derived_from_code_are_current() -> None:
     assert ran.returncode == 0, ran.stderr
 
 
-def test_a_stale_part_is_written_anew() -> None:
+def test_a_stale_part_is_renewed() -> None:
     stale = TEXT.replace("| `VSSSelfPlay-v0` |", "| `VSSOther-v0` |")
     assert stale != TEXT
     assert written(stale) == TEXT
 
 
-def test_a_part_that_nobody_writes_is_refused() -> None:
-    with pytest.raises(ValueError, match="nobody_writes_this"):
-        written("<!-- begin:nobody_writes_this -->\n<!-- end:nobody_writes_this -->")
+def test_an_unknown_part_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"unknown.*no_such_part"):
+        written("<!-- begin:no_such_part -->\n<!-- end:no_such_part -->")

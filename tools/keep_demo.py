@@ -1,6 +1,7 @@
 """Keep the results of the last `make demo` for the README: `python -m tools.keep_demo`.
 
-The figures go to benches/results/demo.json, the pictures to docs/.
+The figures go to docs/demo.json, the film and the learning curve to docs/match.gif and
+docs/curve.png.
 """
 
 import json
@@ -12,28 +13,27 @@ from typing import Any
 
 import numpy as np
 
-from benches.table import RESULTS, ROOT, this_machine
+from benches.result_files import this_machine
 from rsoccer.render.record import film_match
 from rsoccer.render.video import write_video
 from rsoccer.train.log import read_progress
+from tools.paths import DOCS, ROOT
 
 DEMO = ROOT / "out" / "demo"
-DOCS = ROOT / "docs"
 
 
 def main() -> None:
     """Keep the figures, the learning curve and a short match."""
     metrics = json.loads((DEMO / "metrics.json").read_text())
     kept = {**metrics, "training": training(DEMO), "machine": asdict(this_machine())}
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "demo.json").write_text(json.dumps(kept, indent=2) + "\n")
     DOCS.mkdir(exist_ok=True)
+    (DOCS / "demo.json").write_text(json.dumps(kept, indent=2) + "\n")
     shutil.copyfile(DEMO / "curve.png", DOCS / "curve.png")
     film(metrics["task"], str(DEMO / "policy.safetensors"))
 
 
 def film(task: str, policy: str, seconds: float = 10.0) -> None:
-    """Record a match against drifting robots as a GIF of every second image."""
+    """Record a match against the `ou` policy as a GIF of every second image."""
     teams = {"blue": policy, "yellow": "ou"}
     images, fps = film_match(task, teams, 1, seconds, names=("LEARNED", "DRIFTING"), width=480)
     write_video(DOCS / "match.gif", islice(images, 0, None, 2), fps / 2)

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-ROOT: Final = Path(__file__).parents[1]
+from tools.paths import ROOT
+
 FOLDER: Final = ROOT / "target" / "coverage"
 PAGES: Final = ROOT / "out" / "coverage"
 COUNTS: Final = FOLDER / "counts"

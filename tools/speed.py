@@ -4,20 +4,25 @@ from collections.abc import Callable, Sequence
 from itertools import groupby
 
 from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
-from benches.table import RESULTS, ROOT, Figure, Machine, format_number, format_ratio, load
+from benches.result_files import RESULTS, Figure, Machine, format_number, format_ratio, load
 from benches.thread_scaling import TIMED
-from tools.parts import table
+from tools.markdown import table
+from tools.paths import ROOT
 
 SPEED = "speed"
 MEANING = (
     "A step is 25 ms of a match in five physics ticks. In random play commands change every ten "
-    "steps; in a crowd all robots drive at the ball. Speed-ups are relative to the simulator of "
-    "robocin's rSoccer, run in turn in the same process (slowest and fastest round in brackets)."
+    "steps; in a crowd all robots drive at the ball. Speed-ups are relative to rSim, the "
+    "simulator of robocin's rSoccer, run in turn in the same process (slowest and fastest round in "
+    "brackets)."
 )
 MORE = (
     "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory and "
     "VMAS, and the advice that follows from them. `make bench` measures your machine."
 )
+FEATURE = "**Speed.**"
+"""Start of the sentence on speed in docs/index.md."""
+FEATURE_SCENARIO = "VSSS 3 v 3 random"
 INTERFACES = {
     "Matches": "`Matches`",
     "ParallelEnv": "PettingZoo, `parallel_env`",
@@ -44,6 +49,29 @@ def summary() -> str:
         machine, figures = load(path)
         parts.append(f"{_source(machine, figures)} {MEANING}\n\n{physics_table(figures)}")
     return "\n\n".join([*parts, MORE])
+
+
+def feature() -> str:
+    """Return the speed of a VSSS match in one sentence, from the first measured machine."""
+    more = "[Speed](speed.md) explains the cost of a step."
+    for path in sorted(RESULTS.glob("*.csv")):
+        machine, figures = load(path)
+        core = [f for f in figures if (f.group, f.scenario) == ("core", FEATURE_SCENARIO)]
+        single = {f.variant: f for f in core if f.worlds == 1 and f.quantity in (SPEED, "ratio")}
+        if "Simulator" not in single:
+            continue
+        rate = format_number(single["Simulator"].median, 2)
+        text = (
+            f"A VSSS match of three against three runs at {rate} steps a second on one thread of "
+            f"{machine.machine}"
+        )
+        if (reference := _reference(core)) and f"Simulator / {reference}" in single:
+            times = format_number(single[f"Simulator / {reference}"].median, 2)
+            text += (
+                f", {times} times as fast as rSim (rc-{reference}), the simulator of rsoccer-gym"
+            )
+        return f"{FEATURE} {text}. {more}"
+    return f"{FEATURE} {more}"
 
 
 def machine_speed(name: str, machine: Machine, figures: Sequence[Figure]) -> str:
@@ -83,7 +111,7 @@ def physics_table(figures: Sequence[Figure]) -> str:
     sizes = sorted({figure.worlds for figure in core})
     header = ["steps per second on one thread"]
     if reference:
-        header.append(reference)
+        header.append("rSim")
     for worlds in sizes:
         header.append(f"{worlds} worlds" if worlds > 1 else "1 world")
         header += ["speed-up"] if reference else []
@@ -103,8 +131,8 @@ def comparison(reference: str, core: Sequence[Figure]) -> str:
     interface = [f for f in core if f.variant == f"compat.robosim / {reference}"]
     slowest = min((figure.median for figure in interface), default=0.0)
     text = (
-        f"{reference} is the simulator of robocin's rSoccer (package rc-robosim), built here "
-        "in its own release mode. Both simulators run in turn in the same process, with the same "
+        f"rSim (rc-{reference}) is the simulator of robocin's rSoccer, built here in its own "
+        "release mode. Both simulators run in turn in the same process, with the same "
         "teams, fields, starts and kinds of command, and steps of 25 ms in five ticks. "
         "A simulator with one world runs the starts of the larger batch one after the other, as "
         "far as time permits. Ratios are medians over rounds, with the slowest and the fastest "

@@ -15,32 +15,32 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches.table import RESULTS, ROOT
 from rsoccer import policies
 from rsoccer.tasks import legacy_names
-from tools.parts import filled, table
+from tools.markdown import filled, table
+from tools.paths import DOCS, ROOT
 from tools.site import task_docs
-from tools.speed import speed, summary
+from tools.speed import feature, speed, summary
 
 README = ROOT / "README.md"
-DOCS = ROOT / "docs"
 WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
+    DOCS / "index.md",
     DOCS / "policies.md",
     DOCS / "speed.md",
     DOCS / "tutorials" / "new-task.md",
 )
-DEMO = RESULTS / "demo.json"
+DEMO = DOCS / "demo.json"
 PICTURES = {
     "match": ("docs/match.gif", "A match after a few minutes of training"),
     "curve": ("docs/curve.png", "Goal score over training"),
 }
-"""Pictures that `make demo` draws: path and description."""
+"""Pictures that `tools.keep_demo` copies or films: path and description."""
 
 
 def main() -> None:
-    """Write the pages again; with `--check`, only say whether that would change any."""
+    """Renew the pages; with `--check`, only report whether one would change."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--check", action="store_true", help="change nothing; 1 if one is stale")
     check = parser.parse_args().check
@@ -63,7 +63,7 @@ def written(text: str, name: str = README.name) -> str:
         The page as it should be.
 
     Raises:
-        ValueError: The page has a part that no function writes.
+        ValueError: The page has an unknown part.
     """
     return filled(text, PARTS, name)
 
@@ -91,7 +91,8 @@ def policy_names() -> str:
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
     return (
         f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
-        "A file plays as it was trained, by chance too, or as in `policy.safetensors:mean`."
+        "A policy file samples actions as in training; `policy.safetensors:mean` plays the mean "
+        "action."
     )
 
 
@@ -115,7 +116,7 @@ def _made(name: str, task: str) -> policies.Policy | None:
 
 
 def demo() -> str:
-    """Return the results of `make demo` that were kept."""
+    """Return the results of `make demo` that `tools.keep_demo` kept; empty without them."""
     if not DEMO.exists():
         return ""
     kept = json.loads(DEMO.read_text())
@@ -141,12 +142,12 @@ def _evaluation_row(evaluation: dict[str, Any]) -> tuple[str, ...]:
 
 
 def match_picture() -> str:
-    """Return the film of a match, if it is there."""
+    """Return the link to the film of a match; empty without the file."""
     return _picture("match")
 
 
 def curve_picture() -> str:
-    """Return the curve of a training run, if it is there."""
+    """Return the link to the curve of a training run; empty without the file."""
     return _picture("curve")
 
 
@@ -196,6 +197,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "policies": policy_names,
     "policy_table": policy_table,
     "speed": speed,
+    "speed_feature": feature,
     "speed_summary": summary,
     "tasks": tasks,
 }

@@ -1,6 +1,6 @@
 """Made-up figures in the form of a machine's result table."""
 
-from benches.table import Figure, Machine
+from benches.result_files import Figure, Machine
 
 MACHINE = Machine("Some CPU @ 2.5GHz", 2, "2026-01-31", "abc1234-dirty", "0.1.0", "release")
 ROBOSIM = "robosim 1.2"

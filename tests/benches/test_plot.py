@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from benches.plot import core_ratios, draw, environment_rates
-from benches.table import Figure
+from benches.result_files import Figure
 from tests.benches.figures import MACHINE, RSOCCER, SCALING, THIRD_PARTY
 
 SIGNATURE = b"\x89PNG\r\n"

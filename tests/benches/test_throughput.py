@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from benches import process_cost, suite, throughput
+from benches.result_files import ROOT, load, this_machine
 from benches.scenarios import CROWD, RANDOM
 from benches.suite import Sizes
-from benches.table import ROOT, load, this_machine
 
 QUICK = ["--rounds", "2", "--seconds", "0.001"]
 SMALL = Sizes(2, batched=(3, 4), threads=4, scaling=(1, 3), training=4, memory=64, capacity=8)

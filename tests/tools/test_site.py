@@ -10,7 +10,9 @@ import pytest
 import rsoccer
 from rsoccer._core import BALL_COLUMNS, build_info
 from rsoccer.registry import list_options
+from tools.paths import DOCS
 from tools.site import api, docstrings, meanings, solved, source, stub, task_docs, tasks
+from tools.solvers import SOLVERS
 
 TASKS = rsoccer.list_tasks()
 
@@ -47,7 +49,7 @@ def test_every_number_of_an_action_is_described(name: str) -> None:
 
 
 def test_every_task_has_a_solver_and_no_other() -> None:
-    assert set(meanings.SOLVERS) == set(TASKS)
+    assert set(SOLVERS) == set(TASKS)
 
 
 def test_texts_cover_every_block_and_no_others() -> None:
@@ -56,7 +58,7 @@ def test_texts_cover_every_block_and_no_others() -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_docstrings_state_every_fact_of_a_task(name: str) -> None:
+def test_docstrings_describe_every_part_of_a_task(name: str) -> None:
     task = rsoccer.make_task(name)
     assert task_docs.summary(task).endswith(".")
     for label in ("Goal of the task", "Initial state", "Source"):
@@ -91,7 +93,7 @@ def test_rows_of_a_table_join_their_lines() -> None:
 def test_solutions_are_of_this_physics() -> None:
     kept = solved.load()
     assert kept["physics"] == build_info()["physics"], "run `make docs`"
-    assert {task: found["policy"] for task, found in kept["tasks"].items()} == meanings.SOLVERS
+    assert {task: found["policy"] for task, found in kept["tasks"].items()} == SOLVERS
 
 
 def test_a_solution_is_measured_again_alike() -> None:
@@ -174,9 +176,9 @@ def links(text: str) -> Iterator[str]:
 
 
 def test_every_hand_written_page_is_in_a_table_of_contents() -> None:
-    listed = (source.DOCS / "index.md").read_text()
-    for page in source.DOCS.rglob("*.md"):
-        name = page.relative_to(source.DOCS).with_suffix("").as_posix()
+    listed = (DOCS / "index.md").read_text()
+    for page in DOCS.rglob("*.md"):
+        name = page.relative_to(DOCS).with_suffix("").as_posix()
         assert name == "index" or re.search(rf"^{re.escape(name)}$", listed, re.MULTILINE), name
 
 

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from benches.table import Figure, store
+from benches.result_files import Figure, store
 from tests.benches.figures import MACHINE, RSOCCER, SCALING, THIRD_PARTY
 from tools import speed
 
@@ -24,11 +24,14 @@ def test_results_without_third_party_simulators_are_shown() -> None:
     assert "process memory 2.6 GiB after first contacts, 45,700 steps per second." in text
     assert "first environment and reset 0.13 s" in text
     assert "robosim" not in text
+    assert "rSim" not in text
     assert "vmas" not in text
 
 
 def test_results_with_third_party_simulators_show_ratios() -> None:
     text = text_of(RSOCCER + THIRD_PARTY + SCALING)
+    assert "| steps per second on one thread | rSim | 1 world | speed-up |" in text
+    assert "rSim (rc-robosim 1.2) is the simulator of robocin's rSoccer" in text
     row = "| VSSS 3 v 3 random | 500 | 25,000 | 50x (45x to 55x) | 50,000 | 100x (90x to 110x) |"
     assert row in text
     assert "compat.robosim` runs at least 20x as fast" in text
@@ -45,3 +48,14 @@ def test_every_machine_has_a_section(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert speed.speed() == ""
     store(RSOCCER, MACHINE, tmp_path)
     assert "64 worlds" in speed.speed()
+
+
+def test_the_sentence_on_speed_has_the_measured_numbers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(speed, "RESULTS", tmp_path)
+    assert "steps a second" not in speed.feature()
+    store(RSOCCER, MACHINE, tmp_path)
+    assert "at 25,000 steps a second on one thread of Some CPU @ 2.5GHz. [" in speed.feature()
+    store(RSOCCER + THIRD_PARTY, MACHINE, tmp_path)
+    assert "50 times as fast as rSim (rc-robosim 1.2), the simulator of rsoccer" in speed.feature()

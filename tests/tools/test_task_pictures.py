@@ -5,7 +5,7 @@ import pytest
 from PIL import Image as Pillow
 
 import rsoccer
-from tools.task_pictures import FOLDER, MOMENTS, PLAYERS, SEEDS, WIDTH, draw, path_of, save
+from tools.task_pictures import CONTROLLERS, FOLDER, MOMENTS, SEEDS, WIDTH, draw, path_of, save
 
 TASKS = rsoccer.list_tasks()
 
@@ -19,7 +19,7 @@ def test_each_task_has_a_small_picture(name: str) -> None:
 
 def test_no_picture_and_no_setting_is_left_over() -> None:
     assert {path.stem for path in FOLDER.iterdir()} == set(TASKS)
-    assert {*PLAYERS, *MOMENTS, *SEEDS} <= set(TASKS)
+    assert {*CONTROLLERS, *MOMENTS, *SEEDS} <= set(TASKS)
 
 
 def test_drawing_again_gives_the_same_pixels(tmp_path: Path) -> None:

@@ -5,15 +5,15 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable
 from functools import partial
 from math import ceil, log10
-from pathlib import Path
 
-from tools.parts import filled, table
+from tools.markdown import filled, table
+from tools.paths import DOCS
 from tools.physics import ball_rolling, parameters, presets
 from tools.physics.check import Check, Tolerance
 from tools.physics.cited import BALLS
 from tools.physics.topics import TOPICS, checks
 
-PAGE = Path(__file__).parents[2] / "docs" / "physics.md"
+PAGE = DOCS / "physics.md"
 HEADER = (
     "quantity",
     "cases",

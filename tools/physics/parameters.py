@@ -5,7 +5,7 @@ import numpy as np
 from rsoccer import SimConfig
 from rsoccer._core import BALL_PARAMETERS, ROBOT_PARAMETERS
 from rsoccer.frame import Array
-from tools.parts import table
+from tools.markdown import table
 from tools.physics.check import EXACT, Checks, Criterion, percent
 from tools.physics.cited import BALLS, GENERIC, G
 from tools.physics.dribbler import turning_scene

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from math import pi
 
 from rsoccer._core import BallModel, Field, RobotModel
-from tools.parts import table
+from tools.markdown import table
 from tools.physics.check import Checks, Criterion, percent
 from tools.physics.cited import (
     BALLS,

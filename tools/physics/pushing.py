@@ -125,7 +125,7 @@ def _vss() -> Checks:
 
 
 def _squeezed() -> Checks:
-    """Squeeze the ball between the round backs of two robots that drive at full power."""
+    """Squeeze the ball between the round backs of two robots that drive at full speed."""
     ball = BALLS["ssl_tigers"]
     scene = Scene(SimConfig("ssl_b", 1, 1))
     scene.robots.position[0, :, 0] = (-0.1125, 0.1125)

@@ -16,8 +16,8 @@ from tools.physics import (
     presets,
     pushing,
     robot_collisions,
+    squeezed_ball,
     symmetry,
-    trapped_ball,
     wheel_slip,
 )
 from tools.physics.check import Check
@@ -32,7 +32,7 @@ MODULES = (
     kicker,
     dribbler,
     pushing,
-    trapped_ball,
+    squeezed_ball,
     robot_collisions,
     fast_shots,
     symmetry,

@@ -109,7 +109,7 @@ def _skids(name: str, robot: VssRobot) -> Checks:
 
 
 def _reversals(name: str, robot: VssRobot) -> Checks:
-    """Command each wheel full forward or full back at random, anew in each step."""
+    """Command each wheel full forward or full back at random in each step."""
     scene = Scene(SimConfig(ENDLESS, 1, 0, robot=name), REVERSAL_WORLDS)
     scene.ball.position[:] = (0.0, 90.0)
     match, rng = scene.begin(), np.random.default_rng(3)

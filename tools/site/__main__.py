@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
-from benches.table import ROOT
+from tools.paths import ROOT
 from tools.site.api import RUST
 from tools.site.source import lay_out
 

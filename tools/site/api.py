@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import rsoccer
-from benches.table import ROOT
-from tools.parts import table
+from tools.markdown import table
+from tools.paths import ROOT
 from tools.site import stub
 
 

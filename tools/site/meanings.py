@@ -1,14 +1,13 @@
-"""Facts about tasks that the code does not hold in a form that a program can read.
+"""Parts of observation blocks and actions, for the task pages.
 
-These are the parts of observation blocks, the numbers of actions and the policy that plays each
-task best. `tests/tools/test_site.py` compares them with the registered tasks: a missing entry fails
-the tests, and so does one without use. `task_docs` reads the rest from docstrings.
+`tests/tools/test_site.py` compares them with the registered tasks: a missing entry fails the tests,
+and so does one without use. `task_docs` reads the other content of the pages from docstrings.
 """
 
 from typing import Final, NamedTuple
 
 ROBOT: Final = "robot"
-"""Marks a block whose rows are robots: `ROBOT_PARTS` says what one row holds."""
+"""Marks a block whose rows are robots: `ROBOT_PARTS` lists the parts of a row."""
 
 
 class Part(NamedTuple):
@@ -26,7 +25,7 @@ ROBOT_PARTS: Final = (
     Part(2, "position x, y", LENGTH),
     Part(2, "heading: cosine, sine", "1"),
     Part(2, "velocity x, y", SPEED),
-    Part(1, "turn rate, positive to the left", "top turn rates"),
+    Part(1, "turn rate, counterclockwise positive", "top turn rates"),
     Part(1, "break beam: 1 while the ball interrupts it, else 0", "0 or 1"),
 )
 """One robot of an observation; robots without a break beam lack the last part."""
@@ -87,8 +86,8 @@ class Number(NamedTuple):
 
 ACTIONS: Final = {
     "differential": (
-        Number("left wheel", "wheel speed, a share of the top wheel speed", "rad/s"),
-        Number("right wheel", "wheel speed, a share of the top wheel speed", "rad/s"),
+        Number("left wheel", "wheel speed, as a fraction of the top wheel speed", "rad/s"),
+        Number("right wheel", "wheel speed, as a fraction of the top wheel speed", "rad/s"),
     ),
     "omni": (
         Number(
@@ -99,23 +98,9 @@ ACTIONS: Final = {
             'to the left of it; left of the robot with `velocity_frame="robot"`',
             "m/s",
         ),
-        Number("turn rate", "positive to the left", "rad/s"),
+        Number("turn rate", "counterclockwise positive", "rad/s"),
         Number("kick", "speed of a straight kick; no kick at or below 0", "m/s"),
-        Number("dribbler", "dribbler speed as a share; off at or below 0", "1"),
+        Number("dribbler", "dribbler speed, as a fraction of its maximum; off at or below 0", "1"),
     ),
 }
 """Numbers of an action by kind of drive, each in [-1, 1]."""
-
-SOLVERS: Final[dict[str, str]] = {
-    "SSLContestedPossession-v0": "strike",
-    "SSLDribbling-v0": "weave",
-    "SSLGoToBall-v0": "fetch",
-    "SSLPassEndurance-v0": "passer",
-    "SSLPassEnduranceMulti-v0": "passer",
-    "SSLSelfPlay-v0": "strike",
-    "SSLStaticDefenders-v0": "strike",
-    "VSS-v0": "scripted",
-    "VSSMulti-v0": "scripted",
-    "VSSSelfPlay-v0": "scripted",
-}
-"""Shipped policy that plays each task best."""

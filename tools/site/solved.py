@@ -1,17 +1,17 @@
 """Measures how well the shipped policies solve the tasks: `python -m tools.site.solved`.
 
-The results are kept in docs/solved.json, which the pages of the tasks show. `make docs` runs this.
+The results are in docs/solved.json; the pages of the tasks show them. `make docs` runs this.
 """
 
 import json
 from typing import Any, Final
 
 import rsoccer
-from benches.table import ROOT
 from rsoccer._core import build_info
-from tools.site.meanings import SOLVERS
+from tools.paths import DOCS
+from tools.solvers import SOLVERS
 
-FILE: Final = ROOT / "docs" / "solved.json"
+FILE: Final = DOCS / "solved.json"
 MATCHES: Final = 200
 
 
@@ -37,7 +37,7 @@ def measured(task: str, policy: str) -> dict[str, Any]:
 
 
 def load() -> dict[str, Any]:
-    """Return what was kept."""
+    """Return the results that were written last."""
     kept: dict[str, Any] = json.loads(FILE.read_text())
     return kept
 

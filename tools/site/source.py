@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Final
 
 import rsoccer
-from benches.table import RESULTS, ROOT
+from benches.result_files import RESULTS
+from tools.paths import DOCS, ROOT
 from tools.site import api, tasks
 
-DOCS: Final = ROOT / "docs"
 TOP: Final = {
     "ARCHITECTURE.md": "architecture.md",
     "CHANGELOG.md": "changelog.md",
@@ -44,7 +44,7 @@ def lay_out(folder: Path, rust: bool = True) -> None:
         page.write_text(linked(page.read_text(), page.relative_to(folder)))
     for name, target in TOP.items():
         (folder / target).write_text(linked((ROOT / name).read_text(), Path(name)))
-    shutil.copytree(RESULTS, folder / "results", ignore=shutil.ignore_patterns("*.csv", "*.json"))
+    shutil.copytree(RESULTS, folder / "results", ignore=shutil.ignore_patterns("*.csv"))
     write_examples(folder / "examples.md")
     write_tasks(folder / "tasks")
     api.write(folder / "api", rust)

@@ -1,4 +1,4 @@
-"""Facts about tasks that their docstrings state: paragraphs, tables of rewards, options.
+"""Content of the docstrings of tasks: paragraphs, tables of rewards, options.
 
 The docstring of a task has paragraphs that start with a label, such as "Initial state:", and a
 table of its reward terms. A subclass inherits a paragraph that it lacks, or in which it only names

@@ -9,7 +9,7 @@ import numpy as np
 import rsoccer
 from rsoccer import Matches, Task
 from rsoccer.task import LEARN, Block
-from tools.parts import table
+from tools.markdown import table
 from tools.site import meanings, solved, task_docs
 from tools.site.meanings import ROBOT, Number, Part
 
@@ -27,8 +27,8 @@ def index(names: list[str]) -> str:
             "",
             "A task defines starts, actions, observations, rewards and the end of an episode. "
             "`rsoccer.make_task(name, **options)` makes one; every environment takes its name and "
-            "options. VSSS robots have two wheels; SSL robots are omnidirectional and have a "
-            "kicker, a dribbler and a break beam.",
+            "options. VSSS robots have a differential drive; SSL robots are omnidirectional and "
+            "have a kicker, a dribbler and a break beam.",
             "",
             ":::::{container} gallery",
             *(_card(name) for name in names),
@@ -59,7 +59,7 @@ def page(name: str) -> str:
         task_docs.summary(task),
         f"![A moment of {name}]({name}.png)",
         f"**Goal.** {_sentence(goal)}",
-        _facts(task),
+        _overview(task),
         "## Initial state\n\n" + _sentence(task_docs.paragraph(task, "Initial state")),
         "## Observation\n\n" + _observation(task),
         "## Action\n\n" + _action(task),
@@ -105,14 +105,14 @@ def _sentence(text: str) -> str:
     return text if "_" in text.split(" ")[0] else text[:1].upper() + text[1:]
 
 
-def _facts(task: Task) -> str:
-    """Robots, drivers, field and ids."""
-    config, drivers = task.config, task.default_controllers()
+def _overview(task: Task) -> str:
+    """The table of robots, controllers, field and ids."""
+    config, controllers = task.config, task.default_controllers()
     learners = ", ".join(f"`{name}`" for name in task.agents)
     others: dict[str, list[str]] = {}
-    for name, driver in drivers.items():
-        if driver is not LEARN:
-            others.setdefault(str(driver), []).append(f"`{name}`")
+    for name, controller in controllers.items():
+        if controller is not LEARN:
+            others.setdefault(str(controller), []).append(f"`{name}`")
     driven = "; ".join(f"{', '.join(names)}: policy `{name}`" for name, names in others.items())
     rows = [
         ("Teams", f"{task.n_blue} blue, {task.n_yellow} yellow"),
@@ -142,9 +142,9 @@ def _observation(task: Task) -> str:
     robot = config.robot
     scales = (
         f"One learner observes {task.observation_size} numbers, float32, as its own team sees the "
-        "field: every team attacks +x, and y points to the left of that. Below the name of a block "
-        "stands its shape; rows of absent robots are 0 (in `body_positions` the centre of the "
-        f"field). A half field length is {config.field.half_length:g} m, a top speed "
+        "field: every team attacks +x, and y points to the left of that. Each block lists its name "
+        "and shape; rows of absent robots are 0 (in `body_positions` the centre of the field). A "
+        f"half field length is {config.field.half_length:g} m, a top speed "
         f"{robot.top_speed:.3g} m/s and a top turn rate "
         f"{robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
     )
@@ -187,7 +187,7 @@ def parts(name: str, block: Block) -> tuple[Part, ...]:
 
 
 def _fill(all_parts: tuple[Part, ...], size: int) -> list[Part]:
-    """Parts from the first on, as many as `size` numbers have room for."""
+    """Parts from the first on, as many as fill `size` numbers."""
     chosen, total = [], 0
     for part in all_parts:
         if total < size:
@@ -231,7 +231,7 @@ def actions(task: Task) -> tuple[Number, ...]:
 
 
 def action_scales(task: Task) -> list[float]:
-    """Return what a 1 in each number of an action asks for, in SI units."""
+    """Return the command at an action of 1, by number of the action, in SI units."""
     scales = getattr(task, "action_scales", None)
     if scales is not None:
         return [float(scale) for scale in scales]

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from benches.table import format_number, format_ratio, load, store
+from benches.result_files import format_number, format_ratio, load, store
 from tests.benches.figures import MACHINE, RSOCCER
 
 

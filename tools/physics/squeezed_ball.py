@@ -1,4 +1,4 @@
-"""Trapped ball: between a robot and a wall, between two robots, in a corner."""
+"""Squeezed ball: between a robot and a wall, between two robots, in a corner."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
 from tools.physics.scene import TICK, Scene, Trajectory
 
-TOPIC = "trapped_ball"
+TOPIC = "squeezed_ball"
 BALL = BALLS["ssl_tigers"]
 TICKS = (0.0025, 0.005)  # s
 GAP = 1e-4  # m, between ball and wall
@@ -66,23 +66,23 @@ RANDOM_DEPTH = Criterion(
     absolute(3),
     SOLID,
 )
-PINNED = Criterion(
+CORNER_ROBOTS = Criterion(
     TOPIC,
-    "ball pinned in a corner: penetration depth between robots",
+    "ball squeezed in a corner: penetration depth between robots",
     "mm",
     absolute(1),
     SOLID,
 )
-PINNED_BALL = Criterion(
+CORNER_BALL = Criterion(
     TOPIC,
-    "ball pinned in a corner: penetration depth of the ball",
+    "ball squeezed in a corner: penetration depth of the ball",
     "mm",
     absolute(1),
     SOLID,
 )
-PINNED_SPEED = Criterion(
+CORNER_SPEED = Criterion(
     TOPIC,
-    "ball pinned in a corner: reported ball speed after 1 s",
+    "ball squeezed in a corner: reported ball speed after 1 s",
     "m/s",
     absolute(0.001),
     "at rest",
@@ -90,7 +90,7 @@ PINNED_SPEED = Criterion(
 
 
 def checks() -> Checks:
-    """Yield all checks of a trapped ball."""
+    """Yield all checks of a squeezed ball."""
     for tick in TICKS:
         for speed in (0.5, 1.2, 3.7):
             yield from _at_wall("ssl_generic", speed, tick)
@@ -101,7 +101,7 @@ def checks() -> Checks:
     for speed in (1.0, 2.5, 3.7):
         yield from _random_collisions(speed)
     for robots in (1, 3, 4):
-        yield from _pinned(robots)
+        yield from _in_corner(robots)
 
 
 def gaps(trajectory: Trajectory) -> Array:
@@ -204,7 +204,7 @@ def _random_collisions(speed: float) -> Checks:
     yield RANDOM_DEPTH(case, 0.0, _penetration(np.percentile(smallest, [5])))
 
 
-def _pinned(robots: int) -> Checks:
+def _in_corner(robots: int) -> Checks:
     """Push a ball that falls into a corner with robots in line, one behind the other."""
     scene = Scene(SimConfig("ssl_b", robots, 0, time_step=TICK))
     corner = np.array([4.8, 3.3]) - BALL.radius - GAP
@@ -219,7 +219,7 @@ def _pinned(robots: int) -> Checks:
     positions = trajectory.robots.position[:, 0].astype(np.float64)
     if robots > 1:
         apart = np.linalg.norm(np.diff(positions, axis=1), axis=-1)
-        yield PINNED(case, 0.0, _penetration(apart - 2 * GENERIC.radius))
+        yield CORNER_ROBOTS(case, 0.0, _penetration(apart - 2 * GENERIC.radius))
     walls = np.array([4.8, 3.3]) - trajectory.ball.position - BALL.radius
-    yield PINNED_BALL(case, 0.0, _penetration(walls, gaps(trajectory)))
-    yield PINNED_SPEED(case, 0.0, np.hypot(*trajectory.ball.velocity[-1, 0]))
+    yield CORNER_BALL(case, 0.0, _penetration(walls, gaps(trajectory)))
+    yield CORNER_SPEED(case, 0.0, np.hypot(*trajectory.ball.velocity[-1, 0]))

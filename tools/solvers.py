@@ -1,0 +1,17 @@
+"""The shipped policy that plays each task best."""
+
+from typing import Final
+
+SOLVERS: Final[dict[str, str]] = {
+    "SSLContestedPossession-v0": "strike",
+    "SSLDribbling-v0": "weave",
+    "SSLGoToBall-v0": "fetch",
+    "SSLPassEndurance-v0": "passer",
+    "SSLPassEnduranceMulti-v0": "passer",
+    "SSLSelfPlay-v0": "strike",
+    "SSLStaticDefenders-v0": "strike",
+    "VSS-v0": "scripted",
+    "VSSMulti-v0": "scripted",
+    "VSSSelfPlay-v0": "scripted",
+}
+"""Name of the policy by task. `docs/solved.json` has its measured results."""
