@@ -10,10 +10,10 @@ from rsoccer.frame import (
     Frame,
     RobotColumns,
     column_slice,
-    length,
     robot_names,
     row_size,
 )
+from rsoccer.vectors import norm
 
 
 def numbered(n: int, n_blue: int, n_yellow: int) -> Frame:
@@ -104,5 +104,5 @@ def test_columns_take_any_leading_axes() -> None:
 
 def test_length() -> None:
     x, y = np.array([3.0, 0.0], np.float32), np.array([4.0, 0.0], np.float32)
-    assert length(x, y).tolist() == [5.0, 0.0]
-    assert length(x, y).dtype == np.float32
+    assert norm(x, y).tolist() == [5.0, 0.0]
+    assert norm(x, y).dtype == np.float32

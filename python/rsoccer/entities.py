@@ -18,12 +18,10 @@ from dataclasses import dataclass, field, fields
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, Frame, RobotColumns
-
-Doubles = NDArray[np.float64]
+from rsoccer.arrays import Array, Doubles, Floats
+from rsoccer.frame import Frame, RobotColumns
 
 
 @dataclass

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 LIMIT = 5.0
 """Largest magnitude of a number in a state, such as a ball at five times a robot's top speed."""

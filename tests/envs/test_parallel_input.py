@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import rsoccer
+from rsoccer.arrays import Floats
 from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
-from rsoccer.frame import Floats
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, crowded, play_episode, random_actions, shot_at
 

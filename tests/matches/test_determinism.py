@@ -12,8 +12,8 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
+from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Floats, Mask
 from rsoccer.matches import Outcome
 from rsoccer.task import Play, Task
 from tests.helpers import Crowd, pushing, same, ssl_crowd, touches

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image as Pillow
 
 from rsoccer import Matches
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
 from rsoccer.render.record import GOAL_PAUSE, MIN_WIDTH, _images

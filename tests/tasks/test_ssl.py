@@ -8,7 +8,8 @@ import pytest
 import rsoccer
 from rsoccer import LEARN, Matches
 from rsoccer._core import Field, Steering
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
 from rsoccer.tasks.ssl import DISCRETE_ACTIONS, VELOCITY_FRAMES, Ssl
 from tests.helpers import pushing

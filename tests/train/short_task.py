@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rsoccer import register
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay

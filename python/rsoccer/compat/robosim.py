@@ -25,10 +25,11 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
+from rsoccer.arrays import Doubles
 from rsoccer.compat import legacy_models
 from rsoccer.compat.separation import separate
 from rsoccer.compat.wheel_kinematics import WheelKinematics
-from rsoccer.entities import Doubles, degrees, headings
+from rsoccer.entities import degrees, headings
 from rsoccer.frame import Frame
 
 __all__ = ["SSL", "VSS", "install"]

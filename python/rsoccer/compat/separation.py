@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.entities import Doubles
+from rsoccer.arrays import Doubles
 
 MAX_OVERLAP: Final = 0.01
 """Deepest overlap of two robots that is resolved, metres: squares at 0.1 m overlap corner to corner

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.entities import Doubles
+from rsoccer.arrays import Doubles
 
 
 class WheelKinematics:

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Array
+from rsoccer.arrays import Array
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches, Outcome
 from rsoccer.task import Task
 

@@ -21,6 +21,7 @@ import gymnasium
 import numpy as np
 
 from rsoccer import checks
+from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SingleLearner, episode_info
@@ -32,7 +33,6 @@ from rsoccer.envs.options import (
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
-from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
 Action = Array | np.integer[Any] | int

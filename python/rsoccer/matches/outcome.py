@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 @dataclass

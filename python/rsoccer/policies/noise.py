@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 

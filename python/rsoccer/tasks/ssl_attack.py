@@ -7,7 +7,8 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import rewards
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.markers import Area, Marker
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
@@ -79,7 +80,7 @@ class SslAttack(Ssl):
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), failed | rewards.scored(play)
+        return rewards.weighted_terms(terms, self.term_weights), failed | rewards.scored(play)
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """Return the opponents' half as an area."""

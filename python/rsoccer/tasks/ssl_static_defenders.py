@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer import checks, spawn
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl_attack import SslAttack

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.registry import make_task
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.log import GOAL_SCORE, opponent_column, read_progress

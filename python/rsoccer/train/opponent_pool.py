@@ -11,8 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats
-from rsoccer.policies import make
+from rsoccer.arrays import Array, Floats
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
@@ -61,7 +61,7 @@ class OpponentPool(Policy):
         self.frozen_at: list[int] = []
         self.opponents = np.zeros(0, np.int64)
         self._clock = clock
-        self._ou = make("ou", task)
+        self._ou = make_policy("ou", task)
         self._fractions, self._size, self._action_repeat = fractions, size, action_repeat
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> dict[str, Array]:

@@ -3,16 +3,18 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.frame import Floats, Frame, length
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.vss.drive_control import (
     DriveController,
     DriveTarget,
-    require_two_wheels,
+    require_differential_drive,
     wheel_powers,
 )
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
+from rsoccer.vectors import norm
 
 TASK = VssSelfPlay(n_blue=1, n_yellow=0)
 ROBOT = TASK.config.robot
@@ -70,7 +72,7 @@ def test_it_drives_through_a_target() -> None:
     speeds = []
     for _ in range(40):
         matches.step(np.zeros((12, 0, 2), np.float32))
-        speeds.append(length(*np.moveaxis(matches.frame.blue.velocity, -1, 0)).max(axis=1))
+        speeds.append(norm(*np.moveaxis(matches.frame.blue.velocity, -1, 0)).max(axis=1))
     assert np.max(speeds, axis=0).min() > 0.3, "it does not come to rest"
 
 
@@ -113,4 +115,4 @@ def test_scaled_wheel_powers_keep_the_curvature() -> None:
 @pytest.mark.parametrize("name", [name for name in rsoccer.list_tasks() if "SSL" in name])
 def test_other_drives_are_refused(name: str) -> None:
     with pytest.raises(ValueError, match=f"task: chase needs robots on two wheels.* got {name}"):
-        require_two_wheels("chase", rsoccer.make_task(name))
+        require_differential_drive("chase", rsoccer.make_task(name))

@@ -199,14 +199,14 @@ def test_a_name_may_carry_a_skill() -> None:
         actions.append(matches.play.actions.copy())
     assert same(actions[0], actions[1])
     assert not same(actions[0], actions[2])
-    assert "scripted" in policies.names()
-    assert policies.names_with_skill() == ["scripted"]
+    assert "scripted" in policies.list_policies()
+    assert policies.list_policies_with_skill() == ["scripted"]
 
 
 @pytest.mark.parametrize("skill", ["2", "-0.1", "x", "", "nan", "0.5:1"])
 def test_invalid_skills_are_refused(skill: str) -> None:
     with pytest.raises(ValueError, match=f"scripted: expected a skill from 0 to 1, got '?{skill}"):
-        policies.make(f"scripted:{skill}", TASK)
+        policies.make_policy(f"scripted:{skill}", TASK)
 
 
 @pytest.mark.parametrize("name", ["zero:0.5", "chase:1", "ou:"])
@@ -214,7 +214,7 @@ def test_other_policies_have_no_skill(name: str) -> None:
     first = name.split(":")[0]
     message = f"'{first}' has no skill: expected '{first}', got '{name}'.*'scripted'"
     with pytest.raises(ValueError, match=message):
-        policies.make(name, TASK)
+        policies.make_policy(name, TASK)
 
 
 # -- Invalid input ----------------------------------------------------------------------------
@@ -222,7 +222,7 @@ def test_other_policies_have_no_skill(name: str) -> None:
 
 def test_it_refuses_other_robots() -> None:
     with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
-        policies.make("scripted:0.5", SslSelfPlay())
+        policies.make_policy("scripted:0.5", SslSelfPlay())
     with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
         rsoccer.Matches("SSLSelfPlay-v0", controllers={"blue": "scripted"})
 
@@ -232,11 +232,11 @@ def test_a_policy_built_for_other_teams_is_refused(name: str) -> None:
     other = Scripted(VssSelfPlay(n_blue=2))
     with pytest.raises(ValueError, match=f"field, robots and teams of {name}, got a Scripted"):
         Matches(name, controllers={"blue": other})
-    assert policies.make(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
+    assert policies.make_policy(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
 
 
 def test_it_needs_a_view() -> None:
-    scripted, rng = cast(Scripted, policies.make("scripted", TASK)), WorldRng.seeded(0, 1)
+    scripted, rng = cast(Scripted, policies.make_policy("scripted", TASK)), WorldRng.seeded(0, 1)
     shape = (1, 1, 2)
     with pytest.raises(ValueError, match="scripted needs a view"):
         scripted.act(PolicyInput(shape, None, None), rng, scripted.new_memory(shape, rng))

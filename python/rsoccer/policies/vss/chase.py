@@ -4,13 +4,14 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, Mask, length
+from rsoccer.arrays import Floats, Mask
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.geometry import XY, reciprocal, team_from_ball, unit
+from rsoccer.policies.geometry import team_from_ball
 from rsoccer.policies.vss import drive_control
 from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import XY, norm, reciprocal, rotate_into, rotate_into_body, unit
 from rsoccer.view import View
 
 RUN_UP: Final = np.float32(0.15)  # m behind the ball where a run at it starts
@@ -38,7 +39,7 @@ class Chase(Policy):
             task: a task whose robots drive on two wheels.
         """
         super().__init__(task)
-        drive_control.require_two_wheels("chase", task)
+        drive_control.require_differential_drive("chase", task)
         robot = task.config.robot
         self._field = FieldGeometry(task.config)
         self._damping = drive_control.turn_damping(robot)
@@ -56,9 +57,8 @@ class Chase(Policy):
         x, y = x - ego.position[..., 0], y - ego.position[..., 1]
         chases, away_x, away_y = _chaser(view)
         x, y = np.where(chases, x, away_x), np.where(chases, y, away_y)
-        cos, sin = ego.heading[..., 0], ego.heading[..., 1]
-        ahead, left = x * cos + y * sin, y * cos - x * sin
-        scale = reciprocal(length(x, y), SLOWING_DISTANCE)
+        ahead, left = rotate_into_body(x, y, ego.heading)
+        scale = reciprocal(norm(x, y), SLOWING_DISTANCE)
         forward, turn = ahead * scale, left * scale * np.sign(ahead) * TURN_GAIN
         turn = turn - ego.angular_velocity * self._damping
         # Slow steps count for all robots, but a teammate that keeps off need not push.
@@ -75,7 +75,8 @@ class Chase(Policy):
         ball_x, ball_y = ball[..., 0], ball[..., 1]
         u_x, u_y = self._push_direction(ball_x, ball_y)  # (-u_y, u_x) is to its left
         x, y = position[..., 0] - ball_x, position[..., 1] - ball_y
-        behind, left = -(x * u_x + y * u_y), y * u_x - x * u_y
+        ahead, left = rotate_into(x, y, u_x, u_y)
+        behind = -ahead
         runs = (behind > 0.0) & (np.abs(left) < ALIGNMENT * behind)
         beside = behind < np.float32(0.5) * RUN_UP
         along = np.where(runs, FOLLOW_THROUGH - behind, -RUN_UP)

@@ -5,10 +5,11 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.frame import Array, Floats, Mask, RobotColumns, length
-from rsoccer.policies.geometry import TINY, reciprocal
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import RobotColumns
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import TINY, norm, reciprocal, rotate_into_body
 
 DAMPING: Final = np.float32(0.3)  # turning power less, per share of the fastest turn: no overshoot
 WALL_MARGIN: Final = 0.005  # m to a wall, beyond what a robot needs to turn on the spot
@@ -76,13 +77,13 @@ class DriveController:
     def _steer(self, ego: RobotColumns, target: DriveTarget) -> tuple[Floats, Floats]:
         """Forward and turning power, (n, robots) each."""
         x, y = target.x - ego.position[..., 0], target.y - ego.position[..., 1]
-        cos, sin = ego.heading[..., 0], ego.heading[..., 1]
-        distance = length(x, y)
+        ahead, left = rotate_into_body(x, y, ego.heading)
+        distance = norm(x, y)
         near = np.minimum(distance / CREEP_DISTANCE, np.float32(1.0))
         power = np.minimum(np.sqrt(distance / BRAKE_DISTANCE), near)
         power = np.where(target.through > 0.0, np.float32(1.0), power)
         scale = reciprocal(distance, TINY)
-        ahead, left = (x * cos + y * sin) * scale, (y * cos - x * sin) * scale
+        ahead, left = ahead * scale, left * scale
         # The larger the heading error, the less power forward: it turns before it drives.
         # Backwards is as good as forwards.
         forward, turn = power * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
@@ -91,7 +92,7 @@ class DriveController:
         return forward, np.where(spins, target.spin, turn - ego.angular_velocity * self._damping)
 
 
-def require_two_wheels(policy: str, task: Task) -> None:
+def require_differential_drive(policy: str, task: Task) -> None:
     """Check that the robots of a task drive on two wheels, with the wheels' power as action.
 
     Args:

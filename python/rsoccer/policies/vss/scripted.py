@@ -4,9 +4,13 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.vss.drive_control import DriveController, DriveTarget, require_two_wheels
+from rsoccer.policies.vss.drive_control import (
+    DriveController,
+    DriveTarget,
+    require_differential_drive,
+)
 from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.policies.vss.roles import NONE, assign_roles
 from rsoccer.policies.vss.tactics import role_targets
@@ -36,7 +40,7 @@ class Scripted(Policy):
         Raises:
             ValueError: a task with other robots, or a skill out of range.
         """
-        require_two_wheels("scripted", task)
+        require_differential_drive("scripted", task)
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
         super().__init__(task)

@@ -2,7 +2,7 @@
 
 from typing import Protocol, runtime_checkable
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 class SimulatorLike(Protocol):
