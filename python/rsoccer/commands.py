@@ -48,7 +48,7 @@ class List:
 
 @dataclass(frozen=True)
 class Train(Args):
-    """Train one policy, which controls every learning robot, by self-play."""
+    """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
 
     def run(self) -> None:
         """Train, and print the path of the policy file."""

@@ -138,7 +138,7 @@ class Task(ABC):
 
     @abstractmethod
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Compute the reward terms of the last step and the terminations.
+        """Return the reward terms of the last step and the terminations.
 
         Args:
             play: state of n worlds after the step.

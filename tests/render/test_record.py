@@ -67,7 +67,7 @@ def test_after_a_goal_a_new_episode_begins() -> None:
     film(60.0, spy)
     goals = [i for i, drawn in enumerate(spy.drawn) if drawn["caption"]]
     moved = [float(np.abs(b[:2] - a[:2]).max()) for a, b in pairwise(spy.rows)]
-    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed anew
+    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed again
 
 
 @pytest.mark.parametrize("name", ["match.gif"])

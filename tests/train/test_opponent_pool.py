@@ -115,7 +115,7 @@ def test_actions_depend_on_the_stream_of_their_world_only() -> None:
     assert not np.array_equal(batch[1], batch[2])
 
 
-def test_drifting_opponents_equal_the_ou_policy() -> None:
+def test_ou_opponents_equal_the_ou_policy() -> None:
     pool, ou = new_pool(past=2), make_policy("ou", TASK)
     rng, memory = start(pool, 50)
     ou_rng = WorldRng.from_state(rng.state)

@@ -1,6 +1,6 @@
-"""Separation of bodies that overlap slightly at a start, as in old environments.
+"""Separation of bodies that overlap slightly at a start, as in environments for rSim.
 
-The old simulator took any start, and its solver pushed bodies apart over the first steps. Here
+rSim (rc-robosim 1.2) took any start, and its solver pushed bodies apart over the first steps. Here
 bodies are moved apart before the match starts; deeper overlaps are left for the simulator to
 refuse.
 """

@@ -23,7 +23,7 @@ from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts, spaces
-from rsoccer.envs.env_matches import EnvMatches, episode_info
+from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, reset_options, resolve_task, with_max_steps
 from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
@@ -336,7 +336,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         if terminated or truncated:
             self.agents = []
-            self.last_metrics = episode_info(outcome, self._matches)
+            self.last_metrics = self._matches.episode_info(outcome)
         if self.render_mode == "human":
             self.render()
         return (

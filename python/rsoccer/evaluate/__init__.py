@@ -2,10 +2,10 @@
 
     >>> print(rsoccer.evaluate("chase", "ou", matches=200, seed=0))  # doctest: +SKIP
 
-Every match starts anew, ends by the task's rules or at the time limit, and counts once. Its score
-is the metric that the task names as its success. In two-sided tasks, where yellow can play blue's
-part, a policy plays half of the matches for each team. Otherwise a policy that has learned one
-side only, or an error in yellow's view, would go unnoticed.
+Every match starts from a new state, ends by the task's rules or at the time limit, and counts
+once. Its score is the metric that the task names as its success. In two-sided tasks, where yellow
+can play blue's part, a policy plays half of the matches for each team. Otherwise a policy that has
+learned one side only, or an error in yellow's view, would go unnoticed.
 """
 
 from __future__ import annotations

@@ -53,8 +53,8 @@ class Soccer(Task):
                                 bearing
     goal_polar       (3,)       the same of the centre of the attacked goal      L; 1    3
     shot             (4,)       cosine and sine of the direction from ball to    1       1
-                                goal; closeness of the ball, exp(-d / 0.125 m)
-                                at distance d; closeness times the cosine of
+                                goal; nearness of the ball, exp(-d / 0.125 m)
+                                at distance d; nearness times the cosine of
                                 the angle between the directions to the ball
                                 and from ball to goal
     body_velocities  (2, 2)     own velocity; velocity of the ball               V       4

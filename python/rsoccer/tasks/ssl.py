@@ -132,6 +132,21 @@ class Ssl(Soccer):
         beyond = np.abs(positions) > self._half_size
         return np.logical_or(beyond[:, 0], beyond[:, 1])
 
+    def is_in_goal_area(self, positions: Floats, margin: float | np.float32 = 0.0) -> Mask:
+        """Return the positions that are in the goal area at +x, or beyond its front line.
+
+        Args:
+            positions: (..., 2) metres.
+            margin: distance by which the area is extended to all sides, m.
+
+        Returns:
+            (...).
+        """
+        field = self.config.field
+        front = np.float32(field.half_length - field.goal_area_depth - margin)
+        half_width = np.float32(field.goal_area_width / 2 + margin)
+        return np.logical_and(positions[..., 0] > front, np.abs(positions[..., 1]) < half_width)
+
     @cached_property
     def mouth_offset(self) -> np.float32:
         """Distance from a robot's centre to the centre of a ball in its mouth, m."""

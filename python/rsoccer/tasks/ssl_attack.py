@@ -106,10 +106,8 @@ class SslAttack(Ssl):
         """(n,) whether the attacker is outside the opponents' half or in their goal area."""
         position, field = frame.blue.position[:, 0], self.config.field
         x, abs_y = position[:, 0], np.abs(position[:, 1])
-        area_x = np.float32(field.half_length - field.goal_area_depth)
-        in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2))
         outside = (abs_y > np.float32(field.half_width)) | (x > np.float32(field.half_length))
-        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | in_area)
+        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | self.is_in_goal_area(position))
 
     def _has_fouled(self, frame: Frame) -> Mask:
         """(n,) whether the attacker touched an opponent in the last step."""

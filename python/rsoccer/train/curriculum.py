@@ -1,8 +1,8 @@
-"""Curriculum of a run: first one learner per match among drifting robots, then whole teams.
+"""Curriculum of a run: first one learner per match, then whole teams.
 
 Among teammates that learn too, a robot's reward depends as much on their actions as on its own, so
-learning is slow. A run therefore starts with one learner per match, while all other robots drift.
-All learners then start from the policy that this first part has learned.
+learning is slow. A run therefore starts with one learner per match; all other robots
+follow the `ou` policy. All learners then start from the policy that this first part has learned.
 """
 
 from __future__ import annotations

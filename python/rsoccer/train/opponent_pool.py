@@ -1,7 +1,7 @@
-"""Pool of opponents for self-play: the current policy, frozen past policies, random drifting.
+"""Pool of opponents for self-play: the current policy, frozen past policies, the `ou` policy.
 
 Self-play against the current policy alone can cycle: a policy learns to beat its predecessor and
-forgets how to beat others. Frozen past policies and a share of drifting robots keep that skill.
+forgets how to beat others. Frozen past policies and a share of `ou` opponents keep that skill.
 """
 
 from __future__ import annotations

@@ -49,7 +49,7 @@ class Strike(Policy):
     """A script that gets the ball, dribbles to a position with a free shot, and shoots.
 
     It steals the ball from an opponent that holds it. Only the team's nearest robot goes to the
-    ball; its teammates keep off.
+    ball; its teammates keep their distance.
     """
 
     observes: Observes = "view"
@@ -117,7 +117,7 @@ class Strike(Policy):
         return self._control.actions(view.ego, *velocity)
 
     def _wait(self, view: View) -> Floats:
-        """Keep off the ball and face it."""
+        """Keep the distance from the ball and face it."""
         ego, ball = view.ego, view.ball.position
         x, y = ego.position[..., 0] - ball[..., 0], ego.position[..., 1] - ball[..., 1]
         scale = np.maximum(WAITING_DISTANCE * reciprocal(norm(x, y)), np.float32(1.0))

@@ -108,7 +108,7 @@ def _run_direction(field: FieldGeometry, ball: XY, push: XY) -> tuple[Floats, Fl
 
 
 def _flick_spin(field: FieldGeometry, view: View, push: XY, runs: Mask, trapped: Mask) -> Floats:
-    """Turning power that flicks a ball at a wall in the push direction; 0 without a flick."""
+    """Turn that flicks a ball at a wall in the push direction: 1, -1, or 0 without a flick."""
     position, ball = view.ego.position, view.ball.position
     to_x, to_y = ball[..., 0] - position[..., 0], ball[..., 1] - position[..., 1]
     side, end = field.at_walls(ball[..., 0], ball[..., 1])
