@@ -23,7 +23,7 @@ from benches.measuring import (
     world_steps_per_second,
 )
 from benches.scenarios import HELD
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.train.timing import Clock, TimedSimulator
 
 OUTSIDE: Final = Quantity("time outside physics", "us per world-step")

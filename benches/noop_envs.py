@@ -6,7 +6,7 @@ import gymnasium
 import numpy as np
 from pettingzoo import ParallelEnv
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 Bools = dict[str, bool]
 Infos = dict[str, Any]

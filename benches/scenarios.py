@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from rsoccer import Frame, SimConfig, WorldRng, spawn
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 EPISODE: Final = 400  # steps of a random scenario between two placements
 HELD: Final = 10  # steps for which a random command is held

@@ -11,7 +11,7 @@ import numpy as np
 from benches.measuring import SPEED, Measure, Quantity, Values
 from benches.scenarios import Driver, Positions, Scenario
 from rsoccer import Frame, Simulator, WorldRng
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 CONTACTS: Final = Quantity("robots in contact", "share")
 MIN_CONTACT_SHARE: Final = {"random": 0.0, "crowd": 0.1}

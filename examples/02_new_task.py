@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from rsoccer import Frame, Play, SimConfig, Task, WorldRng, register, spawn
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ OUT = Path("out/self_play")
 
 
 def main(samples: int = 1_500_000) -> None:
-    """Train; each world plays the current policy, a past policy, or drifting robots."""
+    """Train; each world plays the current policy, a past policy, or the `ou` policy."""
     args = Args(
         task="VSSSelfPlay-v0",
         out=OUT,

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rsoccer import Matches
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 WORLDS = 64
 matches = Matches("VSSSelfPlay-v0", WORLDS, seed=3, threads=2, controllers={"yellow": "ou"})

@@ -1,4 +1,4 @@
-"""Code for the old simulator rc-robosim with one import changed: push the ball into the goal."""
+"""Code for rSim (rc-robosim 1.2) with one import changed: push the ball into the goal."""
 
 import numpy as np
 

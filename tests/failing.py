@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import Matches, Simulator
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 
 from rsoccer import SimConfig
+from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Array, Floats, Frame, length
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.tasks import VssSelfPlay
+from rsoccer.vectors import norm
 
 
 @dataclass(frozen=True)
@@ -107,4 +109,4 @@ def same(a: Array, b: Array) -> bool:
 
 def _distances(a: Floats, b: Floats) -> Floats:
     x, y = a[..., 0] - b[..., 0], a[..., 1] - b[..., 1]
-    return length(x, y)
+    return norm(x, y)

@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 
 import rsoccer
+from rsoccer.arrays import Floats
 from rsoccer.envs.parallel import SoccerParallelEnv
-from rsoccer.frame import Floats, Frame
+from rsoccer.frame import Frame
 from tests.helpers import comparable
 
 TASKS = rsoccer.list_tasks()

@@ -3,9 +3,11 @@
 import numpy as np
 
 from rsoccer._core import SimConfig
-from rsoccer.frame import Floats, Frame, Mask, length
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rewards import BEHIND_BALL_DISTANCE
 from rsoccer.task import Play
+from rsoccer.vectors import norm
 from rsoccer.view import View
 
 
@@ -15,7 +17,7 @@ def ball_to_goal(play: Play, config: SimConfig) -> Floats:
     def potential(view: View) -> Floats:
         x, y = view.ball.position[..., 0], view.ball.position[..., 1]
         goal_x = np.float32(config.field.half_length)
-        return np.float32(0.5) * (length(goal_x + x, y) - length(goal_x - x, y))
+        return np.float32(0.5) * (norm(goal_x + x, y) - norm(goal_x - x, y))
 
     return potential(play.view) - potential(play.last_view)
 
@@ -29,10 +31,10 @@ def approach_behind_ball(play: Play, config: SimConfig) -> Floats:
     def distance(view: View) -> Floats:
         ball, ego = view.ball.position, view.ego.position
         x, y = np.float32(field.half_length) - ball[..., 0], -ball[..., 1]
-        scale = behind / np.maximum(length(x, y), behind)
+        scale = behind / np.maximum(norm(x, y), behind)
         target_x = np.maximum(ball[..., 0] - x * scale, -max_x)
         target_y = np.minimum(np.maximum(ball[..., 1] - y * scale, -max_y), max_y)
-        return length(target_x - ego[..., 0], target_y - ego[..., 1])
+        return norm(target_x - ego[..., 0], target_y - ego[..., 1])
 
     return distance(play.last_view) - distance(play.view)
 
@@ -44,7 +46,7 @@ def approach_mouth(play: Play, config: SimConfig) -> Floats:
     def distance(view: View) -> Floats:
         ego, ball = view.ego, view.ball.position
         mouth = ego.position + ego.heading * mouth_offset
-        return length(ball[..., 0] - mouth[..., 0], ball[..., 1] - mouth[..., 1])
+        return norm(ball[..., 0] - mouth[..., 0], ball[..., 1] - mouth[..., 1])
 
     return distance(play.last_view) - distance(play.view)
 
@@ -53,7 +55,7 @@ def nearest_to_ball(play: Play) -> Mask:
     """Observers that were their team's nearest to the ball before the step."""
     frame: Frame = play.last_frame
     offset = frame.robots.position - frame.ball.position[:, None]
-    distance = length(offset[..., 0], offset[..., 1])
+    distance = norm(offset[..., 0], offset[..., 1])
     teams = np.split(distance, [frame.n_blue], axis=1)
     least = [np.broadcast_to(t.min(axis=1, keepdims=True), t.shape) for t in teams if t.size]
     nearest: Mask = np.equal(distance, np.concatenate(least, axis=1))[:, play.observers]

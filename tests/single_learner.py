@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 import rsoccer
+from rsoccer.arrays import Array
 from rsoccer.controllers import resolve
 from rsoccer.envs.single import SoccerEnv, single_env
-from rsoccer.frame import Array
 from rsoccer.registry import list_options
 from rsoccer.task import LEARN
 from tests.helpers import comparable

@@ -221,9 +221,9 @@ def task_policies() -> list[tuple[str, str]]:
     found: dict[str, str] = {}
     for name in TASKS:
         task = rsoccer.make_task(name)
-        for policy in policies.names():
+        for policy in policies.list_policies():
             with contextlib.suppress(ValueError):
-                if policies.make(policy, task)._built_for is not None:
+                if policies.make_policy(policy, task)._built_for is not None:
                     found.setdefault(policy, name)
     return sorted(found.items())
 
@@ -234,7 +234,7 @@ def test_some_policies_are_bound_to_a_task() -> None:
 
 @pytest.mark.parametrize(("policy", "name"), task_policies())
 def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> None:
-    made = policies.make(policy, rsoccer.make_task(name))
+    made = policies.make_policy(policy, rsoccer.make_task(name))
     others = [other for other in TASKS if rsoccer.make_task(other).config != CONFIGS[name]]
     assert others
     for other in others:
@@ -257,12 +257,12 @@ def test_a_network_with_another_observation_layout_is_refused(name: str) -> None
         "layout": task.layout,
     }
     network = Network(arrays, metadata)
-    assert policies.make(network, task) is network
+    assert policies.make_policy(network, task) is network
     others = [make for make in map(rsoccer.make_task, TASKS) if make.layout != task.layout]
     assert others
     for other in others:
         with pytest.raises(ValueError, match=f"a network trained on '{name}'"):
-            policies.make(network, other)
+            policies.make_policy(network, other)
 
 
 def test_equal_sizes_do_not_make_equal_layouts() -> None:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from rsoccer import LEARN, Matches
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, begun, same, zeros
@@ -15,11 +16,15 @@ from tests.helpers import Crowd, begun, same, zeros
     [
         (np.zeros((5, 6), np.float32), ValueError, r"actions: expected shape \(5, 6, 2\), got"),
         (np.zeros((1, 6, 2), np.float32), ValueError, "actions: expected shape"),
-        (np.zeros((5, 6, 2), np.int64), TypeError, "actions: expected float32, got int64"),
+        (
+            np.zeros((5, 6, 2), np.int64),
+            TypeError,
+            "actions: expected a floating-point array, got int64",
+        ),
         (np.full((5, 6, 2), np.nan, np.float32), ValueError, r"got nan at \(0, 0, 0\)"),
         (np.full((5, 6, 2), np.inf), ValueError, "actions: expected finite numbers, got inf"),
-        ([["left"] * 2] * 6, TypeError, "actions: expected float32"),
-        (None, TypeError, "actions: expected float32"),
+        ([["left"] * 2] * 6, TypeError, "actions: expected a floating-point array"),
+        (None, TypeError, "actions: expected a floating-point array"),
     ],
     ids=["axes", "worlds", "int", "nan", "inf", "text", "none"],
 )

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from rsoccer import LEARN, Matches, Policy
+from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Floats
 from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay

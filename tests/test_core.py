@@ -24,7 +24,7 @@ from rsoccer._core import (
     clip_actions,
     clip_in_place,
 )
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 
 WORLDS = 3
 CONFIG = SimConfig()

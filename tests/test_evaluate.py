@@ -10,8 +10,8 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
+from rsoccer.arrays import Floats
 from rsoccer.evaluate import Results, evaluate
-from rsoccer.frame import Floats
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
@@ -43,7 +43,7 @@ def untrained_network(seed: int = 0) -> Network:
 
 WINNERS = [
     ("VSSSelfPlay-v0", "chase", 60, 0.72),
-    ("VSS-v0", "chase", 60, 0.3),  # its teammates drift
+    ("VSS-v0", "chase", 60, 0.3),  # its teammates follow `ou`
     ("SSLSelfPlay-v0", "strike", 10, 0.72),
 ]
 
@@ -58,11 +58,13 @@ def test_a_better_policy_wins_on_either_side(
     assert result.sides["blue"].wins >= share * count / 2
     assert result.sides["yellow"].wins >= share * count / 2
     assert result.low > share - 0.25
-    assert result.decided_after is not None
-    assert 1.0 < result.decided_after < 20.0
+    assert result.seconds_to_decision is not None
+    assert 1.0 < result.seconds_to_decision < 20.0
     assert (result.policy, result.opponent, result.task) == (winner, "zero", task)
     mirrored = evaluate("zero", winner, matches=count, seed=1, task=task)
-    assert mirrored.high < 0.25 - share or task == "VSS-v0", "zero's drifting teammates may score"
+    assert mirrored.high < 0.25 - share or task == "VSS-v0", (
+        "zero's teammates, which follow ou, may score"
+    )
 
 
 def test_counts_add_up() -> None:
@@ -107,7 +109,7 @@ def test_matches_without_a_goal_are_draws() -> None:
     result = evaluate("zero", "zero", matches=4, task=task)
     assert (result.wins, result.draws, result.losses) == (0, 4, 0)
     assert (result.score, result.low, result.high) == (0.0, 0.0, 0.0)
-    assert result.decided_after is None
+    assert result.seconds_to_decision is None
     assert str(result).splitlines()[1].endswith(" -")
 
 
@@ -134,7 +136,7 @@ def test_each_match_counts_once_at_its_end() -> None:
     result = evaluate("zero", "zero", matches=12, task=Decided())
     assert counts(result.sides["blue"]) == (2, 2, 2)
     assert counts(result.sides["yellow"]) == (2, 2, 2)
-    assert result.decided_after == pytest.approx(0.025 * np.mean([1, 3, 4, 6]))
+    assert result.seconds_to_decision == pytest.approx(0.025 * np.mean([1, 3, 4, 6]))
     five = evaluate("zero", "zero", matches=10, task=Decided())
     assert counts(five.sides["blue"]) == (1, 2, 2)
     assert counts(five.sides["yellow"]) == (2, 2, 1)

@@ -25,7 +25,7 @@ def test_results_go_into_json() -> None:
     assert loaded["matches"] == 4
     assert loaded["sides"]["blue"]["wins"] == result.sides["blue"].wins
     assert loaded["seed"] == 0
-    assert set(loaded) >= {"wins", "draws", "losses", "score", "low", "high", "decided_after"}
+    assert set(loaded) >= {"wins", "draws", "losses", "score", "low", "high", "seconds_to_decision"}
 
 
 def test_the_package_offers_the_function() -> None:

@@ -12,8 +12,8 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Matches
+from rsoccer.arrays import Floats, Mask
 from rsoccer.evaluate import evaluate, table
-from rsoccer.frame import Floats, Mask
 from rsoccer.lineup import lineup
 from rsoccer.task import Play
 from rsoccer.tasks import SslGoToBall, VssSelfPlay
@@ -45,7 +45,7 @@ def test_a_script_solves_its_task_and_zero_does_not(
     idle = evaluate("zero", matches=count, seed=1, task=task)
     assert idle.high < 0.2 * lowest
     assert idle.returns.high < result.returns.low
-    assert idle.decided_after is None
+    assert idle.seconds_to_decision is None
 
 
 class Spy(Matches):
@@ -120,14 +120,14 @@ def test_each_match_counts_once_as_it_ended() -> None:
     assert (result.score, result.wins, result.draws, result.losses) == (0.5, 3, 3, 0)
     assert result.returns.mean == pytest.approx(0.5 * np.mean([1, 2, 3, 4, 5, 6]))
     assert result.seconds.mean == pytest.approx(0.025 * np.mean([1, 2, 3, 4, 5, 6]))
-    assert result.decided_after == pytest.approx(0.025 * np.mean([2, 4, 6]))
+    assert result.seconds_to_decision == pytest.approx(0.025 * np.mean([2, 4, 6]))
     assert evaluate("zero", matches=5, task=Alive()).matches == 5
 
 
 def test_part_of_a_course_is_no_full_success() -> None:
     result = evaluate("weave", matches=2, task=rsoccer.make_task("SSLDribbling-v0", max_steps=400))
     assert 0.0 < result.score < 7.0
-    assert result.decided_after is None
+    assert result.seconds_to_decision is None
 
 
 def test_without_a_success_the_return_counts() -> None:

@@ -10,9 +10,9 @@ from rsoccer.frame import (
     Frame,
     RobotColumns,
     column_slice,
-    length,
     robot_names,
     row_size,
+    team_of,
 )
 
 
@@ -84,6 +84,7 @@ def test_rows_that_do_not_fit_are_refused(rows: np.ndarray) -> None:
 
 def test_robot_names() -> None:
     assert robot_names(2, 1) == ("blue_0", "blue_1", "yellow_0")
+    assert [team_of(name) for name in robot_names(1, 11)] == ["blue"] + ["yellow"] * 11
 
 
 def test_crossings_are_indices_of_the_cores_names() -> None:
@@ -100,9 +101,3 @@ def test_columns_that_are_no_neighbours_are_refused() -> None:
 def test_columns_take_any_leading_axes() -> None:
     assert BallColumns(np.zeros((4, 2, 9), np.float32)).position.shape == (4, 2, 2)
     assert RobotColumns(np.zeros(9, np.float32)).heading.shape == (2,)
-
-
-def test_length() -> None:
-    x, y = np.array([3.0, 0.0], np.float32), np.array([4.0, 0.0], np.float32)
-    assert length(x, y).tolist() == [5.0, 0.0]
-    assert length(x, y).dtype == np.float32

@@ -14,10 +14,11 @@ ROOT = Path(rsoccer.__file__).parent
 # Modules of the same layer do not import each other. The order is also a reading order.
 LAYERS = [
     {"_core"},
-    {"files", "frame", "markers", "matches.consistency"},
+    {"arrays", "files", "markers", "matches.consistency"},
+    {"frame", "vectors"},
     {"rng", "global_state", "view", "entities"},
     {"checks", "play"},
-    {"task", "matches.outcome", "simulator", "compat"},
+    {"task", "matches.outcome", "matches.result_checks", "simulator_interface", "compat"},
     {"envs", "envs.spaces", "envs.ids"},
     {"envs.agent_dicts", "registry", "spawn", "rewards"},
     {"tasks"},

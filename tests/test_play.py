@@ -12,7 +12,8 @@ import pytest
 
 from rsoccer import Matches, WorldRng
 from rsoccer import play as play_module
-from rsoccer.frame import Array, Frame
+from rsoccer.arrays import Array
+from rsoccer.frame import Frame
 from rsoccer.play import Play
 from rsoccer.view import View
 from tests.failing import FailingTask

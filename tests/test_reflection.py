@@ -12,7 +12,7 @@ import pytest
 import rsoccer
 from rsoccer import LEARN, Frame, Matches
 from rsoccer._core import CROSSINGS
-from rsoccer.frame import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.task import Task
 from rsoccer.tasks import SslDribbling
 from rsoccer.tasks.courses import PAPER, Course

@@ -12,7 +12,7 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 @pytest.fixture(autouse=True)
 def restored_registry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Remove the names that a test registers."""
-    for names in ("_TASKS", "_ALIASES", "_RETIRED"):
+    for names in ("_TASKS", "_ALIASES", "_REMOVED"):
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
 
 
@@ -150,16 +150,16 @@ def test_a_task_cannot_take_the_name_of_an_alias() -> None:
         rsoccer.register("VSSMA-v0", VssSelfPlay)
 
 
-def test_a_retired_name_suggests_a_replacement() -> None:
-    registry.retire("Chess-v0", "take VSS-v0")
+def test_a_removed_name_suggests_a_replacement() -> None:
+    registry.register_removed("Chess-v0", "take VSS-v0")
     with pytest.raises(ValueError, match="unknown task 'Chess-v0': take VSS-v0"):
         rsoccer.make_task("Chess-v0")
 
 
 @pytest.mark.parametrize("name", ["VSS-v0", "VSSMA-v0", "Chess"])
-def test_a_name_in_use_cannot_be_retired(name: str) -> None:
+def test_a_name_in_use_cannot_be_removed(name: str) -> None:
     with pytest.raises(ValueError, match="name: "):
-        registry.retire(name, "take another")
+        registry.register_removed(name, "take another")
 
 
 @pytest.mark.parametrize("name", ["", "Mine", "Mine-v", "-v0", "My Task-v0", "9-v0"])

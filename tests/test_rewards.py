@@ -3,7 +3,8 @@ import pytest
 
 from rsoccer import list_tasks, make_task, rewards
 from rsoccer._core import Potential, mean_action_magnitude, nearest_to_ball
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Floats
+from rsoccer.arrays import Floats
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay

@@ -6,7 +6,7 @@ import pytest
 import rsoccer
 from rsoccer import LEARN, Frame, Matches
 from rsoccer._core import CROSSINGS
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, touches

@@ -3,7 +3,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rsoccer.frame import Array, Floats, Frame
+from rsoccer.arrays import Array, Floats
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches
 from rsoccer.rng import WorldRng
 from rsoccer.task import DEFAULT_LIMIT, LEARN, Play, Task

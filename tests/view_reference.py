@@ -3,7 +3,8 @@
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.view import SIDES, slot_counts
 
 

@@ -35,7 +35,7 @@ def main() -> None:
 def film(task: str, policy: str, seconds: float = 10.0) -> None:
     """Record a match against the `ou` policy as a GIF of every second image."""
     teams = {"blue": policy, "yellow": "ou"}
-    images, fps = film_match(task, teams, 1, seconds, names=("LEARNED", "DRIFTING"), width=480)
+    images, fps = film_match(task, teams, 1, seconds, names=("LEARNED", "OU"), width=480)
     write_video(DOCS / "match.gif", islice(images, 0, None, 2), fps / 2)
 
 

@@ -87,8 +87,8 @@ def _task_row(name: str) -> tuple[str, ...]:
 
 def policy_names() -> str:
     """Return the names of the shipped policies as a sentence."""
-    names = ", ".join(f"`{name}`" for name in policies.names())
-    skilled = " or ".join(f"`{name}:0.5`" for name in policies.names_with_skill())
+    names = ", ".join(f"`{name}`" for name in policies.list_policies())
+    skilled = " or ".join(f"`{name}:0.5`" for name in policies.list_policies_with_skill())
     return (
         f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
         "A policy file samples actions as in training; `policy.safetensors:mean` plays the mean "
@@ -99,7 +99,7 @@ def policy_names() -> str:
 def policy_table() -> str:
     """Return the table of the shipped policies and the robots that they drive."""
     rows = []
-    for name in policies.names():
+    for name in policies.list_policies():
         fits = {task[:3]: made for task in rsoccer.list_tasks() if (made := _made(name, task))}
         leagues = " and ".join({"SSL": "SSL", "VSS": "VSSS"}[league] for league in fits)
         summary = (next(iter(fits.values())).__doc__ or "").split("\n")[0]
@@ -110,7 +110,7 @@ def policy_table() -> str:
 def _made(name: str, task: str) -> policies.Policy | None:
     """A policy for the robots of a task, or None if it cannot drive them."""
     try:
-        return policies.make(name, rsoccer.make_task(task))
+        return policies.make_policy(name, rsoccer.make_task(task))
     except ValueError:
         return None
 
@@ -162,7 +162,7 @@ def old_names() -> str:
     for name, (task, given) in legacy_names.ALIASES.items():
         options = [f"`{option}={value!r}`" for option, value in given.items()]
         rows.append((f"`{name}`", ", ".join([f"`{task}`", *options]), _libraries(name)))
-    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.RETIRED.items()]
+    rows += [(f"`{name}`", f"none: {hint}", "") for name, hint in legacy_names.REMOVED.items()]
     return table(("rsoccer-gym 1.4", "here", "through"), rows)
 
 

@@ -9,7 +9,16 @@
 rewards and the ends of episodes, a `Policy` controls robots that do not learn.
 """
 
-from rsoccer._core import SimConfig, Simulator, build_info
+from rsoccer._core import (
+    BALL_PARAMETERS,
+    ROBOT_PARAMETERS,
+    BallModel,
+    Field,
+    RobotModel,
+    SimConfig,
+    Simulator,
+    build_info,
+)
 from rsoccer.envs.parallel import env, parallel_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
@@ -20,18 +29,41 @@ from rsoccer.policies.base import Policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Play, Task
-from rsoccer.tasks import VssMulti, VssSelfPlay, VssSingle
+from rsoccer.tasks import (
+    SslContestedPossession,
+    SslDribbling,
+    SslGoToBall,
+    SslPassEndurance,
+    SslPassEnduranceMulti,
+    SslSelfPlay,
+    SslStaticDefenders,
+    VssMulti,
+    VssSelfPlay,
+    VssSingle,
+)
 from rsoccer.view import View
 
 __all__ = [
+    "BALL_PARAMETERS",
     "LEARN",
+    "ROBOT_PARAMETERS",
+    "BallModel",
+    "Field",
     "Frame",
     "Matches",
     "Outcome",
     "Play",
     "Policy",
+    "RobotModel",
     "SimConfig",
     "Simulator",
+    "SslContestedPossession",
+    "SslDribbling",
+    "SslGoToBall",
+    "SslPassEndurance",
+    "SslPassEnduranceMulti",
+    "SslSelfPlay",
+    "SslStaticDefenders",
     "Task",
     "View",
     "VssMulti",

@@ -57,9 +57,9 @@ ROBOT_COLUMNS: tuple[str, ...]
 | column | meaning | unit | range |
 | --- | --- | --- | --- |
 | `x`, `y` | position of the centre | m | within the walls |
-| `cos`, `sin` | heading, counter-clockwise from +x | 1 | -1 to 1 |
+| `cos`, `sin` | heading, counterclockwise from +x | 1 | -1 to 1 |
 | `v_x`, `v_y` | velocity | m/s | any |
-| `v_theta` | turn rate, counter-clockwise | rad/s | any |
+| `v_theta` | turn rate, counterclockwise | rad/s | any |
 | `infrared` | whether the ball cuts the break beam | 1 | 0 or 1 |
 | `touched_ball` | whether it touched the ball in the last control step | 1 | 0 or 1 |
 | `touched_opponent` | whether it touched an opponent in that step | 1 | 0 or 1 |
@@ -72,8 +72,8 @@ COMMAND_COLUMNS: dict[str, tuple[str, ...]]
 | --- | --- | --- | --- |
 | `differential` | `left`, `right` | wheel speeds, positive is forward | rad/s |
 | `omni` | `v_x`, `v_y` | velocity forward and to the left | m/s |
-| | `v_theta` | turn rate, counter-clockwise | rad/s |
-| `omni_wheels` | `wheel_0` to `wheel_3` | wheel speeds, positive turns counter-clockwise | rad/s |
+| | `v_theta` | turn rate, counterclockwise | rad/s |
+| `omni_wheels` | `wheel_0` to `wheel_3` | wheel speeds, positive turns counterclockwise | rad/s |
 | both omni | `kick_v_x`, `kick_v_z` | kick forward and upward from the front; 0: none | m/s |
 | both omni | `dribbler` | dribbler speed by its maximum, 0 to 1 | 1 |
 """
@@ -545,7 +545,7 @@ class RobotModel:
 
     @property
     def wheel_angles(self) -> list[float]:
-        """Positions of four wheels (degrees from the front, counter-clockwise, 0 to 360)."""
+        """Positions of four wheels (degrees from the front, counterclockwise, 0 to 360)."""
 
     @property
     def command_columns(self) -> tuple[str, ...]:
@@ -687,7 +687,7 @@ class Steering:
     | index | action, -1 to 1 | command at 1 |
     | --- | --- | --- |
     | 0, 1 | velocity along x and y of the chosen frame | `scales[0]`, `scales[1]` m/s |
-    | 2 | turn rate, counter-clockwise | `scales[2]` rad/s |
+    | 2 | turn rate, counterclockwise | `scales[2]` rad/s |
     | 3 | kick along the floor; none up to 0 | `scales[3]` m/s |
     | 4 | dribbler; off up to 0, else on | dribbler speed `scales[4]`, 0 to 1 |
 

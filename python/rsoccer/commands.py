@@ -40,15 +40,15 @@ class List:
         for name, (task_name, options) in registry.list_aliases().items():
             values = [f"{option}={value!r}" for option, value in options.items()]
             _write(f"{name}: {', '.join([task_name, *values])}")
-        _write(f"policies: {', '.join(policies.names())}, or the path of a policy file")
-        examples = (f"{name}:0.5" for name in policies.names_with_skill())
+        _write(f"policies: {', '.join(policies.list_policies())}, or the path of a policy file")
+        examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
         _write("a file plays as it was trained; :mean or :sample may follow its name")
         _write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
 
 
 @dataclass(frozen=True)
 class Train(Args):
-    """Train one policy, which controls every learning robot, by self-play."""
+    """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
 
     def run(self) -> None:
         """Train, and print the path of the policy file."""
@@ -180,7 +180,7 @@ def _options(task: Task) -> list[str]:
 
 def _team_name(player: str) -> str:
     """Name of a policy on the scoreboard: for a file its folder's name."""
-    if player.partition(":")[0] in policies.names():
+    if player.partition(":")[0] in policies.list_policies():
         return player.upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer import checks, policies
-from rsoccer.frame import Array, Floats
+from rsoccer import checks
+from rsoccer.arrays import Array, Floats
+from rsoccer.frame import team_of
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
@@ -142,7 +144,7 @@ def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignme
         key = controller if isinstance(controller, str) else id(controller)
         robots_of.setdefault(key, []).append(robot)
         if key not in policy_of:
-            policy_of[key] = policies.make(controller, task)
+            policy_of[key] = make_policy(controller, task)
     observing = [key for key, policy in policy_of.items() if policy.observes != "nothing"]
     observers = np.array(sorted(sum((robots_of[key] for key in observing), learners)), np.intp)
     groups = []
@@ -177,8 +179,7 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
         raise ValueError(f"controllers: unknown {unknown}; valid are {valid}")
     resolved: dict[str, Controller] = dict(task.default_controllers())
     for name in resolved:
-        team = name.rsplit("_", 1)[0]
-        for key in ("all", team, name):
+        for key in ("all", team_of(name), name):
             resolved[name] = given.get(key, resolved[name])
     return {name: _checked(name, controller) for name, controller in resolved.items()}
 

@@ -53,7 +53,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         controllers={"blue": str(policy), "yellow": "ou"},
         seed=1,
         seconds=30.0,
-        names=("TRAINED", "DRIFTING"),
+        names=("TRAINED", "OU"),
     )
     stage("pictures", f"watch {video}; learning curve in {curve}")
     metrics = _metrics(samples, evaluations, seconds)

@@ -18,12 +18,10 @@ from dataclasses import dataclass, field, fields
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer._core import COMMAND_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, Frame, RobotColumns
-
-Doubles = NDArray[np.float64]
+from rsoccer.arrays import Array, Doubles, Floats
+from rsoccer.frame import Frame, RobotColumns
 
 
 @dataclass
@@ -69,7 +67,7 @@ class Robot:
         theta: heading, degrees from +x towards +y; (-180, 180] when read from a frame.
         v_x: velocity along x, or forward in a command, m/s.
         v_y: velocity along y, or to the left in a command, m/s.
-        v_theta: turn rate, anticlockwise, degrees per second.
+        v_theta: turn rate, counterclockwise, degrees per second.
         infrared: the ball cuts the beam.
         v_wheel0: wheel speed, rad/s; of two wheels the left one.
         v_wheel1: wheel speed, rad/s; of two wheels the right one.

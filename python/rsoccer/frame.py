@@ -5,16 +5,11 @@ towards +x. Units are SI. A heading is stored as (cos, sin), so it never wraps, 
 change of sign. The core defines the columns; this module derives everything from their names.
 """
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
-
-Floats = NDArray[np.float32]
-Mask = NDArray[np.bool_]
-Array = NDArray[Any]
+from rsoccer.arrays import Array, Floats
 
 # Values of `BallColumns.crossed`.
 NO_CROSSING = CROSSINGS.index("none")
@@ -151,7 +146,7 @@ class RobotColumns:
 
     @property
     def angular_velocity(self) -> Floats:
-        """(...) turn rate in rad/s, positive to the left."""
+        """(...) turn rate in rad/s, counterclockwise."""
         return self.data[..., self._ANGULAR_VELOCITY]
 
     @property
@@ -265,19 +260,6 @@ class Frame:
         return len(self.rows)
 
 
-def length(x: Floats, y: Floats) -> Floats:
-    """Return the Euclidean lengths of vectors (x, y).
-
-    The result does not depend on the batch; `np.hypot` and `np.linalg.norm` are slower.
-
-    Args:
-        x: first components, any shape.
-        y: second components, of the same shape.
-    """
-    lengths: Floats = np.sqrt(x * x + y * y)
-    return lengths
-
-
 def row_size(n_blue: int, n_yellow: int) -> int:
     """Return the number of columns of a state row: the ball's, then each robot's.
 
@@ -297,6 +279,15 @@ def robot_names(n_blue: int, n_yellow: int) -> tuple[str, ...]:
     """
     blue = tuple(f"blue_{i}" for i in range(n_blue))
     return blue + tuple(f"yellow_{i}" for i in range(n_yellow))
+
+
+def team_of(robot: str) -> str:
+    """Return the team of a robot, "blue" or "yellow".
+
+    Args:
+        robot: name of the robot, such as "blue_0".
+    """
+    return robot.rsplit("_", 1)[0]
 
 
 def _check_rows(rows: Array, size: int) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 LIMIT = 5.0
 """Largest magnitude of a number in a state, such as a ball at five times a robot's top speed."""
@@ -15,8 +15,8 @@ class StateEncoder:
     """An encoder of rows (n, row) as global states (n, state), scaled to about 1.
 
     A state has the columns below, first the ball's, then each robot's, blue first. Numbers are
-    absolute and clipped to -`LIMIT` to `LIMIT`. The column `crossed` is left out: it is an event,
-    and it ends the episode.
+    absolute and clipped to -`LIMIT` to `LIMIT`. Left out are the ball's spin, last touch,
+    crossings, touches of robots and the step count.
 
     | body | columns | unit |
     | --- | --- | --- |

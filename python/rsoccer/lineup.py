@@ -1,4 +1,4 @@
-"""Line-ups: which policy controls which robot when a policy is evaluated or watched."""
+"""Line-ups: controllers for evaluation and films, where policies replace the learners."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -6,6 +6,7 @@ from typing import Final
 
 from rsoccer import policies
 from rsoccer.controllers import Controller
+from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.task import LEARN, Learn, Task
 
@@ -55,7 +56,7 @@ def lineup(
         if not others:
             raise ValueError(f"opponent: {task.name} has one team only, so it has no opponent")
         others = [opponent] * len(others)
-    if side is None or next(iter(home)).startswith(side):
+    if side is None or team_of(next(iter(home))) == side:
         return {**dict(zip(home, own, strict=True)), **dict(zip(away, others, strict=True))}
     return {**_resized(home, others), **_resized(away, own)}
 
@@ -78,9 +79,9 @@ def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
     """Default controllers by robot: of the first learner's team, and of the other team."""
     if not task.agents:
         raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
-    side = task.agents[0].rsplit("_", 1)[0]
+    team = team_of(task.agents[0])
     defaults = task.default_controllers()
-    home = {robot: defaults[robot] for robot in task.robots if robot.startswith(side)}
+    home = {robot: defaults[robot] for robot in task.robots if team_of(robot) == team}
     return home, {robot: defaults[robot] for robot in task.robots if robot not in home}
 
 

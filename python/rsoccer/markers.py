@@ -1,4 +1,4 @@
-"""Floor markers of a task as plain data; `rsoccer.render.markers` draws them."""
+"""Floor markers of a task as plain data; `rsoccer.render.overlay` draws them."""
 
 from dataclasses import dataclass
 

@@ -11,7 +11,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.frame import Array, Floats, Frame
+from rsoccer.arrays import Array, Floats
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.view import View, Viewpoint
 

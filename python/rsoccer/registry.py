@@ -1,4 +1,4 @@
-"""Registry of tasks by name, with aliases and names that were retired."""
+"""Registry of tasks by name, with aliases and removed names."""
 
 import inspect
 import re
@@ -20,7 +20,7 @@ class Alias(NamedTuple):
 
 _TASKS: Final[dict[str, type[Task]]] = {}
 _ALIASES: Final[dict[str, Alias]] = {}
-_RETIRED: Final[dict[str, str]] = {}
+_REMOVED: Final[dict[str, str]] = {}
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 
 
@@ -80,8 +80,8 @@ def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the t
     ids.register_ids(name, learners)
 
 
-def retire(name: str, hint: str) -> None:
-    """Register a hint for a name that no longer has a task; `make_task` raises with it.
+def register_removed(name: str, hint: str) -> None:
+    """Register a removed name with a hint, with which `make_task` raises.
 
     Args:
         name: the former name.
@@ -93,7 +93,7 @@ def retire(name: str, hint: str) -> None:
     _check_name(name)
     if name in _TASKS or name in _ALIASES:
         raise ValueError(f"name: {name!r} is still in use")
-    _RETIRED[name] = hint
+    _REMOVED[name] = hint
 
 
 def list_tasks() -> list[str]:
@@ -128,7 +128,7 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         task, preset = _ALIASES[name]
         return make_task(task, **{**preset, **options})
     if name not in _TASKS:
-        hint = _RETIRED.get(name, f"expected one of {list_tasks()}")
+        hint = _REMOVED.get(name, f"expected one of {list_tasks()}")
         raise ValueError(f"unknown task {name!r}: {hint}")
     task_class = _TASKS[name]
     valid = list_options(task_class)

@@ -11,7 +11,8 @@ import numpy as np
 
 from rsoccer import _core
 from rsoccer._core import CROSSINGS, Field, Potential, SimConfig, mean_action_magnitude
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns, Floats, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns
 from rsoccer.task import Play
 
 BEHIND_BALL_DISTANCE: Final = 0.08
@@ -147,24 +148,16 @@ def energy(play: Play) -> Floats:
     return np.negative(effort, out=effort)
 
 
-def weighted_terms(
-    terms: dict[str, Floats], weights: Mapping[str, float] | str
-) -> dict[str, Floats]:
+def weighted_terms(terms: dict[str, Floats], weights: Mapping[str, float]) -> dict[str, Floats]:
     """Return reward terms times their weights.
 
     Args:
         terms: unweighted terms by name, each (n, observers) or (n, 1).
-        weights: weight of each term by name. The type of a task's option includes text; a task
-            replaces text by numbers when it is created.
+        weights: weight of each term by name.
 
     Returns:
         Weighted terms by name, in the order of `terms`.
-
-    Raises:
-        TypeError: `weights` is text.
     """
-    if isinstance(weights, str):
-        raise TypeError(f"weights: expected numbers by name, got {weights!r}")
     return {name: term * np.float32(weights[name]) for name, term in terms.items()}
 
 

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 Words = NDArray[np.uint64]
 Seeds = list[int | None]

@@ -10,7 +10,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BallModel, Field, SimConfig
-from rsoccer.frame import BallColumns, Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import BallColumns, Frame
 from rsoccer.rng import WorldRng
 
 Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import SimConfig, clip_in_place
-from rsoccer.frame import Array, Floats, Frame, Mask, robot_names
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame, robot_names, team_of
 from rsoccer.markers import Marker
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
@@ -137,7 +138,7 @@ class Task(ABC):
 
     @abstractmethod
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
-        """Compute the reward terms of the last step and the terminations.
+        """Return the reward terms of the last step and the terminations.
 
         Args:
             play: state of n worlds after the step.
@@ -195,7 +196,7 @@ class Task(ABC):
 
         Such a task is evaluated from both sides, with `success` +1, 0 or -1 for blue.
         """
-        learning = {name.rsplit("_", 1)[0] for name in self.agents}
+        learning = {team_of(name) for name in self.agents}
         return set(SIDES) <= learning.intersection(self.sides)
 
     @property

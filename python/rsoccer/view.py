@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from rsoccer import _core
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
-from rsoccer.frame import BallColumns, Floats, Frame, Mask, RobotColumns
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import BallColumns, Frame, RobotColumns
 
 SIDES = ("blue", "yellow")
 

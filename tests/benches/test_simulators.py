@@ -17,8 +17,8 @@ from benches.simulators import (
     timed_episodes,
 )
 from rsoccer import Frame, WorldRng
+from rsoccer.arrays import Floats
 from rsoccer.compat import robosim
-from rsoccer.frame import Floats
 
 SHORT = [replace(scenario, episode=40) for scenario in (RANDOM[0], RANDOM[2])]
 

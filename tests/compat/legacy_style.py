@@ -1,4 +1,4 @@
-"""Environments in the style of the old simulator: its interface only, states by index."""
+"""Environments in the style of rSim (rc-robosim 1.2): its interface only, states by index."""
 
 import random
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Motion of robots and ball through the old interface; "measured": on the old simulator."""
+"""Motion of robots and ball through the interface of rSim; "measured": on rSim (rc-robosim 1.2)."""
 
 import numpy as np
 import pytest

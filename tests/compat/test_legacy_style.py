@@ -1,4 +1,4 @@
-"""Whole episodes of environments written for the old interface."""
+"""Whole episodes of environments written for the interface of rSim (rc-robosim 1.2)."""
 
 import importlib
 import sys

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
+from rsoccer.arrays import Doubles
 from rsoccer.compat.legacy_models import SSL_BALL, SSL_ROBOT, VSS_ROBOT
 from rsoccer.compat.separation import MAX_OVERLAP, separate
-from rsoccer.entities import Doubles, headings
+from rsoccer.entities import headings
 
 RADIUS = SSL_BALL.radius
 FRONT = SSL_ROBOT.front_distance + RADIUS

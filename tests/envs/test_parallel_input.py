@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import rsoccer
-from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
+from rsoccer.envs.parallel import SoccerParallelEnv, env, parallel_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, crowded, play_episode, random_actions, shot_at
 
@@ -25,6 +25,26 @@ def test_robots_with_controllers_are_no_agents() -> None:
     assert list(observations) == ["blue_0", "blue_2"]
     with pytest.raises(ValueError, match="expected at least one learner, got none"):
         parallel_env(SELF_PLAY, controllers={"all": "ou"})
+
+
+@pytest.mark.parametrize("make", [parallel_env, env])
+def test_a_task_is_given_by_name_or_as_an_object(make: Callable[..., Any]) -> None:
+    task = rsoccer.VssMulti(n_blue=2, max_steps=9)
+    assert make(task).possible_agents == ["blue_0", "blue_1"]
+    assert make(task=SELF_PLAY).possible_agents == list(rsoccer.make_task(SELF_PLAY).agents)
+    with pytest.raises(TypeError, match=r"a Task object has its own options, got \['n_blue'\]"):
+        make(task, n_blue=1)
+    with pytest.raises(TypeError, match="expected a task or its name, got 7"):
+        make(7)
+
+
+def test_the_time_limit_has_two_names() -> None:
+    task = rsoccer.VssMulti(max_steps=9)
+    assert parallel_env(task).max_cycles == 9
+    assert parallel_env(task, max_cycles=3).max_cycles == 3
+    assert parallel_env(SELF_PLAY, max_steps=4).max_cycles == 4
+    assert parallel_env(SELF_PLAY, max_steps=4, max_cycles=3).max_cycles == 3
+    assert task.max_steps == 9, "the caller's task does not change"
 
 
 @pytest.mark.parametrize(
@@ -63,7 +83,7 @@ def test_a_match_starts_from_a_given_frame() -> None:
     ("row", "error", "message"),
     [
         (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(80,\).*\(3,\)"),
-        ("left", TypeError, r"options\['frame'\].*float32"),
+        ("left", TypeError, r"options\['frame'\].*floating-point"),
         (np.full(80, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
         (np.zeros(80, np.float32), ValueError, "blue_0.*unit vector"),
         (crowded(), ValueError, "blue_0.*yellow_2"),
@@ -129,9 +149,17 @@ WRONG_ACTIONS = {
         ValueError,
         r"'blue_0'.*\(2,\).*\(2, 1\)",
     ),
-    "text": (actions_with(yellow_0="left"), TypeError, "'yellow_0'.*float32.*<U4"),
-    "texts": ({agent: np.array(["1", "0"]) for agent in SIX}, TypeError, "'blue_0'.*float32.*<U1"),
-    "integers": ({agent: np.zeros(2, int) for agent in SIX}, TypeError, "'blue_0'.*float32.*int"),
+    "text": (actions_with(yellow_0="left"), TypeError, "'yellow_0'.*floating-point.*<U4"),
+    "texts": (
+        {agent: np.array(["1", "0"]) for agent in SIX},
+        TypeError,
+        "'blue_0'.*floating-point.*<U1",
+    ),
+    "integers": (
+        {agent: np.zeros(2, int) for agent in SIX},
+        TypeError,
+        "'blue_0'.*floating-point.*int",
+    ),
     "complex": (actions_with(blue_0=np.zeros(2, complex)), TypeError, "'blue_0'.*complex"),
     "none": ({**actions_with(), "blue_0": None}, TypeError, "'blue_0'.*object"),
     "NaN": (

@@ -12,9 +12,9 @@ from gymnasium.spaces import Box, Discrete, MultiDiscrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 import rsoccer
+from rsoccer.arrays import Array, Mask
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import SoccerVectorEnv, vector_env
-from rsoccer.frame import Array, Mask
 from tests.helpers import comparable
 from tests.parallel_matches import shot_at
 from tests.single_learner import DISCRETE, TASKS, learner_controllers, learner_options, short_env

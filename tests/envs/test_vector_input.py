@@ -93,7 +93,7 @@ def test_a_refused_reset_changes_nothing(
 WRONG_ACTIONS = {
     "one match": (np.zeros(2, np.float32), ValueError, r"\(3, 2\), got \(2,\)"),
     "too many": (np.zeros((4, 2), np.float32), ValueError, r"\(3, 2\), got \(4, 2\)"),
-    "integers": (np.zeros((N, 2), int), TypeError, "float32.*int"),
+    "integers": (np.zeros((N, 2), int), TypeError, "floating-point.*int"),
     "NaN": (np.full((N, 2), np.nan), ValueError, "finite numbers, got nan"),
 }
 WRONG_INDICES = {

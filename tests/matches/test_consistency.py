@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.task import Play
 from tests.failing import METHODS, FailingTask, InjectedError, failing_matches
 from tests.helpers import pushing, same, zeros

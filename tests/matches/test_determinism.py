@@ -12,25 +12,18 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
+from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.frame import Floats, Mask
 from rsoccer.matches import Outcome
 from rsoccer.task import Play, Task
 from tests.helpers import Crowd, pushing, same, ssl_crowd, touches
 from tests.parallel_matches import TASKS, VSS_TASKS
+from tools.solvers import SOLVERS
 
 WORLDS = 5
 STEPS = 130
 
-SCRIPTS = {
-    "SSLContestedPossession-v0": "strike",
-    "SSLDribbling-v0": "weave",
-    "SSLGoToBall-v0": "fetch",
-    "SSLPassEndurance-v0": "passer",
-    "SSLPassEnduranceMulti-v0": "passer",
-    "SSLSelfPlay-v0": "strike",
-    "SSLStaticDefenders-v0": "strike",
-}
+SCRIPTS = {task: script for task, script in SOLVERS.items() if task.startswith("SSL")}
 ALONE: list[tuple[str, Controllers | None]] = [(name, None) for name in TASKS]
 DRIVEN: list[tuple[str, Controllers | None]] = [
     ("VSSMulti-v0", {"yellow": "ou", "blue_1": "uniform"}),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
-from rsoccer.frame import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, begun, pushing, same, zeros

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches, Simulator
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.tasks import SslSelfPlay
 from tests.helpers import begun, same, zeros
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer.policies import make
+from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from tests.policies.networks import (
@@ -77,23 +77,23 @@ def test_the_mode_may_follow_the_path(tmp_path: Path) -> None:
     network_for(task).save(path)
     for suffix, mode in {"": "sample", ":sample": "sample", ":mean": "mean"}.items():
         for name in (f"{path}{suffix}", Path(f"{path}{suffix}")):
-            policy = make(name, task)
+            policy = make_policy(name, task)
             assert isinstance(policy, Network)
             assert policy.mode == mode
     assert Network.load(path, mode="mean").mode == "mean"
     with pytest.raises(ValueError, match=r"mode: expected one of .*'sample'.*'mean'.*got 'greedy'"):
-        make(f"{path}:greedy", task)
+        make_policy(f"{path}:greedy", task)
     with pytest.raises(FileNotFoundError):
-        make(f"{tmp_path}/gone.safetensors:mean", task)
+        make_policy(f"{tmp_path}/gone.safetensors:mean", task)
     for unknown in ("nobody:mean", "C:nobody"):
         with pytest.raises(ValueError, match=f"unknown policy '{unknown}'"):
-            make(unknown, task)
+            make_policy(unknown, task)
 
 
 def test_a_file_whose_name_ends_like_a_mode_is_found(tmp_path: Path) -> None:
     task = rsoccer.make_task("VSS-v0")
     network_for(task).save(tmp_path / "policy:mean")
-    policy = make(tmp_path / "policy:mean", task)
+    policy = make_policy(tmp_path / "policy:mean", task)
     assert isinstance(policy, Network)
     assert policy.mode == "sample"
 

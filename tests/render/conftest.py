@@ -6,7 +6,8 @@ import pytest
 
 from rsoccer import SimConfig
 from rsoccer._core import Field
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 
 
 @pytest.fixture

@@ -9,7 +9,8 @@ import pytest
 
 from rsoccer import SimConfig
 from rsoccer._core import Field, RobotModel
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.render import Image, Renderer, draw_image, palette
 from rsoccer.render.image import DEFAULT_WIDTHS, WIDTHS, _renderer, default_width
 from rsoccer.render.overlay import area_shapes

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image as Pillow
 
 from rsoccer import Matches
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
 from rsoccer.render.record import GOAL_PAUSE, MIN_WIDTH, _images
@@ -67,7 +67,7 @@ def test_after_a_goal_a_new_episode_begins() -> None:
     film(60.0, spy)
     goals = [i for i, drawn in enumerate(spy.drawn) if drawn["caption"]]
     moved = [float(np.abs(b[:2] - a[:2]).max()) for a, b in pairwise(spy.rows)]
-    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed anew
+    assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed again
 
 
 @pytest.mark.parametrize("name", ["match.gif"])

@@ -7,7 +7,8 @@ import pytest
 
 from rsoccer import SimConfig
 from rsoccer._core import RobotModel
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.render import palette
 from rsoccer.render.overlay import target_shapes
 from rsoccer.render.robot import robot_shapes

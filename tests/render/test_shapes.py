@@ -16,7 +16,7 @@ RED = (255, 0, 0, 255)
 
 
 def area(points: tuple[Point, ...]) -> float:
-    """Twice the signed sum of triangles, halved: positive if anticlockwise."""
+    """Twice the signed sum of triangles, halved: positive if counterclockwise."""
     following = (*points[1:], points[0])
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(points, following, strict=True)) / 2
 

@@ -5,10 +5,12 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.frame import Array, Floats, RobotColumns, column_slice, length
+from rsoccer.arrays import Array, Floats
+from rsoccer.frame import RobotColumns, column_slice
+from rsoccer.vectors import norm
 from rsoccer.view import View
 
-CLOSENESS_RATE: Final = np.float32(8.0)  # 1/m: closeness is about a third at 12 cm
+NEARNESS_RATE: Final = np.float32(8.0)  # 1/m: nearness is about a third at 12 cm
 TINY: Final = np.float32(1e-6)  # m; avoids a division by zero
 PLANE = column_slice(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta")
 WITH_BEAM = column_slice(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v_theta", "infrared")
@@ -58,7 +60,7 @@ def _to_body(ego: RobotColumns, vectors: Floats) -> Floats:
 
 def _polar(ego: RobotColumns, offset: Floats, per_metre: np.float32) -> Floats:
     """Distance and bearing (cosine, sine) of a point at `offset` (n, observers, 2)."""
-    distance = length(offset[..., 0], offset[..., 1])
+    distance = norm(offset[..., 0], offset[..., 1])
     polar = np.empty((*distance.shape, 3), np.float32)
     np.multiply(distance, per_metre, out=polar[..., 0])
     bearing = _to_body(ego, offset[:, :, None])[:, :, 0]
@@ -67,18 +69,18 @@ def _polar(ego: RobotColumns, offset: Floats, per_metre: np.float32) -> Floats:
 
 
 def _shot(ego: RobotColumns, to_ball: Floats, to_goal: Floats) -> Floats:
-    """Direction from ball to goal, closeness of the ball, and alignment of robot, ball and goal.
+    """Direction from ball to goal, nearness of the ball, and alignment of robot, ball and goal.
 
-    (n, observers, 4): cosine and sine; 1 at the ball, falling to 0; the closeness times the cosine
+    (n, observers, 4): cosine and sine; 1 at the ball, falling to 0; the nearness times the cosine
     between the directions to the ball and from ball to goal.
     """
     shot = np.empty((*to_goal.shape[:2], 4), np.float32)
-    goal_distance = np.maximum(length(to_goal[..., 0], to_goal[..., 1]), TINY)
-    distance = np.maximum(length(to_ball[..., 0], to_ball[..., 1]), TINY)
+    goal_distance = np.maximum(norm(to_goal[..., 0], to_goal[..., 1]), TINY)
+    distance = np.maximum(norm(to_ball[..., 0], to_ball[..., 1]), TINY)
     np.divide(
         _to_body(ego, to_goal[:, :, None])[:, :, 0], goal_distance[..., None], out=shot[..., :2]
     )
-    np.exp(distance * -CLOSENESS_RATE, out=shot[..., 2])
+    np.exp(distance * -NEARNESS_RATE, out=shot[..., 2])
     along = to_ball[..., 0] * to_goal[..., 0] + to_ball[..., 1] * to_goal[..., 1]
     np.multiply(shot[..., 2], along / (goal_distance * distance), out=shot[..., 3])
     return shot

@@ -8,7 +8,8 @@ import numpy as np
 
 import rsoccer
 from rsoccer import LEARN, Matches, policies
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.matches import Outcome
 from rsoccer.policies.base import PolicyInput
 from rsoccer.rng import WorldRng
@@ -67,7 +68,7 @@ def play(task: Task, policy: str, worlds: int = 24, seed: int = 5) -> Episodes:
     """Episodes in which `policy` controls all learners."""
     matches = Matches(task, worlds, seed, 2, autoreset="disabled")
     matches.reset()
-    controller, shape = policies.make(policy, task), (worlds, len(matches.agents), 5)
+    controller, shape = policies.make_policy(policy, task), (worlds, len(matches.agents), 5)
     rng = WorldRng.seeded(1, worlds)
     memory = controller.new_memory(shape, rng)
     episodes = Episodes(np.zeros(worlds, np.float32), {})

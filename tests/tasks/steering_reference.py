@@ -3,7 +3,8 @@
 import numpy as np
 
 from rsoccer._core import COMMAND_COLUMNS
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.tasks.ssl import Ssl
 
 BODY = COMMAND_COLUMNS["omni"]

@@ -34,7 +34,7 @@ RSOCCER_GYM = [
 
 
 def test_every_old_name_is_known() -> None:
-    names = [*legacy_names.KEPT, *legacy_names.ALIASES, *legacy_names.RETIRED]
+    names = [*legacy_names.KEPT, *legacy_names.ALIASES, *legacy_names.REMOVED]
     assert sorted(names) == sorted(RSOCCER_GYM)
     assert set(legacy_names.KEPT) <= set(rsoccer.list_tasks())
     assert set(legacy_names.ALIASES) == set(ALIASES)
@@ -94,11 +94,11 @@ def test_shooting_without_opponents_can_be_solved() -> None:
     expect_solved(task, "strike", "goal_score", 0.95)
 
 
-@pytest.mark.parametrize("name", legacy_names.RETIRED)
-def test_retired_names_suggest_a_replacement(name: str) -> None:
+@pytest.mark.parametrize("name", legacy_names.REMOVED)
+def test_removed_names_suggest_a_replacement(name: str) -> None:
     with pytest.raises(ValueError, match=f"unknown task '{name}'") as raised:
         rsoccer.parallel_env(name)
-    assert legacy_names.RETIRED[name] in str(raised.value)
+    assert legacy_names.REMOVED[name] in str(raised.value)
 
 
 def test_the_command_line_lists_aliases(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,7 +8,8 @@ import pytest
 import rsoccer
 from rsoccer import LEARN, Matches
 from rsoccer._core import Field, Steering
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
 from rsoccer.tasks.ssl import DISCRETE_ACTIONS, VELOCITY_FRAMES, Ssl
 from tests.helpers import pushing
@@ -232,3 +233,13 @@ def test_matches_start_on_every_ssl_field(name: str) -> None:
 def test_strict_contact_is_a_boolean() -> None:
     with pytest.raises(TypeError, match="strict_contact: expected True or False, got 'no'"):
         SslContestedPossession(strict_contact="no")  # type: ignore[arg-type]
+
+
+def test_the_goal_area_with_and_without_a_margin() -> None:
+    task = SslGoToBall()
+    field = task.config.field
+    front, side = field.half_length - field.goal_area_depth, field.goal_area_width / 2
+    points = [(front + 0.01, 0.0), (front - 0.01, 0.0), (front + 0.01, -side - 0.01), (-3.0, 0.0)]
+    positions = np.array(points, np.float32)
+    assert task.is_in_goal_area(positions).tolist() == [True, False, False, False]
+    assert task.is_in_goal_area(positions, 0.02).tolist() == [True, True, True, False]

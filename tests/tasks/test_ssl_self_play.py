@@ -3,7 +3,8 @@ import pytest
 
 from rsoccer import Matches, SimConfig
 from rsoccer._core import CROSSINGS, Field
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.tasks import SslSelfPlay
 from tests.tasks.ssl_scenes import STAND, play, run, scene
 

@@ -10,7 +10,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
-from rsoccer.tasks.vss import REWARD_WEIGHTS, Vss
+from rsoccer.tasks.vss import Vss
 from tests.helpers import pushing
 
 NAMES = [name for name in rsoccer.list_tasks() if name.startswith("VSS")]
@@ -119,14 +119,14 @@ def test_goals_are_the_largest_part_of_the_return(name: str) -> None:
     worlds = 60
     task = rsoccer.make_task(name)
     learners: Controllers = {"all": rsoccer.LEARN, "yellow": "zero"}
-    chase = rsoccer.policies.make("chase", task)
+    chase = rsoccer.policies.make_policy("chase", task)
     matches = Matches(task, worlds, seed=1, controllers=learners, autoreset="disabled", threads=2)
     matches.reset()
     rng, memory = (
         WorldRng.seeded(0, worlds),
         chase.new_memory((worlds, 3, 2), WorldRng.seeded(0, 1)),
     )
-    totals = dict.fromkeys(REWARD_WEIGHTS, 0.0)
+    totals = dict.fromkeys(Vss.REWARD_WEIGHTS, 0.0)
     goals = 0
     for _ in range(task.max_steps):
         inputs = rsoccer.policies.PolicyInput((worlds, 3, 2), matches.play.view, None)
@@ -168,7 +168,7 @@ def test_a_goal_of_either_team_terminates_and_sets_the_score(name: str, side: fl
 
 def test_reward_weights_are_options() -> None:
     task = VssSelfPlay(reward_weights={"approach": 0.0})
-    assert task.reward_weights == REWARD_WEIGHTS | {"approach": 0.0}
+    assert task.reward_weights == {**Vss.REWARD_WEIGHTS, "approach": 0.0}
     matches = Matches(task, 2)
     matches.reset()
     outcome = matches.step(np.ones((2, 6, 2), np.float32))

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay
 from rsoccer.testing.pressure import Pressing

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play, Task
 from rsoccer.tasks import VssSelfPlay

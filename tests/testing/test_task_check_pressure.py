@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rsoccer.frame import BallColumns, Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import BallColumns, Frame
 from rsoccer.task import Play
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from rsoccer.testing import TaskError, check_task

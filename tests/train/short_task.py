@@ -1,14 +1,18 @@
 """Self-play tasks whose matches end within seconds, by goals and by the time limit."""
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from rsoccer import register
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
+from rsoccer.train import Args
 
 NAME = "ShortSelfPlay-v0"
 FORWARD = "Forward-v0"
@@ -33,7 +37,7 @@ class ShortSelfPlay(VssSelfPlay):
 
 @dataclass(frozen=True)
 class Forward(ShortSelfPlay):
-    """The reward is power ahead alone, so the task is easy to learn."""
+    """The reward is the wheel speed ahead alone, so the task is easy to learn."""
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Return the mean of both wheel commands as the reward."""
@@ -65,3 +69,8 @@ TINY = {
     "progress": False,
 }
 """Settings of a run of six updates that takes about a second."""
+
+
+def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
+    """Return the settings `TINY` with changes."""
+    return Args(**{**TINY, "out": out, **changes})

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rsoccer.frame import Array, Floats
-from rsoccer.policies import make
+from rsoccer.arrays import Array, Floats
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
@@ -115,8 +115,8 @@ def test_actions_depend_on_the_stream_of_their_world_only() -> None:
     assert not np.array_equal(batch[1], batch[2])
 
 
-def test_drifting_opponents_equal_the_ou_policy() -> None:
-    pool, ou = new_pool(past=2), make("ou", TASK)
+def test_ou_opponents_equal_the_ou_policy() -> None:
+    pool, ou = new_pool(past=2), make_policy("ou", TASK)
     rng, memory = start(pool, 50)
     ou_rng = WorldRng.from_state(rng.state)
     ou_memory = ou.new_memory((50, 3, 2), ou_rng)

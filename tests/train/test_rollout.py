@@ -4,7 +4,7 @@ from typing import cast
 
 import numpy as np
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.matches import Matches, Outcome
 from rsoccer.train.rollout import Transition, repeat_action
 

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import numpy as np
-import pytest
 import torch
 
 from rsoccer.policies.network import Network
@@ -11,16 +10,8 @@ from rsoccer.registry import make_task
 from rsoccer.train import checkpoint, train
 from rsoccer.train.run_state import restore
 from rsoccer.train.trainer import Trainer
-from tests.train.short_task import NAME
-from tests.train.test_trainer import run_until, tiny
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of a run without interruption."""
-    folder = tmp_path_factory.mktemp("finished")
-    train(tiny(folder))
-    return folder
+from tests.train.short_task import NAME, tiny
+from tests.train.test_trainer import run_until
 
 
 def test_the_policy_file_plays_the_trained_network(finished: Path) -> None:

@@ -4,7 +4,6 @@ import csv
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,11 +14,7 @@ from rsoccer.train import Args, checkpoint, train
 from rsoccer.train.run_state import capture
 from rsoccer.train.stop_signal import Stopped, StopSignal
 from rsoccer.train.trainer import Trainer
-from tests.train.short_task import FORWARD, NAME, TINY
-
-
-def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
-    return Args(**{**TINY, "out": out, **changes})
+from tests.train.short_task import FORWARD, NAME, tiny
 
 
 def digest(folder: Path) -> str:
@@ -59,14 +54,6 @@ def run_until(args: Args, checks: int) -> int:
     with pytest.raises(Stopped):
         trainer.run(StopAfter(checks), 0)
     return trainer.updates
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the folder of a run without interruption."""
-    folder = tmp_path_factory.mktemp("finished")
-    train(tiny(folder))
-    return folder
 
 
 def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> None:
@@ -147,7 +134,7 @@ def test_a_run_starts_solo_and_continues_with_self_play(tmp_path: Path) -> None:
     assert list(trainer.collector.matches.agents) == ["blue_0", "blue_1", "blue_2"]
     assert not trainer.is_solo
     scores = [row["episode_latest/goal_score"] for row in progress(tmp_path)]
-    assert set(scores[:3]) == {"nan"}, "solo learners meet drifting robots only"
+    assert set(scores[:3]) == {"nan"}, "solo learners meet the ou policy only"
 
 
 def test_training_raises_the_reward(tmp_path: Path) -> None:

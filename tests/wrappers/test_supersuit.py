@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer.arrays import Floats
 from rsoccer.envs.parallel import parallel_env
-from rsoccer.frame import Floats
 from tests.parallel_matches import TASKS
 
 supersuit = pytest.importorskip("supersuit")

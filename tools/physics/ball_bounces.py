@@ -4,7 +4,7 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import BallModel
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.physics import closed_form
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, Ball

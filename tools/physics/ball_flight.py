@@ -7,7 +7,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import CROSSINGS, Field
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, Ball, G
 from tools.physics.closed_form import apex, rise_to
@@ -138,7 +139,7 @@ def _onto_a_robot() -> Checks:
     scene.ball.velocity[:, 0] = [0.0, 0.0, 0.5, 0.2]
     scene.ball.height[:] = 1.0
     ball = scene.play(4.0).ball
-    beside = length(*ball.position[-1].T) > GENERIC.radius
+    beside = norm(*ball.position[-1].T) > GENERIC.radius
     down = (ball.height[-1] == 0.0) & (ball.last_touch[-1] == 0)
     yield ON_TOP("from 1 m", 4, (beside & down).sum())
 

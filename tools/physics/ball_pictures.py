@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.physics.ball_bounces import at_wall, off_wall
 from tools.physics.ball_flight import chip
 from tools.physics.ball_rolling import simulate_kicks

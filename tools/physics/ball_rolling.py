@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import BallModel, Field
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics import closed_form
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, Ball
@@ -121,8 +122,8 @@ def _directions(name: str, ball: Ball) -> Checks:
     last = scene.play(2.0).ball
     for world, degrees in enumerate(DIRECTIONS):
         case = f"`{name}`, {degrees:g} degrees"
-        yield DISTANCE_BY_DIRECTION(case, distance, length(*last.position[-1, world]))
-        yield SPEED_BY_DIRECTION(case, speed, length(*last.velocity[-1, world]))
+        yield DISTANCE_BY_DIRECTION(case, distance, norm(*last.position[-1, world]))
+        yield SPEED_BY_DIRECTION(case, speed, norm(*last.velocity[-1, world]))
 
 
 def _ticks(name: str, ball: Ball) -> Checks:
@@ -165,8 +166,8 @@ def _grazes() -> Checks:
         ball = scene.play(1.0).ball
         case = f"{1000 * tick:g} ms"
         away = ball.position[-1, 0] - start[:2]
-        yield GRAZE_DISTANCE(case, sqrt(((end - start) ** 2).sum()), length(*away))
-        yield GRAZE_SPEED(case, float(np.linalg.norm(velocity)), length(*ball.velocity[-1, 0]))
+        yield GRAZE_DISTANCE(case, sqrt(((end - start) ** 2).sum()), norm(*away))
+        yield GRAZE_SPEED(case, float(np.linalg.norm(velocity)), norm(*ball.velocity[-1, 0]))
 
 
 def _grazed(ball: Ball, start: Array, kick: Array, wall: float, time: float) -> tuple[Array, Array]:

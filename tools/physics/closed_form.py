@@ -5,7 +5,7 @@ from math import sqrt
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.physics.cited import SOLID_SPHERE, Ball, G
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import Field
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import VSS_ROBOTS, VssRobot
 from tools.physics.scene import STEP, TICK, Scene, first_true
@@ -96,7 +97,7 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     yield TURN_UP(
         f"`{name}`", robot.longitudinal_grip * robot.track_width / 2 / inertia, spin[3] / (4 * TICK)
     )
-    yield SPOT(f"`{name}`", 0.0, 1000 * length(*trajectory.robots.position[-1, 0, 0]))
+    yield SPOT(f"`{name}`", 0.0, 1000 * norm(*trajectory.robots.position[-1, 0, 0]))
 
 
 def _arc(name: str, robot: VssRobot) -> Checks:
@@ -114,7 +115,7 @@ def radius_of(points: Array) -> float:
     """Return the radius of the circle through the first three points, m."""
     a, b, c = points[:3].astype(np.float64)
     area = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]) / 2
-    return float(length(*(b - a)) * length(*(c - b)) * length(*(a - c)) / (4 * area))
+    return float(norm(*(b - a)) * norm(*(c - b)) * norm(*(a - c)) / (4 * area))
 
 
 def _skid(name: str, robot: VssRobot) -> Checks:

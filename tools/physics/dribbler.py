@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import RobotModel
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, SSL_SHARED, TURN_WITH_BALL, WITH_BALL
 from tools.physics.kicker import front_offset, with_ball
@@ -226,7 +227,7 @@ def _speed() -> Checks:
         if without_ball:
             scene.ball.position[:] = (0.0, 2.5)
         scene.command(0, v_x=bodies[:, 0], v_y=bodies[:, 1], dribbler=1.0)
-        distances.append(length(*scene.play(1.5).robots.position[-1, :, 0].T))
+        distances.append(norm(*scene.play(1.5).robots.position[-1, :, 0].T))
     for world, direction in enumerate(DIRECTIONS):
         yield NO_SLOWER(direction, 1.0, distances[0][world] / distances[1][world])
 
@@ -241,12 +242,12 @@ def _releasing() -> Checks:
     scene = turning_scene(FAST, time_step=TICK)
     match = scene.begin()
     bend = np.diff(match.run(1.0).ball.velocity[-2:, 0], axis=0)[0]
-    yield TURN_CHANGE(f"at {FAST:g} rad/s", FAST**2 * front_offset() * TICK, length(*bend))
+    yield TURN_CHANGE(f"at {FAST:g} rad/s", FAST**2 * front_offset() * TICK, norm(*bend))
     held = match.frame.ball.velocity.copy()
     scene.command(0, dribbler=0.0)
     velocity = np.concatenate([held[None], match.run(3 * TICK).ball.velocity])[:, 0]
     for tick, change in enumerate(np.diff(velocity, axis=0), start=1):
-        yield RELEASE_CHANGE(f"tick {tick}", BALL.sliding_deceleration * TICK, length(*change))
+        yield RELEASE_CHANGE(f"tick {tick}", BALL.sliding_deceleration * TICK, norm(*change))
     yield LEAVES("while turning", 0.0, match.run(1.0).robots.infrared[-1, 0, 0])
 
 

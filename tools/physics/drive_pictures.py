@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from rsoccer import SimConfig
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.physics import differential_drive, omni_drive
 from tools.physics.ball_pictures import figure
 from tools.physics.cited import GENERIC, VSS_ROBOTS

@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import CROSSINGS
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.scene import Scene, Trajectory
 
@@ -59,7 +60,7 @@ def checks() -> Checks:
 def _shoot(scene: Scene, start: Array, target: Array) -> None:
     offset = target - start
     scene.ball.position[:] = start
-    scene.ball.velocity[:] = SPEED * offset / length(offset[:, 0], offset[:, 1])[:, None]
+    scene.ball.velocity[:] = SPEED * offset / norm(offset[:, 0], offset[:, 1])[:, None]
 
 
 def _uniform(centre: Sequence[float], spread: Sequence[float], count: int = SHOTS) -> Array:
@@ -107,7 +108,7 @@ def _robots() -> Checks:
         scene.face(0, shots[:, 4])
         _shoot(scene, shots[:, :2], shots[:, 2:4])
         ball = scene.play(0.1).ball
-        speed = length(ball.velocity[-1, :, 0], ball.velocity[-1, :, 1])
+        speed = norm(ball.velocity[-1, :, 0], ball.velocity[-1, :, 1])
         beyond = (ball.position[-1] * -shots[:, :2]).sum(axis=-1) > 0.1
         yield ROBOTS(f"`{field}`", 0, (beyond & (speed > 0.95 * SPEED)).sum())
         yield TOUCHED(f"`{field}`", SHOTS, (ball.last_touch[-1] == 0).sum())
@@ -132,7 +133,7 @@ def _spinning() -> Checks:
         ball = scene.play(0.1).ball
         beyond = (ball.position[-1] * -shots[:, :2]).sum(axis=-1) > 0.1
         ahead = (ball.velocity[-1] * scene.ball.velocity).sum(axis=-1)
-        straight = ahead > 0.9 * SPEED * length(*ball.velocity[-1].T)
+        straight = ahead > 0.9 * SPEED * norm(*ball.velocity[-1].T)
         yield SPINNING(f"`{field}`, {spin:g} rad/s", 0, (beyond & straight).sum())
         yield SPIN_TOUCHED(f"`{field}`, {spin:g} rad/s", SHOTS, (ball.last_touch[-1] == 0).sum())
 

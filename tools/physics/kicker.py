@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import RobotModel
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, SSL_ROBOTS, G
 from tools.physics.scene import TICK, Scene
@@ -154,7 +155,7 @@ def _limits() -> Checks:
         scene = with_ball(name, worlds=2)
         scene.command(0, kick_v_x=20.0, kick_v_z=np.array([0.0, 20.0]))
         ball = scene.play(TICK).ball
-        speed = length(ball.velocity[-1, :, 0], ball.vertical_velocity[-1])
+        speed = norm(ball.velocity[-1, :, 0], ball.vertical_velocity[-1])
         yield MAX_KICK(f"`{name}`", robot.max_kick_speed, speed[0])
         yield MAX_CHIP(f"`{name}`", robot.max_chip_speed, speed[1])
 
@@ -203,5 +204,5 @@ def _two_kickers() -> Checks:
             scene.command(index, kick_v_x=8.0)
         velocity = scene.play(TICK).ball.velocity[-1, 0]
         cosine, case = np.cos(radians(degrees / 2)), f"{degrees:g} degrees apart"
-        yield TWO_KICKERS(case, 8.0 * min(1 / cosine, 2 * cosine), length(*velocity))
+        yield TWO_KICKERS(case, 8.0 * min(1 / cosine, 2 * cosine), norm(*velocity))
         yield TWO_KICKERS_DIRECTION(case, 0.0, np.degrees(np.arctan2(velocity[1], velocity[0])))

@@ -6,7 +6,8 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import RobotModel
-from rsoccer.frame import Array, length
+from rsoccer.arrays import Array
+from rsoccer.vectors import norm
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import GENERIC, JERK, SSL_ROBOTS
 from tools.physics.scene import TICK, Scene, Trajectory, first_true
@@ -73,7 +74,7 @@ def lone_robot(
 def speeds(trajectory: Trajectory) -> Array:
     """Return the speed of robot 0, m/s, shape (steps, worlds)."""
     velocity = trajectory.robots.velocity[:, :, 0]
-    return length(velocity[..., 0], velocity[..., 1])
+    return norm(velocity[..., 0], velocity[..., 1])
 
 
 def _acceleration() -> Checks:
@@ -137,9 +138,9 @@ def _wheels() -> Checks:
         by_body.command(0, v_x=v_x, v_y=v_y, v_theta=v_theta)
         a, b = (scene.play(1.0).robots for scene in (by_wheels, by_body))
         case = f"{v_x:g} m/s, {v_y:g} m/s, {v_theta:g} rad/s"
-        yield BY_WHEELS(case, hypot(v_x, v_y), length(*a.velocity[-1, 0, 0]))
+        yield BY_WHEELS(case, hypot(v_x, v_y), norm(*a.velocity[-1, 0, 0]))
         yield WHEELS_TURN(case, v_theta, a.angular_velocity[-1, 0, 0])
-        yield AGREE(case, 0.0, length(*(a.position[-1, 0, 0] - b.position[-1, 0, 0])))
+        yield AGREE(case, 0.0, norm(*(a.position[-1, 0, 0] - b.position[-1, 0, 0])))
 
 
 def _saturation() -> Checks:

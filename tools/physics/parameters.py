@@ -4,7 +4,7 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import BALL_PARAMETERS, ROBOT_PARAMETERS
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.markdown import table
 from tools.physics.check import EXACT, Checks, Criterion, percent
 from tools.physics.cited import BALLS, GENERIC, G

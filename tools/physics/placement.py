@@ -4,7 +4,7 @@ import numpy as np
 
 from rsoccer import Frame, SimConfig
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.scene import STEP, Match, Scene
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rsoccer import SimConfig
-from rsoccer.frame import length
+from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
 from tools.physics.scene import Scene, Trajectory
@@ -121,7 +121,7 @@ def _vss() -> Checks:
         robots = scene.play(5.0).robots
         gap = 1000 * (0.75 - robots.position[-1, 0, 0, 0])
         yield VSS_WALL(f"`{name}`", 1000 * robot.side_length / 2, gap)
-        yield VSS_SPEED(f"`{name}`", 0.0, length(*robots.velocity[-1, 0, 0]))
+        yield VSS_SPEED(f"`{name}`", 0.0, norm(*robots.velocity[-1, 0, 0]))
 
 
 def _squeezed() -> Checks:
@@ -134,6 +134,6 @@ def _squeezed() -> Checks:
         scene.command(index, v_x=-2.0)
     trajectory = scene.play(1.0)
     away = trajectory.robots.position - trajectory.ball.position[:, :, None]
-    gaps = length(away[..., 0], away[..., 1])[:, 0] - GENERIC.radius - ball.radius
+    gaps = norm(away[..., 0], away[..., 1])[:, 0] - GENERIC.radius - ball.radius
     yield SQUEEZE("1 s", 0.0, 1000 * max(-float(gaps.min()), 0.0))
     yield SQUEEZED("gap below 0.1 mm", 2, np.sum((gaps[20:] < 1e-4).all(axis=0)))

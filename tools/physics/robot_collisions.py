@@ -3,7 +3,7 @@
 import numpy as np
 
 from rsoccer import SimConfig
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.cited import GENERIC, SSL_SHARED, VSS_ROBOTS
 from tools.physics.scene import TICK, Scene, Trajectory

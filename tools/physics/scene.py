@@ -4,7 +4,8 @@ import numpy as np
 
 from rsoccer import Frame, SimConfig, Simulator
 from rsoccer._core import BALL_COLUMNS, BALL_PARAMETERS, ROBOT_COLUMNS, ROBOT_PARAMETERS
-from rsoccer.frame import Array, BallColumns, Floats, RobotColumns
+from rsoccer.arrays import Array, Floats
+from rsoccer.frame import BallColumns, RobotColumns
 
 TICK = 0.005  # s
 STEP = 0.025  # s

@@ -6,7 +6,7 @@ import numpy as np
 
 from rsoccer import SimConfig
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.scene import Scene
 

@@ -45,6 +45,8 @@ GROUPS: Final = (
             "rsoccer.task",
             "rsoccer.play",
             "rsoccer.frame",
+            "rsoccer.arrays",
+            "rsoccer.vectors",
             "rsoccer.view",
             "rsoccer.rng",
             "rsoccer.spawn",
@@ -74,7 +76,7 @@ GROUPS: Final = (
             "rsoccer.tasks.ssl_static_defenders",
         ),
     ),
-    Group("Physics", ("rsoccer._core", "rsoccer.simulator")),
+    Group("Physics", ("rsoccer._core", "rsoccer.simulator_interface")),
     Group(
         "Policies",
         (

@@ -27,7 +27,7 @@ pub const BALL_COLUMNS: [&str; 14] = [
 
 /// Columns of a robot.
 ///
-/// Position (m), heading as cosine and sine, velocity (m/s), turn rate (rad/s, counter-clockwise),
+/// Position (m), heading as cosine and sine, velocity (m/s), turn rate (rad/s, counterclockwise),
 /// whether the ball cuts the break beam (1 or 0), and of the control step: whether the robot touched the
 /// ball or an opponent (1 or 0), and the closing speed of its hardest contact with any robot (m/s).
 pub const ROBOT_COLUMNS: [&str; 11] = [
@@ -53,7 +53,7 @@ pub const DIFFERENTIAL_COLUMNS: [&str; 2] = ["left", "right"];
 pub const OMNI_COLUMNS: [&str; 6] = ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
 /// Command of an omnidirectional robot by its wheels: wheel speeds (rad/s) in the order of the model's
-/// `wheel_angles`, positive turns the robot counter-clockwise; kick and dribbler as in
+/// `wheel_angles`, positive turns the robot counterclockwise; kick and dribbler as in
 /// [`OMNI_COLUMNS`].
 pub const OMNI_WHEELS_COLUMNS: [&str; 7] =
     ["wheel_0", "wheel_1", "wheel_2", "wheel_3", "kick_v_x", "kick_v_z", "dribbler"];

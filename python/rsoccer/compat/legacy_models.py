@@ -1,4 +1,4 @@
-"""Fields, balls and robots of the old simulator rSim, as models for this physics.
+"""Fields, balls and robots of rSim (rc-robosim 1.2), as models for this physics.
 
 Numbers: robocin/rSim at b413932 (release 1.2), as its `get_field_params` reports them or as its
 behaviour was measured.
@@ -17,7 +17,7 @@ SSL_FIELDS: Final = (Field("ssl_a", goal_line_margin=0.3), Field("ssl_b"), Field
 VSS_BALL: Final = BallModel("vss_rsim", radius=0.0215, mass=0.043)
 SSL_BALL: Final = BallModel("grsim", mass=0.043)
 
-VSS_ROBOT: Final = RobotModel("vss_440rpm")  # same as in rSim: 440 rpm, 120 g, two wheels of 15 g
+VSS_ROBOT: Final = RobotModel("vss_440rpm")  # same as in rSim: 440 rpm, 120 g, wheels of 15 g each
 
 SSL_ROBOT: Final = RobotModel(
     "ssl_generic",

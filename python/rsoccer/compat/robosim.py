@@ -1,6 +1,6 @@
-"""The interface of the old simulator rc-robosim, on this package's physics.
+"""The interface of rSim (rc-robosim 1.2), on this package's physics.
 
-Environments written for rc-robosim run with one import changed:
+Environments written for rSim run with one import changed:
 
     import robosim                          # before
     from rsoccer.compat import robosim      # now
@@ -9,11 +9,11 @@ Environments written for rc-robosim run with one import changed:
     sim.step([[0, 1.0, 0, 0, 0, 0, 0, 1], [0] * 8])  # drive forward, dribbler on
     ball_x = sim.get_state()[0]
 
-Code of others finds this module under the old name after `install()`:
+Code of others finds this module under the name `robosim` after `install()`:
 
     python -c "from rsoccer.compat import robosim; robosim.install(); import their_training"
 
-Arguments, actions, layout of states, sizes, wheels and motors are those of rc-robosim. The physics
+Arguments, actions, layout of states, sizes, wheels and motors are those of rSim. The physics
 is this package's; `docs/coming-from-rsoccer-gym.md` lists the differences.
 """
 
@@ -25,10 +25,11 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
+from rsoccer.arrays import Doubles
 from rsoccer.compat import legacy_models
 from rsoccer.compat.separation import separate
 from rsoccer.compat.wheel_kinematics import WheelKinematics
-from rsoccer.entities import Doubles, degrees, headings
+from rsoccer.entities import degrees, headings
 from rsoccer.frame import Frame
 
 __all__ = ["SSL", "VSS", "install"]
@@ -158,7 +159,7 @@ class _Simulation:
         """Return sizes of the field, the ball and the robots.
 
         Returns:
-            Parameters by rc-robosim's names: metres, degrees, turns per minute.
+            Parameters by rSim's names: metres, degrees, turns per minute.
         """
         return self._parameters(self._config.field)
 

@@ -1,6 +1,6 @@
-"""Separation of bodies that overlap slightly at a start, as in old environments.
+"""Separation of bodies that overlap slightly at a start, as in environments for rSim.
 
-The old simulator took any start, and its solver pushed bodies apart over the first steps. Here
+rSim (rc-robosim 1.2) took any start, and its solver pushed bodies apart over the first steps. Here
 bodies are moved apart before the match starts; deeper overlaps are left for the simulator to
 refuse.
 """
@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.entities import Doubles
+from rsoccer.arrays import Doubles
 
 MAX_OVERLAP: Final = 0.01
 """Deepest overlap of two robots that is resolved, metres: squares at 0.1 m overlap corner to corner

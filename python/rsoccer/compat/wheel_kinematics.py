@@ -3,13 +3,13 @@
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.entities import Doubles
+from rsoccer.arrays import Doubles
 
 
 class WheelKinematics:
     """Kinematics of an omnidirectional robot with four wheels.
 
-    Body velocities are forward (m/s), left (m/s) and turn rate (rad/s), anticlockwise.
+    Body velocities are forward (m/s), left (m/s) and turn rate (rad/s), counterclockwise.
     """
 
     def __init__(self, robot: RobotModel) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rsoccer import checks
+from rsoccer.arrays import Array, Floats
 from rsoccer.envs import spaces
-from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
 

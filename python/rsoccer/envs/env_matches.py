@@ -1,4 +1,4 @@
-"""Matches behind an environment, with copying, scores and clocks."""
+"""Matches behind an environment, with copying, scores, clocks and infos."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Array
+from rsoccer.arrays import Array
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches, Outcome
 from rsoccer.task import Task
 
@@ -62,6 +63,15 @@ class EnvMatches(Matches):
         """
         return float(self.play.steps[world]) * self.task.config.time_step
 
+    def episode_info(self, outcome: Outcome) -> dict[str, float]:
+        """Return the metrics of the first match, whose episode has ended, and its `steps`.
+
+        Args:
+            outcome: outcome of the last step.
+        """
+        metrics = {name: float(value[0]) for name, value in outcome.metrics.items()}
+        return {**metrics, "steps": float(self.play.steps[0])}
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Return a constructor, the constructor's arguments and the complete state."""
         return _resumed, (self.task, self.worlds, self._settings, self.state_dict())
@@ -81,17 +91,6 @@ class SingleLearner:
     def learner(self) -> str:
         """Name of the robot that learns, such as "blue_0"."""
         return str(self._matches.agents[0])
-
-
-def episode_info(outcome: Outcome, matches: Matches) -> dict[str, float]:
-    """Return the metrics of a single match whose episode has ended, and its `steps`.
-
-    Args:
-        outcome: outcome of the last step.
-        matches: the single match.
-    """
-    metrics = {name: float(value[0]) for name, value in outcome.metrics.items()}
-    return {**metrics, "steps": float(matches.play.steps[0])}
 
 
 def _resumed(

@@ -27,6 +27,6 @@ def register_ids(name: str, learners: int | None) -> None:
     if learners and hasattr(pettingzoo, "register"):  # since 1.27
         pettingzoo.parallel_registry.pop(env_id, None)
         pettingzoo.aec_registry.pop(env_id, None)
-        kwargs = {"name": name}
+        kwargs = {"task": name}
         pettingzoo.register("parallel", env_id, "rsoccer.envs.parallel:parallel_env", kwargs=kwargs)
         pettingzoo.register("aec", env_id, "rsoccer.envs.parallel:env", kwargs=kwargs)

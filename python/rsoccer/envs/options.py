@@ -10,9 +10,9 @@ import numpy as np
 from gymnasium.spaces import Space
 
 from rsoccer import checks
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
 from rsoccer.envs import spaces
-from rsoccer.frame import Array, Floats, Mask
 from rsoccer.registry import as_task, make_task
 from rsoccer.task import LEARN, Task
 

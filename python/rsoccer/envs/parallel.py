@@ -20,46 +20,46 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils.conversions import parallel_to_aec_wrapper
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
+from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts, spaces
-from rsoccer.envs.env_matches import EnvMatches, episode_info
-from rsoccer.envs.options import initial_rows, reset_options, with_max_steps
+from rsoccer.envs.env_matches import EnvMatches
+from rsoccer.envs.options import initial_rows, reset_options, resolve_task, with_max_steps
 from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
-from rsoccer.frame import Floats
 from rsoccer.global_state import LIMIT, StateEncoder
-from rsoccer.registry import make_task
 from rsoccer.task import Task
 
 Infos = dict[str, dict[str, Any]]
 
 
 def parallel_env(
-    name: str,
+    task: Task | str,
     render_mode: str | None = None,
     *,
     controllers: Controllers | None = None,
+    max_steps: int | None = None,
     max_cycles: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerParallelEnv:
-    """Return a registered task as a PettingZoo ParallelEnv: one match, all agents act at once.
+    """Return a task as a PettingZoo ParallelEnv: one match, all agents act at once.
 
     Args:
-        name: name of the task, one of `rsoccer.list_tasks()` or an alias.
+        task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
         render_mode: "rgb_array" for images from `render`, "human" for a window that `reset` and
             `step` update, or None for no rendering.
         controllers: policies of robots that do not learn, by robot ("blue_0"), team ("blue") or
             "all": a policy, its name or its file; `LEARN` makes a robot an agent. The task's
             defaults apply elsewhere.
-        max_cycles: time limit of an episode in control steps, at least 1; PettingZoo's name for
-            the task's option `max_steps`. None for the task's own.
-        **options: options of the task, the fields of its class.
+        max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
+        max_cycles: the same by PettingZoo's name; it takes precedence.
+        **options: options of a registered task, the fields of its class.
 
     Returns:
         An environment to `reset`. `SoccerParallelEnv` describes spaces, infos and ends.
 
     Raises:
-        TypeError: an argument of the wrong type.
+        TypeError: an argument of the wrong type, or options for a `Task` object.
         ValueError: an unknown task, option, controller or render mode, a value out of range, or no
             robot that learns.
 
@@ -69,32 +69,32 @@ def parallel_env(
         >>> env.possible_agents
         ['blue_0', 'blue_1', 'blue_2']
     """
-    if max_cycles is not None:
-        options["max_steps"] = max_cycles
-    return SoccerParallelEnv(make_task(name, **options), render_mode, controllers=controllers)
+    time_limit = max_steps if max_cycles is None else max_cycles
+    task = resolve_task(task, time_limit, options)
+    return SoccerParallelEnv(task, render_mode, controllers=controllers)
 
 
 def env(
-    name: str,
+    task: Task | str,
     render_mode: str | None = None,
     **options: Any,  # noqa: ANN401  (those of parallel_env)
 ) -> AECEnv[str, Floats, Floats | None]:
-    """Return a registered task as a PettingZoo AECEnv: one match, agents act in turn.
+    """Return a task as a PettingZoo AECEnv: one match, agents act in turn.
 
     The match advances by one control step after the last agent's action.
 
     Args:
-        name: name of the task, one of `rsoccer.list_tasks()` or an alias.
+        task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
         render_mode: "rgb_array", "human" or None, as for `parallel_env`.
-        **options: further arguments of `parallel_env`: `controllers`, `max_cycles` and the options
-            of the task.
+        **options: further arguments of `parallel_env`: `controllers`, `max_steps`, `max_cycles` and
+            the options of a registered task.
 
     Returns:
         An environment to `reset`, within PettingZoo's `OrderEnforcingWrapper`. Spaces, infos and
         ends are those of `SoccerParallelEnv`.
 
     Raises:
-        TypeError: an argument of the wrong type.
+        TypeError: an argument of the wrong type, or options for a `Task` object.
         ValueError: an unknown task, option, controller or render mode, a value out of range, or no
             robot that learns.
 
@@ -107,7 +107,7 @@ def env(
         ...     ended = terminated or truncated
         ...     env.step(None if ended else env.action_space(agent).sample())
     """
-    return OrderEnforcingWrapper(SoccerAECEnv(parallel_env(name, render_mode, **options)))
+    return OrderEnforcingWrapper(SoccerAECEnv(parallel_env(task, render_mode, **options)))
 
 
 class SoccerAECEnv(parallel_to_aec_wrapper[str, Floats, Any]):
@@ -336,7 +336,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         if terminated or truncated:
             self.agents = []
-            self.last_metrics = episode_info(outcome, self._matches)
+            self.last_metrics = self._matches.episode_info(outcome)
         if self.render_mode == "human":
             self.render()
         return (

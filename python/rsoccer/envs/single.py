@@ -21,9 +21,10 @@ import gymnasium
 import numpy as np
 
 from rsoccer import checks
+from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import spaces
-from rsoccer.envs.env_matches import EnvMatches, SingleLearner, episode_info
+from rsoccer.envs.env_matches import EnvMatches, SingleLearner
 from rsoccer.envs.options import (
     action_array,
     initial_rows,
@@ -32,7 +33,6 @@ from rsoccer.envs.options import (
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
-from rsoccer.frame import Array, Floats
 from rsoccer.task import Task
 
 Action = Array | np.integer[Any] | int
@@ -199,7 +199,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, gymnasium.Env[Floats, Any]):
         vector = action_array(self.task, action, self.action_space)
         outcome = self._matches.step(vector[None, None])
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
-        info = episode_info(outcome, self._matches) if terminated or truncated else {}
+        info = self._matches.episode_info(outcome) if terminated or truncated else {}
         if self.render_mode == "human":
             self.render()
         reward = float(outcome.rewards[0, 0])

@@ -8,7 +8,7 @@ indices to vectors.
 import numpy as np
 from gymnasium.spaces import Box, Discrete
 
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.task import Task
 
 ActionSpace = Box[np.float32] | Discrete[np.int64]

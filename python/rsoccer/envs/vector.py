@@ -20,6 +20,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SingleLearner
@@ -31,13 +32,11 @@ from rsoccer.envs.options import (
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import Image, Viewer, metadata
-from rsoccer.frame import Array, Floats, Mask
 from rsoccer.matches import Outcome
 from rsoccer.task import Task
 
 RENDER_MODES = ("rgb_array",)
 
-Doubles = NDArray[np.float64]
 Infos = dict[str, Any]
 
 

@@ -2,10 +2,10 @@
 
     >>> print(rsoccer.evaluate("chase", "ou", matches=200, seed=0))  # doctest: +SKIP
 
-Every match starts anew, ends by the task's rules or at the time limit, and counts once. Its score
-is the metric that the task names as its success. In two-sided tasks, where yellow can play blue's
-part, a policy plays half of the matches for each team. Otherwise a policy that has learned one
-side only, or an error in yellow's view, would go unnoticed.
+Every match starts from a new state, ends by the task's rules or at the time limit, and counts
+once. Its score is the metric that the task names as its success. In two-sided tasks, where yellow
+can play blue's part, a policy plays half of the matches for each team. Otherwise a policy that has
+learned one side only, or an error in yellow's view, would go unnoticed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import os
 import numpy as np
 
 from rsoccer import checks
-from rsoccer.evaluate.episodes import Doubles, EpisodeRunner, Episodes
+from rsoccer.arrays import Doubles
+from rsoccer.evaluate.episodes import EpisodeRunner, Episodes
 from rsoccer.evaluate.results import (
     Evaluation,
     Interval,
@@ -25,7 +26,7 @@ from rsoccer.evaluate.results import (
 )
 from rsoccer.evaluate.tables import table
 from rsoccer.lineup import lineup, opponents_of, task_for
-from rsoccer.policies import PolicyLike, check_policy_like, make, name_of
+from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.registry import as_task
 from rsoccer.task import LEARN, Task
@@ -82,8 +83,8 @@ def evaluate(
     threads = _processors() if threads is None else checks.integer("threads", threads, 1)
     opponent_policy: Policy | None = None
     if opponent is not None:
-        opponent_policy = make(opponent, task)
-    own_policy = make(policy, task)
+        opponent_policy = make_policy(opponent, task)
+    own_policy = make_policy(policy, task)
     episodes = []
     for index, side in enumerate(sides):
         words = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
@@ -119,7 +120,7 @@ def _evaluation(
         sides=_by_side(scores, rng) if task.two_sided else {},
         returns=bootstrap_interval([part.returns for part in episodes], rng),
         seconds=bootstrap_interval(seconds, rng),
-        decided_after=float(decided.mean()) if len(decided) else None,
+        seconds_to_decision=float(decided.mean()) if len(decided) else None,
     )
 
 

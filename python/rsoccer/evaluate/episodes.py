@@ -8,15 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer.arrays import Doubles, Floats
 from rsoccer.controllers import Controller
-from rsoccer.frame import Floats
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
-
-Doubles = NDArray[np.float64]
-"""Array of double precision."""
 
 RETURN = "return"
 """Name of the score of a task without a success metric: the return of the episode."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rsoccer.evaluate.episodes import Doubles
+from rsoccer.arrays import Doubles
 
 N_RESAMPLES = 10_000
 """Resamples of the bootstrap; the bounds of an interval then repeat to about 0.005."""
@@ -67,7 +67,7 @@ class Evaluation(Results):
     """undiscounted return of an episode, a mean over the policy's robots"""
     seconds: Interval
     """duration of an episode"""
-    decided_after: float | None
+    seconds_to_decision: float | None
     """mean seconds of episodes that ended with a goal of either team (two-sided tasks) or with
     full success; None if none did"""
 

@@ -44,7 +44,7 @@ def _header(evaluation: Evaluation) -> Cells:
 
 def _row(evaluation: Evaluation) -> Cells:
     """Cells of an evaluation below its header."""
-    after = evaluation.decided_after
+    after = evaluation.seconds_to_decision
     last = "-" if after is None else f"{after:.1f} s"
     first = (evaluation.policy, evaluation.opponent, str(evaluation.matches))
     score = Interval(evaluation.score, evaluation.low, evaluation.high)

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import Simulator
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers, assign
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.frame import Frame
+from rsoccer.matches import result_checks
 from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Outcome
@@ -21,7 +23,7 @@ from rsoccer.matches.paused import PausedWorlds
 from rsoccer.play import Play
 from rsoccer.registry import as_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
-from rsoccer.simulator import SimulatorLike
+from rsoccer.simulator_interface import SimulatorLike
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -232,7 +234,7 @@ class Matches:
         for group in self.assignment.groups:
             group.act(play, self._observations, all_actions)
         commands = self.task.get_commands(play, all_actions)
-        play.commands = checks.commands(commands, play.commands.shape)
+        play.commands = result_checks.commands(commands, play.commands.shape)
         play.actions = all_actions
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
@@ -249,7 +251,7 @@ class Matches:
         repositioned = self.task.reposition_ball(play.frame)
         if repositioned is None:
             return
-        mask, balls = checks.repositioned(repositioned, self.worlds)
+        mask, balls = result_checks.repositioned(repositioned, self.worlds)
         if active is not None:
             balls, mask = balls[active[mask]], mask & active
         self._simulator.reposition_balls(mask, balls, out=play.frame.rows)
@@ -260,10 +262,11 @@ class Matches:
         """Compute rewards, ends, metrics and observations, before anything is reset."""
         task, play = self.task, self.play
         named, terminated = task.calculate_reward_and_done(play)
-        terminated = checks.done(terminated, self.worlds)
+        terminated = result_checks.done(terminated, self.worlds)
         shape = (self.worlds, len(play.observers))
         terms = {
-            name: self._of_learners(checks.term(name, term, shape)) for name, term in named.items()
+            name: self._of_learners(result_checks.term(name, term, shape))
+            for name, term in named.items()
         }
         rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
         for term in terms.values():

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rsoccer import checks
+from rsoccer.arrays import Array
 from rsoccer.controllers import PolicyGroup
-from rsoccer.frame import Array
+from rsoccer.matches import result_checks
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
-from rsoccer.simulator import SimulatorLike, require_snapshots
+from rsoccer.simulator_interface import SimulatorLike, require_snapshots
 
 
 @dataclass
@@ -72,7 +72,9 @@ class MatchState:
             ValueError: arrays that do not fit these matches. Nothing has changed.
         """
         simulator = require_snapshots(self.simulator)
-        checks.state(state, {"simulator": np.empty(0), **self.arrays, **self._stream_arrays()})
+        result_checks.state(
+            state, {"simulator": np.empty(0), **self.arrays, **self._stream_arrays()}
+        )
         simulator.restore(state["simulator"].tobytes())
         for name, array in self.arrays.items():
             array[...] = state[name]

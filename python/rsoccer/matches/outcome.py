@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 @dataclass
@@ -24,7 +24,7 @@ class Outcome:
     truncated: Mask
     """(n,) the time limit ended the episode: the future exists but is not played."""
     metrics: dict[str, Floats]
-    """(n,) metrics of the task by name; they count where the episode ended."""
+    """(n,) metrics of the task by name; valid where the episode ended."""
 
     @property
     def ended(self) -> Mask:

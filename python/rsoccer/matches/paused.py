@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer.arrays import Floats
 from rsoccer.controllers import PolicyGroup
-from rsoccer.frame import Floats
 from rsoccer.matches.outcome import Outcome
 from rsoccer.play import Play
 

@@ -1,9 +1,12 @@
 """Policies, and their construction from names and files.
 
-`zero`, `uniform` and `ou` are noise, the other names are scripts:
+`zero`, `uniform` and `ou` ignore the game, the other names are scripts:
 
 | name | league | behaviour |
 | --- | --- | --- |
+| `zero` | any | stands still |
+| `uniform` | any | independent uniform random actions |
+| `ou` | any | actions of an Ornstein-Uhlenbeck process |
 | `chase` | VSSS | the robot nearest to the ball drives it at the goal |
 | `scripted` | VSSS | keeper, attacker and support; a skill may follow, as in `scripted:0.5` |
 | `fetch` | SSL | takes the ball into the mouth |
@@ -34,8 +37,8 @@ from rsoccer.task import Task
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
-__all__ = ["Policy", "PolicyInput", "make", "name_of", "names", "names_with_skill"]
-__all__ += ["PolicyLike", "check_policy_like", "trained_on"]
+__all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
+__all__ += ["PolicyLike", "check_policy_like", "make_policy", "name_of", "trained_on"]
 
 PolicyLike = str | os.PathLike[str] | Policy
 """A policy, its name (`zero`, `ou`, ...), or the path of its file."""
@@ -59,13 +62,16 @@ _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
 _MAKERS_WITH_SKILL: Final[dict[str, Callable[[Task, float], Policy]]] = {"scripted": Scripted}
 
 
-def names() -> list[str]:
-    """Return the names that `make` takes, sorted."""
+def list_policies() -> list[str]:
+    """Return the names that `make_policy` takes, sorted."""
     return sorted(_MAKERS)
 
 
-def names_with_skill() -> list[str]:
-    """Return the names that a skill from 0 to 1 may follow, as in "scripted:0.5"; default 1."""
+def list_policies_with_skill() -> list[str]:
+    """Return the names that a skill from 0 to 1 may follow, as in "scripted:0.5", sorted.
+
+    Without a skill the policy plays at skill 1.
+    """
     return sorted(_MAKERS_WITH_SKILL)
 
 
@@ -83,7 +89,7 @@ def check_policy_like(name: str, value: object) -> None:
         raise TypeError(f"{name}: expected a policy, its name or its file, got {value!r}")
 
 
-def make(policy: PolicyLike, task: Task) -> Policy:
+def make_policy(policy: PolicyLike, task: Task) -> Policy:
     """Make a policy for the robots of a task.
 
     Args:
@@ -103,7 +109,7 @@ def make(policy: PolicyLike, task: Task) -> Policy:
     Example:
         >>> import rsoccer
         >>> from rsoccer import policies
-        >>> policy = policies.make("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
+        >>> policy = policies.make_policy("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
     """
     if not isinstance(policy, Policy):
         text = _text(policy)
@@ -148,7 +154,7 @@ def _with_skill(name: str, skill: str, task: Task) -> Policy:
     if name not in _MAKERS_WITH_SKILL:
         raise ValueError(
             f"policy {name!r} has no skill: expected {name!r}, got {f'{name}:{skill}'!r}; "
-            f"policies with a skill are {names_with_skill()}"
+            f"policies with a skill are {list_policies_with_skill()}"
         )
     try:
         number = float(skill)
@@ -162,7 +168,8 @@ def _load(text: str) -> Network:
     path, mode = _split_mode(text)
     if not (path.endswith(FILE_SUFFIX) or os.path.exists(path)):
         raise ValueError(
-            f"unknown policy {text!r}: expected one of {names()} or the path of a policy file"
+            f"unknown policy {text!r}: expected one of {list_policies()} or "
+            "the path of a policy file"
         )
     from rsoccer.policies.network import Network  # scripts do not need the file format
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rsoccer._core import SimConfig
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 
@@ -31,8 +31,8 @@ class OrnsteinUhlenbeck(Policy):
     """Ornstein-Uhlenbeck noise: a random walk that is pulled towards zero.
 
     The default parameters are those of rSoccer's VSSS environment. Their stationary standard
-    deviation is sigma / sqrt(2 theta) = 0.86, so robots drift slowly near full speed, in long
-    arcs.
+    deviation is sigma / sqrt(2 theta) = 0.86: actions change slowly and are often near -1 or 1, so
+    robots drive long arcs.
     """
 
     observes: Observes = "nothing"

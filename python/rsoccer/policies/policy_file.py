@@ -43,8 +43,8 @@ from typing import Any, Final
 
 import numpy as np
 
+from rsoccer.arrays import Array, Floats
 from rsoccer.files import safetensors_bytes, write_atomically
-from rsoccer.frame import Array, Floats
 
 FORMAT: Final = "rsoccer-policy-2"
 """Version of the format. A new number makes older readers refuse the file."""

@@ -12,8 +12,7 @@ if TYPE_CHECKING:
     from rsoccer._core import BallModel
 
 SHADOW_OFFSET = 0.4
-"""Offset of a shadow to the right and down, by the height of the ball; light comes from the
-left."""
+"""Offset of a shadow to the right and down, per height of the ball; light comes from the left."""
 SHADOW_BLUR = 1.0
 """Growth of a shadow's blur, in radii of the ball, for each metre of height."""
 STEM = 0.4
@@ -23,7 +22,7 @@ GROWTH = 1.3
 MAX_GROWTH = 2.5
 """Largest factor on a ball's drawn radius."""
 HALO = 0.0065
-"""Radius of the halo around the ball, by the width of the picture: just visible at a glance."""
+"""Radius of the halo around the ball, as a fraction of the picture's width."""
 MIN_HALO = 1.5
 """Smallest radius of a halo, in radii of the ball: below it the ball is large enough without."""
 TRAIL_SPEED = 0.3

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.render.pygame_import import pygame
 from rsoccer.render.rasterizer import Camera, Rasterizer
 from rsoccer.render.robot import robot_outlines

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rsoccer._core import Field
 
 MARK_RADIUS = 2.2
-"""Radius of a penalty or free-ball mark, by the width of a line."""
+"""Radius of a penalty or free-ball mark, in widths of a line."""
 
 
 def line_shapes(field: Field) -> tuple[Shape, ...]:

@@ -31,11 +31,11 @@ if TYPE_CHECKING:
     from rsoccer.matches import Matches
 
 STROKE = 2.0
-"""Width of strokes, by the width of the field's lines."""
+"""Width of strokes, in widths of the field's lines."""
 POST = 3.6
-"""Radius of a gate's posts, by the width of the field's lines."""
+"""Radius of a gate's posts, in widths of the field's lines."""
 ARROW = 14.0
-"""Length of a gate's arrow, by the width of the field's lines."""
+"""Length of a gate's arrow, in widths of the field's lines."""
 FILL = 0.2
 """Opacity of a surface; the lines under it stay visible."""
 
@@ -168,5 +168,5 @@ def segment_shapes(
 
 
 def _surface_color(color: Color) -> Color:
-    """A colour for surfaces: half white, lest it turn grey over a carpet of the opposite colour."""
+    """A colour for surfaces: half white, so that it does not look grey on the opposite colour."""
     return palette.fade(palette.mix(color, palette.WHITE, 0.5), FILL)

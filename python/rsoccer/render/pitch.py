@@ -13,11 +13,11 @@ if TYPE_CHECKING:
     from rsoccer._core import Field
 
 WALL_SHARE = 0.5
-"""Thickness of a wall by its height: the VSS rules ask for 0.025 m by 0.05 m."""
+"""Thickness of a wall, as a fraction of its height: the VSS rules ask for 0.025 m by 0.05 m."""
 BOARD_THICKNESS = 0.06
 """Thickness of walls without a height, such as the boards around a carpet, metres."""
 MARGIN = 0.02
-"""Empty border around the walls, by the length of the field."""
+"""Empty border around the walls, as a fraction of the field's length."""
 
 
 def wall_thickness(field: Field) -> float:

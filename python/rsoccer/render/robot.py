@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from rsoccer._core import RobotModel
 
 SHADOW_BLUR = 0.12
-"""Softness of a shadow, by the size of the body."""
+"""Softness of a shadow, as a fraction of the body's size."""
 GLOW = 0.09
-"""Blur of the light around a dribbler that has the ball, by the size of the body."""
+"""Blur of the light around a dribbler with the ball, as a fraction of the body's size."""
 SQUARE_SHADE, ROUND_SHADE = 0.5, 0.88
 """Darkness of a hull, 0 to 1: a square one shows its team, a round one contrasts with carpet."""
 

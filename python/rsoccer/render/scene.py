@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rsoccer.frame import Array, Frame, RobotColumns
+from rsoccer.arrays import Array
+from rsoccer.frame import Frame, RobotColumns
 from rsoccer.render import palette
 from rsoccer.render.ball import ball_shapes, halo_shapes, shadow_shapes, trail_shapes
 from rsoccer.render.pitch import pitch_shapes

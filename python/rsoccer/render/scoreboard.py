@@ -32,13 +32,14 @@ class Board:
 
 
 WIDTH = 0.6
-"""Width of the board by the width of the picture."""
+"""Width of the board, as a fraction of the picture's width."""
 HEIGHT = 0.056
-"""Height of the board by the width of the picture."""
+"""Height of the board, as a fraction of the picture's width."""
 SPACE = 0.014
-"""Empty height above the board by the width of the picture."""
+"""Empty height above the board, as a fraction of the picture's width."""
 PLATE = 0.44
-"""Half width of the dark plate in the middle, with score and clock, by half the board."""
+"""Half width of the dark plate in the middle, with score and clock, as a fraction of half the
+board's width."""
 
 
 def scene_bounds(field: Field) -> Bounds:

@@ -62,7 +62,7 @@ class Arc:
         center: centre of the circle, metres.
         radius: radius of the circle, metres.
         start: first angle, radians from +x.
-        end: last angle, anticlockwise from `start`, radians.
+        end: last angle, counterclockwise from `start`, radians.
         width: width of the stroke, metres.
         color: the colour.
     """
@@ -198,7 +198,7 @@ def rectangle(left: float, bottom: float, right: float, top: float) -> tuple[Poi
         top: largest y, metres.
 
     Returns:
-        Four points, anticlockwise from the lower left.
+        Four points, counterclockwise from the lower left.
     """
     return ((left, bottom), (right, bottom), (right, top), (left, top))
 
@@ -216,7 +216,7 @@ def rounded_rectangle(
         radius: radius of the corners, metres; at most half the shorter side is used.
 
     Returns:
-        Points of the outline, anticlockwise.
+        Points of the outline, counterclockwise.
     """
     radius = min(radius, (right - left) / 2, (top - bottom) / 2)
     quarter = math.pi / 2

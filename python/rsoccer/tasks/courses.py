@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 @dataclass(frozen=True)

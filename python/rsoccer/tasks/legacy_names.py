@@ -6,7 +6,7 @@ of this package.
 
 from typing import Any, Final
 
-from rsoccer.registry import alias, retire
+from rsoccer.registry import alias, register_removed
 
 KEPT: Final = (
     "VSS-v0",
@@ -28,7 +28,7 @@ ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v0", {}),
 }
 """Tasks and options by alias."""
-RETIRED: Final = {
+REMOVED: Final = {
     "VSSGk-v0": "its attacker was a network that rsoccer-gym did not come with; a task of your own "
     "can pay a robot for keeping the goal against any policy",
 }
@@ -36,8 +36,8 @@ RETIRED: Final = {
 
 
 def register_aliases() -> None:
-    """Register the aliases and retired names; the tasks must be registered before."""
+    """Register the aliases and removed names; the tasks must be registered before."""
     for name, (task, options) in ALIASES.items():
         alias(name, task, **options)
-    for name, hint in RETIRED.items():
-        retire(name, hint)
+    for name, hint in REMOVED.items():
+        register_removed(name, hint)

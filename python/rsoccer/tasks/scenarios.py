@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.tasks.ssl import rotated_180
 
 Pose = tuple[float, float, float]

@@ -1,13 +1,14 @@
 """Base class of the tasks of both leagues: observation blocks and discrete actions."""
 
 import math
+from collections.abc import Mapping
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
 from rsoccer._core import EgoFeatures, clip_in_place
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.task import Play, Task
 from rsoccer.view import slot_counts
 
@@ -29,10 +30,12 @@ OBSERVATION_LIMITS: Final = {
 class Soccer(Task):
     """Base class of tasks with a ball and two goals.
 
-    Each robot observes the full state, without noise, in the coordinates of its team: origin at
-    the centre of the field, +x towards the attacked goal, +y to the left of that. Blocks from
-    `ball_polar` to `body_positions` repeat it in the coordinates of the robot's body: origin at
-    its centre, first axis ahead, second axis to its left.
+    Each robot observes positions and velocities of the ball and of all robots, without noise. Not
+    observed are the spin of the ball, the charge of kickers and the actions of other robots.
+    Coordinates are those of the robot's team: origin at the centre of the field, +x towards the
+    attacked goal, +y to the left of that. Blocks from `ball_polar` to `body_positions` repeat
+    positions and velocities in the coordinates of the robot's body: origin at its centre, first
+    axis ahead, second axis to its left.
 
     Blocks of the flat observation, in this order:
 
@@ -50,8 +53,8 @@ class Soccer(Task):
                                 bearing
     goal_polar       (3,)       the same of the centre of the attacked goal      L; 1    3
     shot             (4,)       cosine and sine of the direction from ball to    1       1
-                                goal; closeness of the ball, exp(-d / 0.125 m)
-                                at distance d; closeness times the cosine of
+                                goal; nearness of the ball, exp(-d / 0.125 m)
+                                at distance d; nearness times the cosine of
                                 the angle between the directions to the ball
                                 and from ball to goal
     body_velocities  (2, 2)     own velocity; velocity of the ball               V       4
@@ -67,6 +70,12 @@ class Soccer(Task):
     columns of each block.
     """
 
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    """Default weight of each reward term."""
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
+    """Weights of the rSoccer paper (2021) in these terms: `reward_weights` "paper"."""
+    reward_weights: Mapping[str, float] | str
+    """Option of each task. Weight of each reward term by name, once the task is created."""
     DISCRETE_ACTIONS: ClassVar[Floats]
     """(choices, action_size) actions that agents choose from with the option `discrete`."""
     discrete: bool
@@ -97,6 +106,12 @@ class Soccer(Task):
     def action_table(self) -> Floats | None:
         """`DISCRETE_ACTIONS` with the option `discrete`, else None."""
         return self.DISCRETE_ACTIONS if self.discrete else None
+
+    @property
+    def term_weights(self) -> Mapping[str, float]:
+        """Weight of each reward term by name: `REWARD_WEIGHTS` and the option `reward_weights`."""
+        weights = self.reward_weights
+        return self.PAPER_REWARD_WEIGHTS if isinstance(weights, str) else weights
 
     @cached_property
     def ego_features(self) -> EgoFeatures:

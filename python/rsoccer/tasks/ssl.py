@@ -9,10 +9,12 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks
-from rsoccer._core import BallModel, Field, SimConfig, Simulator, Steering
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator, Steering
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
+from rsoccer.tasks import options
 from rsoccer.tasks.soccer import Soccer
 
 MAX_TURN_RATE: Final = 10.0
@@ -60,7 +62,7 @@ class Ssl(Soccer):
         ValueError: an option outside its range, or a field without space for the initial state.
     """
 
-    field: str = "ssl_challenge"
+    field: str | Field = "ssl_challenge"
     """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m) or a `Field`."""
     max_steps: int = 1200
     """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
@@ -68,9 +70,9 @@ class Ssl(Soccer):
     """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
     reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
     """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
-    robot: str = "ssl_generic"
+    robot: str | RobotModel = "ssl_generic"
     """Robot model with an omnidirectional drive: a preset's name or a `RobotModel`."""
-    ball: str = "ssl_tigers"
+    ball: str | BallModel = "ssl_tigers"
     """Ball model: a preset's name or a `BallModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
@@ -81,10 +83,6 @@ class Ssl(Soccer):
     """(12, 5) actions."""
     half_only: ClassVar[bool] = False
     """True: blue_0 must stay in the opponents' half and out of their goal area."""
-    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
-    """Default weight of each reward term."""
-    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
-    """Weights of the rSoccer paper (2021) in these terms: `reward_weights` "paper"."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
@@ -93,16 +91,16 @@ class Ssl(Soccer):
             raise ValueError(
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
             )
-        weights = checks.reward_weights(
+        weights = options.reward_weights(
             self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
         )
         object.__setattr__(self, "reward_weights", weights)
         checks.boolean("discrete", self.discrete)
-        checks.preset("field", self.field, Field)
-        checks.robot_models(self.robot)
+        options.preset("field", self.field, Field)
+        options.robot_models(self.robot)
         if self.ball is not None:
-            checks.preset("ball", self.ball, BallModel)
-        checks.drive(self.config, "omni", "with an omnidirectional drive")
+            options.preset("ball", self.ball, BallModel)
+        options.drive(self.config, "omni", "with an omnidirectional drive")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")
         if self.field != type(self).field:
@@ -133,6 +131,21 @@ class Ssl(Soccer):
         """
         beyond = np.abs(positions) > self._half_size
         return np.logical_or(beyond[:, 0], beyond[:, 1])
+
+    def is_in_goal_area(self, positions: Floats, margin: float | np.float32 = 0.0) -> Mask:
+        """Return the positions that are in the goal area at +x, or beyond its front line.
+
+        Args:
+            positions: (..., 2) metres.
+            margin: distance by which the area is extended to all sides, m.
+
+        Returns:
+            (...).
+        """
+        field = self.config.field
+        front = np.float32(field.half_length - field.goal_area_depth - margin)
+        half_width = np.float32(field.goal_area_width / 2 + margin)
+        return np.logical_and(positions[..., 0] > front, np.abs(positions[..., 1]) < half_width)
 
     @cached_property
     def mouth_offset(self) -> np.float32:

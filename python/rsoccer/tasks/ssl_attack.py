@@ -7,7 +7,8 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import rewards
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.markers import Area, Marker
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
@@ -79,7 +80,7 @@ class SslAttack(Ssl):
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), failed | rewards.scored(play)
+        return rewards.weighted_terms(terms, self.term_weights), failed | rewards.scored(play)
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """Return the opponents' half as an area."""
@@ -105,10 +106,8 @@ class SslAttack(Ssl):
         """(n,) whether the attacker is outside the opponents' half or in their goal area."""
         position, field = frame.blue.position[:, 0], self.config.field
         x, abs_y = position[:, 0], np.abs(position[:, 1])
-        area_x = np.float32(field.half_length - field.goal_area_depth)
-        in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2))
         outside = (abs_y > np.float32(field.half_width)) | (x > np.float32(field.half_length))
-        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | in_area)
+        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | self.is_in_goal_area(position))
 
     def _has_fouled(self, frame: Frame) -> Mask:
         """(n,) whether the attacker touched an opponent in the last step."""

@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer import checks, spawn
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl import ball_at_mouth
@@ -76,10 +77,8 @@ class SslContestedPossession(SslAttack):
         high = (field.half_length, field.half_width - margin)
 
         def forbidden(positions: Floats) -> Mask:
-            x, abs_y = positions[..., 0], np.abs(positions[..., 1])
-            area_x = np.float32(field.half_length - field.goal_area_depth - margin)
-            in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2 + margin))
-            return np.logical_or(in_area, x > np.float32(field.half_length - margin))
+            beyond = positions[..., 0] > np.float32(field.half_length - margin)
+            return np.logical_or(self.is_in_goal_area(positions, margin), beyond)
 
         radii = [self.config.robot.bounding_radius]
         return spawn.positions_in_box(rng, (low, high), radii, 0.0, forbidden)

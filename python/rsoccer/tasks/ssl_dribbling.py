@@ -7,12 +7,14 @@ from typing import ClassVar
 import numpy as np
 
 from rsoccer import rewards
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.markers import Gate, Marker
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.courses import COURSES, Course
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
+from rsoccer.vectors import rotate_into_body
 
 
 @dataclass(frozen=True)
@@ -115,12 +117,11 @@ class SslDribbling(Ssl):
         """Compute the blocks of `Soccer` and the block "gate" (n, observers, 4)."""
         gate = self._next_gate(play.memory["passed"])
         offset = self._gate_middle(gate)[:, None] - play.view.ego.position  # (n, observers, 2)
-        cos, sin = play.view.ego.heading[..., 0], play.view.ego.heading[..., 1]
-        x, y = offset[..., 0], offset[..., 1]
+        ahead, left = rotate_into_body(offset[..., 0], offset[..., 1], play.view.ego.heading)
         scale = self.position_scale
         fraction = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
-        ones = np.ones_like(x)  # (n, observers)
-        columns = [(x * cos + y * sin) * scale, (y * cos - x * sin) * scale]
+        ones = np.ones_like(ahead)  # (n, observers)
+        columns = [ahead * scale, left * scale]
         columns += [gate[:, 2:] * ones, fraction[:, None] * ones]
         return {**super().frame_to_observations(play), "gate": np.stack(columns, axis=-1)}
 
@@ -145,7 +146,7 @@ class SslDribbling(Ssl):
             "energy": rewards.energy(play),
         }
         complete = passed >= len(self.course.gates)
-        return rewards.weighted_terms(terms, self.reward_weights), failed | complete
+        return rewards.weighted_terms(terms, self.term_weights), failed | complete
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """Return each gate once, in the direction of its next crossing, done after its last."""

@@ -7,7 +7,8 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.markers import Marker, Target
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
@@ -95,7 +96,7 @@ class SslGoToBall(Ssl):
             "left_field": left[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), reached | left
+        return rewards.weighted_terms(terms, self.term_weights), reached | left
 
     def markers(self, play: Play, world: int) -> tuple[Marker, ...]:
         """Return the ball as a target."""

@@ -6,11 +6,13 @@ from typing import Final
 import numpy as np
 
 from rsoccer import spawn
-from rsoccer.frame import Floats, Frame, Mask, length
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.markers import Marker, Segment, Target
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
+from rsoccer.vectors import norm
 
 MIN_START_DISTANCE: Final = 1.6
 """Least distance between the robots in the initial state, m: above the least length of a pass."""
@@ -67,12 +69,12 @@ class SslPass(Ssl):
     def _ball_distances(self, frame: Frame) -> Floats:
         """(n, 2) distances from each robot to the ball, m."""
         offset = frame.ball.position[:, None] - frame.blue.position
-        return length(offset[..., 0], offset[..., 1])
+        return norm(offset[..., 0], offset[..., 1])
 
     def _has_missed(self, frame: Frame, receiver: Floats) -> Mask:
         """(n,) whether a passed ball stopped or moves away from the receiver at (n, 2)."""
         ball = frame.ball
-        speed = length(ball.velocity[:, 0], ball.velocity[:, 1])
+        speed = norm(ball.velocity[:, 0], ball.velocity[:, 1])
         offset = receiver - ball.position
         towards = offset[:, 0] * ball.velocity[:, 0] + offset[:, 1] * ball.velocity[:, 1]
         return np.logical_or(speed < STOPPED_SPEED, (towards < 0.0) & (speed > MOVING_SPEED))

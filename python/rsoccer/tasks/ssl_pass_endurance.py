@@ -7,7 +7,8 @@ from typing import ClassVar
 import numpy as np
 
 from rsoccer import rewards
-from rsoccer.frame import Array, Floats, Frame, Mask
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
 
@@ -84,7 +85,7 @@ class SslPassEndurance(SslPass):
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), received | failed
+        return rewards.weighted_terms(terms, self.term_weights), received | failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `received`, 1 or 0, and `inverse_distance`, 1/m; each (n,)."""

@@ -7,9 +7,11 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import rewards
-from rsoccer.frame import Array, Floats, Frame, Mask, length
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.task import Play
 from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
+from rsoccer.vectors import norm
 
 MIN_PASS_LENGTH: Final = np.float32(1.5)
 """Least distance from kick to reception that counts, m: robots side by side earn nothing."""
@@ -106,7 +108,7 @@ class SslPassEnduranceMulti(SslPass):
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), failed
+        return rewards.weighted_terms(terms, self.term_weights), failed
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `passes`, (n,) the number of passes that counted."""
@@ -123,7 +125,7 @@ class SslPassEnduranceMulti(SslPass):
         in_mouth = frame.blue.infrared > 0.5  # (n, 2)
         received = in_mouth[worlds, receiver]
         flight = frame.ball.position - memory["left_at"]
-        long_enough = length(flight[:, 0], flight[:, 1]) >= MIN_PASS_LENGTH
+        long_enough = norm(flight[:, 0], flight[:, 1]) >= MIN_PASS_LENGTH
         passed: Mask = received & memory["on_its_way"] & long_enough
         memory["passes"] += passed
         memory["holder"][:] = np.where(received, receiver, memory["holder"])

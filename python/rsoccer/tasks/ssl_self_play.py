@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks, rewards, spawn
-from rsoccer.frame import BallColumns, Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import BallColumns, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.ssl import Ssl
@@ -109,7 +110,7 @@ class SslSelfPlay(Ssl):
             "approach": rewards.approach_mouth(play, self.config) * nearest,
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), rewards.scored(play)
+        return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `goal_score`, (n,): 1 if blue scored, -1 if yellow scored, else 0."""

@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer import checks, spawn
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl_attack import SslAttack
@@ -77,10 +78,9 @@ class SslStaticDefenders(SslAttack):
     def _forbidden(self, positions: Floats) -> Mask:
         """(n, discs) whether a robot would touch the goal area, the goal line or the attacker."""
         field, radius = self.config.field, np.float32(self.config.robot.bounding_radius)
-        x, abs_y = positions[..., 0], np.abs(positions[..., 1])
-        area_x = np.float32(field.half_length - field.goal_area_depth) - radius
-        in_area = (x > area_x) & (abs_y < np.float32(field.goal_area_width / 2) + radius)
+        x, y = positions[..., 0], positions[..., 1]
+        in_area = self.is_in_goal_area(positions, radius)
         beyond = x > np.float32(field.half_length) - radius
-        at_attacker = np.less(x * x + abs_y * abs_y, np.float32(ATTACKER_CLEARANCE**2))
+        at_attacker = np.less(x * x + y * y, np.float32(ATTACKER_CLEARANCE**2))
         forbidden: Mask = in_area | beyond | at_attacker
         return forbidden

@@ -9,26 +9,14 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import MAX_PLACED_SPEED, Field, SimConfig
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
+from rsoccer.tasks import options
 from rsoccer.tasks.soccer import Soccer
 from rsoccer.view import SIDES
-
-REWARD_WEIGHTS: Final = {"goal": 10.0, "ball_to_goal": 10.0, "approach": 3.0, "energy": 0.0002}
-"""Default weights: per goal, per metre, per metre, per step at full power.
-
-With the policy `chase` against robots at rest, goals are the largest part of the return.
-"""
-
-PAPER_REWARD_WEIGHTS: Final = {
-    "goal": 10.0,
-    "ball_to_goal": 64.0,
-    "approach": 20.0,
-    "energy": 0.0184,
-}
-"""Weights of the rSoccer paper (2021) in these terms; goals are some 10% of the return there."""
 
 DISCRETE_ACTIONS: Final = np.array(
     [[1, 1], [-1, -1], [-1, 1], [1, -1], [0.5, 1], [1, 0.5], [-0.5, -1], [-1, -0.5], [0, 0]],
@@ -93,17 +81,37 @@ class Vss(Soccer):
     """Upper bound of the ball's uniform initial speed, m/s, 0 to 20."""
     reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
     """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
-    robot: str = "vss_440rpm"
+    robot: str | RobotModel = "vss_440rpm"
     """Robot model with a differential drive: a preset's name or a `RobotModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
-    field: str = "vss_3v3"
+    field: str | Field = "vss_3v3"
     """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
 
     action_size = 2
     """Left and right wheel."""
     DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
     """(9, 2) left and right wheel."""
+    REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "goal": 10.0,
+        "ball_to_goal": 10.0,
+        "approach": 3.0,
+        "energy": 0.0002,
+    }
+    """Default weights: per goal, per metre, per metre, per step at full speed.
+
+    With the policy `chase` against robots at rest, goals are the largest part of the return.
+    """
+    PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
+        "goal": 10.0,
+        "ball_to_goal": 64.0,
+        "approach": 20.0,
+        "energy": 0.0184,
+    }
+    """Weights of the rSoccer paper (2021) in these terms.
+
+    Goals are some 10% of the return there.
+    """
     success = "goal_score"
     """Metric that measures the success of an episode."""
 
@@ -117,11 +125,13 @@ class Vss(Soccer):
         object.__setattr__(
             self,
             "reward_weights",
-            checks.reward_weights(self.reward_weights, REWARD_WEIGHTS, PAPER_REWARD_WEIGHTS),
+            options.reward_weights(
+                self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
+            ),
         )
-        checks.preset("field", self.field, Field)
-        checks.robot_models(self.robot)
-        checks.drive(self.config, "differential", "with a differential drive")
+        options.preset("field", self.field, Field)
+        options.robot_models(self.robot)
+        options.drive(self.config, "differential", "with a differential drive")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
 
@@ -155,7 +165,7 @@ class Vss(Soccer):
             "approach": rewards.approach_behind_ball(play, self.config.field),
             "energy": rewards.energy(play),
         }
-        return rewards.weighted_terms(terms, self.reward_weights), rewards.scored(play)
+        return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `goal_score`, (n,): 1 if blue scored, -1 if yellow scored, else 0."""

@@ -8,10 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.matches import Matches
 from rsoccer.task import Task
 from rsoccer.tasks.ssl import Ssl
+from rsoccer.vectors import rotate_into_body
 
 NOISE: Final = 0.3
 """Half width of the uniform noise on every number of an action."""
@@ -91,5 +92,4 @@ def _directions_to_ball(matches: Matches) -> tuple[Floats, Floats, Floats, Float
     offset = view.ball.position - view.ego.position
     distance = np.maximum(np.linalg.norm(offset, axis=-1, keepdims=True), 1e-6)
     x, y = np.moveaxis(offset / distance, -1, 0)
-    cos, sin = view.ego.heading[..., 0], view.ego.heading[..., 1]
-    return x * cos + y * sin, y * cos - x * sin, x, y
+    return *rotate_into_body(x, y, view.ego.heading), x, y

@@ -15,7 +15,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.matches import Matches, Outcome
 from rsoccer.task import Play, Task
 from rsoccer.testing.pressure import Pressing

@@ -1,4 +1,7 @@
-"""Training by self-play: `Args` holds the settings, `train` runs them (needs torch)."""
+"""Training with PPO, by self-play where both teams learn; needs torch.
+
+`Args` holds the settings of a run, `train` runs it.
+"""
 
 from __future__ import annotations
 
@@ -26,6 +29,6 @@ def train(args: Args) -> Path:
             or a checkpoint that is missing, damaged or of a run with other settings.
         Interrupted: Ctrl-C or SIGTERM ended the run, after a checkpoint was saved.
     """
-    from rsoccer.train.trainer import train as run
+    from rsoccer.train.trainer import run
 
     return run(args)

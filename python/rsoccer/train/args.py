@@ -58,7 +58,7 @@ class Args:
     """show a progress bar"""
 
     solo_fraction: float = 0.4
-    """first part of the samples, 0 to 1, with one learner per match and all other robots drifting.
+    """first part of the samples, 0 to 1, with one learner per match; all others follow `ou`.
     Its rewards then follow from its own actions; 0 lets all learners play from the start"""
     worlds: int = 256
     """matches played at once, at least 1; more give steadier gradients, slower first progress"""
@@ -67,7 +67,7 @@ class Args:
     action_repeat: int = 3
     """control steps (25 ms each) per decision, at least 1; more explore further, react slower"""
     random_truncation: float = 0.01
-    """probability, 0 to 1, that a match is truncated after a decision and starts anew.
+    """probability, 0 to 1, that a match is truncated after a decision and starts again.
     More gives fresh starts in place of long stalemates, less shows how matches end"""
     gamma: float = 0.97
     """discount factor per control step, 0 to 1, whatever `action_repeat` is.
@@ -79,7 +79,7 @@ class Args:
     hidden_sizes: tuple[int, ...] = (64, 64)
     """widths of the hidden layers of the policy and of the value network, at least 1 each"""
     action_std: float = 0.6
-    """initial standard deviation of the actions, above 0, as a share of full power"""
+    """initial standard deviation of the actions, above 0; 1 is full speed"""
     learning_rate: float = 2e-3
     """initial step size of Adam, above 0; it falls to a tenth by the end of the run"""
     n_epochs: int = 6
@@ -102,7 +102,7 @@ class Args:
     past_fraction: float = 0.35
     """share of matches, 0 to 1, against frozen past policies"""
     ou_fraction: float = 0.15
-    """share of matches, 0 to 1, against random drifting (an Ornstein-Uhlenbeck process)"""
+    """share of matches, 0 to 1, against the `ou` policy (an Ornstein-Uhlenbeck process)"""
     pool_size: int = 8
     """past policies kept, at least 1; a full pool drops the one closest in age to its neighbours"""
     pool_interval: int = 10

@@ -1,12 +1,13 @@
-"""Curriculum of a run: first one learner per match among drifting robots, then whole teams.
+"""Curriculum of a run: first one learner per match, then whole teams.
 
 Among teammates that learn too, a robot's reward depends as much on their actions as on its own, so
-learning is slow. A run therefore starts with one learner per match, while all other robots drift.
-All learners then start from the policy that this first part has learned.
+learning is slow. A run therefore starts with one learner per match; all other robots
+follow the `ou` policy. All learners then start from the policy that this first part has learned.
 """
 
 from __future__ import annotations
 
+from rsoccer.frame import team_of
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.task import LEARN, Learn, Task
@@ -38,14 +39,14 @@ class Curriculum:
         defaults = task.default_controllers()
         self.learners = [name for name in task.robots if defaults[name] is LEARN]
         self.pool: OpponentPool | None = None
-        if {name.split("_")[0] for name in self.learners} == {"blue", "yellow"}:
+        if {team_of(name) for name in self.learners} == {"blue", "yellow"}:
             fractions = {
                 "latest": args.latest_fraction,
                 "past": args.past_fraction,
                 "ou": args.ou_fraction,
             }
             self.pool = OpponentPool(task, fractions, args.pool_size, args.action_repeat, clock)
-            self.learners = [name for name in self.learners if name.startswith("blue")]
+            self.learners = [name for name in self.learners if team_of(name) == "blue"]
 
     @property
     def starts_solo(self) -> bool:

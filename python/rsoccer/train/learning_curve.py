@@ -7,13 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.registry import make_task
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.log import GOAL_SCORE, opponent_column, read_progress
 
 STYLES = {
-    "ou": ("drifting robots (OU)", "#3a7d44"),
+    "ou": ("Ornstein-Uhlenbeck policy", "#3a7d44"),
     "past": ("past policies", "#d98e04"),
     "latest": ("current policy", "#8a8f98"),
 }

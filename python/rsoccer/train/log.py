@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.train.args import Args
 
 FILE_NAME = "progress.csv"

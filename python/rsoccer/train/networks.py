@@ -8,7 +8,7 @@ import math
 import torch
 from torch import Tensor, nn
 
-from rsoccer.frame import Array, Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task

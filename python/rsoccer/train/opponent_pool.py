@@ -1,7 +1,7 @@
-"""Pool of opponents for self-play: the current policy, frozen past policies, random drifting.
+"""Pool of opponents for self-play: the current policy, frozen past policies, the `ou` policy.
 
 Self-play against the current policy alone can cycle: a policy learns to beat its predecessor and
-forgets how to beat others. Frozen past policies and a share of drifting robots keep that skill.
+forgets how to beat others. Frozen past policies and a share of `ou` opponents keep that skill.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats
-from rsoccer.policies import make
+from rsoccer.arrays import Array, Floats
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
@@ -61,7 +61,7 @@ class OpponentPool(Policy):
         self.frozen_at: list[int] = []
         self.opponents = np.zeros(0, np.int64)
         self._clock = clock
-        self._ou = make("ou", task)
+        self._ou = make_policy("ou", task)
         self._fractions, self._size, self._action_repeat = fractions, size, action_repeat
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> dict[str, Array]:

@@ -12,7 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from rsoccer.frame import Array, Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.train.args import Args
 from rsoccer.train.gae import compute_gae

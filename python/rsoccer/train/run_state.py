@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import torch
 from torch import Tensor
 
-from rsoccer.frame import Array
+from rsoccer.arrays import Array
 from rsoccer.train.checkpoint import Arrays, Checkpoint, add_prefix, select_prefix
 
 if TYPE_CHECKING:

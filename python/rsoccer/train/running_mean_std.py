@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 
 
 class RunningMeanStd:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from rsoccer._core import SimConfig, Simulator
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 class Clock:

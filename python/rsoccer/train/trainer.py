@@ -190,8 +190,8 @@ class Trainer:
         logger.write(self.samples, row)
 
 
-def train(args: Args) -> Path:
-    """Start or resume the training run of some settings, and save its policy.
+def run(args: Args) -> Path:
+    """Start or resume a run and save its policy: the implementation of `rsoccer.train.train`.
 
     Args:
         args: settings of the run.
@@ -200,8 +200,6 @@ def train(args: Args) -> Path:
         Path of the policy file.
 
     Raises:
-        ValueError: a folder that cannot be written or that holds a run already, an unknown task,
-            or a checkpoint that is missing, damaged or of a run with other settings.
         Interrupted: a signal ended the run after it was saved.
     """
     saved = _open_run(args)

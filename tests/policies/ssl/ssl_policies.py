@@ -15,7 +15,7 @@ def expect_independent_worlds(name: str, task: Task, steps: int = 60) -> None:
     """Row i of a batch acts like the same world alone; the policy object keeps no state."""
     worlds = 4
     controllers: dict[str, rsoccer.policies.Policy | str] = dict.fromkeys(
-        task.agents, policies.make(name, task)
+        task.agents, policies.make_policy(name, task)
     )
     batch = Matches(task, worlds, 3, controllers=controllers)
     singles = [Matches(task, 1, 3 + i, controllers=controllers) for i in range(worlds)]
@@ -33,7 +33,7 @@ def expect_independent_worlds(name: str, task: Task, steps: int = 60) -> None:
 
 def expect_view_needed(name: str, task: Task) -> None:
     """Without a view the policy raises an error."""
-    policy, rng = policies.make(name, task), WorldRng.seeded(0, 1)
+    policy, rng = policies.make_policy(name, task), WorldRng.seeded(0, 1)
     shape = (1, 1, 5)
     with pytest.raises(ValueError, match=f"{name} needs a view"):
         policy.act(PolicyInput(shape, None, None), rng, policy.new_memory(shape, rng))

@@ -33,4 +33,4 @@ def test_worlds_are_independent(
 def test_it_needs_a_teammate_and_a_view() -> None:
     expect_view_needed("passer", SslPassEndurance())
     with pytest.raises(ValueError, match="task: passer needs a teammate, got"):
-        policies.make("passer", SslGoToBall())
+        policies.make_policy("passer", SslGoToBall())

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from rsoccer import SimConfig, policies
-from rsoccer.frame import Floats, Frame, Mask
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.policies.ssl.hold import Hold
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play, Task
@@ -36,9 +37,9 @@ class OtherTask(Task):
 @pytest.mark.parametrize("name", ["fetch", "passer", "strike", "weave"])
 def test_scripts_that_drive_need_an_ssl_task(name: str) -> None:
     with pytest.raises(ValueError, match=f"task: {name} needs a subclass of Ssl, got other"):
-        policies.make(name, OtherTask())
+        policies.make_policy(name, OtherTask())
 
 
 @pytest.mark.parametrize("name", ["hold", "receive"])
 def test_scripts_that_stand_fit_any_robots_with_a_dribbler(name: str) -> None:
-    assert isinstance(policies.make(name, OtherTask()), Hold)
+    assert isinstance(policies.make_policy(name, OtherTask()), Hold)

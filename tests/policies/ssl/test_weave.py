@@ -49,7 +49,7 @@ def test_worlds_are_independent() -> None:
 def test_it_needs_gates_and_a_view() -> None:
     expect_view_needed("weave", SslDribbling())
     with pytest.raises(ValueError, match="task: weave needs gates, got"):
-        policies.make("weave", SslGoToBall())
+        policies.make_policy("weave", SslGoToBall())
 
 
 def test_it_finishes_the_official_course_in_time() -> None:

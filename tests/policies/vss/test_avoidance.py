@@ -1,8 +1,7 @@
 import numpy as np
 
-from rsoccer.frame import length
-from rsoccer.policies.geometry import reciprocal
 from rsoccer.policies.vss.avoidance import avoid_obstacle
+from rsoccer.vectors import norm, reciprocal
 
 
 def test_the_path_past_an_obstacle_keeps_its_distance() -> None:
@@ -21,9 +20,9 @@ def test_the_path_past_an_obstacle_keeps_its_distance() -> None:
         x, y = avoid_obstacle(position, target_xy, centre, radius, active)
         detour |= x != target[..., 0]
         step = np.stack([x, y], axis=-1) - position
-        scale = reciprocal(length(step[..., 0], step[..., 1]), np.float32(0.01))
+        scale = reciprocal(norm(step[..., 0], step[..., 1]), np.float32(0.01))
         position = position + step * scale[..., None] * np.float32(0.01)
-        nearest = min(nearest, float(length(position[..., 0], position[..., 1]).min()))
+        nearest = min(nearest, float(norm(position[..., 0], position[..., 1]).min()))
     assert detour.all(), "the obstacle is in every path"
     assert nearest > 0.095
     assert np.abs(position - target).max() < 0.02

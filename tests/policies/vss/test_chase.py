@@ -40,7 +40,7 @@ def test_chase_plays_for_yellow_too() -> None:
     assert score("zero", "chase", 1) < -0.85
 
 
-def test_chase_beats_drifting() -> None:
+def test_chase_beats_ou() -> None:
     assert score("chase", "ou") > 0.75
 
 
@@ -48,7 +48,7 @@ def test_chase_refuses_other_actions() -> None:
     class ThreeActions(VssSelfPlay):
         action_size = 3
 
-    with pytest.raises(ValueError, match="chase needs robots on two wheels"):
+    with pytest.raises(ValueError, match="chase needs robots with a differential drive"):
         Chase(ThreeActions())
 
 

@@ -3,16 +3,18 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.frame import Floats, Frame, length
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.policies.vss.drive_control import (
     DriveController,
     DriveTarget,
-    require_two_wheels,
-    wheel_powers,
+    require_differential_drive,
+    wheel_speeds,
 )
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
+from rsoccer.vectors import norm
 
 TASK = VssSelfPlay(n_blue=1, n_yellow=0)
 ROBOT = TASK.config.robot
@@ -23,8 +25,8 @@ class FixedTarget(Policy):
 
     observes = "view"
 
-    def __init__(self, target: DriveTarget, max_power: float = 1.0) -> None:
-        self.target, self.max_power = target, np.float32(max_power)
+    def __init__(self, target: DriveTarget, max_wheel_speed: float = 1.0) -> None:
+        self.target, self.max_wheel_speed = target, np.float32(max_wheel_speed)
         self.controller = DriveController(ROBOT)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
@@ -33,7 +35,7 @@ class FixedTarget(Policy):
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         assert inputs.view is not None
         ego, slow_steps = inputs.view.ego, memory["slow_steps"]
-        return self.controller.drive(ego, self.target, self.max_power, slow_steps, rng)
+        return self.controller.drive(ego, self.target, self.max_wheel_speed, slow_steps, rng)
 
 
 def drive_target(n: int, **fields: float) -> DriveTarget:
@@ -42,9 +44,9 @@ def drive_target(n: int, **fields: float) -> DriveTarget:
     return zeros._replace(**{k: np.full((n, 1), v, np.float32) for k, v in fields.items()})
 
 
-def driven(n: int, steps: int, max_power: float = 1.0, **fields: float) -> Matches:
+def driven(n: int, steps: int, max_wheel_speed: float = 1.0, **fields: float) -> Matches:
     """One robot that starts at the left with any heading; the ball is not in its path."""
-    policy = FixedTarget(drive_target(n, **fields), max_power)
+    policy = FixedTarget(drive_target(n, **fields), max_wheel_speed)
     matches = Matches(TASK, n, controllers={"blue": policy}, autoreset="disabled")
     frame = Frame.empty(n, 1, 0)
     frame.ball.position[:] = [0.0, 0.6]
@@ -70,11 +72,11 @@ def test_it_drives_through_a_target() -> None:
     speeds = []
     for _ in range(40):
         matches.step(np.zeros((12, 0, 2), np.float32))
-        speeds.append(length(*np.moveaxis(matches.frame.blue.velocity, -1, 0)).max(axis=1))
+        speeds.append(norm(*np.moveaxis(matches.frame.blue.velocity, -1, 0)).max(axis=1))
     assert np.max(speeds, axis=0).min() > 0.3, "it does not come to rest"
 
 
-def test_power_is_limited() -> None:
+def test_wheel_speed_is_limited() -> None:
     slow, fast = driven(4, 8, 0.4, x=0.4, y=-0.2), driven(4, 8, 1.0, x=0.4, y=-0.2)
     assert np.abs(slow.play.actions).max() == pytest.approx(0.4)
     assert np.abs(fast.play.actions).max() == pytest.approx(1.0)
@@ -102,15 +104,17 @@ def test_a_waiting_robot_is_not_stuck() -> None:
     assert not slow_steps.any()
 
 
-def test_scaled_wheel_powers_keep_the_curvature() -> None:
+def test_scaled_wheel_speeds_keep_the_curvature() -> None:
     forward = np.array([1.0, 0.2, -1.0], np.float32)
     turn = np.array([1.0, 0.3, 0.5], np.float32)
-    left, right = np.moveaxis(wheel_powers(forward, turn), -1, 0)
+    left, right = np.moveaxis(wheel_speeds(forward, turn), -1, 0)
     assert np.maximum(np.abs(left), np.abs(right)).tolist() == [1.0, 0.5, 1.0]
     assert (right - left) / (right + left) == pytest.approx(turn / forward, rel=1e-5)
 
 
 @pytest.mark.parametrize("name", [name for name in rsoccer.list_tasks() if "SSL" in name])
 def test_other_drives_are_refused(name: str) -> None:
-    with pytest.raises(ValueError, match=f"task: chase needs robots on two wheels.* got {name}"):
-        require_two_wheels("chase", rsoccer.make_task(name))
+    with pytest.raises(
+        ValueError, match=f"task: chase needs robots with a differential drive.* got {name}"
+    ):
+        require_differential_drive("chase", rsoccer.make_task(name))

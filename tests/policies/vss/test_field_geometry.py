@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches, spawn
-from rsoccer.frame import Floats, Frame
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
 from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.tasks import VssSelfPlay
 

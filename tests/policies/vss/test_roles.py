@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from rsoccer.frame import Array, Frame
+from rsoccer.arrays import Array
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches
-from rsoccer.policies.geometry import XY
 from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.policies.vss.roles import (
     ATTACKER,
@@ -16,6 +16,7 @@ from rsoccer.policies.vss.roles import (
 )
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
+from rsoccer.vectors import XY
 from rsoccer.view import Viewpoint
 
 

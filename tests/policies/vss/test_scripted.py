@@ -38,7 +38,7 @@ def wilson_low(wins: int, of: int) -> float:
 # -- Strength ---------------------------------------------------------------------------------
 
 
-def test_it_beats_drifting_from_either_side() -> None:
+def test_it_beats_ou_from_either_side() -> None:
     """Nine in ten of the matches that are decided, and a goal score of 0.8."""
     found = score("scripted", "ou", 100)
     for part in (found, found.sides["blue"], found.sides["yellow"]):
@@ -158,7 +158,7 @@ def test_a_robot_plays_its_role_whichever_policy_drives_its_teammates() -> None:
         VssSelfPlay(robot="vss_650rpm"),
     ],
 )
-def test_it_drives_in_every_task_with_two_wheels(task: VssSelfPlay) -> None:
+def test_it_drives_in_every_task_with_differential_drive(task: VssSelfPlay) -> None:
     controllers: Controllers = {f"blue_{task.n_blue - 1}": "scripted"}
     matches = Matches(task, 3, controllers=controllers)
     matches.reset()
@@ -182,9 +182,9 @@ def test_skill_limits_speed_and_decision_rate() -> None:
             matches.step(no_actions(4))
             targets.append(matches.state_dict()["blue_0.targets"].copy())
         changes[skill] = int((np.diff(targets, axis=0) != 0.0).any(axis=(1, 2, 3)).sum())
-        powers = np.abs(matches.play.actions[:, :3]).max()
-        assert powers <= 0.03 + 0.97 * skill + 1e-6
-        assert powers > 0.5 * skill
+        wheel_speeds = np.abs(matches.play.actions[:, :3]).max()
+        assert wheel_speeds <= 0.03 + 0.97 * skill + 1e-6
+        assert wheel_speeds > 0.5 * skill
     assert changes[0.0] < changes[0.5] < changes[1.0] == 47
     assert changes[0.0] == 3, "every 0.3 s"
 
@@ -199,14 +199,14 @@ def test_a_name_may_carry_a_skill() -> None:
         actions.append(matches.play.actions.copy())
     assert same(actions[0], actions[1])
     assert not same(actions[0], actions[2])
-    assert "scripted" in policies.names()
-    assert policies.names_with_skill() == ["scripted"]
+    assert "scripted" in policies.list_policies()
+    assert policies.list_policies_with_skill() == ["scripted"]
 
 
 @pytest.mark.parametrize("skill", ["2", "-0.1", "x", "", "nan", "0.5:1"])
 def test_invalid_skills_are_refused(skill: str) -> None:
     with pytest.raises(ValueError, match=f"scripted: expected a skill from 0 to 1, got '?{skill}"):
-        policies.make(f"scripted:{skill}", TASK)
+        policies.make_policy(f"scripted:{skill}", TASK)
 
 
 @pytest.mark.parametrize("name", ["zero:0.5", "chase:1", "ou:"])
@@ -214,16 +214,16 @@ def test_other_policies_have_no_skill(name: str) -> None:
     first = name.split(":")[0]
     message = f"'{first}' has no skill: expected '{first}', got '{name}'.*'scripted'"
     with pytest.raises(ValueError, match=message):
-        policies.make(name, TASK)
+        policies.make_policy(name, TASK)
 
 
 # -- Invalid input ----------------------------------------------------------------------------
 
 
 def test_it_refuses_other_robots() -> None:
-    with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
-        policies.make("scripted:0.5", SslSelfPlay())
-    with pytest.raises(ValueError, match="scripted needs robots on two wheels"):
+    with pytest.raises(ValueError, match="scripted needs robots with a differential drive"):
+        policies.make_policy("scripted:0.5", SslSelfPlay())
+    with pytest.raises(ValueError, match="scripted needs robots with a differential drive"):
         rsoccer.Matches("SSLSelfPlay-v0", controllers={"blue": "scripted"})
 
 
@@ -232,11 +232,11 @@ def test_a_policy_built_for_other_teams_is_refused(name: str) -> None:
     other = Scripted(VssSelfPlay(n_blue=2))
     with pytest.raises(ValueError, match=f"field, robots and teams of {name}, got a Scripted"):
         Matches(name, controllers={"blue": other})
-    assert policies.make(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
+    assert policies.make_policy(other, VssSelfPlay(n_blue=2, max_steps=9)) is other
 
 
 def test_it_needs_a_view() -> None:
-    scripted, rng = cast(Scripted, policies.make("scripted", TASK)), WorldRng.seeded(0, 1)
+    scripted, rng = cast(Scripted, policies.make_policy("scripted", TASK)), WorldRng.seeded(0, 1)
     shape = (1, 1, 2)
     with pytest.raises(ValueError, match="scripted needs a view"):
         scripted.act(PolicyInput(shape, None, None), rng, scripted.new_memory(shape, rng))

@@ -13,7 +13,7 @@ pub(crate) struct Motion {
     pub(crate) heading: Vector,
     /// m/s.
     pub(crate) velocity: Vector,
-    /// Turn rate, rad/s, counter-clockwise.
+    /// Turn rate, rad/s, counterclockwise.
     pub(crate) spin: f32,
 }
 

@@ -128,7 +128,7 @@ numbers! {
     #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
     pub struct OmniDrive, "robot";
     fields {
-        /// Positions of the wheels, degrees from the front, counter-clockwise.
+        /// Positions of the wheels, degrees from the front, counterclockwise.
         wheel_angles: [f32; 4],
     }
     numbers {

@@ -4,12 +4,13 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, RobotColumns, length
-from rsoccer.policies.geometry import XY, reciprocal, rotate_into
+from rsoccer.arrays import Floats
+from rsoccer.frame import RobotColumns
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.path_planning import Obstacles, next_waypoint
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl
+from rsoccer.vectors import XY, norm, reciprocal, rotate_into
 
 MAX_TURN_RATE: Final = 10.0  # rad/s, without the ball
 STANDOFF: Final = np.float32(0.1)  # m between mouth and ball where the final approach starts
@@ -47,7 +48,7 @@ def approach_direction(
         Unit vectors (n, robots) from the robot's future position to the ball.
     """
     to_x, to_y = ball[..., 0] - position[..., 0], ball[..., 1] - position[..., 1]
-    scale = reciprocal(length(to_x, to_y))
+    scale = reciprocal(norm(to_x, to_y))
     shape = (*to_x.shape, DIRECTIONS)
     u_x: Floats = np.concatenate([(to_x * scale)[..., None], np.broadcast_to(_COS, shape)], axis=-1)
     u_y: Floats = np.concatenate([(to_y * scale)[..., None], np.broadcast_to(_SIN, shape)], axis=-1)
@@ -55,9 +56,9 @@ def approach_direction(
     x, y = ball[..., None, 0] - u_x * distance, ball[..., None, 1] - u_y * distance
     gap_x = robots[0][..., None, :] - x[..., None]
     gap_y = robots[1][..., None, :] - y[..., None]
-    crowding = np.maximum(clearance - length(gap_x, gap_y).min(axis=-1), np.float32(0.0))
+    crowding = np.maximum(clearance - norm(gap_x, gap_y).min(axis=-1), np.float32(0.0))
     crowding = crowding + region.distance_outside(x, y)
-    path = length(x - position[..., None, 0], y - position[..., None, 1])
+    path = norm(x - position[..., None, 0], y - position[..., None, 1])
     best = np.argmin(path + CROWDING_COST * crowding, axis=-1)[..., None]
     x, y = (np.take_along_axis(u, best, -1)[..., 0] for u in (u_x, u_y))
     return x, y
@@ -100,14 +101,14 @@ def approach_ball(
     to_x, to_y = ball_at[..., 0] - position[..., 0], ball_at[..., 1] - position[..., 1]
     cosine, _ = motion.heading_error(ego, to_x, to_y)
     along_approach, _ = rotate_into(to_x, to_y, u_x, u_y)
-    near = length(to_x, to_y) < standoff + np.float32(0.06)
-    on_line = along_approach > np.float32(0.9) * length(to_x, to_y)
+    near = norm(to_x, to_y) < standoff + np.float32(0.06)
+    on_line = along_approach > np.float32(0.9) * norm(to_x, to_y)
     final = near & (cosine > FACING_COSINE) & on_line
     pressed = mouth_distance - PRESS_DEPTH
     contact = region.clamp(ball_at[..., 0] - u_x * pressed, ball_at[..., 1] - u_y * pressed)
     final_x, final_y = motion.velocity_to(position, *contact, motion.SLOW_SPEED)
     # The robot follows a rolling ball, but not a ball after a shot.
-    follows = length(ball_velocity[..., 0], ball_velocity[..., 1]) < FOLLOW_SPEED
+    follows = norm(ball_velocity[..., 0], ball_velocity[..., 1]) < FOLLOW_SPEED
     zero = np.float32(0.0)
     v_x = np.where(final, final_x, v_x) + np.where(follows, ball_velocity[..., 0], zero)
     v_y = np.where(final, final_y, v_y) + np.where(follows, ball_velocity[..., 1], zero)

@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.path_planning import other_robots

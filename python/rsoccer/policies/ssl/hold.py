@@ -4,12 +4,12 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, length
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.geometry import TINY
 from rsoccer.policies.ssl.robot_control import DRIBBLER, KICK, TURN, require_dribbler
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import TINY, norm, rotate_into_body
 
 TURN_GAIN: Final = np.float32(1.5)  # share of the fastest turn, per sine of the heading error
 
@@ -47,9 +47,8 @@ class Receive(Hold):
         view = inputs.required_view("receive")
         to_ball = view.ball.position - view.ego.position
         x, y = to_ball[..., 0], to_ball[..., 1]
-        cos, sin = view.ego.heading[..., 0], view.ego.heading[..., 1]
-        left = (y * cos - x * sin) / np.maximum(length(x, y), TINY)
-        behind = x * cos + y * sin < 0.0
-        left = np.where(behind, np.copysign(np.float32(1.0), left), left)
-        actions[..., TURN] = np.minimum(np.maximum(left * TURN_GAIN, -1.0), 1.0)
+        ahead, left = rotate_into_body(x, y, view.ego.heading)
+        sine = left / np.maximum(norm(x, y), TINY)
+        sine = np.where(ahead < 0.0, np.copysign(np.float32(1.0), sine), sine)
+        actions[..., TURN] = np.minimum(np.maximum(sine * TURN_GAIN, -1.0), 1.0)
         return actions

@@ -4,8 +4,9 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, RobotColumns, length
-from rsoccer.policies.geometry import TINY, XY, reciprocal
+from rsoccer.arrays import Floats
+from rsoccer.frame import RobotColumns
+from rsoccer.vectors import TINY, XY, norm, reciprocal, rotate_into_body
 
 BRAKE: Final = np.float32(3.0)  # m/s², deceleration before a target
 TURN_GAIN: Final = np.float32(6.0)  # rad/s, per rad of heading error
@@ -22,9 +23,9 @@ def heading_error(ego: RobotColumns, x: Floats, y: Floats) -> XY:
         x: (n, robots) x of the directions, any length.
         y: (n, robots) y of the directions.
     """
-    cos, sin = ego.heading[..., 0], ego.heading[..., 1]
-    scale = reciprocal(length(x, y))
-    return (x * cos + y * sin) * scale, (y * cos - x * sin) * scale
+    ahead, left = rotate_into_body(x, y, ego.heading)
+    scale = reciprocal(norm(x, y))
+    return ahead * scale, left * scale
 
 
 def turn_rate_to(ego: RobotColumns, x: Floats, y: Floats, max_rate: float) -> Floats:
@@ -62,7 +63,7 @@ def velocity_to(
             is the target.
     """
     x, y = x - position[..., 0], y - position[..., 1]
-    distance = length(x, y)
+    distance = norm(x, y)
     remaining = distance if path_length is None else path_length
     speed = np.minimum(np.sqrt(np.float32(2.0) * BRAKE * remaining), remaining * POSITION_GAIN)
     scale = np.minimum(speed, max_speed) / np.maximum(distance, TINY)
@@ -84,9 +85,9 @@ def limit_speed_near_robots(
     Returns:
         Velocities in the same direction.
     """
-    gaps = length(robots[0] - position[..., None, 0], robots[1] - position[..., None, 1])
+    gaps = norm(robots[0] - position[..., None, 0], robots[1] - position[..., None, 1])
     free = np.maximum(gaps.min(axis=-1) - robot_diameter - np.float32(0.05), np.float32(0.0))
     limit = SLOW_SPEED + SPEED_PER_GAP * free
-    speed = np.maximum(length(*velocity), TINY)
+    speed = np.maximum(norm(*velocity), TINY)
     scale = np.minimum(np.minimum(limit, max_speed) / speed, np.float32(1.0))
     return velocity[0] * scale, velocity[1] * scale

@@ -4,14 +4,14 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, length
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.geometry import XY, reciprocal, rotate_into
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import XY, norm, reciprocal, rotate_into
 from rsoccer.view import View
 
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
@@ -83,12 +83,12 @@ class Passer(Policy):
             & (np.abs(ego.angular_velocity) < MAX_KICK_SPIN)
         )
         # A ball that still moves has not been received yet.
-        ball_speed = length(ball.velocity[..., 0], ball.velocity[..., 1])
+        ball_speed = norm(ball.velocity[..., 0], ball.velocity[..., 1])
         ready &= (ego.infrared > 0.5) & (ball_speed < MIN_BALL_SPEED)
         receiver_velocity = teammate.velocity[:, :, 0]
-        receiver_speed = length(receiver_velocity[..., 0], receiver_velocity[..., 1])
+        receiver_speed = norm(receiver_velocity[..., 0], receiver_velocity[..., 1])
         ready &= receiver_speed < MAX_RECEIVER_SPEED
-        distance = np.maximum(length(x, y) - self._control.mouth_distance, np.float32(0.0))
+        distance = np.maximum(norm(x, y) - self._control.mouth_distance, np.float32(0.0))
         extra = LONG_PASS_GAIN * np.maximum(distance - LONG_PASS, np.float32(0.0))
         arrival = ARRIVAL_SPEED + extra
         square = arrival * arrival + self._rolls * distance
@@ -99,7 +99,7 @@ class Passer(Policy):
         """Velocity (m/s) onto the line of a coming ball, or away from a teammate too near."""
         position, ball = view.ego.position, view.ball
         teammate = view.teammates.position[:, :, 0]
-        speed = length(ball.velocity[..., 0], ball.velocity[..., 1])
+        speed = norm(ball.velocity[..., 0], ball.velocity[..., 1])
         scale = reciprocal(speed, MIN_BALL_SPEED)
         u_x, u_y = ball.velocity[..., 0] * scale, ball.velocity[..., 1] * scale
         from_x, from_y = (position[..., i] - ball.position[..., i] for i in (0, 1))
@@ -108,7 +108,7 @@ class Passer(Policy):
         x, y = position[..., 0] + left * u_y, position[..., 1] - left * u_x
         line_x, line_y = motion.velocity_to(position, x, y, MAX_SPEED)
         away_x, away_y = position[..., 0] - teammate[..., 0], position[..., 1] - teammate[..., 1]
-        distance = length(away_x, away_y)
+        distance = norm(away_x, away_y)
         scale = MIN_DISTANCE * reciprocal(distance)
         retreat = self._region.clamp(
             teammate[..., 0] + away_x * scale, teammate[..., 1] + away_y * scale

@@ -4,9 +4,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from rsoccer.frame import Floats, length
-from rsoccer.policies.geometry import XY, reciprocal
-from rsoccer.policies.ssl.region import FAR, Region
+from rsoccer.arrays import Floats
+from rsoccer.policies.ssl.region import Region
+from rsoccer.vectors import FAR, XY, norm, reciprocal
 from rsoccer.view import View
 
 COLLISION_COST: Final = np.float32(20.0)  # m of detour, per m too near to an obstacle
@@ -55,7 +55,7 @@ def segment_distance(start: XY, end: XY, x: Floats, y: Floats) -> Floats:
     to_x, to_y = x - start[0][..., None], y - start[1][..., None]
     scale = reciprocal(path_x * path_x + path_y * path_y)
     share = np.minimum(np.maximum((to_x * path_x + to_y * path_y) * scale, 0.0), 1.0)
-    return length(to_x - share * path_x, to_y - share * path_y)
+    return norm(to_x - share * path_x, to_y - share * path_y)
 
 
 def next_waypoint(
@@ -76,8 +76,8 @@ def next_waypoint(
     corner = _candidate_corners(*target, obstacles, region)
     start = position[..., 0][..., None], position[..., 1][..., None]
     end = target[0][..., None], target[1][..., None]
-    path = length(corner[0] - start[0], corner[1] - start[1])
-    path = path + length(corner[0] - end[0], corner[1] - end[1])
+    path = norm(corner[0] - start[0], corner[1] - start[1])
+    path = path + norm(corner[0] - end[0], corner[1] - end[1])
     collision = np.maximum(
         _missing_clearance(start, corner, obstacles), _missing_clearance(corner, end, obstacles)
     )

@@ -1,15 +1,10 @@
 """Regions of the field in which a robot may drive."""
 
-from typing import Final
-
 import numpy as np
 
 from rsoccer._core import Field
-from rsoccer.frame import Floats, length
-from rsoccer.policies.geometry import XY, reciprocal
-
-FAR: Final = np.float32(100.0)
-"""Coordinate beyond everything on the field, m."""
+from rsoccer.arrays import Floats
+from rsoccer.vectors import FAR, XY, norm, reciprocal
 
 
 class Region:
@@ -94,5 +89,5 @@ class Region:
         ys = (-self.area_y - start[1]) * scale_y, (self.area_y - start[1]) * scale_y
         enter = np.maximum(np.minimum(*xs), np.maximum(np.minimum(*ys), np.float32(0.0)))
         leave = np.minimum(np.maximum(*xs), np.minimum(np.maximum(*ys), np.float32(1.0)))
-        part: Floats = np.maximum(leave - enter, np.float32(0.0)) * length(path_x, path_y)
+        part: Floats = np.maximum(leave - enter, np.float32(0.0)) * norm(path_x, path_y)
         return part

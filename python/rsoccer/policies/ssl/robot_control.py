@@ -4,10 +4,11 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, Mask, RobotColumns, length
-from rsoccer.policies.geometry import TINY, rotate_into
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import RobotColumns
 from rsoccer.task import Task
 from rsoccer.tasks.ssl import Ssl
+from rsoccer.vectors import TINY, norm, rotate_into
 from rsoccer.view import View
 
 TURN, KICK, DRIBBLER = 2, 3, 4  # indices in an SSL robot's action
@@ -118,7 +119,7 @@ class RobotControl:
             Velocity (x, y) and turn rate close to the present ones.
         """
         change_x, change_y = v_x - ego.velocity[..., 0], v_y - ego.velocity[..., 1]
-        change = np.maximum(length(change_x, change_y), TINY)
+        change = np.maximum(norm(change_x, change_y), TINY)
         scale = np.minimum(self._max_change / change, np.float32(1.0))
         turn_change = np.minimum(
             np.maximum(spin - ego.angular_velocity, -self._max_turn_change), self._max_turn_change

@@ -9,12 +9,12 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, Mask
-from rsoccer.policies.geometry import XY
+from rsoccer.arrays import Floats, Mask
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl
+from rsoccer.vectors import XY
 from rsoccer.view import View
 
 APPROACH_ANGLE: Final = np.float32(np.radians(20.0))  # rad off the opponent's axis

@@ -5,9 +5,9 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import Field
-from rsoccer.frame import Floats, Mask, length
+from rsoccer.arrays import Floats, Mask
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.geometry import XY, reciprocal, team_from_ball
+from rsoccer.policies.geometry import team_from_ball
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import approach_ball
 from rsoccer.policies.ssl.path_planning import (
@@ -21,6 +21,7 @@ from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.policies.ssl.steal import opponent_has_ball, steal_ball
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import XY, norm, reciprocal
 from rsoccer.view import View
 
 MAX_SPEED: Final = 1.5  # m/s
@@ -48,7 +49,7 @@ class Strike(Policy):
     """A script that gets the ball, dribbles to a position with a free shot, and shoots.
 
     It steals the ball from an opponent that holds it. Only the team's nearest robot goes to the
-    ball; its teammates keep off.
+    ball; its teammates keep their distance.
     """
 
     observes: Observes = "view"
@@ -116,10 +117,10 @@ class Strike(Policy):
         return self._control.actions(view.ego, *velocity)
 
     def _wait(self, view: View) -> Floats:
-        """Keep off the ball and face it."""
+        """Keep the distance from the ball and face it."""
         ego, ball = view.ego, view.ball.position
         x, y = ego.position[..., 0] - ball[..., 0], ego.position[..., 1] - ball[..., 1]
-        scale = np.maximum(WAITING_DISTANCE * reciprocal(length(x, y)), np.float32(1.0))
+        scale = np.maximum(WAITING_DISTANCE * reciprocal(norm(x, y)), np.float32(1.0))
         target = self._outer_region.clamp(ball[..., 0] + x * scale, ball[..., 1] + y * scale)
         v_x, v_y = motion.velocity_to(ego.position, *target, MAX_SPEED)
         spin = motion.turn_rate_to(ego, -x, -y, MAX_TURN_RATE)
@@ -130,7 +131,7 @@ class Strike(Policy):
         ego, robots = view.ego, other_robots(view)
         x, y = ego.position[..., 0], ego.position[..., 1]
         aim_y, free = (part[..., 0] for part in self._best_aim(x[..., None], y[..., None], robots))
-        gaps = length(robots[0] - x[..., None], robots[1] - y[..., None]).min(axis=-1)
+        gaps = norm(robots[0] - x[..., None], robots[1] - y[..., None]).min(axis=-1)
         aims = (free > SHOT_CLEARANCE) & (gaps > TURNING_CLEARANCE)
         aims &= self._dribble_region.distance_outside(x, y) < np.float32(AREA_MARGIN)
         goal_x, goal_y = self._goal_x - x, aim_y - y
@@ -138,7 +139,7 @@ class Strike(Policy):
         cos, sin = motion.heading_error(ego, goal_x, goal_y)
         kicks = aims & (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE)
         kicks &= np.abs(ego.angular_velocity) < MAX_KICK_SPIN
-        kicks &= length(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
+        kicks &= norm(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
         zero = np.float32(0.0)
         v_x, v_y = (np.where(aims, zero, v) for v in self._dribble(ego.position, robots))
         kick = np.where(kicks, self._control.max_kick_speed, zero)
@@ -164,12 +165,12 @@ class Strike(Policy):
         shape = (*position.shape[:2], len(self._shot_x))
         x, y = np.broadcast_to(self._shot_x, shape), np.broadcast_to(self._shot_y, shape)
         _, free = self._best_aim(x, y, robots)
-        gaps = length(
-            robots[0][:, :, None] - x[..., None], robots[1][:, :, None] - y[..., None]
-        ).min(axis=-1)
+        gaps = norm(robots[0][:, :, None] - x[..., None], robots[1][:, :, None] - y[..., None]).min(
+            axis=-1
+        )
         good = free > SHOT_CLEARANCE + SPOT_MARGIN
         good &= gaps > TURNING_CLEARANCE + SPOT_MARGIN
-        path = length(x - position[..., 0, None], y - position[..., 1, None])
+        path = norm(x - position[..., 0, None], y - position[..., 1, None])
         best = np.argmin(path + np.where(good, np.float32(0.0), BLOCKED_COST), axis=-1)
         obstacles = Obstacles(*robots, np.broadcast_to(TURNING_CLEARANCE, robots[0].shape))
         target = self._shot_x[best], self._shot_y[best]

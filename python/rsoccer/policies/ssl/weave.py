@@ -4,9 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats, Mask, length
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.geometry import TINY, XY, rotate_into
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.approach import PRESS_DEPTH
 from rsoccer.policies.ssl.path_planning import Obstacles, next_waypoint, other_robots
@@ -16,6 +15,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.tasks.courses import Course
 from rsoccer.tasks.ssl_dribbling import SslDribbling
+from rsoccer.vectors import TINY, XY, norm, rotate_into_body
 
 DRIBBLE_SPEED: Final = 0.8  # m/s, with the ball on the dribbler
 MAX_TURN_RATE: Final = 2.0  # rad/s, with the ball on the dribbler
@@ -84,7 +84,7 @@ class Weave(Policy):
         view = inputs.required_view("weave")
         ego, ball = view.ego, view.ball
         to_x, to_y = (ball.position[..., i] - ego.position[..., i] for i in (0, 1))
-        ahead, left = rotate_into(to_x, to_y, ego.heading[..., 0], ego.heading[..., 1])
+        ahead, left = rotate_into_body(to_x, to_y, ego.heading)
         has_ball = self._control.has_ball(view)
         x, y = self._next_waypoint(ego.position, ball.position, has_ball, memory)
         behind_x, behind_y = self._behind_ball(ball.position, ahead, left)
@@ -110,7 +110,7 @@ class Weave(Policy):
         # A robot without the ball starts again before the next gate.
         waypoint[:] = np.where(has_ball, waypoint, 2 * passed)
         at = self._waypoint(waypoint)
-        distance = length(at[..., 0] - position[..., 0], at[..., 1] - position[..., 1])
+        distance = norm(at[..., 0] - position[..., 0], at[..., 1] - position[..., 1])
         arrived = distance < ARRIVAL_DISTANCE
         # It waits behind a gate until the ball has crossed it.
         following = np.minimum(waypoint + 1, 2 * passed + 1)
@@ -134,7 +134,7 @@ class Weave(Policy):
         """Velocities close to the last commanded ones, for robots with the ball."""
         change_x, change_y = v_x - last[..., 0], v_y - last[..., 1]
         max_change = np.where(has_ball, MAX_ACCELERATION * self._time_step, np.float32(10.0))
-        scale = np.minimum(max_change / np.maximum(length(change_x, change_y), TINY), 1.0)
+        scale = np.minimum(max_change / np.maximum(norm(change_x, change_y), TINY), 1.0)
         last[..., 0] += change_x * scale
         last[..., 1] += change_y * scale
         return last[..., 0].copy(), last[..., 1].copy()

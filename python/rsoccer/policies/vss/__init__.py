@@ -1,1 +1,1 @@
-"""Scripted policies for VSSS robots, which drive on two wheels."""
+"""Scripted policies for VSSS robots, which have a differential drive."""

@@ -4,15 +4,14 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats, Mask, length
-from rsoccer.policies.geometry import TINY, XY, reciprocal, unit
+from rsoccer.arrays import Floats, Mask
+from rsoccer.vectors import FAR, TINY, XY, norm, reciprocal, rotate_into, unit
 from rsoccer.view import View
 
 WAYPOINT_DISTANCE: Final = np.float32(0.25)  # m from the robot to the waypoint of a detour
 ROBOT_CLEARANCE: Final = np.float32(0.08)  # m between centres of robots: about a width
 AVOID_RANGE: Final = np.float32(0.2)  # m ahead in which other robots are avoided
 DUEL_RADIUS: Final = np.float32(0.15)  # m from the ball in which an attacker pushes other robots
-FAR: Final = np.float32(100.0)  # m; beyond everything on the field
 
 
 def avoid_obstacle(
@@ -35,9 +34,9 @@ def avoid_obstacle(
     toward = to_x * path_x + to_y * path_y
     share = toward * reciprocal(path_x * path_x + path_y * path_y, TINY)
     share = np.minimum(np.maximum(share, 0.0), np.float32(1.0))
-    blocked = length(to_x - share * path_x, to_y - share * path_y) < radius
+    blocked = norm(to_x - share * path_x, to_y - share * path_y) < radius
     blocked &= (toward > 0.0) & active
-    distance = np.maximum(length(to_x, to_y), TINY)
+    distance = np.maximum(norm(to_x, to_y), TINY)
     u_x, u_y = to_x / distance, to_y / distance
     # Along the tangent to the circle; from inside the circle, perpendicular to its centre.
     sin = np.minimum(radius / distance, np.float32(1.0))
@@ -67,11 +66,11 @@ def avoid_robots(view: View, target: XY, attacking: Mask) -> XY:
     path_x, path_y = target[0] - position[..., 0], target[1] - position[..., 1]
     u_x, u_y = (part[..., None] for part in unit(path_x, path_y))
     to_x, to_y = x - position[..., None, 0], y - position[..., None, 1]
-    ahead, left = to_x * u_x + to_y * u_y, to_y * u_x - to_x * u_y
-    avoid_range = np.minimum(length(path_x, path_y), AVOID_RANGE)[..., None]
+    ahead, left = rotate_into(to_x, to_y, u_x, u_y)
+    avoid_range = np.minimum(norm(path_x, path_y), AVOID_RANGE)[..., None]
     blocks = (ahead > 0.0) & (ahead < avoid_range) & (np.abs(left) < ROBOT_CLEARANCE)
     blocks &= view.present[:, 1:]
-    duel = length(x - ball[..., 0], y - ball[..., 1]) < DUEL_RADIUS
+    duel = norm(x - ball[..., 0], y - ball[..., 1]) < DUEL_RADIUS
     blocks &= ~(duel & attacking[..., None])
     nearest = np.argmin(np.where(blocks, ahead, FAR), axis=2)[..., None]
     next_x, next_y = (np.take_along_axis(part, nearest, 2)[..., 0] for part in (x, y))

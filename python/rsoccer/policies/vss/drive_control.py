@@ -1,22 +1,26 @@
-"""Motion control of robots on two wheels: from a target position to the power of each wheel."""
+"""Motion control of differential drives: from a target position to the speed of each wheel.
+
+Speeds of wheels are normalised: 1 is full speed, that is, an action of magnitude 1.
+"""
 
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from rsoccer._core import RobotModel
-from rsoccer.frame import Array, Floats, Mask, RobotColumns, length
-from rsoccer.policies.geometry import TINY, reciprocal
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import RobotColumns
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.vectors import TINY, norm, reciprocal, rotate_into_body
 
-DAMPING: Final = np.float32(0.3)  # turning power less, per share of the fastest turn: no overshoot
+DAMPING: Final = np.float32(0.3)  # slower turn, per share of the fastest turn: no overshoot
 WALL_MARGIN: Final = 0.005  # m to a wall, beyond what a robot needs to turn on the spot
-TURN_GAIN: Final = np.float32(1.1)  # turning power, per sine of the heading error
-BRAKE_DISTANCE: Final = np.float32(0.15)  # m before a stop where power starts to fall, by its root
-CREEP_DISTANCE: Final = np.float32(0.03)  # m where drive and turn power start to fall linearly to 0
+TURN_GAIN: Final = np.float32(1.1)  # wheel speed of a turn, per sine of the heading error
+BRAKE_DISTANCE: Final = np.float32(0.15)  # m before a stop where speed starts to fall, by its root
+CREEP_DISTANCE: Final = np.float32(0.03)  # m where drive and turn start to fall linearly to 0
 SLOW_SHARE: Final = np.float32(0.1)  # share of top speed below which a robot may be stuck
-MIN_PUSH: Final = np.float32(0.3)  # power from which a robot that stays slow is stuck
+MIN_PUSH: Final = np.float32(0.3)  # wheel speed from which a robot that stays slow is stuck
 MAX_SLOW_STEPS: Final = 16  # slow steps before a robot backs off
 BACK_OFF_STEPS: Final = 12  # steps for which it backs off
 
@@ -29,9 +33,11 @@ class DriveTarget(NamedTuple):
     y: Floats
     """y of the target position, m."""
     through: Floats
-    """1 to drive through the position at full power, 0 to stop there."""
+    """1 to drive through the position at full speed, 0 to stop there."""
     spin: Floats
-    """Turning power in [-1, 1] in place of driving; 0 to drive."""
+    """Turn on the spot in place of driving: wheel speed in [-1, 1], positive counterclockwise.
+
+    0 to drive."""
 
 
 class DriveController:
@@ -41,7 +47,7 @@ class DriveController:
         """Set the gains for a robot.
 
         Args:
-            robot: a robot on two wheels.
+            robot: a robot with a differential drive.
         """
         self._damping = turn_damping(robot)
         self._top_speed = np.float32(robot.top_speed)
@@ -50,49 +56,50 @@ class DriveController:
         self,
         ego: RobotColumns,
         target: DriveTarget,
-        max_power: np.float32,
+        max_wheel_speed: np.float32,
         slow_steps: Array,
         rng: WorldRng,
     ) -> Floats:
-        """Compute the power of the wheels for one control step.
+        """Compute the wheel speeds of one control step.
 
         Args:
             ego: state of the robots, (n, robots, ...).
             target: their motion targets.
-            max_power: largest power of a wheel, in (0, 1].
+            max_wheel_speed: largest normalised wheel speed, in (0, 1].
             slow_steps: (n, robots) counters of `back_off`; updated in place.
             rng: (n,) random streams; a robot that backs off turns at random.
 
         Returns:
-            (n, robots, 2) power of the left and the right wheel, in [-max_power, max_power].
+            (n, robots, 2) normalised speeds of the left and the right wheel, within
+            -max_wheel_speed to max_wheel_speed.
         """
         forward, turn = self._steer(ego, target)
-        min_speed = SLOW_SHARE * max_power * self._top_speed
+        min_speed = SLOW_SHARE * max_wheel_speed * self._top_speed
         backing = back_off(ego.velocity, min_speed, np.abs(forward) > MIN_PUSH, slow_steps)
         forward = np.where(backing, -forward, forward)
         turn = np.where(backing, rng.uniform(-1.0, 1.0, slow_steps.shape[1:]), turn)
-        return wheel_powers(forward, turn) * max_power
+        return wheel_speeds(forward, turn) * max_wheel_speed
 
     def _steer(self, ego: RobotColumns, target: DriveTarget) -> tuple[Floats, Floats]:
-        """Forward and turning power, (n, robots) each."""
+        """Wheel speeds of driving and of turning, (n, robots) each."""
         x, y = target.x - ego.position[..., 0], target.y - ego.position[..., 1]
-        cos, sin = ego.heading[..., 0], ego.heading[..., 1]
-        distance = length(x, y)
+        ahead, left = rotate_into_body(x, y, ego.heading)
+        distance = norm(x, y)
         near = np.minimum(distance / CREEP_DISTANCE, np.float32(1.0))
-        power = np.minimum(np.sqrt(distance / BRAKE_DISTANCE), near)
-        power = np.where(target.through > 0.0, np.float32(1.0), power)
+        speed = np.minimum(np.sqrt(distance / BRAKE_DISTANCE), near)
+        speed = np.where(target.through > 0.0, np.float32(1.0), speed)
         scale = reciprocal(distance, TINY)
-        ahead, left = (x * cos + y * sin) * scale, (y * cos - x * sin) * scale
-        # The larger the heading error, the less power forward: it turns before it drives.
+        ahead, left = ahead * scale, left * scale
+        # The larger the heading error, the slower the robot drives: it turns first.
         # Backwards is as good as forwards.
-        forward, turn = power * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
+        forward, turn = speed * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
         spins = target.spin != 0.0
         forward = np.where(spins, np.float32(0.0), forward)
         return forward, np.where(spins, target.spin, turn - ego.angular_velocity * self._damping)
 
 
-def require_two_wheels(policy: str, task: Task) -> None:
-    """Check that the robots of a task drive on two wheels, with the wheels' power as action.
+def require_differential_drive(policy: str, task: Task) -> None:
+    """Check that a task's robots have a differential drive, with wheel speeds as actions.
 
     Args:
         policy: name of the policy, for the error message.
@@ -103,7 +110,8 @@ def require_two_wheels(policy: str, task: Task) -> None:
     """
     if tuple(task.config.command_columns) != ("left", "right") or task.action_size != 2:
         raise ValueError(
-            f"task: {policy} needs robots on two wheels and actions of 2 numbers, got {task.name}"
+            f"task: {policy} needs robots with a differential drive and actions of 2 numbers, "
+            f"got {task.name}"
         )
 
 
@@ -111,16 +119,16 @@ def turning_clearance(robot: RobotModel) -> float:
     """Return the distance (m) from a wall at which a robot can turn on the spot.
 
     Args:
-        robot: a robot on two wheels.
+        robot: a robot with a differential drive.
     """
     return robot.bounding_radius + WALL_MARGIN
 
 
 def turn_damping(robot: RobotModel) -> np.float32:
-    """Return the reduction of turning power per turn rate, s/rad.
+    """Return the reduction of a turn's wheel speed per turn rate, s/rad.
 
     Args:
-        robot: a robot on two wheels.
+        robot: a robot with a differential drive.
     """
     return DAMPING * np.float32(0.5 * robot.track_width / robot.top_speed)
 
@@ -147,14 +155,14 @@ def back_off(velocity: Floats, min_speed: np.float32, pushing: Mask, slow_steps:
     return np.less(slow_steps, 0)
 
 
-def wheel_powers(forward: Floats, turn: Floats) -> Floats:
-    """Return the power of the left and the right wheel, (..., 2) in [-1, 1].
+def wheel_speeds(forward: Floats, turn: Floats) -> Floats:
+    """Return the normalised speeds of the left and the right wheel, (..., 2) in [-1, 1].
 
     If a wheel exceeds 1, both are scaled down alike, which keeps the curvature.
 
     Args:
-        forward: (...) forward power.
-        turn: (...) turning power, positive to the left.
+        forward: (...) wheel speed of driving, positive forward.
+        turn: (...) wheel speed of turning, positive counterclockwise.
     """
     scale = np.maximum(np.abs(forward) + np.abs(turn), np.float32(1.0))
     return np.stack([(forward - turn) / scale, (forward + turn) / scale], axis=-1)

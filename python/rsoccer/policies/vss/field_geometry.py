@@ -5,9 +5,10 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import SimConfig
-from rsoccer.frame import BallColumns, Floats, Mask, length
-from rsoccer.policies.geometry import TINY, XY, reciprocal, unit
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import BallColumns
 from rsoccer.policies.vss.drive_control import turning_clearance
+from rsoccer.vectors import TINY, XY, norm, reciprocal, unit
 
 WALL_GAP: Final = np.float32(0.03)  # m between ball and wall in which no robot fits
 REBOUND: Final = np.float32(0.5)  # share of its path into a wall by which the ball comes back
@@ -97,7 +98,7 @@ class FieldGeometry:
         """
         x, y = ball.position[..., 0], ball.position[..., 1]
         v_x, v_y = ball.velocity[..., 0], ball.velocity[..., 1]
-        speed = length(v_x, v_y)
+        speed = norm(v_x, v_y)
         seconds = np.minimum(seconds, speed / self._deceleration)
         slowing = np.float32(0.5) * self._deceleration * seconds * seconds
         slowing = slowing * reciprocal(speed, TINY)
@@ -127,7 +128,7 @@ class FieldGeometry:
         side, end = self.at_walls(x, y)
         push_x, push_y = unit(self.half_length - x, -y)
         away_x, away_y = x + self.half_length, y
-        distance = length(away_x, away_y)
+        distance = norm(away_x, away_y)
         share = np.minimum(np.maximum((FREE - distance) / (FREE - CLEARING), 0.0), np.float32(1.0))
         away_x, away_y = unit(away_x, away_y)
         push_x, push_y = push_x + share * (away_x - push_x), push_y + share * (away_y - push_y)

@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats, length
-from rsoccer.policies.geometry import XY
+from rsoccer.arrays import Array, Floats
 from rsoccer.policies.vss.field_geometry import FieldGeometry
+from rsoccer.vectors import XY, norm
 from rsoccer.view import View
 
 NONE, KEEPER, ATTACKER, SUPPORT = 0, 1, 2, 3  # a second support is SUPPORT + 1, and so on
@@ -59,7 +59,7 @@ def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
     paths = [(KEEPER, _keeper_path(field, x, y)), (ATTACKER, _attacker_path(field, x, y, ball))]
     for index in range(view.n_teammates - 1):
         support_x, support_y = support_position(index, ball)
-        path = length(x - support_x[..., None], y - support_y[..., None])
+        path = norm(x - support_x[..., None], y - support_y[..., None])
         paths.append((SUPPORT + index, path))
     assigned = np.full_like(roles, NONE)
     for role, path in paths:
@@ -74,7 +74,7 @@ def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
 
 def _keeper_path(field: FieldGeometry, x: Floats, y: Floats) -> Floats:
     """Distance (m) to the keeper's position, (n, robots, team)."""
-    return length(x + field.half_length - KEEPER_DEPTH, y)
+    return norm(x + field.half_length - KEEPER_DEPTH, y)
 
 
 def _attacker_path(field: FieldGeometry, x: Floats, y: Floats, ball: XY) -> Floats:
@@ -83,4 +83,4 @@ def _attacker_path(field: FieldGeometry, x: Floats, y: Floats, ball: XY) -> Floa
     from_x, from_y = x - ball[0][..., None], y - ball[1][..., None]
     wrong_side = from_x * u_x + from_y * u_y > 0.0
     detour = np.where(wrong_side, WRONG_SIDE_COST, np.float32(0.0))
-    return length(from_x + RUN_UP * u_x, from_y + RUN_UP * u_y) + detour
+    return norm(from_x + RUN_UP * u_x, from_y + RUN_UP * u_y) + detour

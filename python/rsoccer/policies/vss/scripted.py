@@ -4,16 +4,20 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
-from rsoccer.policies.vss.drive_control import DriveController, DriveTarget, require_two_wheels
+from rsoccer.policies.vss.drive_control import (
+    DriveController,
+    DriveTarget,
+    require_differential_drive,
+)
 from rsoccer.policies.vss.field_geometry import FieldGeometry
 from rsoccer.policies.vss.roles import NONE, assign_roles
 from rsoccer.policies.vss.tactics import role_targets
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
-MIN_POWER: Final = 0.03  # share of full power at skill 0: about as strong as drifting
+MIN_SPEED: Final = 0.03  # wheel speed, 1 is full speed, at skill 0: about as strong as `ou`
 MAX_DELAY: Final = 0.275  # s added between two decisions at skill 0
 
 
@@ -30,13 +34,13 @@ class Scripted(Policy):
         """Prepare the script for a task.
 
         Args:
-            task: a task whose robots drive on two wheels.
+            task: a task whose robots have a differential drive.
             skill: 0 to 1; scales the speed and shortens the reaction time.
 
         Raises:
             ValueError: a task with other robots, or a skill out of range.
         """
-        require_two_wheels("scripted", task)
+        require_differential_drive("scripted", task)
         if not 0.0 <= skill <= 1.0:
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
         super().__init__(task)
@@ -44,7 +48,7 @@ class Scripted(Policy):
         self._controller = DriveController(task.config.robot)
         sizes = {"blue": task.n_blue, "yellow": task.n_yellow}
         self._team_size = max(sizes[side] for side in task.sides)
-        self._max_power = np.float32(MIN_POWER + (1.0 - MIN_POWER) * skill)
+        self._max_wheel_speed = np.float32(MIN_SPEED + (1.0 - MIN_SPEED) * skill)
         self._delay_steps = round((1.0 - skill) * MAX_DELAY / task.config.time_step)
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
@@ -65,7 +69,7 @@ class Scripted(Policy):
         }
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return the power of the two wheels, (n, robots, 2)."""
+        """Return the normalised wheel speeds, (n, robots, 2)."""
         view = inputs.required_view("scripted")
         assign_roles(self._field, view, memory["roles"])
         ego_roles = memory["roles"][:, :, 0]
@@ -76,4 +80,4 @@ class Scripted(Policy):
         delay[:] = np.where(decides, self._delay_steps, delay - 1)
         target = DriveTarget(*(targets[..., i] for i in range(targets.shape[-1])))
         slow_steps = memory["slow_steps"]
-        return self._controller.drive(view.ego, target, self._max_power, slow_steps, rng)
+        return self._controller.drive(view.ego, target, self._max_wheel_speed, slow_steps, rng)

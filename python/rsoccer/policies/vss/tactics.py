@@ -4,8 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.frame import Array, Floats, Mask, length
-from rsoccer.policies.geometry import TINY, XY, reciprocal, unit
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.policies.vss.avoidance import avoid_obstacle, avoid_robots
 from rsoccer.policies.vss.drive_control import DriveTarget
 from rsoccer.policies.vss.field_geometry import FieldGeometry
@@ -17,6 +16,7 @@ from rsoccer.policies.vss.roles import (
     SUPPORT,
     support_position,
 )
+from rsoccer.vectors import TINY, XY, norm, reciprocal, rotate_into, unit
 from rsoccer.view import View
 
 # -- Attacker --
@@ -70,7 +70,8 @@ def _attacker_target(field: FieldGeometry, view: View) -> DriveTarget:
     push = field.push_direction(x, y)
     u_x, u_y, trapped = _run_direction(field, (x, y), push)
     from_x, from_y = position[..., 0] - x, position[..., 1] - y
-    behind, left = -(from_x * u_x + from_y * u_y), from_y * u_x - from_x * u_y
+    ahead_of_ball, left = rotate_into(from_x, from_y, u_x, u_y)
+    behind = -ahead_of_ball
     runs = (behind > 0.0) & (np.abs(left) < ALIGNMENT * behind)
     start = field.clamp(x - RUN_UP * u_x, y - RUN_UP * u_y)
     ahead = FOLLOW_THROUGH - behind
@@ -86,7 +87,7 @@ def _interception(field: FieldGeometry, view: View) -> XY:
     position, ball = view.ego.position, view.ball
     x, y = ball.position[..., 0], ball.position[..., 1]
     for _ in range(2):
-        distance = length(x - position[..., 0], y - position[..., 1])
+        distance = norm(x - position[..., 0], y - position[..., 1])
         x, y = field.predict_ball(ball, np.minimum(distance / APPROACH_SPEED, MAX_LOOKAHEAD))
     return x, y
 
@@ -107,13 +108,13 @@ def _run_direction(field: FieldGeometry, ball: XY, push: XY) -> tuple[Floats, Fl
 
 
 def _flick_spin(field: FieldGeometry, view: View, push: XY, runs: Mask, trapped: Mask) -> Floats:
-    """Turning power that flicks a ball at a wall in the push direction; 0 without a flick."""
+    """Turn that flicks a ball at a wall in the push direction: 1, -1, or 0 without a flick."""
     position, ball = view.ego.position, view.ball.position
     to_x, to_y = ball[..., 0] - position[..., 0], ball[..., 1] - position[..., 1]
     side, end = field.at_walls(ball[..., 0], ball[..., 1])
-    touching = length(to_x, to_y) < field.contact_distance
+    touching = norm(to_x, to_y) < field.contact_distance
     flicks = touching & ((side & ~runs) | end | trapped)
-    sine = (to_x * push[1] - to_y * push[0]) * reciprocal(length(to_x, to_y), TINY)
+    sine = (to_x * push[1] - to_y * push[0]) * reciprocal(norm(to_x, to_y), TINY)
     return np.where(flicks & (np.abs(sine) > MIN_FLICK_SINE), np.sign(sine), np.float32(0.0))
 
 

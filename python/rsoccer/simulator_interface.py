@@ -2,7 +2,7 @@
 
 from typing import Protocol, runtime_checkable
 
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 
 
 class SimulatorLike(Protocol):
@@ -17,7 +17,7 @@ class SimulatorLike(Protocol):
             out: (n, row) output; the rows of the k worlds are overwritten.
 
         Raises:
-            ValueError: bodies that overlap or are outside. Nothing may have changed.
+            ValueError: bodies that overlap or are outside. The state must be unchanged.
         """
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
@@ -31,7 +31,7 @@ class SimulatorLike(Protocol):
             out: (n, row) output; the rows of the k worlds are overwritten.
 
         Raises:
-            ValueError: a ball inside a robot or outside. Nothing may have changed.
+            ValueError: a ball inside a robot or outside. The state must be unchanged.
         """
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
@@ -60,7 +60,8 @@ class SupportsSnapshots(Protocol):
             snapshot: bytes from `snapshot`.
 
         Raises:
-            ValueError: bytes that are damaged or from another simulator. Nothing may have changed.
+            ValueError: bytes that are damaged or from another simulator. The state must be
+                unchanged.
         """
 
 

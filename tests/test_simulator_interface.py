@@ -3,7 +3,7 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches, SimConfig, Simulator
-from rsoccer.frame import Floats, Mask
+from rsoccer.arrays import Floats, Mask
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import begun, same, zeros
 
