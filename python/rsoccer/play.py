@@ -16,7 +16,7 @@ from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.view import View, Viewpoint
 
-# How a field that is not plain per-world state takes part in copying and saving.
+# Roles of fields that are not plain per-world state, for copying and saving.
 DERIVED: Final = {"role": "derived"}  # copied, but not saved: computed from saved fields
 SHARED: Final = {"role": "shared"}  # the same for all worlds: neither copied nor saved
 STREAM: Final = {"role": "stream"}  # copied, and saved beside the other random streams
