@@ -397,11 +397,11 @@ class RobotModel:
 
     @property
     def restitution(self) -> float:
-        """Restitution of a collision with another robot or a wall (0 to 1)."""
+        """Restitution against robots or walls (0.2), as the mean of both (0 to 1)."""
 
     @property
     def friction(self) -> float:
-        """Coulomb friction against other robots and walls (0 or above)."""
+        """Coulomb friction against robots or walls (0.2), as the mean of both (0 or above)."""
 
     @property
     def side_length(self) -> float:

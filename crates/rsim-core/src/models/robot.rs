@@ -28,11 +28,9 @@ numbers! {
         height: Positive, "m";
         /// Mass with wheels; heavier robots win shoving matches.
         mass: Positive, "kg";
-        /// Restitution of a collision with another robot (the mean of both) or a wall (the mean of this
-        /// number and 0.2).
+        /// Restitution against robots or walls (0.2), as the mean of both.
         restitution: Fraction, "1";
-        /// Coulomb friction against another robot (the mean of both) or a wall (the mean of this number
-        /// and 0.2).
+        /// Coulomb friction against robots or walls (0.2), as the mean of both.
         friction: NotNegative, "1";
     }
 }
