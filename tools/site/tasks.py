@@ -319,7 +319,7 @@ def metrics(task: Task) -> list[str]:
 
 
 def _solution(name: str) -> str:
-    """How well a shipped policy plays the task, as measured."""
+    """Return the measured results of a shipped policy, as text."""
     kept = solved.load()
     found = kept["tasks"][name]
     against = (
