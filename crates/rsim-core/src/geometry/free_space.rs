@@ -16,6 +16,8 @@ pub(crate) struct FreeSpace {
 /// A wall that stands on the floor.
 #[derive(Debug, Clone)]
 pub(crate) struct FloorWall {
+    /// Index among all walls.
+    pub(crate) index: usize,
     pub(crate) outline: PlacedOutline,
     /// Height of the upper edge, m.
     pub(crate) top: f32,
@@ -23,13 +25,13 @@ pub(crate) struct FloorWall {
 
 impl FreeSpace {
     pub(crate) fn of(field: &Field, walls: &[Wall]) -> Self {
-        let on_floor = walls.iter().filter(|wall| wall.stands_on_floor());
+        let on_floor = walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor());
         // Goals and corner blocks begin at the goal line, or a corner's leg before it.
         let half_x = field.half_length() - field.corner_leg;
         Self {
             half: Vector::new(half_x, field.max_y()),
             walls: on_floor
-                .map(|wall| FloorWall { outline: wall.placed(), top: wall.top })
+                .map(|(index, wall)| FloorWall { index, outline: wall.placed(), top: wall.top })
                 .collect(),
         }
     }

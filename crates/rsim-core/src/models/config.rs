@@ -10,6 +10,16 @@ use crate::models::league::League;
 use crate::models::numbers::Range;
 use crate::models::robot::RobotModel;
 
+/// Solver of contacts between bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EngineKind {
+    /// rapier2d, the reference.
+    Rapier,
+    /// The solver of this crate, made for a dozen bodies.
+    Compact,
+}
+
 /// Field, models, teams and time steps of a simulator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SimConfig {
@@ -25,6 +35,8 @@ pub struct SimConfig {
     pub time_step: f32,
     /// Length of a physics tick, s. Shorter ticks are more accurate and slower.
     pub tick: f32,
+    /// Solver of contacts.
+    pub engine: EngineKind,
 }
 
 impl SimConfig {
@@ -43,6 +55,7 @@ impl SimConfig {
             yellow: vec![robot.clone(); n_yellow],
             time_step: 0.025,
             tick: 0.005,
+            engine: if std::env::var("RSIM_ENGINE").is_ok_and(|name| name == "compact") { EngineKind::Compact } else { EngineKind::Rapier },
         }
     }
 

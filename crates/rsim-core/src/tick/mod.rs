@@ -10,7 +10,7 @@ mod squeeze;
 use crate::ball::rolling::GroundMotion;
 use crate::body_params::BodyParams;
 use crate::engine::{
-    BALL, BallHooks, BallPhase, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
+    BALL, BallRules, BallPhase, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
 };
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -172,8 +172,8 @@ impl Tick<'_> {
         Squeeze::find(&state.engine, self.params, free_space, velocity, height, time)
     }
 
-    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallHooks<'_> {
-        BallHooks { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
+    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallRules<'_> {
+        BallRules { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
     }
 
     fn drive_robots(&self, state: &mut State) {
