@@ -62,6 +62,12 @@ impl Bodies {
         self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
     }
 
+    /// Speed of the fastest robot, m/s.
+    pub(super) fn fastest_robot(&self) -> f32 {
+        let squares = self.motions[robot(0)..].iter().map(|motion| motion.velocity.length_squared());
+        squares.fold(0.0, f32::max).sqrt()
+    }
+
     /// Writes the motion of robots after `time` without contacts into `undisturbed`.
     pub(super) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
         undisturbed.clear();

@@ -194,12 +194,15 @@ impl Engine {
             && !self.ball_was_jammed();
         let sub_step = rules.time / self.sub_steps as f32;
         let is_compact = matches!(self.solver, Solver::Compact(_));
+        // A robot at rest may be pushed within the tick.
+        let fastest = if is_compact { self.bodies.fastest_robot() } else { 0.0 };
         if may_be_contact_free || is_compact {
             let flies = rules.phase == BallPhase::Air;
             let flies = flies || (!is_compact && rules.phase != BallPhase::Floor);
             // Up to the last test of a tick without contacts, one sub-step beyond it.
             let time = rules.time + sub_step;
-            scratch.near.find(&self.bodies, rules.params, free_space, flies, time, sub_step);
+            let Self { bodies, .. } = self;
+            scratch.near.find(bodies, rules.params, free_space, flies, time, sub_step, fastest);
         }
         if may_be_contact_free && self.try_contact_free(scratch, sub_step) {
             self.contact_free_ticks = self.contact_free_ticks.wrapping_add(1);
@@ -215,7 +218,7 @@ impl Engine {
             }
             Solver::Compact(solver) => {
                 let Scratch { compact, near, .. } = scratch;
-                solver.solve(bodies, &near.pairs, compact, rules, *sub_steps, contacts);
+                solver.solve(bodies, &near.pairs, fastest, compact, rules, *sub_steps, contacts);
                 Ok(())
             }
         };

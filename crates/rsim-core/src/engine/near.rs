@@ -97,7 +97,7 @@ impl NearPairs {
     /// Finds all pairs that can meet within `time`.
     ///
     /// A flying ball has no pairs: its contacts are solved elsewhere. `sub_step` is the time between
-    /// two tests of the separation.
+    /// two tests of the separation. Bodies count as moving at `least_speed` (m/s) or faster.
     pub(super) fn find(
         &mut self,
         bodies: &Bodies,
@@ -106,13 +106,14 @@ impl NearPairs {
         ball_flies: bool,
         time: f32,
         sub_step: f32,
+        least_speed: f32,
     ) {
         let first = if ball_flies { robot(0) } else { BALL };
         let margin_of_ball = |speed: f32| margin_of_ball(speed, params, sub_step);
         self.reaches.clear();
         self.pairs.clear();
         for index in first..bodies.motions.len() {
-            let mut reach = reach_of(bodies, index, params, time);
+            let mut reach = reach_of(bodies, index, params, time, least_speed);
             if index == BALL {
                 reach.radius += margin_of_ball(reach.speed);
             }
@@ -158,7 +159,13 @@ fn margin_of_ball(speed: f32, params: &BodyParams, sub_step: f32) -> f32 {
     MARGIN + half_way * half_way / (2.0 * params.ball.radius)
 }
 
-fn reach_of(bodies: &Bodies, body: usize, params: &BodyParams, time: f32) -> Reach {
+fn reach_of(
+    bodies: &Bodies,
+    body: usize,
+    params: &BodyParams,
+    time: f32,
+    least_speed: f32,
+) -> Reach {
     let radius = if body == BALL {
         params.ball.radius
     } else {
@@ -166,6 +173,6 @@ fn reach_of(bodies: &Bodies, body: usize, params: &BodyParams, time: f32) -> Rea
     };
     let (motion, force) = (&bodies.motions[body], &bodies.forces[body]);
     let speed_gain = force.force.length() * bodies.inverses[body].mass * time;
-    let speed = motion.velocity.length() + speed_gain;
+    let speed = motion.velocity.length().max(least_speed) + speed_gain;
     Reach { center: motion.position, radius: radius + speed * time + MARGIN, speed }
 }
