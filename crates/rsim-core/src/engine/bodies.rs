@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BALL, Undisturbed, robot};
+use super::{BALL, SubSteps, Undisturbed, robot};
 use crate::body_params::BodyParams;
 use crate::geometry::motion::{Motion, rotated};
 use crate::math::Vector;
@@ -64,7 +64,8 @@ impl Bodies {
 
     /// Speed of the fastest robot, m/s.
     pub(super) fn fastest_robot(&self) -> f32 {
-        let squares = self.motions[robot(0)..].iter().map(|motion| motion.velocity.length_squared());
+        let squares =
+            self.motions[robot(0)..].iter().map(|motion| motion.velocity.length_squared());
         squares.fold(0.0, f32::max).sqrt()
     }
 
@@ -87,9 +88,9 @@ impl Bodies {
     }
 
     /// Moves all bodies by sub-steps without contacts.
-    pub(super) fn move_freely(&mut self, length: f32, sub_steps: usize) {
+    pub(super) fn move_freely(&mut self, sub_steps: SubSteps) {
         let Self { motions, forces, inverses, .. } = self;
-        move_freely(motions, forces, inverses, length, sub_steps);
+        move_freely(motions, forces, inverses, sub_steps);
     }
 }
 
@@ -98,17 +99,16 @@ pub(super) fn move_freely(
     motions: &mut [Motion],
     forces: &[AppliedForce],
     inverses: &[InverseInertia],
-    length: f32,
-    sub_steps: usize,
+    SubSteps { time, count }: SubSteps,
 ) {
     for ((motion, force), inverse) in motions.iter_mut().zip(forces).zip(inverses) {
-        let velocity_change = force.force * inverse.mass * length;
-        let spin_change = force.torque * inverse.inertia * length;
-        for _ in 0..sub_steps {
+        let velocity_change = force.force * inverse.mass * time;
+        let spin_change = force.torque * inverse.inertia * time;
+        for _ in 0..count {
             motion.velocity += velocity_change;
             motion.spin += spin_change;
-            motion.position += motion.velocity * length;
-            motion.heading = rotated(motion.heading, motion.spin * length);
+            motion.position += motion.velocity * time;
+            motion.heading = rotated(motion.heading, motion.spin * time);
         }
     }
 }

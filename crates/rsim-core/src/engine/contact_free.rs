@@ -5,6 +5,7 @@
 //! the solver stops bodies one sub-step ahead. If a test fails, the tick is rolled back and solved
 //! normally.
 
+use super::SubSteps;
 use super::bodies::{Bodies, move_freely};
 use super::near::NearPairs;
 use crate::geometry::motion::Motion;
@@ -22,28 +23,28 @@ pub(super) fn try_contact_free(
     bodies: &mut Bodies,
     near: &NearPairs,
     buffers: &mut ContactFreeBuffers,
-    sub_step: f32,
-    sub_steps: usize,
+    sub_steps: SubSteps,
 ) -> bool {
     if near.pairs.is_empty() {
-        bodies.move_freely(sub_step, sub_steps);
-        return true;
-    }
-    let Bodies { motions, forces, inverses, .. } = bodies;
-    let ContactFreeBuffers { now, end } = buffers;
-    now.clone_from(motions);
-    for index in 0..=sub_steps {
+        bodies.move_freely(sub_steps);
+    } else {
+        let Bodies { motions, forces, inverses, .. } = bodies;
+        let ContactFreeBuffers { now, end } = buffers;
+        now.clone_from(motions);
+        for index in 0..=sub_steps.count {
+            if !near.are_separated(now) {
+                return false;
+            }
+            if index == sub_steps.count {
+                end.clone_from(now);
+            }
+            move_freely(now, forces, inverses, SubSteps { count: 1, ..sub_steps });
+        }
         if !near.are_separated(now) {
             return false;
         }
-        if index == sub_steps {
-            end.clone_from(now);
-        }
-        move_freely(now, forces, inverses, sub_step, 1);
-    }
-    let separated = near.are_separated(now);
-    if separated {
         motions.copy_from_slice(end);
     }
-    separated
+    bodies.moved.fill(true);
+    true
 }

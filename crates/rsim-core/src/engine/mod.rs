@@ -23,10 +23,10 @@ use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::config::{EngineKind, SimConfig};
 use bodies::{AppliedForce, Bodies};
-use compact::{CompactScratch, CompactSolver};
+use compact::{CompactScratch, CompactSolver, NearBodies};
 use contact_free::{ContactFreeBuffers, try_contact_free};
 use contacts::Contacts;
-use near::NearPairs;
+use near::{NearPairs, Search};
 use rapier::{RapierScratch, RapierSolver};
 
 pub(crate) use ball_contact::{BallPhase, BallRules, SqueezedBall};
@@ -102,6 +102,14 @@ pub(crate) struct Undisturbed {
     pub(crate) velocity: Vector,
     /// rad/s.
     pub(crate) spin: f32,
+}
+
+/// Sub-steps of a tick.
+#[derive(Debug, Clone, Copy)]
+struct SubSteps {
+    /// Length of each, s.
+    time: f32,
+    count: usize,
 }
 
 /// Error of a state that is no longer finite.
@@ -188,52 +196,46 @@ impl Engine {
         rules: &BallRules,
         free_space: &FreeSpace,
     ) -> Result<(), NonFinite> {
-        let may_be_contact_free = self.contact_free_enabled
+        let may_be_free = self.contact_free_enabled
             && self.is_contact_free
             && rules.squeezed.is_none()
-            && !self.ball_was_jammed();
-        let sub_step = rules.time / self.sub_steps as f32;
-        let is_compact = matches!(self.solver, Solver::Compact(_));
-        // A robot at rest may be pushed within the tick.
-        let fastest = if is_compact { self.bodies.fastest_robot() } else { 0.0 };
-        if may_be_contact_free || is_compact {
-            let flies = rules.phase == BallPhase::Air;
-            let flies = flies || (!is_compact && rules.phase != BallPhase::Floor);
-            // Up to the last test of a tick without contacts, one sub-step beyond it.
-            let time = rules.time + sub_step;
-            let Self { bodies, .. } = self;
-            scratch.near.find(bodies, rules.params, free_space, flies, time, sub_step, fastest);
-        }
-        if may_be_contact_free && self.try_contact_free(scratch, sub_step) {
-            self.contact_free_ticks = self.contact_free_ticks.wrapping_add(1);
-            self.contacts.clear();
-            return Ok(());
-        }
+            && !self.bodies.ball_was_jammed();
         self.bodies.ball_mass =
             rules.squeezed.map_or(rules.params.ball.mass, |squeezed| squeezed.mass);
-        let Self { bodies, contacts, sub_steps, .. } = self;
-        let solved = match &mut self.solver {
+        let sub_steps =
+            SubSteps { time: rules.time / self.sub_steps as f32, count: self.sub_steps };
+        let Self { bodies, solver, contacts, .. } = self;
+        let Scratch { rapier, compact, near, contact_free, .. } = scratch;
+        let is_free = match solver {
             Solver::Rapier(solver) => {
-                solver.solve(bodies, &mut scratch.rapier, rules, *sub_steps, contacts)
+                let is_free = may_be_free && {
+                    near.find(bodies, rules, free_space, &Search::before_rapier(rules, sub_steps));
+                    try_contact_free(bodies, near, contact_free, sub_steps)
+                };
+                if !is_free {
+                    solver.solve(bodies, rapier, rules, sub_steps.count, contacts)?;
+                }
+                is_free
             }
             Solver::Compact(solver) => {
-                let Scratch { compact, near, .. } = scratch;
-                solver.solve(bodies, &near.pairs, fastest, compact, rules, *sub_steps, contacts);
-                Ok(())
+                let search = Search::before_compact(bodies, rules);
+                near.find(bodies, rules, free_space, &search);
+                if near.pairs.is_empty() && self.contact_free_enabled {
+                    bodies.move_freely(sub_steps);
+                    solver.forget();
+                    true
+                } else {
+                    let near = NearBodies { pairs: &near.pairs, fastest: search.least_speed };
+                    !solver.solve(bodies, near, compact, rules, sub_steps, contacts)
+                }
             }
         };
-        self.is_contact_free = self.contacts.len() == 0;
-        solved
-    }
-
-    fn try_contact_free(&mut self, scratch: &mut Scratch, sub_step: f32) -> bool {
-        let Scratch { near, contact_free, .. } = scratch;
-        let moved =
-            try_contact_free(&mut self.bodies, near, contact_free, sub_step, self.sub_steps);
-        if moved {
-            self.bodies.moved.fill(true);
+        if is_free {
+            self.contact_free_ticks = self.contact_free_ticks.wrapping_add(1);
+            self.contacts.clear();
         }
-        moved
+        self.is_contact_free = self.contacts.len() == 0;
+        Ok(())
     }
 
     /// Contacts of the ball with an impulse in the last tick.

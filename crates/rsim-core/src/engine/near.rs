@@ -1,8 +1,7 @@
 //! Pairs of bodies, or of a body and a wall, that can meet in a tick.
 
 use super::bodies::Bodies;
-use super::contacts::Partner;
-use super::{BALL, robot};
+use super::{BALL, BallPhase, BallRules, SubSteps, robot};
 use crate::body_params::BodyParams;
 use crate::geometry::free_space::FreeSpace;
 use crate::geometry::motion::Motion;
@@ -79,10 +78,39 @@ impl Solid {
             heading: motion.rotation(),
         }
     }
+}
 
-    /// The robot that this body is; the ball is none.
-    pub(super) fn partner(&self) -> Option<Partner> {
-        self.body.checked_sub(robot(0)).map(Partner::Robot)
+/// Settings of the search for pairs.
+pub(super) struct Search {
+    /// s.
+    time: f32,
+    /// Time between two tests of the separation, s.
+    between: f32,
+    /// Speed that every body may have, m/s: a robot at rest may be pushed.
+    pub(super) least_speed: f32,
+    /// A flying ball has no pairs: its contacts are solved elsewhere.
+    ball_flies: bool,
+}
+
+impl Search {
+    /// Pairs for a tick without contacts: up to its last test, one sub-step beyond the tick.
+    pub(super) fn before_rapier(rules: &BallRules, sub_steps: SubSteps) -> Self {
+        Self {
+            time: rules.time + sub_steps.time,
+            between: sub_steps.time,
+            least_speed: 0.0,
+            ball_flies: rules.phase != BallPhase::Floor,
+        }
+    }
+
+    /// Pairs for the compact solver, which sweeps the ball along its path.
+    pub(super) fn before_compact(bodies: &Bodies, rules: &BallRules) -> Self {
+        Self {
+            time: rules.time,
+            between: 0.0,
+            least_speed: bodies.fastest_robot(),
+            ball_flies: rules.phase == BallPhase::Air,
+        }
     }
 }
 
@@ -94,26 +122,21 @@ pub(super) struct NearPairs {
 }
 
 impl NearPairs {
-    /// Finds all pairs that can meet within `time`.
-    ///
-    /// A flying ball has no pairs: its contacts are solved elsewhere. `sub_step` is the time between
-    /// two tests of the separation. Bodies count as moving at `least_speed` (m/s) or faster.
+    /// Finds all pairs that can meet within the time of `search`.
     pub(super) fn find(
         &mut self,
         bodies: &Bodies,
-        params: &BodyParams,
+        rules: &BallRules,
         free_space: &FreeSpace,
-        ball_flies: bool,
-        time: f32,
-        sub_step: f32,
-        least_speed: f32,
+        search: &Search,
     ) {
-        let first = if ball_flies { robot(0) } else { BALL };
-        let margin_of_ball = |speed: f32| margin_of_ball(speed, params, sub_step);
+        let params = rules.params;
+        let first = if search.ball_flies { robot(0) } else { BALL };
+        let margin_of_ball = |speed: f32| margin_of_ball(speed, params, search.between);
         self.reaches.clear();
         self.pairs.clear();
         for index in first..bodies.motions.len() {
-            let mut reach = reach_of(bodies, index, params, time, least_speed);
+            let mut reach = reach_of(bodies, index, params, search);
             if index == BALL {
                 reach.radius += margin_of_ball(reach.speed);
             }
@@ -159,20 +182,14 @@ fn margin_of_ball(speed: f32, params: &BodyParams, sub_step: f32) -> f32 {
     MARGIN + half_way * half_way / (2.0 * params.ball.radius)
 }
 
-fn reach_of(
-    bodies: &Bodies,
-    body: usize,
-    params: &BodyParams,
-    time: f32,
-    least_speed: f32,
-) -> Reach {
+fn reach_of(bodies: &Bodies, body: usize, params: &BodyParams, search: &Search) -> Reach {
     let radius = if body == BALL {
         params.ball.radius
     } else {
         params.robots[body - 1].model.bounding_radius()
     };
     let (motion, force) = (&bodies.motions[body], &bodies.forces[body]);
-    let speed_gain = force.force.length() * bodies.inverses[body].mass * time;
-    let speed = motion.velocity.length().max(least_speed) + speed_gain;
-    Reach { center: motion.position, radius: radius + speed * time + MARGIN, speed }
+    let speed_gain = force.force.length() * bodies.inverses[body].mass * search.time;
+    let speed = motion.velocity.length().max(search.least_speed) + speed_gain;
+    Reach { center: motion.position, radius: radius + speed * search.time + MARGIN, speed }
 }

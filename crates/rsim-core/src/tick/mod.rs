@@ -10,7 +10,7 @@ mod squeeze;
 use crate::ball::rolling::GroundMotion;
 use crate::body_params::BodyParams;
 use crate::engine::{
-    BALL, BallRules, BallPhase, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
+    BALL, BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
 };
 use crate::geometry::motion::Motion;
 use crate::math::Vector;

@@ -1,7 +1,9 @@
 //! Pairs that can meet in a tick, prepared for its sub-steps.
 
 use super::constraint::{Constraint, Impulse};
-use super::manifold::{Manifold, Moving, meet, meet_ball};
+use super::discs::meet_ball;
+use super::manifold::{Manifold, Moving};
+use super::meet::meet;
 use super::{SolverBody, SubStep};
 use crate::engine::ball_contact::BallRules;
 use crate::engine::contacts::Partner;
@@ -87,13 +89,12 @@ impl Link {
         step: &SubStep,
     ) -> Option<Constraint> {
         let manifold = self.manifold(bodies, step)?;
-        let softness = step.softness[usize::from(self.wall.is_some())];
         let start = |feature: u32| {
             let found = self.kept.iter().find(|kept| kept.feature == feature);
             found.map_or(Impulse::default(), |kept| kept.impulse)
         };
         let pair = [self.first, self.second];
-        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, softness, start))
+        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, step.softness, start))
     }
 
     fn manifold(&self, bodies: &[SolverBody], step: &SubStep) -> Option<Manifold> {

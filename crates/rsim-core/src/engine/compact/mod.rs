@@ -9,11 +9,14 @@
 
 mod boxes;
 mod constraint;
+mod discs;
 mod link;
 mod manifold;
+mod meet;
 mod report;
 mod warm_start;
 
+use super::SubSteps;
 use super::ball_contact::BallRules;
 use super::bodies::Bodies;
 use super::contacts::Contacts;
@@ -24,10 +27,6 @@ use constraint::{Constraint, Softness};
 use link::Link;
 use report::report;
 pub(super) use warm_start::CompactSolver;
-
-/// Stiffness of contacts, Hz, and damping ratio: between bodies, and between a body and a wall.
-const BODY_CONTACT: [f32; 2] = [200.0, 2.0];
-const WALL_CONTACT: [f32; 2] = [400.0, 2.0];
 
 /// Passes over all contacts in a sub-step, usually and while a ball is jammed.
 const PASSES: usize = 1;
@@ -66,37 +65,46 @@ impl SolverBody {
 }
 
 impl CompactSolver {
-    /// Advances all bodies by `rules.time`, in sub-steps. `near` are the pairs that can meet, and
-    /// `fastest` the speed that a push can give a body, m/s.
+    /// Advances all bodies by `rules.time`, in sub-steps, and returns whether any two came near each
+    /// other.
     pub(super) fn solve(
         &mut self,
         bodies: &mut Bodies,
-        near: &[Pair],
-        fastest: f32,
+        near: NearBodies,
         scratch: &mut CompactScratch,
         rules: &BallRules,
-        sub_steps: usize,
+        SubSteps { time, count }: SubSteps,
         contacts: &mut Contacts,
-    ) {
-        let time = rules.time / sub_steps as f32;
+    ) -> bool {
         scratch.read(bodies);
-        self.link(near, bodies.motions.len(), rules, time, &mut scratch.links);
+        self.link(near.pairs, bodies.motions.len(), rules, time, &mut scratch.links);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let passes = if jammed { PASSES_JAMMED } else { PASSES };
         let step = SubStep {
             time,
-            reach: 2.0 * fastest * time,
-            softness: [Softness::of(BODY_CONTACT, time), Softness::of(WALL_CONTACT, time)],
+            reach: 2.0 * near.fastest * time,
+            softness: Softness::new(time),
             squeezed: rules.squeezed.is_some(),
         };
-        for _ in 0..sub_steps {
+        let mut meets = false;
+        for _ in 0..count {
             scratch.accelerate(bodies, time);
             scratch.advance(&step, passes);
+            meets |= !scratch.constraints.is_empty();
         }
         scratch.write(bodies);
         self.store(&scratch.links, bodies.ball_mass, time);
         report(&scratch.links, contacts);
+        meets
     }
+}
+
+/// Bodies that can meet in a tick.
+#[derive(Clone, Copy)]
+pub(super) struct NearBodies<'a> {
+    pub(super) pairs: &'a [Pair],
+    /// Speed that a push can give a robot at rest, m/s.
+    pub(super) fastest: f32,
 }
 
 /// Settings of one sub-step.
@@ -106,8 +114,7 @@ struct SubStep {
     /// Gap up to which bodies have a contact though their paths do not meet, m: others may push them
     /// together within the sub-step.
     reach: f32,
-    /// Of contacts between bodies, and with walls.
-    softness: [Softness; 2],
+    softness: Softness,
     /// Whether the ball is squeezed.
     squeezed: bool,
 }

@@ -11,10 +11,10 @@ use rapier2d::prelude::SpringCoefficients;
 
 use super::RapierSolver;
 use super::report::{BALL_LABEL, label};
-use crate::engine::contacts::Partner;
-use crate::engine::{SUB_STEPS, Shape, WALL_FRICTION};
 use crate::body_params::BodyParams;
 use crate::columns::MAX_PLACED_SPEED;
+use crate::engine::contacts::Partner;
+use crate::engine::{SUB_STEPS, Shape, WALL_FRICTION};
 use crate::geometry::arena::Wall;
 use crate::models::config::SimConfig;
 

@@ -67,4 +67,3 @@ impl PhysicsHooks for BallRules<'_> {
         }
     }
 }
-
