@@ -44,7 +44,8 @@ impl Tick<'_> {
         self.drive_robots(state);
         let before = state.engine.motion(BALL).position.extend(state.ball.z);
         let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
-        let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
+        let is_fast = !state.engine.follows_outlines()
+            && squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
         let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
         for _ in 0..parts {
             let part = length / f32::from(parts);

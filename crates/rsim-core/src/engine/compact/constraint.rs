@@ -32,8 +32,10 @@ const DAMPING: f32 = 2.0;
 pub(super) struct Softness {
     /// Speed of correction per depth, 1/s.
     bias_rate: f32,
-    /// Speed that a unit impulse leaves uncorrected, by the speed that it changes.
-    compliance: f32,
+    /// Speed that a unit impulse changes and leaves uncorrected, by the speed that it changes; and the
+    /// inverse.
+    stretch: f32,
+    mass_scale: f32,
 }
 
 impl Softness {
@@ -41,7 +43,8 @@ impl Softness {
     pub(super) fn new(time: f32) -> Self {
         let omega = std::f32::consts::TAU * STIFFNESS.min(MAX_STIFFNESS / time);
         let a = 2.0 * DAMPING + time * omega;
-        Self { bias_rate: omega / a, compliance: 1.0 / (time * omega * a) }
+        let stretch = 1.0 + 1.0 / (time * omega * a);
+        Self { bias_rate: omega / a, stretch, mass_scale: 1.0 / stretch }
     }
 }
 
@@ -67,6 +70,7 @@ pub(super) struct ConstraintPoint {
     /// Speed by a unit impulse along the normal, 1/kg.
     inverse_mass: f32,
     /// kg.
+    normal_mass: f32,
     tangent_mass: f32,
 }
 
@@ -148,6 +152,12 @@ impl Constraint {
             let arms = [found.position - a.position, found.position - b.position];
             let normal_levers = arms.map(|arm| arm.perp_dot(normal));
             let tangent_levers = arms.map(|arm| arm.perp_dot(normal.perp()));
+            let tangent_mass = if friction > 0.0 {
+                1.0 / inverse_mass(tangent_levers, tangent_levers)
+            } else {
+                0.0
+            };
+            let response = inverse_mass(normal_levers, normal_levers);
             *point = ConstraintPoint {
                 position: found.position,
                 feature: found.feature,
@@ -155,8 +165,9 @@ impl Constraint {
                 separation: found.separation,
                 normal_levers,
                 tangent_levers,
-                inverse_mass: inverse_mass(normal_levers, normal_levers),
-                tangent_mass: 1.0 / inverse_mass(tangent_levers, tangent_levers),
+                inverse_mass: response,
+                normal_mass: 1.0 / response,
+                tangent_mass,
             };
         }
         let coupling = inverse_mass(points[0].normal_levers, points[1].normal_levers);
@@ -188,40 +199,48 @@ impl Constraint {
     }
 
     /// Corrects the velocities: along the normal, then by friction. `bias` pushes overlapping bodies
-    /// apart; without it only velocities are corrected.
-    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], time: f32, bias: bool) {
+    /// apart; without it only velocities are corrected. `inverse_time` is that of a sub-step, 1/s.
+    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], inverse_time: f32, bias: bool) {
         let pair = [self.first, self.second];
         let mut velocities = Velocities::of(bodies, pair);
-        self.solve_normals(&mut velocities, time, bias);
+        let row = |point: &ConstraintPoint, velocities: &Velocities| {
+            let speed = velocities.relative(self.normal, point.normal_levers);
+            self.softness.row(speed, point.separation, inverse_time, bias)
+        };
+        if self.count == 1 {
+            let Row { speed, is_soft } = row(&self.points[0], &velocities);
+            let point = &mut self.points[0];
+            let old = point.impulse.normal;
+            let scale = if is_soft { self.softness.mass_scale } else { 1.0 };
+            let total = (point.inverse_mass * old - speed) * (point.normal_mass * scale);
+            if total <= 0.0 && old == 0.0 {
+                return;
+            }
+            point.impulse.normal = total.max(0.0);
+            velocities.apply(point.impulse.normal - old, self.normal, point.normal_levers);
+        } else {
+            let rows = [row(&self.points[0], &velocities), row(&self.points[1], &velocities)];
+            let [one, two] = &mut self.points;
+            let old = [one.impulse.normal, two.impulse.normal];
+            if old == [0.0; 2] && rows[0].speed >= 0.0 && rows[1].speed >= 0.0 {
+                return;
+            }
+            let offsets = [
+                rows[0].speed - one.inverse_mass * old[0] - self.coupling * old[1],
+                rows[1].speed - two.inverse_mass * old[1] - self.coupling * old[0],
+            ];
+            let stretch = |row: &Row| if row.is_soft { self.softness.stretch } else { 1.0 };
+            let diagonal =
+                [one.inverse_mass * stretch(&rows[0]), two.inverse_mass * stretch(&rows[1])];
+            let totals = solve_two(diagonal, self.coupling, offsets);
+            [one.impulse.normal, two.impulse.normal] = totals;
+            velocities.apply(totals[0] - old[0], self.normal, one.normal_levers);
+            velocities.apply(totals[1] - old[1], self.normal, two.normal_levers);
+        }
         if self.friction > 0.0 {
             self.solve_friction(&mut velocities);
         }
         velocities.write(bodies, pair);
-    }
-
-    fn solve_normals(&mut self, velocities: &mut Velocities, time: f32, bias: bool) {
-        let rows = self.points.map(|point| {
-            let (push, compliance) = self.softness.response(point.separation, time, bias);
-            let speed = velocities.relative(self.normal, point.normal_levers) + push;
-            Row { speed, diagonal: point.inverse_mass * (1.0 + compliance) }
-        });
-        let [one, two] = &self.points;
-        let old = [one.impulse.normal, two.impulse.normal];
-        let own = [one.inverse_mass, two.inverse_mass];
-        let totals = if self.count == 1 {
-            [((own[0] * old[0] - rows[0].speed) / rows[0].diagonal).max(0.0), 0.0]
-        } else {
-            let offsets = [
-                rows[0].speed - own[0] * old[0] - self.coupling * old[1],
-                rows[1].speed - own[1] * old[1] - self.coupling * old[0],
-            ];
-            solve_two([rows[0].diagonal, rows[1].diagonal], self.coupling, offsets)
-        };
-        for (point, total) in self.points[..self.count].iter_mut().zip(totals) {
-            let change = total - point.impulse.normal;
-            point.impulse.normal = total;
-            velocities.apply(change, self.normal, point.normal_levers);
-        }
     }
 
     fn solve_friction(&mut self, velocities: &mut Velocities) {
@@ -238,22 +257,22 @@ impl Constraint {
     }
 }
 
-/// A point's equation: its closing speed with the push, and the response to its own impulse.
+/// A point's equation: its closing speed with the push, and whether it is soft.
 struct Row {
     speed: f32,
-    diagonal: f32,
+    is_soft: bool,
 }
 
 impl Softness {
-    /// Speed to add to that of a point, m/s, and compliance.
-    fn response(self, separation: f32, time: f32, bias: bool) -> (f32, f32) {
+    fn row(&self, speed: f32, separation: f32, inverse_time: f32, bias: bool) -> Row {
         if separation > 0.0 {
-            (separation / time, 0.0)
+            Row { speed: speed + separation * inverse_time, is_soft: false }
         } else if bias {
             let depth = (separation + ALLOWED_DEPTH).min(0.0);
-            ((self.bias_rate * depth).max(-MAX_PUSH_SPEED), self.compliance)
+            let push = (self.bias_rate * depth).max(-MAX_PUSH_SPEED);
+            Row { speed: speed + push, is_soft: true }
         } else {
-            (0.0, 0.0)
+            Row { speed, is_soft: false }
         }
     }
 }
@@ -264,9 +283,10 @@ fn solve_two(diagonal: [f32; 2], coupling: f32, offset: [f32; 2]) -> [f32; 2] {
     let product = diagonal[0] * diagonal[1];
     let determinant = product - coupling * coupling;
     if determinant > MIN_DETERMINANT * product {
+        let inverse = 1.0 / determinant;
         let both = [
-            (coupling * offset[1] - diagonal[1] * offset[0]) / determinant,
-            (coupling * offset[0] - diagonal[0] * offset[1]) / determinant,
+            (coupling * offset[1] - diagonal[1] * offset[0]) * inverse,
+            (coupling * offset[0] - diagonal[0] * offset[1]) * inverse,
         ];
         if both[0] >= 0.0 && both[1] >= 0.0 {
             return both;

@@ -30,7 +30,7 @@ pub(super) use warm_start::CompactSolver;
 
 /// Passes over all contacts in a sub-step, usually and while a ball is jammed.
 const PASSES: usize = 1;
-const PASSES_JAMMED: usize = 4;
+const PASSES_JAMMED: usize = 2;
 
 /// Working memory of the solver, one per thread; its contents are of no use between ticks.
 #[derive(Default)]
@@ -154,6 +154,7 @@ impl CompactScratch {
     /// Advances all bodies by a sub-step, with velocities that include its accelerations.
     fn advance(&mut self, step: &SubStep, passes: usize) {
         let Self { bodies, links, constraints } = self;
+        let inverse_time = 1.0 / step.time;
         constraints.clear();
         for (index, link) in links.iter().enumerate() {
             constraints.extend(link.constraint(index, bodies, step));
@@ -163,7 +164,7 @@ impl CompactScratch {
         }
         for _ in 0..passes {
             for constraint in constraints.iter_mut() {
-                constraint.solve(bodies, step.time, true);
+                constraint.solve(bodies, inverse_time, true);
             }
         }
         for constraint in constraints.iter_mut() {
@@ -174,7 +175,7 @@ impl CompactScratch {
             body.heading = rotated(body.heading, body.spin * step.time);
         }
         for constraint in constraints.iter_mut() {
-            constraint.solve(bodies, step.time, false);
+            constraint.solve(bodies, inverse_time, false);
         }
         links.iter_mut().for_each(Link::forget);
         for constraint in constraints.iter() {
