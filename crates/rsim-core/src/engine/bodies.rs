@@ -62,11 +62,14 @@ impl Bodies {
         self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
     }
 
-    /// Speed of the fastest robot, m/s.
-    pub(super) fn fastest_robot(&self) -> f32 {
-        let squares =
-            self.motions[robot(0)..].iter().map(|motion| motion.velocity.length_squared());
-        squares.fold(0.0, f32::max).sqrt()
+    /// Bound of the speeds of robots within `time` (s) without contacts, m/s.
+    pub(super) fn fastest_robot(&self, time: f32) -> f32 {
+        let all = self.motions.iter().zip(&self.forces).zip(&self.inverses).skip(robot(0));
+        let [speed, gain] = all.fold([0.0_f32; 2], |[speed, gain], ((motion, force), inverse)| {
+            let acceleration = force.force * inverse.mass;
+            [speed.max(motion.velocity.length_squared()), gain.max(acceleration.length_squared())]
+        });
+        speed.sqrt() + gain.sqrt() * time
     }
 
     /// Writes the motion of robots after `time` without contacts into `undisturbed`.

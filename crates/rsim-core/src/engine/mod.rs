@@ -230,7 +230,8 @@ impl Engine {
                     solver.forget();
                     true
                 } else {
-                    let near = NearBodies { pairs: &near.pairs, fastest: search.least_speed };
+                    let near =
+                        NearBodies { pairs: &near.pairs, fastest: search.speed.unwrap_or(0.0) };
                     !solver.solve(bodies, near, compact, rules, sub_steps, contacts)
                 }
             }

@@ -86,8 +86,9 @@ pub(super) struct Search {
     time: f32,
     /// Time between two tests of the separation, s.
     between: f32,
-    /// Speed that every body may have, m/s: a robot at rest may be pushed.
-    pub(super) least_speed: f32,
+    /// Speed that every body may have, m/s: a robot at rest may be pushed. If there is none, no body
+    /// gets faster than it is.
+    pub(super) speed: Option<f32>,
     /// A flying ball has no pairs: its contacts are solved elsewhere.
     ball_flies: bool,
 }
@@ -98,7 +99,7 @@ impl Search {
         Self {
             time: rules.time + sub_steps.time,
             between: sub_steps.time,
-            least_speed: 0.0,
+            speed: None,
             ball_flies: rules.phase != BallPhase::Floor,
         }
     }
@@ -108,7 +109,7 @@ impl Search {
         Self {
             time: rules.time,
             between: 0.0,
-            least_speed: bodies.fastest_robot(),
+            speed: Some(bodies.fastest_robot(rules.time)),
             ball_flies: rules.phase == BallPhase::Air,
         }
     }
@@ -136,7 +137,7 @@ impl NearPairs {
         self.reaches.clear();
         self.pairs.clear();
         for index in first..bodies.motions.len() {
-            let mut reach = reach_of(bodies, index, params, search);
+            let mut reach = reach_of(bodies, index, params, search.time, search.speed);
             if index == BALL {
                 reach.radius += margin_of_ball(reach.speed);
             }
@@ -182,14 +183,25 @@ fn margin_of_ball(speed: f32, params: &BodyParams, sub_step: f32) -> f32 {
     MARGIN + half_way * half_way / (2.0 * params.ball.radius)
 }
 
-fn reach_of(bodies: &Bodies, body: usize, params: &BodyParams, search: &Search) -> Reach {
-    let radius = if body == BALL {
-        params.ball.radius
-    } else {
-        params.robots[body - 1].model.bounding_radius()
+/// Reach of a body. `speed` is a bound that holds for all robots, if there is one.
+fn reach_of(
+    bodies: &Bodies,
+    body: usize,
+    params: &BodyParams,
+    time: f32,
+    speed: Option<f32>,
+) -> Reach {
+    let radius =
+        if body == BALL { params.ball.radius } else { params.robots[body - 1].bounding_radius };
+    let motion = &bodies.motions[body];
+    let own = || {
+        let speed_gain = bodies.forces[body].force.length() * bodies.inverses[body].mass * time;
+        motion.velocity.length() + speed_gain
     };
-    let (motion, force) = (&bodies.motions[body], &bodies.forces[body]);
-    let speed_gain = force.force.length() * bodies.inverses[body].mass * search.time;
-    let speed = motion.velocity.length().max(search.least_speed) + speed_gain;
-    Reach { center: motion.position, radius: radius + speed * search.time + MARGIN, speed }
+    let speed = match speed {
+        Some(speed) if body == BALL => motion.velocity.length().max(speed),
+        Some(speed) => speed,
+        None => own(),
+    };
+    Reach { center: motion.position, radius: radius + speed * time + MARGIN, speed }
 }

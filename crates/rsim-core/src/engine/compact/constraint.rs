@@ -3,7 +3,8 @@
 //! Two points on one face share the load of the face. Solved one after the other, the first would take
 //! more than its part and turn the body.
 
-use super::SolverBody;
+use super::body::SolverBody;
+use super::impulses::Impulses;
 use super::manifold::Manifold;
 use crate::math::Vector;
 
@@ -29,7 +30,7 @@ const DAMPING: f32 = 2.0;
 
 /// Response of a soft constraint.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Softness {
+struct Softness {
     /// Speed of correction per depth, 1/s.
     bias_rate: f32,
     /// Speed that a unit impulse changes and leaves uncorrected, by the speed that it changes; and the
@@ -39,8 +40,11 @@ pub(super) struct Softness {
 }
 
 impl Softness {
+    /// Response of a rigid constraint.
+    const RIGID: Self = Self { bias_rate: 0.0, stretch: 1.0, mass_scale: 1.0 };
+
     /// A damped spring in implicit integration with a step of `time` (s).
-    pub(super) fn new(time: f32) -> Self {
+    fn new(time: f32) -> Self {
         let omega = std::f32::consts::TAU * STIFFNESS.min(MAX_STIFFNESS / time);
         let a = 2.0 * DAMPING + time * omega;
         let stretch = 1.0 + 1.0 / (time * omega * a);
@@ -48,30 +52,33 @@ impl Softness {
     }
 }
 
-/// Impulses of a contact point, N s.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Impulse {
-    pub(super) normal: f32,
-    pub(super) tangent: f32,
-}
-
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ConstraintPoint {
     /// On the field, m.
     pub(super) position: Vector,
-    pub(super) feature: u32,
-    pub(super) impulse: Impulse,
+    feature: u32,
+    /// Along the normal, N s.
+    pub(super) impulse: f32,
     /// m.
     separation: f32,
-    /// Levers of the normal and of the tangent about both bodies' centres, m.
-    normal_levers: [f32; 2],
-    tangent_levers: [f32; 2],
-    /// Speed by a unit impulse along the normal, 1/kg.
-    inverse_mass: f32,
+    /// Levers of the normal about both bodies' centres, m.
+    levers: [f32; 2],
+    /// Speed by a unit impulse, 1/kg, and its inverse.
+    response: f32,
+    mass: f32,
+}
+
+/// Friction of a contact: its points lie on one face, so that their friction has one lever.
+#[derive(Debug, Clone, Copy, Default)]
+struct Friction {
+    coefficient: f32,
+    /// Along the tangent, N s.
+    impulse: f32,
+    /// Levers of the tangent about both bodies' centres, m.
+    levers: [f32; 2],
     /// kg.
-    normal_mass: f32,
-    tangent_mass: f32,
+    mass: f32,
 }
 
 /// The contact of two bodies, or of a body (`second`) with a wall.
@@ -83,8 +90,7 @@ pub(super) struct Constraint {
     second: usize,
     /// Unit vector from the first to the second.
     pub(super) normal: Vector,
-    friction: f32,
-    softness: Softness,
+    friction: Friction,
     points: [ConstraintPoint; 2],
     count: usize,
     /// Speed at one point by a unit impulse at the other, 1/kg.
@@ -121,72 +127,83 @@ impl Velocities {
             - self.spin[0] * levers[0]
     }
 
-    fn apply(&mut self, impulse: f32, direction: Vector, levers: [f32; 2]) {
-        self.linear[0] -= direction * (impulse * self.inverse_mass[0]);
-        self.linear[1] += direction * (impulse * self.inverse_mass[1]);
-        self.spin[0] -= levers[0] * (impulse * self.inverse_inertia[0]);
-        self.spin[1] += levers[1] * (impulse * self.inverse_inertia[1]);
+    /// Applies two impulses (N s) along one direction.
+    fn apply(&mut self, impulses: [f32; 2], direction: Vector, levers: [[f32; 2]; 2]) {
+        let sum = impulses[0] + impulses[1];
+        let turn = [0, 1].map(|body| levers[0][body] * impulses[0] + levers[1][body] * impulses[1]);
+        self.linear[0] -= direction * (sum * self.inverse_mass[0]);
+        self.linear[1] += direction * (sum * self.inverse_mass[1]);
+        self.spin[0] -= turn[0] * self.inverse_inertia[0];
+        self.spin[1] += turn[1] * self.inverse_inertia[1];
     }
 }
 
 impl Constraint {
-    /// The constraint of `manifold` between two bodies. `start` has the impulse to start from for a
-    /// feature.
+    /// The constraint of `manifold` between two bodies, which starts from `impulses`.
     pub(super) fn new(
         link: usize,
         [first, second]: [usize; 2],
         bodies: &[SolverBody],
         manifold: &Manifold,
         friction: f32,
-        softness: Softness,
-        start: impl Fn(u32) -> Impulse,
+        impulses: &Impulses,
     ) -> Self {
         let (a, b) = (&bodies[first], &bodies[second]);
         let normal = manifold.normal;
         let linear = a.inverse_mass + b.inverse_mass;
-        let inverse_mass = |[lever_a, lever_b]: [f32; 2], [other_a, other_b]: [f32; 2]| {
+        let response = |[lever_a, lever_b]: [f32; 2], [other_a, other_b]: [f32; 2]| {
             linear + lever_a * other_a * a.inverse_inertia + lever_b * other_b * b.inverse_inertia
         };
+        let found = manifold.points();
         let mut points = [ConstraintPoint::default(); 2];
-        for (point, found) in points.iter_mut().zip(manifold.points()) {
+        for (point, found) in points.iter_mut().zip(found) {
             let arms = [found.position - a.position, found.position - b.position];
-            let normal_levers = arms.map(|arm| arm.perp_dot(normal));
-            let tangent_levers = arms.map(|arm| arm.perp_dot(normal.perp()));
-            let tangent_mass = if friction > 0.0 {
-                1.0 / inverse_mass(tangent_levers, tangent_levers)
-            } else {
-                0.0
-            };
-            let response = inverse_mass(normal_levers, normal_levers);
+            let levers = arms.map(|arm| arm.perp_dot(normal));
+            let response = response(levers, levers);
             *point = ConstraintPoint {
                 position: found.position,
                 feature: found.feature,
-                impulse: start(found.feature),
+                impulse: impulses.normal_of(found.feature),
                 separation: found.separation,
-                normal_levers,
-                tangent_levers,
-                inverse_mass: response,
-                normal_mass: 1.0 / response,
-                tangent_mass,
+                levers,
+                response,
+                mass: 1.0 / response,
             };
         }
-        let coupling = inverse_mass(points[0].normal_levers, points[1].normal_levers);
-        let count = manifold.points().len();
-        Self { link, first, second, normal, friction, softness, points, count, coupling }
+        let count = found.len();
+        let coupling = if count == 2 { response(points[0].levers, points[1].levers) } else { 0.0 };
+        let friction = if friction > 0.0 {
+            let middle = found[0].position.midpoint(found[count - 1].position);
+            let levers = [a, b].map(|body| (middle - body.position).dot(normal));
+            let mass = 1.0 / response(levers, levers);
+            Friction { coefficient: friction, impulse: impulses.tangent, levers, mass }
+        } else {
+            Friction::default()
+        };
+        Self { link, first, second, normal, friction, points, count, coupling }
     }
 
     pub(super) fn points(&self) -> &[ConstraintPoint] {
         &self.points[..self.count]
     }
 
+    pub(super) fn impulses(&self) -> Impulses {
+        let normals = self.points.map(|point| (point.feature, point.impulse));
+        Impulses { normals, tangent: self.friction.impulse }
+    }
+
     /// Applies the impulses that the solution starts from.
-    pub(super) fn warm_start(&self, bodies: &mut [SolverBody]) {
+    pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
+        let [one, two] = &self.points;
+        if one.impulse == 0.0 && two.impulse == 0.0 {
+            self.friction.impulse = 0.0;
+            return;
+        }
         let pair = [self.first, self.second];
         let mut velocities = Velocities::of(bodies, pair);
-        for point in self.points() {
-            velocities.apply(point.impulse.normal, self.normal, point.normal_levers);
-            velocities.apply(point.impulse.tangent, self.normal.perp(), point.tangent_levers);
-        }
+        velocities.apply([one.impulse, two.impulse], self.normal, [one.levers, two.levers]);
+        let Friction { impulse, levers, .. } = self.friction;
+        velocities.apply([impulse, 0.0], self.normal.perp(), [levers, [0.0; 2]]);
         velocities.write(bodies, pair);
     }
 
@@ -194,86 +211,92 @@ impl Constraint {
     pub(super) fn close(&mut self, bodies: &[SolverBody], time: f32) {
         let velocities = Velocities::of(bodies, [self.first, self.second]);
         for point in &mut self.points[..self.count] {
-            point.separation += velocities.relative(self.normal, point.normal_levers) * time;
+            point.separation += velocities.relative(self.normal, point.levers) * time;
         }
     }
 
-    /// Corrects the velocities: along the normal, then by friction. `bias` pushes overlapping bodies
-    /// apart; without it only velocities are corrected. `inverse_time` is that of a sub-step, 1/s.
-    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], inverse_time: f32, bias: bool) {
+    /// Corrects the velocities: along the normal, then by friction.
+    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) {
         let pair = [self.first, self.second];
         let mut velocities = Velocities::of(bodies, pair);
-        let row = |point: &ConstraintPoint, velocities: &Velocities| {
-            let speed = velocities.relative(self.normal, point.normal_levers);
-            self.softness.row(speed, point.separation, inverse_time, bias)
-        };
-        if self.count == 1 {
-            let Row { speed, is_soft } = row(&self.points[0], &velocities);
-            let point = &mut self.points[0];
-            let old = point.impulse.normal;
-            let scale = if is_soft { self.softness.mass_scale } else { 1.0 };
-            let total = (point.inverse_mass * old - speed) * (point.normal_mass * scale);
-            if total <= 0.0 && old == 0.0 {
-                return;
-            }
-            point.impulse.normal = total.max(0.0);
-            velocities.apply(point.impulse.normal - old, self.normal, point.normal_levers);
+        let [one, two] = &mut self.points;
+        let old = [one.impulse, two.impulse];
+        let speed = velocities.relative(self.normal, one.levers);
+        let row = pass.row(speed, one.separation);
+        let new = if self.count == 1 {
+            let total = (one.response * old[0] - row.speed) * (one.mass * row.mass_scale);
+            [total.max(0.0), 0.0]
         } else {
-            let rows = [row(&self.points[0], &velocities), row(&self.points[1], &velocities)];
-            let [one, two] = &mut self.points;
-            let old = [one.impulse.normal, two.impulse.normal];
-            if old == [0.0; 2] && rows[0].speed >= 0.0 && rows[1].speed >= 0.0 {
+            let speed = velocities.relative(self.normal, two.levers);
+            let other = pass.row(speed, two.separation);
+            if old == [0.0; 2] && row.speed >= 0.0 && other.speed >= 0.0 {
                 return;
             }
             let offsets = [
-                rows[0].speed - one.inverse_mass * old[0] - self.coupling * old[1],
-                rows[1].speed - two.inverse_mass * old[1] - self.coupling * old[0],
+                row.speed - one.response * old[0] - self.coupling * old[1],
+                other.speed - two.response * old[1] - self.coupling * old[0],
             ];
-            let stretch = |row: &Row| if row.is_soft { self.softness.stretch } else { 1.0 };
-            let diagonal =
-                [one.inverse_mass * stretch(&rows[0]), two.inverse_mass * stretch(&rows[1])];
-            let totals = solve_two(diagonal, self.coupling, offsets);
-            [one.impulse.normal, two.impulse.normal] = totals;
-            velocities.apply(totals[0] - old[0], self.normal, one.normal_levers);
-            velocities.apply(totals[1] - old[1], self.normal, two.normal_levers);
+            let diagonal = [one.response * row.stretch, two.response * other.stretch];
+            solve_two(diagonal, self.coupling, offsets)
+        };
+        if old == [0.0; 2] && new == [0.0; 2] {
+            return;
         }
-        if self.friction > 0.0 {
-            self.solve_friction(&mut velocities);
+        [one.impulse, two.impulse] = new;
+        let changes = [new[0] - old[0], new[1] - old[1]];
+        velocities.apply(changes, self.normal, [one.levers, two.levers]);
+        let Friction { coefficient, impulse, levers, mass } = self.friction;
+        if coefficient > 0.0 {
+            let tangent = self.normal.perp();
+            let slip = velocities.relative(tangent, levers);
+            let limit = coefficient * (new[0] + new[1]);
+            let total = (impulse - mass * slip).clamp(-limit, limit);
+            self.friction.impulse = total;
+            velocities.apply([total - impulse, 0.0], tangent, [levers, [0.0; 2]]);
         }
         velocities.write(bodies, pair);
     }
-
-    fn solve_friction(&mut self, velocities: &mut Velocities) {
-        let tangent = self.normal.perp();
-        for point in &mut self.points[..self.count] {
-            let slip = velocities.relative(tangent, point.tangent_levers);
-            let limit = self.friction * point.impulse.normal;
-            let total = point.impulse.tangent - point.tangent_mass * slip;
-            let total = total.clamp(-limit, limit);
-            let change = total - point.impulse.tangent;
-            point.impulse.tangent = total;
-            velocities.apply(change, tangent, point.tangent_levers);
-        }
-    }
 }
 
-/// A point's equation: its closing speed with the push, and whether it is soft.
+/// A pass over all constraints.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pass {
+    /// Of overlapping bodies.
+    softness: Softness,
+    /// Speed at which overlapping bodies are pushed apart by their depth, 1/s.
+    bias_rate: f32,
+    /// Inverse of the sub-step, 1/s.
+    inverse_time: f32,
+}
+
+/// A point's equation: its closing speed with the push, and the response of a soft point.
 struct Row {
     speed: f32,
-    is_soft: bool,
+    stretch: f32,
+    mass_scale: f32,
 }
 
-impl Softness {
-    fn row(&self, speed: f32, separation: f32, inverse_time: f32, bias: bool) -> Row {
+impl Pass {
+    /// A pass that pushes overlapping bodies apart, in a sub-step of `time` (s).
+    pub(super) fn pushing(time: f32) -> Self {
+        let softness = Softness::new(time);
+        Self { softness, bias_rate: softness.bias_rate, inverse_time: 1.0 / time }
+    }
+
+    /// A pass that only corrects velocities, in a sub-step of `time` (s).
+    pub(super) fn relaxing(time: f32) -> Self {
+        Self { softness: Softness::RIGID, bias_rate: 0.0, inverse_time: 1.0 / time }
+    }
+
+    fn row(&self, speed: f32, separation: f32) -> Row {
         if separation > 0.0 {
-            Row { speed: speed + separation * inverse_time, is_soft: false }
-        } else if bias {
-            let depth = (separation + ALLOWED_DEPTH).min(0.0);
-            let push = (self.bias_rate * depth).max(-MAX_PUSH_SPEED);
-            Row { speed: speed + push, is_soft: true }
-        } else {
-            Row { speed, is_soft: false }
+            let speed = speed + separation * self.inverse_time;
+            return Row { speed, stretch: 1.0, mass_scale: 1.0 };
         }
+        let depth = (separation + ALLOWED_DEPTH).min(0.0);
+        let push = (self.bias_rate * depth).max(-MAX_PUSH_SPEED);
+        let Softness { stretch, mass_scale, .. } = self.softness;
+        Row { speed: speed + push, stretch, mass_scale }
     }
 }
 

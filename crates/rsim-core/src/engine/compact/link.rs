@@ -1,16 +1,18 @@
 //! Pairs that can meet in a tick, prepared for its sub-steps.
 
-use super::constraint::{Constraint, Impulse};
-use super::discs::meet_ball;
-use super::manifold::{Manifold, Moving};
-use super::meet::meet;
-use super::{SolverBody, SubStep};
+use super::SubStep;
+use super::body::SolverBody;
+use super::boxes::{Rectangle, boxes};
+use super::constraint::Constraint;
+use super::discs::{Disc, discs, meet_ball, outline_and_disc};
+use super::impulses::Impulses;
+use super::manifold::Manifold;
 use crate::engine::ball_contact::BallRules;
 use crate::engine::contacts::Partner;
 use crate::engine::near::{Other, Pair};
 use crate::engine::{BALL, WALL_FRICTION};
-use crate::geometry::outline::{Outline, PlacedOutline};
-use crate::math::{Rotation, Vector};
+use crate::geometry::outline::Outline;
+use crate::math::Vector;
 
 /// A pair of bodies, or of a body and a wall; the ball always is the second.
 #[derive(Debug, Clone, Copy)]
@@ -22,20 +24,13 @@ pub(super) struct Link {
     /// The robot or wall that the second meets.
     pub(super) with: Partner,
     outlines: [Outline; 2],
-    /// Place of the first where it is a wall.
-    wall: Option<PlacedOutline>,
+    /// Distances of the outlines' farthest points, m.
+    radii: [f32; 2],
     friction: f32,
-    /// Impulses of the points of the last sub-step.
-    pub(super) kept: [Kept; 2],
+    /// Of the last sub-step.
+    pub(super) impulses: Impulses,
     /// Sum over the sub-steps of a tick.
     pub(super) total: Total,
-}
-
-/// Impulses of a point, kept for the next sub-step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Kept {
-    pub(super) feature: u32,
-    pub(super) impulse: Impulse,
 }
 
 /// Sum of a pair's impulses over the sub-steps of a tick.
@@ -50,35 +45,37 @@ pub(super) struct Total {
 }
 
 impl Link {
-    /// The link of a pair, or `None` if the ball flies over the other. `fixed` is the index of the
-    /// body that stands for walls.
-    pub(super) fn of(pair: &Pair, fixed: usize, rules: &BallRules) -> Option<Self> {
+    /// The link of a pair, or `None` if the ball flies over the other. The body of a wall goes to the
+    /// end of `bodies`.
+    pub(super) fn of(pair: &Pair, rules: &BallRules, bodies: &mut Vec<SolverBody>) -> Option<Self> {
         let one = pair.one;
-        let (other, outline, wall) = match pair.other {
-            Other::Body(body) => (body.body, body.outline, None),
-            Other::Wall(_, place) => (fixed, place.outline, Some(place)),
-        };
-        let (first, second, outlines) = if other == BALL {
-            (one.body, other, [one.outline, outline])
-        } else {
-            (other, one.body, [outline, one.outline])
-        };
-        let with = match pair.other {
-            Other::Wall(index, _) => Partner::Wall(index),
-            Other::Body(_) => Partner::Robot(first - 1),
+        let of = |body: usize| rules.params.robots[body - 1].model.friction;
+        let (first, second, outlines, with, met_friction) = match pair.other {
+            Other::Wall(index, place) => {
+                let outlines = [place.outline, one.outline];
+                (bodies.len(), one.body, outlines, Partner::Wall(index), WALL_FRICTION)
+            }
+            Other::Body(other) => {
+                // The first never is the ball.
+                let (first, second) = if other.body == BALL { (one, other) } else { (other, one) };
+                let outlines = [first.outline, second.outline];
+                let with = Partner::Robot(first.body - 1);
+                (first.body, second.body, outlines, with, of(first.body))
+            }
         };
         let is_ball = second == BALL;
         if is_ball && !rules.meets(with) {
             return None;
         }
+        if let Other::Wall(_, place) = &pair.other {
+            bodies.push(SolverBody::of_wall(place));
+        }
         // Friction of the ball is resolved elsewhere.
-        let of = |body: usize| {
-            if body == fixed { WALL_FRICTION } else { rules.params.robots[body - 1].model.friction }
-        };
-        let friction = if is_ball { 0.0 } else { of(first).midpoint(of(second)) };
+        let friction = if is_ball { 0.0 } else { met_friction.midpoint(of(second)) };
+        let radii = outlines.map(|outline| radius(&outline));
+        let (impulses, total) = (Impulses::default(), Total::default());
         let key = key(pair);
-        let (kept, total) = (Default::default(), Total::default());
-        Some(Self { key, first, second, with, outlines, wall, friction, kept, total })
+        Some(Self { key, first, second, with, outlines, radii, friction, impulses, total })
     }
 
     /// The constraint of the pair in a sub-step, if the two can touch in it.
@@ -88,47 +85,56 @@ impl Link {
         bodies: &[SolverBody],
         step: &SubStep,
     ) -> Option<Constraint> {
-        let manifold = self.manifold(bodies, step)?;
-        let start = |feature: u32| {
-            let found = self.kept.iter().find(|kept| kept.feature == feature);
-            found.map_or(Impulse::default(), |kept| kept.impulse)
-        };
         let pair = [self.first, self.second];
-        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, step.softness, start))
+        let manifold = self.manifold(pair.map(|body| &bodies[body]), step)?;
+        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, &self.impulses))
     }
 
-    fn manifold(&self, bodies: &[SolverBody], step: &SubStep) -> Option<Manifold> {
-        let moving = |body: usize, outline: Outline| {
-            let SolverBody { position, heading, velocity, spin, .. } = bodies[body];
-            let heading = Rotation { re: heading.x, im: heading.y };
-            Moving { place: PlacedOutline { outline, position, heading }, velocity, spin }
-        };
-        let second = moving(self.second, self.outlines[1]);
-        let first = match self.wall {
-            Some(place) => Moving { place, velocity: Vector::ZERO, spin: 0.0 },
-            None => moving(self.first, self.outlines[0]),
-        };
+    fn manifold(&self, [a, b]: [&SolverBody; 2], step: &SubStep) -> Option<Manifold> {
+        let window = step.window;
         if self.second == BALL {
-            meet_ball(&first, &second, step.squeezed, step.time)
-        } else {
-            meet(&first, &second, step.time, step.reach)
+            let ball = Disc { body: b, radius: self.radii[1] };
+            return meet_ball(a, self.outlines[0], ball, step.squeezed, window.time);
         }
-    }
-
-    /// Forgets the impulses of the last sub-step.
-    pub(super) fn forget(&mut self) {
-        self.kept = Default::default();
+        match self.outlines {
+            [Outline::Disc { .. }, Outline::Disc { .. }] => {
+                let [a, b] = [(a, self.radii[0]), (b, self.radii[1])]
+                    .map(|(body, radius)| Disc { body, radius });
+                discs(a, b, window)
+            }
+            [Outline::Box { half: first }, Outline::Box { half: second }] => {
+                let [a, b] = [(a, first, self.radii[0]), (b, second, self.radii[1])]
+                    .map(|(body, half, radius)| Rectangle { body, half, radius });
+                boxes(a, b, window)
+            }
+            [outline, Outline::Disc { radius }] => {
+                outline_and_disc(a, outline, Disc { body: b, radius }, window)
+            }
+            [Outline::Disc { radius }, outline] => {
+                let found = outline_and_disc(b, outline, Disc { body: a, radius }, window);
+                found.map(Manifold::reversed)
+            }
+            // Robots meet robots and walls as discs or boxes.
+            _ => None,
+        }
     }
 
     /// Keeps the impulses of a solved constraint, and adds them to the totals.
     pub(super) fn keep(&mut self, constraint: &Constraint) {
-        for (kept, point) in self.kept.iter_mut().zip(constraint.points()) {
-            let impulse = point.impulse;
-            *kept = Kept { feature: point.feature, impulse };
-            self.total.normal += constraint.normal * impulse.normal;
-            self.total.point += point.position * impulse.normal;
-            self.total.impulse += impulse.normal;
+        self.impulses = constraint.impulses();
+        for point in constraint.points() {
+            self.total.normal += constraint.normal * point.impulse;
+            self.total.point += point.position * point.impulse;
+            self.total.impulse += point.impulse;
         }
+    }
+}
+
+/// Distance of an outline's farthest point, m.
+fn radius(outline: &Outline) -> f32 {
+    match *outline {
+        Outline::Box { half } => half.length(),
+        Outline::CutDisc { radius, .. } | Outline::Disc { radius } => radius,
     }
 }
 

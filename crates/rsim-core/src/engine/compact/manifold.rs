@@ -4,7 +4,6 @@
 //! bodies that pass each other are not stopped, and none is missed. Outlines that touch already have
 //! the contact of least depth.
 
-use crate::geometry::outline::PlacedOutline;
 use crate::math::Vector;
 
 /// Gap up to which outlines count as touching, m, whatever their velocities: contacts of robots that
@@ -57,12 +56,12 @@ impl Manifold {
     }
 }
 
-/// An outline on its straight path through a sub-step.
+/// Bounds of the search for a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Moving {
-    pub(super) place: PlacedOutline,
-    /// m/s.
-    pub(super) velocity: Vector,
-    /// rad/s.
-    pub(super) spin: f32,
+pub(super) struct Window {
+    /// Length of the sub-step, s.
+    pub(super) time: f32,
+    /// Gap up to which bodies have a contact though their paths do not meet, m: others may push them
+    /// together within the sub-step.
+    pub(super) reach: f32,
 }

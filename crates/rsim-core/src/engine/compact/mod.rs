@@ -7,24 +7,26 @@
 //! Sources: E. Catto, "Solver2D" (2024), for soft contacts and relaxation; M. Macklin et al., "Small
 //! Steps in Physics Simulation" (2019), for sub-steps in place of iterations.
 
+mod body;
 mod boxes;
 mod constraint;
 mod discs;
+mod impulses;
 mod link;
 mod manifold;
-mod meet;
 mod report;
 mod warm_start;
 
-use super::SubSteps;
 use super::ball_contact::BallRules;
 use super::bodies::Bodies;
 use super::contacts::Contacts;
 use super::near::Pair;
-use crate::geometry::motion::rotated;
-use crate::math::Vector;
-use constraint::{Constraint, Softness};
+use super::{BALL, SubSteps};
+use body::SolverBody;
+use constraint::{Constraint, Pass};
+use impulses::Impulses;
 use link::Link;
+use manifold::Window;
 use report::report;
 pub(super) use warm_start::CompactSolver;
 
@@ -40,30 +42,6 @@ pub(super) struct CompactScratch {
     constraints: Vec<Constraint>,
 }
 
-/// A body in the solver. After the last body stands one that never moves, for all walls.
-#[derive(Debug, Clone, Copy)]
-struct SolverBody {
-    position: Vector,
-    /// Cosine and sine of the heading.
-    heading: Vector,
-    velocity: Vector,
-    spin: f32,
-    /// 1/kg and 1/(kg m²).
-    inverse_mass: f32,
-    inverse_inertia: f32,
-}
-
-impl SolverBody {
-    const FIXED: Self = Self {
-        position: Vector::ZERO,
-        heading: Vector::X,
-        velocity: Vector::ZERO,
-        spin: 0.0,
-        inverse_mass: 0.0,
-        inverse_inertia: 0.0,
-    };
-}
-
 impl CompactSolver {
     /// Advances all bodies by `rules.time`, in sub-steps, and returns whether any two came near each
     /// other.
@@ -77,19 +55,18 @@ impl CompactSolver {
         contacts: &mut Contacts,
     ) -> bool {
         scratch.read(bodies);
-        self.link(near.pairs, bodies.motions.len(), rules, time, &mut scratch.links);
+        self.link(near.pairs, rules, time, &mut scratch.bodies, &mut scratch.links);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let passes = if jammed { PASSES_JAMMED } else { PASSES };
         let step = SubStep {
-            time,
-            reach: 2.0 * near.fastest * time,
-            softness: Softness::new(time),
+            window: Window { time, reach: 2.0 * near.fastest * time },
+            pushing: Pass::pushing(time),
+            relaxing: Pass::relaxing(time),
             squeezed: rules.squeezed.is_some(),
         };
         let mut meets = false;
         for _ in 0..count {
-            scratch.accelerate(bodies, time);
-            scratch.advance(&step, passes);
+            scratch.advance(bodies, &step, passes);
             meets |= !scratch.constraints.is_empty();
         }
         scratch.write(bodies);
@@ -109,75 +86,47 @@ pub(super) struct NearBodies<'a> {
 
 /// Settings of one sub-step.
 struct SubStep {
-    /// s.
-    time: f32,
-    /// Gap up to which bodies have a contact though their paths do not meet, m: others may push them
-    /// together within the sub-step.
-    reach: f32,
-    softness: Softness,
+    window: Window,
+    pushing: Pass,
+    relaxing: Pass,
     /// Whether the ball is squeezed.
     squeezed: bool,
 }
 
 impl CompactScratch {
     fn read(&mut self, bodies: &Bodies) {
+        let all = bodies.motions.iter().zip(&bodies.inverses);
         self.bodies.clear();
-        self.bodies.extend(bodies.motions.iter().zip(&bodies.inverses).map(|(motion, inverse)| {
-            SolverBody {
-                position: motion.position,
-                heading: motion.heading,
-                velocity: motion.velocity,
-                spin: motion.spin,
-                inverse_mass: inverse.mass,
-                inverse_inertia: inverse.inertia,
-            }
-        }));
-        self.bodies[super::BALL].inverse_mass = 1.0 / bodies.ball_mass;
-        self.bodies.push(SolverBody::FIXED);
+        self.bodies.extend(all.map(|(motion, inverse)| SolverBody::of(motion, inverse)));
+        self.bodies[BALL].inverse_mass = 1.0 / bodies.ball_mass;
     }
 
     fn write(&self, bodies: &mut Bodies) {
-        for (motion, body) in bodies.motions.iter_mut().zip(&self.bodies) {
-            (motion.position, motion.heading) = (body.position, body.heading);
-            (motion.velocity, motion.spin) = (body.velocity, body.spin);
-        }
+        let all = bodies.motions.iter_mut().zip(&self.bodies);
+        all.for_each(|(motion, body)| body.write(motion));
     }
 
-    fn accelerate(&mut self, bodies: &Bodies, time: f32) {
-        let all = self.bodies.iter_mut().zip(&bodies.forces).zip(&bodies.inverses);
-        for ((body, force), inverse) in all {
-            body.velocity += force.force * inverse.mass * time;
-            body.spin += force.torque * inverse.inertia * time;
-        }
-    }
-
-    /// Advances all bodies by a sub-step, with velocities that include its accelerations.
-    fn advance(&mut self, step: &SubStep, passes: usize) {
+    /// Advances all bodies by a sub-step.
+    fn advance(&mut self, all: &Bodies, step: &SubStep, passes: usize) {
         let Self { bodies, links, constraints } = self;
-        let inverse_time = 1.0 / step.time;
+        let time = step.window.time;
+        for ((body, force), inverse) in bodies.iter_mut().zip(&all.forces).zip(&all.inverses) {
+            body.accelerate(force, inverse, time);
+        }
         constraints.clear();
         for (index, link) in links.iter().enumerate() {
-            constraints.extend(link.constraint(index, bodies, step));
-        }
-        for constraint in constraints.iter() {
-            constraint.warm_start(bodies);
-        }
-        for _ in 0..passes {
-            for constraint in constraints.iter_mut() {
-                constraint.solve(bodies, inverse_time, true);
+            if let Some(constraint) = link.constraint(index, bodies, step) {
+                constraints.push(constraint);
             }
         }
-        for constraint in constraints.iter_mut() {
-            constraint.close(bodies, step.time);
+        constraints.iter_mut().for_each(|constraint| constraint.warm_start(bodies));
+        for _ in 0..passes {
+            constraints.iter_mut().for_each(|constraint| constraint.solve(bodies, &step.pushing));
         }
-        for body in bodies.iter_mut() {
-            body.position += body.velocity * step.time;
-            body.heading = rotated(body.heading, body.spin * step.time);
-        }
-        for constraint in constraints.iter_mut() {
-            constraint.solve(bodies, inverse_time, false);
-        }
-        links.iter_mut().for_each(Link::forget);
+        constraints.iter_mut().for_each(|constraint| constraint.close(bodies, time));
+        bodies[..all.motions.len()].iter_mut().for_each(|body| body.advance(time));
+        constraints.iter_mut().for_each(|constraint| constraint.solve(bodies, &step.relaxing));
+        links.iter_mut().for_each(|link| link.impulses = Impulses::default());
         for constraint in constraints.iter() {
             links[constraint.link].keep(constraint);
         }
