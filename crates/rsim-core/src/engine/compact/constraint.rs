@@ -215,8 +215,9 @@ impl Constraint {
         }
     }
 
-    /// Corrects the velocities: along the normal, then by friction.
-    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) {
+    /// Corrects the velocities: along the normal, then by friction. Returns by how much the impulses
+    /// along the normal changed speeds at the points, m/s.
+    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) -> f32 {
         let pair = [self.first, self.second];
         let mut velocities = Velocities::of(bodies, pair);
         let [one, two] = &mut self.points;
@@ -230,7 +231,7 @@ impl Constraint {
             let speed = velocities.relative(self.normal, two.levers);
             let other = pass.row(speed, two.separation);
             if old == [0.0; 2] && row.speed >= 0.0 && other.speed >= 0.0 {
-                return;
+                return 0.0;
             }
             let offsets = [
                 row.speed - one.response * old[0] - self.coupling * old[1],
@@ -240,10 +241,11 @@ impl Constraint {
             solve_two(diagonal, self.coupling, offsets)
         };
         if old == [0.0; 2] && new == [0.0; 2] {
-            return;
+            return 0.0;
         }
         [one.impulse, two.impulse] = new;
         let changes = [new[0] - old[0], new[1] - old[1]];
+        let changed = (changes[0] * one.response).abs().max((changes[1] * two.response).abs());
         velocities.apply(changes, self.normal, [one.levers, two.levers]);
         let Friction { coefficient, impulse, levers, mass } = self.friction;
         if coefficient > 0.0 {
@@ -255,6 +257,7 @@ impl Constraint {
             velocities.apply([total - impulse, 0.0], tangent, [levers, [0.0; 2]]);
         }
         velocities.write(bodies, pair);
+        changed
     }
 }
 
