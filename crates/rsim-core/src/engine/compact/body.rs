@@ -22,7 +22,7 @@ pub(super) struct SolverBody {
 }
 
 impl SolverBody {
-    pub(super) fn of(motion: &Motion, inverse: &InverseInertia) -> Self {
+    pub(super) fn of(motion: &Motion, inverse: InverseInertia) -> Self {
         Self {
             position: motion.position,
             heading: motion.heading,
@@ -56,7 +56,7 @@ impl SolverBody {
     }
 
     /// Applies a force for `time` (s).
-    pub(super) fn accelerate(&mut self, force: &AppliedForce, inverse: &InverseInertia, time: f32) {
+    pub(super) fn accelerate(&mut self, force: &AppliedForce, inverse: InverseInertia, time: f32) {
         self.velocity += force.force * inverse.mass * time;
         self.spin += force.torque * inverse.inertia * time;
     }

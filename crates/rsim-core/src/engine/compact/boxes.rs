@@ -136,3 +136,97 @@ const ROUNDING: f32 = 1e-5;
 
 /// Bit of all features, so that none is 0, which is no point.
 const POINT: u32 = 1 << 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::shapes::Shape;
+    use crate::geometry::outline::Outline;
+    use crate::geometry::outline::PlacedOutline;
+    use crate::math::{Pose, Rotation};
+    use crate::models::robot::Body;
+    use crate::scenes::uniform;
+
+    const SIDE: f32 = 0.075;
+    const HALF: Vector = Vector::splat(SIDE / 2.0);
+
+    fn body([x, y]: [f32; 2], angle: f32) -> SolverBody {
+        SolverBody::of_wall(&PlacedOutline {
+            outline: Outline::Box { half: HALF },
+            position: Vector::new(x, y),
+            heading: Rotation::new(angle),
+        })
+    }
+
+    fn pose(body: &SolverBody) -> Pose {
+        Pose::new(body.position, body.heading.y.atan2(body.heading.x))
+    }
+
+    fn meet(a: &SolverBody, b: &SolverBody, time: f32, reach: f32) -> Option<Manifold> {
+        let of = |body| Rectangle { body, half: HALF, radius: HALF.length() };
+        boxes(of(a), of(b), Window { time, reach })
+    }
+
+    #[test]
+    fn contacts_of_squares_that_touch_are_those_of_parry() {
+        let shape = Shape::of_robot(Body::Square { side_length: SIDE });
+        let (mut compared, mut with_two) = (0, 0);
+        for draw in 0..4000_u64 {
+            let number = |part: u64| uniform(draw * 8 + part);
+            let angle = if draw % 2 == 0 { 3.0 * number(3) } else { 0.02 * number(3) };
+            let a = body([0.0, 0.0], 3.0 * number(0));
+            let b = SolverBody {
+                position: Rotation::new(3.0 * number(0)) * Vector::new(0.075, 0.06 * number(2)),
+                ..body([0.0, 0.0], 3.0 * number(0) + angle)
+            };
+            let parry = shape.contact(&pose(&a), &shape, &pose(&b), 0.0);
+            let found = meet(&a, &b, 1e-3, 0.0);
+            let Some(parry) = parry else { continue };
+            let deepest = |points: &mut dyn Iterator<Item = f32>| points.fold(0.0, f32::min);
+            let depth = deepest(&mut parry.points.iter().map(|(_, distance)| *distance));
+            if depth > -2e-4 {
+                continue;
+            }
+            let found = found.unwrap_or_else(|| panic!("{draw}: no contact, parry has {depth}"));
+            let own = deepest(&mut found.points().iter().map(|point| point.separation));
+            assert!((own - depth).abs() < 1.1e-4, "{draw}: {own} deep, parry has {depth}");
+            // Near 45 degrees and at corners several directions have almost the same depth.
+            if found.normal.dot(parry.normal) < 0.999 {
+                continue;
+            }
+            compared += 1;
+            with_two += usize::from(found.points().len() == 2);
+            for point in found.points().iter().filter(|point| point.separation < -1e-5) {
+                let on_first = point.position + found.normal * (0.5 * -point.separation);
+                let near = parry.points.iter().any(|(at, _)| (*at - on_first).length() < 1e-3);
+                assert!(near, "{draw}: {point:?}, parry has {:?}", parry.points);
+            }
+        }
+        assert!(compared > 1000 && with_two > 500, "{compared} {with_two}");
+    }
+
+    #[test]
+    fn squares_that_meet_on_their_paths_have_the_face_that_they_meet() {
+        // 20 mm apart along x, 5 mm along y: at 45 degrees they meet along x.
+        let a = body([0.0, 0.0], 0.0);
+        let fast = |velocity: [f32; 2]| SolverBody {
+            velocity: velocity.into(),
+            ..body([SIDE + 0.02, SIDE + 0.005], 0.0)
+        };
+        let found = meet(&a, &fast([-10.0, -10.0]), 4e-3, 0.0).expect("they meet");
+        assert!((found.normal - Vector::X).length() < 1e-6, "{found:?}");
+        assert!((found.points()[0].separation - 0.02).abs() < 1e-6, "{found:?}");
+        // They pass each other, or are too slow.
+        assert!(meet(&a, &fast([-10.0, 0.0]), 4e-3, 0.0).is_none());
+        assert!(meet(&a, &fast([-4.0, -4.0]), 4e-3, 0.0).is_none());
+    }
+
+    #[test]
+    fn squares_within_reach_of_a_push_have_a_contact() {
+        let (a, b) = (body([0.0, 0.0], 0.0), body([SIDE + 0.003, 0.01], 0.0));
+        assert!(meet(&a, &b, 1e-3, 0.002).is_none());
+        let found = meet(&a, &b, 1e-3, 0.004).expect("within reach");
+        assert_eq!(found.points().len(), 2, "{found:?}");
+        assert!(found.points().iter().all(|point| (point.separation - 0.003).abs() < 1e-6));
+    }
+}

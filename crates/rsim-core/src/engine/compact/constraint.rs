@@ -195,7 +195,7 @@ impl Constraint {
     /// Applies the impulses that the solution starts from.
     pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
         let [one, two] = &self.points;
-        if one.impulse == 0.0 && two.impulse == 0.0 {
+        if one.impulse <= 0.0 && two.impulse <= 0.0 {
             self.friction.impulse = 0.0;
             return;
         }
@@ -222,6 +222,7 @@ impl Constraint {
         let mut velocities = Velocities::of(bodies, pair);
         let [one, two] = &mut self.points;
         let old = [one.impulse, two.impulse];
+        let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
         let speed = velocities.relative(self.normal, one.levers);
         let row = pass.row(speed, one.separation);
         let new = if self.count == 1 {
@@ -230,7 +231,7 @@ impl Constraint {
         } else {
             let speed = velocities.relative(self.normal, two.levers);
             let other = pass.row(speed, two.separation);
-            if old == [0.0; 2] && row.speed >= 0.0 && other.speed >= 0.0 {
+            if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
                 return 0.0;
             }
             let offsets = [
@@ -240,12 +241,12 @@ impl Constraint {
             let diagonal = [one.response * row.stretch, two.response * other.stretch];
             solve_two(diagonal, self.coupling, offsets)
         };
-        if old == [0.0; 2] && new == [0.0; 2] {
+        if is_idle && new[0] <= 0.0 && new[1] <= 0.0 {
             return 0.0;
         }
         [one.impulse, two.impulse] = new;
         let changes = [new[0] - old[0], new[1] - old[1]];
-        let changed = (changes[0] * one.response).abs().max((changes[1] * two.response).abs());
+        let speeds = [changes[0] * one.response, changes[1] * two.response];
         velocities.apply(changes, self.normal, [one.levers, two.levers]);
         let Friction { coefficient, impulse, levers, mass } = self.friction;
         if coefficient > 0.0 {
@@ -257,7 +258,7 @@ impl Constraint {
             velocities.apply([total - impulse, 0.0], tangent, [levers, [0.0; 2]]);
         }
         velocities.write(bodies, pair);
-        changed
+        speeds[0].abs().max(speeds[1].abs())
     }
 }
 
@@ -324,4 +325,39 @@ fn solve_two(diagonal: [f32; 2], coupling: f32, offset: [f32; 2]) -> [f32; 2] {
         return [alone[0], 0.0];
     }
     [0.0, alone[1].max(0.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::uniform;
+
+    #[test]
+    fn impulses_of_two_points_leave_no_closing_speed_and_never_pull() {
+        let mut cases = [0; 4];
+        for draw in 0..4000_u64 {
+            let number = |part: u64| uniform(draw * 8 + part);
+            let diagonal = [1.5 + number(0), 1.5 + number(1)];
+            let coupling = 0.99 * number(2) * (diagonal[0] * diagonal[1]).sqrt();
+            let offset = [number(3), number(4)];
+            let [one, two] = solve_two(diagonal, coupling, offset);
+            let speeds = [
+                diagonal[0] * one + coupling * two + offset[0],
+                diagonal[1] * two + coupling * one + offset[1],
+            ];
+            for (impulse, speed) in [one, two].into_iter().zip(speeds) {
+                let rounding = 1e-4 * (1.0 + one + two);
+                assert!(impulse >= 0.0 && speed > -rounding, "{draw}: {impulse} {speed}");
+                assert!(impulse <= 0.0 || speed.abs() < rounding, "{draw}: {impulse} {speed}");
+            }
+            cases[usize::from(one > 0.0) + 2 * usize::from(two > 0.0)] += 1;
+        }
+        assert!(cases.iter().all(|count| *count > 100), "{cases:?}");
+    }
+
+    #[test]
+    fn points_at_one_place_share_the_load_of_one() {
+        let [one, two] = solve_two([2.0, 2.0], 2.0, [-1.0, -1.0]);
+        assert!((2.0 * (one + two) - 1.0).abs() < 1e-6, "{one} {two}");
+    }
 }

@@ -88,3 +88,51 @@ pub(super) fn outline_and_disc(
     let position = center - touch.normal * (b.radius + 0.5 * touch.distance);
     Some(Manifold::of_point(touch.normal, position, touch.distance))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::shapes::Shape;
+    use crate::math::Pose;
+    use crate::scenes::uniform;
+
+    fn at([x, y]: [f32; 2], velocity: [f32; 2]) -> SolverBody {
+        SolverBody {
+            position: Vector::new(x, y),
+            heading: Vector::X,
+            velocity: velocity.into(),
+            spin: 0.0,
+            inverse_mass: 1.0,
+            inverse_inertia: 1.0,
+        }
+    }
+
+    fn meet(a: &SolverBody, b: &SolverBody, time: f32, reach: f32) -> Option<Manifold> {
+        let of = |body| Disc { body, radius: 0.09 };
+        discs(of(a), of(b), Window { time, reach })
+    }
+
+    #[test]
+    fn contacts_of_discs_that_touch_are_those_of_parry() {
+        let shape = Shape::of_disc(0.09);
+        for draw in 0..1000_u64 {
+            let place = |part: u64| [0.05 * uniform(draw * 8 + part), uniform(draw * 8 + part + 1)];
+            let (a, b) = (at(place(0), [0.0; 2]), at(place(2).map(|part| part * 0.15), [0.0; 2]));
+            let [pose_a, pose_b] = [a, b].map(|body| Pose::from_translation(body.position));
+            let Some(parry) = shape.contact(&pose_a, &shape, &pose_b, 0.0) else { continue };
+            let found = meet(&a, &b, 1e-3, 0.0).expect("parry has a contact");
+            assert!((found.normal - parry.normal).length() < 1e-4, "{draw}: {found:?}");
+            assert!((found.points()[0].separation - parry.points[0].1).abs() < 1e-6, "{draw}");
+        }
+    }
+
+    #[test]
+    fn discs_meet_on_their_paths_or_pass_each_other() {
+        let a = at([0.0, 0.0], [0.0; 2]);
+        let found = meet(&a, &at([0.19, 0.0], [-10.0, 0.0]), 2e-3, 0.0).expect("they meet");
+        assert!((found.points()[0].separation - 0.01).abs() < 1e-6, "{found:?}");
+        assert!(meet(&a, &at([0.19, 0.0], [-4.0, 0.0]), 2e-3, 0.0).is_none(), "too slow");
+        assert!(meet(&a, &at([0.1, 0.185], [-10.0, 0.0]), 0.02, 0.0).is_none(), "passing");
+        assert!(meet(&a, &at([0.185, 0.0], [0.0; 2]), 2e-3, 0.006).is_some(), "within reach");
+    }
+}

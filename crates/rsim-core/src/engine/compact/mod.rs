@@ -4,7 +4,7 @@
 //! sequential impulses with soft constraints, and relaxed, so that the push out of an overlap does not
 //! stay in the velocities. Impulses start from those of the last sub-step.
 //!
-//! Sources: E. Catto, "Solver2D" (2024), for soft contacts and relaxation; M. Macklin et al., "Small
+//! Sources: E. Catto, "Solver 2D" (2024), for soft contacts and relaxation; M. Macklin et al., "Small
 //! Steps in Physics Simulation" (2019), for sub-steps in place of iterations.
 
 mod body;
@@ -106,7 +106,7 @@ impl CompactScratch {
     fn read(&mut self, bodies: &Bodies) {
         let all = bodies.motions.iter().zip(&bodies.inverses);
         self.bodies.clear();
-        self.bodies.extend(all.map(|(motion, inverse)| SolverBody::of(motion, inverse)));
+        self.bodies.extend(all.map(|(motion, inverse)| SolverBody::of(motion, *inverse)));
         self.bodies[BALL].inverse_mass = 1.0 / bodies.ball_mass;
     }
 
@@ -120,7 +120,7 @@ impl CompactScratch {
         let Self { bodies, links, constraints } = self;
         let time = step.window.time;
         for ((body, force), inverse) in bodies.iter_mut().zip(&all.forces).zip(&all.inverses) {
-            body.accelerate(force, inverse, time);
+            body.accelerate(force, *inverse, time);
         }
         constraints.clear();
         for (index, link) in links.iter().enumerate() {
@@ -128,7 +128,9 @@ impl CompactScratch {
                 constraints.push(constraint);
             }
         }
-        constraints.iter_mut().for_each(|constraint| constraint.warm_start(bodies));
+        for constraint in constraints.iter_mut() {
+            constraint.warm_start(bodies);
+        }
         for pass in 1..=MAX_PASSES {
             let mut change = 0.0_f32;
             for constraint in constraints.iter_mut() {
@@ -138,12 +140,16 @@ impl CompactScratch {
                 break;
             }
         }
-        constraints.iter_mut().for_each(|constraint| constraint.close(bodies, time));
+        for constraint in constraints.iter_mut() {
+            constraint.close(bodies, time);
+        }
         bodies[..all.motions.len()].iter_mut().for_each(|body| body.advance(time));
         for constraint in constraints.iter_mut() {
             constraint.solve(bodies, &step.relaxing);
         }
-        links.iter_mut().for_each(|link| link.impulses = Impulses::default());
+        for link in links.iter_mut() {
+            link.impulses = Impulses::default();
+        }
         for constraint in constraints.iter() {
             links[constraint.link].keep(constraint);
         }
