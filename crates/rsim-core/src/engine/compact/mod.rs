@@ -49,6 +49,8 @@ pub(super) struct CompactScratch {
     bodies: Vec<SolverBody>,
     links: Vec<Link>,
     constraints: Vec<Constraint>,
+    /// Constraints of the last sub-step.
+    previous: Vec<Constraint>,
 }
 
 impl CompactSolver {
@@ -74,6 +76,7 @@ impl CompactSolver {
             squeezed: rules.squeezed.is_some(),
         };
         let mut meets = false;
+        scratch.constraints.clear();
         for _ in 0..count {
             scratch.advance(bodies, &step, min_passes);
             meets |= !scratch.constraints.is_empty();
@@ -117,14 +120,19 @@ impl CompactScratch {
 
     /// Advances all bodies by a sub-step.
     fn advance(&mut self, all: &Bodies, step: &SubStep, min_passes: usize) {
-        let Self { bodies, links, constraints } = self;
+        let Self { bodies, links, constraints, previous } = self;
         let time = step.window.time;
         for ((body, force), inverse) in bodies.iter_mut().zip(&all.forces).zip(&all.inverses) {
             body.accelerate(force, *inverse, time);
         }
+        std::mem::swap(constraints, previous);
         constraints.clear();
+        let mut previous = previous.iter().peekable();
         for (index, link) in links.iter().enumerate() {
-            if let Some(constraint) = link.constraint(index, bodies, step) {
+            let last = previous.next_if(|constraint| constraint.link == index);
+            if let Some(steady) = last.filter(|_| link.is_steady(bodies)) {
+                constraints.push(*steady);
+            } else if let Some(constraint) = link.constraint(index, bodies, step) {
                 constraints.push(constraint);
             }
         }
