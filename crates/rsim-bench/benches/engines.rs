@@ -7,7 +7,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use rsim_core::scenes::{self, Driver, Scene};
+use rsim_core::scenes::{Driver, Scene};
 use rsim_core::{Batch, EngineKind, Field, SimConfig};
 
 /// Worlds stepped together on one thread.
@@ -46,6 +46,8 @@ static ALLOCATOR: Counting = Counting;
 /// Matches of one scene under one engine.
 struct Player {
     scene: Scene,
+    /// Start of each world: robots at random places, so that no single crowd decides.
+    starts: Vec<f32>,
     batch: Batch,
     rows: Vec<f32>,
     /// Bytes of a world.
@@ -66,13 +68,18 @@ impl Player {
         let (_, one) = bytes_of(1);
         let ((batch, rows), all) = bytes_of(WORLDS);
         let memory = (all - one) / (WORLDS - 1);
-        Self { scene, batch, rows, memory, allocations: 0, spent: Vec::new() }
+        let starts = (0..WORLDS as u64).flat_map(|seed| {
+            let mut scene = scene.clone();
+            scene.scatter(seed);
+            scene.start
+        });
+        let starts = starts.collect();
+        Self { scene, starts, batch, rows, memory, allocations: 0, spent: Vec::new() }
     }
 
     /// Plays a round, with the computation of commands outside the timed part.
     fn round(&mut self) {
-        let starts = self.scene.start.repeat(WORLDS);
-        self.batch.place(&[true; WORLDS], &starts, None, &mut self.rows).expect("valid");
+        self.batch.place(&[true; WORLDS], &self.starts, None, &mut self.rows).expect("valid");
         let (mut spent, mut commands) = (Duration::ZERO, Vec::new());
         for step in 0..STEPS {
             commands.clear();
@@ -112,13 +119,10 @@ fn all() -> Vec<(String, Scene)> {
     let scene = |name: &str, config: &SimConfig, (kind, driver): &(&'static str, Driver)| {
         (format!("{name}_{kind}"), Scene::lined_up(kind, config.clone(), driver.clone()))
     };
-    let mut all: Vec<_> = teams
+    teams
         .iter()
         .flat_map(|(name, config)| drivers.iter().map(move |driver| scene(name, config, driver)))
-        .collect();
-    all[0].1 = scenes::random_play();
-    all[1].1 = scenes::chase();
-    all
+        .collect()
 }
 
 #[allow(clippy::print_stdout)] // the table is what it is for

@@ -6,51 +6,9 @@
 use super::body::SolverBody;
 use super::impulses::Impulses;
 use super::manifold::Manifold;
+use super::pass::Pass;
+use super::two_points::solve_two;
 use crate::math::Vector;
-
-/// Maximum speed at which overlapping bodies are pushed apart, m/s.
-const MAX_PUSH_SPEED: f32 = 1.0;
-
-/// Depth that is not corrected, m: contacts at rest stay in contact.
-const ALLOWED_DEPTH: f32 = 5e-6;
-
-/// Determinant of the two points' inverse masses, by the product of its diagonal, below which the
-/// points are too near each other to be solved together.
-const MIN_DETERMINANT: f32 = 1e-3;
-
-/// Stiffness of contacts, Hz: the largest that a sub-step of 1.25 ms resolves, by
-/// [`MAX_STIFFNESS`]. Half of it doubles the depths of crowds.
-const STIFFNESS: f32 = 400.0;
-
-/// Maximum stiffness by the rate of sub-steps.
-const MAX_STIFFNESS: f32 = 0.5;
-
-/// Damping ratio: a push out of an overlap does not overshoot.
-const DAMPING: f32 = 2.0;
-
-/// Response of a soft constraint.
-#[derive(Debug, Clone, Copy)]
-struct Softness {
-    /// Speed of correction per depth, 1/s.
-    bias_rate: f32,
-    /// Speed that a unit impulse changes and leaves uncorrected, by the speed that it changes; and the
-    /// inverse.
-    stretch: f32,
-    mass_scale: f32,
-}
-
-impl Softness {
-    /// Response of a rigid constraint.
-    const RIGID: Self = Self { bias_rate: 0.0, stretch: 1.0, mass_scale: 1.0 };
-
-    /// A damped spring in implicit integration with a step of `time` (s).
-    fn new(time: f32) -> Self {
-        let omega = std::f32::consts::TAU * STIFFNESS.min(MAX_STIFFNESS / time);
-        let a = 2.0 * DAMPING + time * omega;
-        let stretch = 1.0 + 1.0 / (time * omega * a);
-        Self { bias_rate: omega / a, stretch, mass_scale: 1.0 / stretch }
-    }
-}
 
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
@@ -259,105 +217,5 @@ impl Constraint {
         }
         velocities.write(bodies, pair);
         speeds[0].abs().max(speeds[1].abs())
-    }
-}
-
-/// A pass over all constraints.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Pass {
-    /// Of overlapping bodies.
-    softness: Softness,
-    /// Speed at which overlapping bodies are pushed apart by their depth, 1/s.
-    bias_rate: f32,
-    /// Inverse of the sub-step, 1/s.
-    inverse_time: f32,
-}
-
-/// A point's equation: its closing speed with the push, and the response of a soft point.
-struct Row {
-    speed: f32,
-    stretch: f32,
-    mass_scale: f32,
-}
-
-impl Pass {
-    /// A pass that pushes overlapping bodies apart, in a sub-step of `time` (s).
-    pub(super) fn pushing(time: f32) -> Self {
-        let softness = Softness::new(time);
-        Self { softness, bias_rate: softness.bias_rate, inverse_time: 1.0 / time }
-    }
-
-    /// A pass that only corrects velocities, in a sub-step of `time` (s).
-    pub(super) fn relaxing(time: f32) -> Self {
-        Self { softness: Softness::RIGID, bias_rate: 0.0, inverse_time: 1.0 / time }
-    }
-
-    fn row(&self, speed: f32, separation: f32) -> Row {
-        if separation > 0.0 {
-            let speed = speed + separation * self.inverse_time;
-            return Row { speed, stretch: 1.0, mass_scale: 1.0 };
-        }
-        let depth = (separation + ALLOWED_DEPTH).min(0.0);
-        let push = (self.bias_rate * depth).max(-MAX_PUSH_SPEED);
-        let Softness { stretch, mass_scale, .. } = self.softness;
-        Row { speed: speed + push, stretch, mass_scale }
-    }
-}
-
-/// Impulses x of two points, not negative, for which `diagonal * x + coupling * other x + offset` is
-/// zero, or not negative where x is zero.
-fn solve_two(diagonal: [f32; 2], coupling: f32, offset: [f32; 2]) -> [f32; 2] {
-    let product = diagonal[0] * diagonal[1];
-    let determinant = product - coupling * coupling;
-    if determinant > MIN_DETERMINANT * product {
-        let inverse = 1.0 / determinant;
-        let both = [
-            (coupling * offset[1] - diagonal[1] * offset[0]) * inverse,
-            (coupling * offset[0] - diagonal[0] * offset[1]) * inverse,
-        ];
-        if both[0] >= 0.0 && both[1] >= 0.0 {
-            return both;
-        }
-    }
-    let alone = [-offset[0] / diagonal[0], -offset[1] / diagonal[1]];
-    let second_is_free = coupling * alone[0] + offset[1] >= 0.0;
-    if alone[0] >= 0.0 && (second_is_free || alone[1] < 0.0) {
-        return [alone[0], 0.0];
-    }
-    [0.0, alone[1].max(0.0)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scenes::uniform;
-
-    #[test]
-    fn impulses_of_two_points_leave_no_closing_speed_and_never_pull() {
-        let mut cases = [0; 4];
-        for draw in 0..4000_u64 {
-            let number = |part: u64| uniform(draw * 8 + part);
-            let diagonal = [1.5 + number(0), 1.5 + number(1)];
-            let coupling = 0.99 * number(2) * (diagonal[0] * diagonal[1]).sqrt();
-            let offset = [number(3), number(4)];
-            let [one, two] = solve_two(diagonal, coupling, offset);
-            let speeds = [
-                diagonal[0] * one + coupling * two + offset[0],
-                diagonal[1] * two + coupling * one + offset[1],
-            ];
-            for (impulse, speed) in [one, two].into_iter().zip(speeds) {
-                let rounding = 1e-4 * (1.0 + one + two);
-                assert!(impulse >= 0.0 && speed > -rounding, "{draw}: {impulse} {speed}");
-                assert!(impulse <= 0.0 || speed.abs() < rounding, "{draw}: {impulse} {speed}");
-            }
-            cases[usize::from(one > 0.0) + 2 * usize::from(two > 0.0)] += 1;
-        }
-        assert!(cases.iter().all(|count| *count > 100), "{cases:?}");
-    }
-
-    #[test]
-    fn points_at_one_place_share_the_load_of_one() {
-        let [one, two] = solve_two([2.0, 2.0], 2.0, [-1.0, -1.0]);
-        assert!((2.0 * (one + two) - 1.0).abs() < 1e-6, "{one} {two}");
     }
 }

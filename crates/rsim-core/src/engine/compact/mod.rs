@@ -2,7 +2,11 @@
 //!
 //! Each sub-step is a small tick: contacts are found anew on the paths of that sub-step, solved by
 //! sequential impulses with soft constraints, and relaxed, so that the push out of an overlap does not
-//! stay in the velocities. Impulses start from those of the last sub-step.
+//! stay in the velocities. Impulses start from those of the last sub-step. With three sub-steps in a
+//! tick instead of four, overlaps in crowds are twice as deep.
+//!
+//! The result has the same bits on every platform: the solver adds, multiplies, divides, takes square
+//! roots and compares, always in the order of the bodies.
 //!
 //! Sources: E. Catto, "Solver 2D" (2024), for soft contacts and relaxation; M. Macklin et al., "Small
 //! Steps in Physics Simulation" (2019), for sub-steps in place of iterations.
@@ -14,7 +18,9 @@ mod discs;
 mod impulses;
 mod link;
 mod manifold;
+mod pass;
 mod report;
+mod two_points;
 mod warm_start;
 
 use super::ball_contact::BallRules;
@@ -23,10 +29,11 @@ use super::contacts::Contacts;
 use super::near::Pair;
 use super::{BALL, SubSteps};
 use body::SolverBody;
-use constraint::{Constraint, Pass};
+use constraint::Constraint;
 use impulses::Impulses;
 use link::Link;
 use manifold::Window;
+use pass::Pass;
 use report::report;
 pub(super) use warm_start::CompactSolver;
 
