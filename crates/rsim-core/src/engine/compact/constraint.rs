@@ -55,44 +55,19 @@ pub(super) struct Constraint {
     coupling: f32,
 }
 
-/// Velocities of the two bodies of a constraint.
-struct Velocities {
-    linear: [Vector; 2],
-    spin: [f32; 2],
-    inverse_mass: [f32; 2],
-    inverse_inertia: [f32; 2],
+/// Relative motion of the two bodies of a constraint.
+struct Relative {
+    /// Of the centres, along the normal and along the tangent, m/s.
+    along: f32,
+    aside: f32,
+    /// rad/s.
+    spins: [f32; 2],
 }
 
-impl Velocities {
-    fn of(bodies: &[SolverBody], [first, second]: [usize; 2]) -> Self {
-        let (a, b) = (&bodies[first], &bodies[second]);
-        Self {
-            linear: [a.velocity, b.velocity],
-            spin: [a.spin, b.spin],
-            inverse_mass: [a.inverse_mass, b.inverse_mass],
-            inverse_inertia: [a.inverse_inertia, b.inverse_inertia],
-        }
-    }
-
-    fn write(&self, bodies: &mut [SolverBody], [first, second]: [usize; 2]) {
-        (bodies[first].velocity, bodies[first].spin) = (self.linear[0], self.spin[0]);
-        (bodies[second].velocity, bodies[second].spin) = (self.linear[1], self.spin[1]);
-    }
-
-    /// Speed of the second body against the first along a direction.
-    fn relative(&self, direction: Vector, levers: [f32; 2]) -> f32 {
-        (self.linear[1] - self.linear[0]).dot(direction) + self.spin[1] * levers[1]
-            - self.spin[0] * levers[0]
-    }
-
-    /// Applies two impulses (N s) along one direction.
-    fn apply(&mut self, impulses: [f32; 2], direction: Vector, levers: [[f32; 2]; 2]) {
-        let sum = impulses[0] + impulses[1];
-        let turn = [0, 1].map(|body| levers[0][body] * impulses[0] + levers[1][body] * impulses[1]);
-        self.linear[0] -= direction * (sum * self.inverse_mass[0]);
-        self.linear[1] += direction * (sum * self.inverse_mass[1]);
-        self.spin[0] -= turn[0] * self.inverse_inertia[0];
-        self.spin[1] += turn[1] * self.inverse_inertia[1];
+impl Relative {
+    /// Speed of a point along the normal, m/s.
+    fn closing(&self, levers: [f32; 2]) -> f32 {
+        self.along + self.spins[1] * levers[1] - self.spins[0] * levers[0]
     }
 }
 
@@ -153,42 +128,38 @@ impl Constraint {
     /// Applies the impulses that the solution starts from.
     pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
         let [one, two] = &self.points;
-        if one.impulse <= 0.0 && two.impulse <= 0.0 {
+        let impulses = [one.impulse, two.impulse];
+        if impulses[0] <= 0.0 && impulses[1] <= 0.0 {
             self.friction.impulse = 0.0;
             return;
         }
-        let pair = [self.first, self.second];
-        let mut velocities = Velocities::of(bodies, pair);
-        velocities.apply([one.impulse, two.impulse], self.normal, [one.levers, two.levers]);
-        let Friction { impulse, levers, .. } = self.friction;
-        velocities.apply([impulse, 0.0], self.normal.perp(), [levers, [0.0; 2]]);
-        velocities.write(bodies, pair);
+        let friction = self.friction.impulse;
+        let turns = self.turns(impulses);
+        let turns = [0, 1].map(|body| turns[body] + self.friction.levers[body] * friction);
+        self.apply(bodies, impulses[0] + impulses[1], friction, turns);
     }
 
     /// Moves the points with the bodies for `time` (s).
     pub(super) fn close(&mut self, bodies: &[SolverBody], time: f32) {
-        let velocities = Velocities::of(bodies, [self.first, self.second]);
+        let relative = self.relative(bodies);
         for point in &mut self.points[..self.count] {
-            point.separation += velocities.relative(self.normal, point.levers) * time;
+            point.separation += relative.closing(point.levers) * time;
         }
     }
 
     /// Corrects the velocities: along the normal, then by friction. Returns by how much the impulses
     /// along the normal changed speeds at the points, m/s.
     pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) -> f32 {
-        let pair = [self.first, self.second];
-        let mut velocities = Velocities::of(bodies, pair);
+        let relative = self.relative(bodies);
         let [one, two] = &mut self.points;
         let old = [one.impulse, two.impulse];
         let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
-        let speed = velocities.relative(self.normal, one.levers);
-        let row = pass.row(speed, one.separation);
+        let row = pass.row(relative.closing(one.levers), one.separation);
         let new = if self.count == 1 {
             let total = (one.response * old[0] - row.speed) * (one.mass * row.mass_scale);
             [total.max(0.0), 0.0]
         } else {
-            let speed = velocities.relative(self.normal, two.levers);
-            let other = pass.row(speed, two.separation);
+            let other = pass.row(relative.closing(two.levers), two.separation);
             if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
                 return 0.0;
             }
@@ -205,17 +176,51 @@ impl Constraint {
         [one.impulse, two.impulse] = new;
         let changes = [new[0] - old[0], new[1] - old[1]];
         let speeds = [changes[0] * one.response, changes[1] * two.response];
-        velocities.apply(changes, self.normal, [one.levers, two.levers]);
+        let mut turns = self.turns(changes);
+        let mut change = 0.0;
         let Friction { coefficient, impulse, levers, mass } = self.friction;
         if coefficient > 0.0 {
-            let tangent = self.normal.perp();
-            let slip = velocities.relative(tangent, levers);
+            // The impulses along the normal change the slip only by turning the bodies.
+            let (a, b) = (&bodies[self.first], &bodies[self.second]);
+            let spins = [
+                relative.spins[0] - turns[0] * a.inverse_inertia,
+                relative.spins[1] + turns[1] * b.inverse_inertia,
+            ];
+            let slip = relative.aside + spins[1] * levers[1] - spins[0] * levers[0];
             let limit = coefficient * (new[0] + new[1]);
             let total = (impulse - mass * slip).clamp(-limit, limit);
             self.friction.impulse = total;
-            velocities.apply([total - impulse, 0.0], tangent, [levers, [0.0; 2]]);
+            change = total - impulse;
+            turns = [turns[0] + levers[0] * change, turns[1] + levers[1] * change];
         }
-        velocities.write(bodies, pair);
+        self.apply(bodies, changes[0] + changes[1], change, turns);
         speeds[0].abs().max(speeds[1].abs())
+    }
+
+    fn relative(&self, bodies: &[SolverBody]) -> Relative {
+        let (a, b) = (&bodies[self.first], &bodies[self.second]);
+        let velocity = b.velocity - a.velocity;
+        Relative {
+            along: velocity.dot(self.normal),
+            aside: self.normal.perp_dot(velocity),
+            spins: [a.spin, b.spin],
+        }
+    }
+
+    /// Angular impulses on both bodies by impulses at the points, N m s.
+    fn turns(&self, impulses: [f32; 2]) -> [f32; 2] {
+        let [one, two] = &self.points;
+        [0, 1].map(|body| one.levers[body] * impulses[0] + two.levers[body] * impulses[1])
+    }
+
+    /// Applies impulses along the normal and the tangent (N s) and angular impulses (N m s).
+    fn apply(&self, bodies: &mut [SolverBody], normal: f32, tangent: f32, turns: [f32; 2]) {
+        let impulse = self.normal * normal + self.normal.perp() * tangent;
+        let first = &mut bodies[self.first];
+        first.velocity -= impulse * first.inverse_mass;
+        first.spin -= turns[0] * first.inverse_inertia;
+        let second = &mut bodies[self.second];
+        second.velocity += impulse * second.inverse_mass;
+        second.spin += turns[1] * second.inverse_inertia;
     }
 }
