@@ -2,7 +2,9 @@
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
-use rsim_core::{BallModel, Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
+use rsim_core::{
+    BallModel, Batch, EngineKind, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World,
+};
 
 fn message(config: &SimConfig) -> String {
     World::new(config).err().expect("refused").to_string()
@@ -164,6 +166,21 @@ fn foreign_and_damaged_snapshots_are_refused() {
     assert_eq!(batch.restore(&other.snapshot()), Err(SnapshotError::OtherConfig));
     let (fewer, _) = scenes::chase().batch(1, 1);
     assert_eq!(batch.restore(&fewer.snapshot()), Err(SnapshotError::OtherConfig));
+    for engine in EngineKind::ALL.into_iter().filter(|engine| *engine != scenes::engine()) {
+        let mut other = scenes::chase();
+        other.config.engine = engine;
+        let (other, _) = other.batch(2, 1);
+        assert_eq!(batch.restore(&other.snapshot()), Err(SnapshotError::OtherConfig));
+    }
     assert_eq!(batch.restore(&good), Ok(()));
     assert_eq!(batch.snapshot(), good, "nothing had changed");
+}
+
+#[test]
+fn engines_have_the_names_by_which_they_are_found() {
+    for engine in EngineKind::ALL {
+        assert_eq!(EngineKind::named(engine.name()), Ok(engine));
+    }
+    let error = EngineKind::named("box2d").expect_err("no engine").to_string();
+    assert_eq!(error, "engine must be \"rapier\" or \"compact\", got \"box2d\"");
 }
