@@ -50,8 +50,9 @@ lint-python: $(VENV)/built
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest rsoccer._core --mypy-config-file tools/stubtest.ini
 
-check-rust: $(VENV)/tools ## run the tests of the physics
-	$(CARGO) test --locked
+check-rust: $(VENV)/tools ## run the tests of the physics under both engines
+	RSIM_TEST_ENGINE=rapier $(CARGO) test --locked
+	RSIM_TEST_ENGINE=compact $(CARGO) test --locked
 
 check-python: $(VENV)/built ## run the tests of the package, the README and the examples
 	$(BIN)/python -m pytest --numprocesses auto

@@ -588,11 +588,13 @@ class SimConfig:
         ball: Ball, or the name of its preset. None for the league's default.
         time_step: Length of a control step, s; a whole multiple of `tick`, 1 to 1000 ticks.
         tick: Length of a physics tick, s; above 0 and at most 0.005.
+        engine: Solver of contacts: "rapier" is the reference, "compact" is made for few bodies and
+            faster.
 
     Raises:
-        ValueError: A name is no preset, there are more robots than the league allows, a sequence of
-            robots has another length, a time is out of its range, or a field of no known league
-            needs a default.
+        ValueError: A name is no preset or no engine, there are more robots than the league allows,
+            a sequence of robots has another length, a time is out of its range, or a field of no
+            known league needs a default.
     """
 
     def __new__(
@@ -605,6 +607,7 @@ class SimConfig:
         ball: str | BallModel | None = None,
         time_step: float = 0.025,
         tick: float = 0.005,
+        engine: str = "rapier",
     ) -> SimConfig: ...
     @property
     def field(self) -> Field:
@@ -641,6 +644,10 @@ class SimConfig:
     @property
     def tick(self) -> float:
         """Length of a physics tick (s, above 0, at most 0.005)."""
+
+    @property
+    def engine(self) -> str:
+        """Solver of contacts, "rapier" or "compact"."""
 
     @property
     def ticks_per_step(self) -> int:

@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use rsim_core::scenes::{Driver, Scene};
+use rsim_core::scenes::{self, Driver, Scene};
 use rsim_core::{Field, SimConfig, World};
 
 /// Steps until pushing robots rest against each other, and timed steps after that.
@@ -95,9 +95,9 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 
 #[allow(clippy::print_stdout)] // the table is what it is for
 fn main() {
-    let vss = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    let vss = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
     let vss = [0, 1, 2, 3, 4, 5].map(|pairs| Match::new(&vss, &[46.0, 46.0], pairs));
-    let ssl = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let ssl = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
     let ssl = [0, 1, 3, 5, 7, 9, 11].map(|pairs| Match::new(&ssl, &[3.7], pairs));
     println!("| match | contacts | a step, us | relative | each contact adds, us |");
     println!("| --- | ---: | ---: | ---: | ---: |");

@@ -86,16 +86,16 @@ fn main() {
     let measured: Vec<_> = settings
         .map(|(sub_steps, tick)| {
             let of = |config: SimConfig| SimConfig { tick, ..config };
-            let vss = Scene { config: of(SimConfig::vss(3, 3)), ..scenes::chase() };
-            let ssl = scenes::ssl_chase(of(SimConfig::ssl(6, 6)));
+            let vss = Scene { config: of(scenes::vss(3, 3)), ..scenes::chase() };
+            let ssl = scenes::ssl_chase(of(scenes::ssl(6, 6)));
             let crowd = play(&vss, sub_steps, |_| Vec::new());
             let swarm = play(&ssl, sub_steps, between_discs);
-            let pushing = play(&head_on(of(SimConfig::vss(1, 1))), sub_steps, between_two);
+            let pushing = play(&head_on(of(scenes::vss(1, 1))), sub_steps, between_two);
             ((sub_steps, tick), crowd, swarm, pushing)
         })
         .collect();
     let time = |measured: &Measured| measured.fastest.expect("played").as_secs_f64();
-    let default = (DEFAULT_SUB_STEPS, SimConfig::vss(3, 3).tick);
+    let default = (DEFAULT_SUB_STEPS, scenes::vss(3, 3).tick);
     let (_, crowd, swarm, _) =
         measured.iter().find(|(setting, ..)| *setting == default).expect("among them");
     let (usual_crowd, usual_swarm) = (time(crowd), time(swarm));

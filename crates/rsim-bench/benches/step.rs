@@ -66,16 +66,16 @@ fn cases() -> Vec<Case> {
         Case { teams: "vss_3v3", scene: scenes::random_play(), contacts: 50..=most },
         Case { teams: "vss_3v3", scene: scenes::chase(), contacts: 1000..=most },
     ];
-    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
     for driver in [Driver::Random, Driver::Chase] {
         let (name, contacts) = named(&driver, 50, 1000);
         let scene = Scene::lined_up(name, vss_5v5.clone(), driver);
         cases.push(Case { teams: "vss_5v5", scene, contacts: contacts..=most });
     }
-    let ssl_a = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let ssl_a = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
     for (teams, config, random, crowd) in [
-        ("ssl_1v1", SimConfig::ssl(1, 1), 1, 20),
-        ("ssl_6v6", SimConfig::ssl(6, 6), 20, 1000),
+        ("ssl_1v1", scenes::ssl(1, 1), 1, 20),
+        ("ssl_6v6", scenes::ssl(6, 6), 20, 1000),
         ("ssl_11v11", ssl_a, 20, 2000),
     ] {
         for driver in [Driver::STILL, Driver::Random, Driver::Chase] {
@@ -129,7 +129,7 @@ fn step(criterion: &mut Criterion) {
 }
 
 fn place(criterion: &mut Criterion) {
-    for scene in [scenes::chase(), scenes::ssl_random(SimConfig::ssl(11, 11))] {
+    for scene in [scenes::chase(), scenes::ssl_random(scenes::ssl(11, 11))] {
         let mut world = scene.world();
         let robots = scene.config.n_robots();
         criterion.bench_function(&format!("place_{robots}_robots"), |bencher| {

@@ -26,6 +26,8 @@ pub(crate) struct BodyParams {
 pub(crate) struct RobotParams {
     pub(crate) model: RobotModel,
     pub(crate) outline: Outline,
+    /// m.
+    pub(crate) bounding_radius: f32,
     pub(crate) drive_limits: DriveLimits,
     /// 1/kg.
     pub(crate) inverse_mass: f32,
@@ -39,6 +41,7 @@ impl RobotParams {
     fn of(model: RobotModel, kick_gain: f32, tick: f32) -> Self {
         Self {
             outline: Outline::of(model.body),
+            bounding_radius: model.bounding_radius(),
             drive_limits: DriveLimits::of(&model, tick),
             inverse_mass: 1.0 / model.mass,
             inverse_inertia: 1.0 / model.inertia(),

@@ -36,7 +36,7 @@ pub use features::steering::Steering;
 pub use features::viewpoint::{Observer, Viewpoint};
 pub use features::{shaping, steering};
 pub use models::ball::BallModel;
-pub use models::config::{SimConfig, check_team};
+pub use models::config::{EngineKind, SimConfig, check_team};
 pub use models::field::Field;
 pub use models::league::League;
 pub use models::mouth::Mouth;

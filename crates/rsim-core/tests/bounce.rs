@@ -3,7 +3,7 @@
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::ball_column;
-use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
+use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots};
 use rsim_core::{BallModel, SimConfig};
 
 /// A floor without friction, so that only the bounce changes the ball.
@@ -14,7 +14,7 @@ fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
         spin_deceleration: 0.0,
         ..ball.clone()
     };
-    SimConfig { ball, ..SimConfig::ssl(n_blue, 0) }
+    SimConfig { ball, ..scenes::ssl(n_blue, 0) }
 }
 
 /// Coulomb's law for a ball that hits a wall: speeds back and along it, and spin about the vertical axis

@@ -2,14 +2,14 @@
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{ball_column, crossing_name};
-use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_ball, steps};
+use rsim_core::scenes::{self, Driver, Scene, ball_in_mouth, lone_ball, steps};
 use rsim_core::{BallModel, SimConfig};
 
 const G: f32 = 9.81;
 
 /// A chip along x at `degrees` from `x`, alone on a field with nothing in the way.
 fn chip(ball: &BallModel, speed: f32, degrees: f32) -> Scene {
-    let mut config = SimConfig { ball: ball.clone(), ..SimConfig::ssl(0, 0) };
+    let mut config = SimConfig { ball: ball.clone(), ..scenes::ssl(0, 0) };
     config.field.length = 60.0;
     let (up, along) = degrees.to_radians().sin_cos();
     let mut scene = lone_ball(config, [0.0, 0.0], [speed * along, 0.0]);
@@ -91,7 +91,7 @@ fn a_ball_rolls_after_its_hops() {
 /// A robot 1.2 m ahead of a kick along x.
 fn over_a_robot(v_x: f32, v_z: f32) -> Scene {
     let poses = [[1.2, 0.0, 180.0]];
-    let mut scene = Scene::at("over_a_robot", SimConfig::ssl(1, 0), &poses, Driver::STILL);
+    let mut scene = Scene::at("over_a_robot", scenes::ssl(1, 0), &poses, Driver::STILL);
     scene.set_ball([0.0, 0.0], [v_x, 0.0]);
     scene.set_ball_column("v_z", v_z);
     scene
@@ -109,7 +109,7 @@ fn a_chip_flies_over_a_robot_and_a_low_one_is_stopped() {
 
 #[test]
 fn a_ball_that_clears_a_wall_of_a_table_leaves_it() {
-    let mut scene = lone_ball(SimConfig::vss(0, 0), [0.5, 0.4], [0.0, 2.0]);
+    let mut scene = lone_ball(scenes::vss(0, 0), [0.5, 0.4], [0.0, 2.0]);
     scene.set_ball_column("z", 0.2);
     let farthest = |scene: &Scene| {
         let (rows, _) = scene.play(&mut scene.world(), 60);
@@ -125,7 +125,7 @@ fn a_ball_that_clears_a_wall_of_a_table_leaves_it() {
 fn there_is_no_goal_above_the_bar() {
     let (mut under, mut over) = (0, 0);
     for shot in 0..60_u8 {
-        let mut scene = lone_ball(SimConfig::ssl(0, 0), [3.0, 0.0], [6.0, 0.0]);
+        let mut scene = lone_ball(scenes::ssl(0, 0), [3.0, 0.0], [6.0, 0.0]);
         scene.set_ball_column("v_z", f32::from(shot) * 0.06);
         let (rows, _) = scene.play(&mut scene.world(), 20);
         let crossed = rows
@@ -155,7 +155,7 @@ fn there_is_no_goal_above_the_bar() {
 fn a_ball_that_lands_on_a_robot_does_not_stay() {
     let poses = [[0.0, 0.0, 30.0]];
     for (x, v_x) in [(0.0, 0.0), (0.03, 0.0), (-0.4, 0.5), (0.0, 0.2)] {
-        let mut scene = Scene::at("landing", SimConfig::ssl(1, 0), &poses, Driver::STILL);
+        let mut scene = Scene::at("landing", scenes::ssl(1, 0), &poses, Driver::STILL);
         scene.set_ball([x, 0.01], [v_x, 0.0]);
         scene.set_ball_column("z", 1.0);
         let (rows, _) = scene.play(&mut scene.world(), 160);
@@ -180,7 +180,7 @@ fn a_chip_from_the_mouth_leaves_at_the_commanded_angle() {
 fn a_robot_that_drives_into_a_hopping_ball_hits_it() {
     let poses = [[0.0, 0.0, 0.0]];
     let commands = vec![vec![3.0, 0.0, 0.0]];
-    let mut scene = Scene::at("behind", SimConfig::ssl(1, 0), &poses, Driver::Constant(commands));
+    let mut scene = Scene::at("behind", scenes::ssl(1, 0), &poses, Driver::Constant(commands));
     scene.set_robot_column(0, "v_x", 3.0);
     scene.set_ball([0.12, 0.0], [0.0, 0.0]);
     scene.set_ball_column("v_z", 0.9);
@@ -196,8 +196,7 @@ fn a_hopping_ball_is_not_pushed_through_a_goals_side() {
         let y = 0.52 + 0.0215 + 0.09 + 0.04;
         let poses = [[4.62, y, -90.0]];
         let commands = vec![vec![1.0, 0.0, 0.0]];
-        let mut scene =
-            Scene::at("press", SimConfig::ssl(1, 0), &poses, Driver::Constant(commands));
+        let mut scene = Scene::at("press", scenes::ssl(1, 0), &poses, Driver::Constant(commands));
         scene.set_ball([4.62, 0.545], [0.0, 0.0]);
         scene.set_ball_column("v_z", 0.5 + f32::from(try_) * 0.01);
         let (rows, _) = scene.play(&mut scene.world(), 30);

@@ -6,14 +6,14 @@ use rsim_core::{Field, SimConfig, World};
 
 /// Scenes with and without contacts, in both leagues.
 fn all() -> Vec<Scene> {
-    let ssl_a = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let ssl_a = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
     vec![
         scenes::random_play(),
         scenes::chase(),
-        scenes::ssl_random(SimConfig::ssl(1, 1)),
-        scenes::ssl_random(SimConfig::ssl(6, 6)),
+        scenes::ssl_random(scenes::ssl(1, 1)),
+        scenes::ssl_random(scenes::ssl(6, 6)),
         scenes::ssl_random(ssl_a),
-        scenes::ssl_chase(SimConfig::ssl(6, 6)),
+        scenes::ssl_chase(scenes::ssl(6, 6)),
     ]
 }
 
@@ -72,7 +72,7 @@ fn a_fast_ball_grazes_with_and_without_the_solver() {
     let mut grazed = 0;
     for shot in 0..2000_u64 {
         let draw = |nth: u64| f32::midpoint(1.0, uniform(shot + nth * 5000)); // from 0 to 1
-        let mut scene = Scene::lined_up("graze", SimConfig::ssl(1, 0), Driver::STILL);
+        let mut scene = Scene::lined_up("graze", scenes::ssl(1, 0), Driver::STILL);
         scene.config.time_step = scene.config.tick;
         let heading = std::f32::consts::TAU * draw(0);
         for (name, value) in

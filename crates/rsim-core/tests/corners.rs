@@ -1,7 +1,7 @@
 //! Robots that drive the ball into a corner, on the floor and in the air.
 
 use rsim_core::columns::ball_column;
-use rsim_core::scenes::{Driver, Scene, deepest_ball, deepest_robots, driving};
+use rsim_core::scenes::{self, Driver, Scene, deepest_ball, deepest_robots, driving};
 use rsim_core::{Body, Field, RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
@@ -104,11 +104,11 @@ fn check_corners(config: impl Fn(usize) -> SimConfig, speed: f32, heights: &[f32
 }
 
 fn ssl(robots: usize) -> SimConfig {
-    SimConfig { field: Field::SSL_B, ..SimConfig::ssl(robots, 0) }
+    SimConfig { field: Field::SSL_B, ..scenes::ssl(robots, 0) }
 }
 
 fn vss(robots: usize) -> SimConfig {
-    SimConfig::vss(robots, 0)
+    scenes::vss(robots, 0)
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn long_play_stays_sound() {
 
 #[test]
 fn round_robots_in_a_crowd_stay_out_of_each_other() {
-    let scene = scenes::ssl_chase(SimConfig::ssl(6, 6));
+    let scene = scenes::ssl_chase(scenes::ssl(6, 6));
     let apart = 2.0 * RobotModel::SSL_GENERIC.bounding_radius();
     let (rows, contacts) = scene.play(&mut scene.world(), 400);
     assert!(contacts > 1000, "only {contacts} contacts");
@@ -103,8 +103,8 @@ fn refused(config: &SimConfig, states: u64) -> Vec<String> {
 
 #[test]
 fn states_of_vsss_crowds_can_all_be_placed_again() {
-    let five = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
-    for config in [SimConfig::vss(3, 3), five] {
+    let five = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
+    for config in [scenes::vss(3, 3), five] {
         let refused = refused(&config, 10_000);
         assert!(refused.is_empty(), "refused {}: {refused:#?}", refused.len());
     }
@@ -113,7 +113,7 @@ fn states_of_vsss_crowds_can_all_be_placed_again() {
 #[test]
 fn states_of_ssl_crowds_can_all_be_placed_again() {
     for teams in [6, 11] {
-        let refused = refused(&SimConfig::ssl(teams, teams), 10_000);
+        let refused = refused(&scenes::ssl(teams, teams), 10_000);
         assert!(refused.is_empty(), "refused {}: {refused:#?}", refused.len());
     }
 }

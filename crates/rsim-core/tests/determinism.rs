@@ -1,8 +1,8 @@
 //! Equal starts and commands give equal bytes, whatever the threads, the other worlds and the history.
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
+use rsim_core::Batch;
 use rsim_core::scenes::{self, Scene};
-use rsim_core::{Batch, SimConfig};
 
 /// Steps a batch whose worlds have different commands. Returns all rows of all steps.
 fn advance(scene: &Scene, batch: &mut Batch, steps: std::ops::Range<u64>) -> Vec<f32> {
@@ -26,7 +26,7 @@ fn run(scene: &Scene, worlds: usize, threads: usize, steps: u64) -> Vec<f32> {
 
 #[test]
 fn thread_count_does_not_change_results() {
-    let ssl = scenes::ssl_random(SimConfig::ssl(3, 2));
+    let ssl = scenes::ssl_random(scenes::ssl(3, 2));
     for scene in [scenes::random_play(), scenes::crowded_kickoff(), ssl] {
         let expected = run(&scene, 12, 1, 200);
         for threads in [2, 3, 8] {
@@ -58,7 +58,7 @@ fn a_world_in_a_batch_equals_a_single_world() {
 
 #[test]
 fn a_placed_world_keeps_nothing_of_its_past() {
-    let ssl = scenes::ssl_random(SimConfig::ssl(3, 2));
+    let ssl = scenes::ssl_random(scenes::ssl(3, 2));
     for (scene, past) in [(scenes::crowded_kickoff(), scenes::chase()), (ssl.clone(), ssl)] {
         let (fresh, contacts) = scene.play(&mut scene.world(), 300);
         assert!(contacts > 0, "only {contacts} contacts: the comparison would prove little");
@@ -71,7 +71,7 @@ fn a_placed_world_keeps_nothing_of_its_past() {
 
 #[test]
 fn a_restored_world_continues_as_if_never_stopped() {
-    for scene in [scenes::crowded_kickoff(), scenes::ssl_random(SimConfig::ssl(3, 2))] {
+    for scene in [scenes::crowded_kickoff(), scenes::ssl_random(scenes::ssl(3, 2))] {
         // Right after placing, and at several moments within the play.
         for before in [0, 1, 5, 40, 111] {
             let (mut batch, _) = scene.batch(2, 1);

@@ -1,7 +1,7 @@
 //! A differential drive against its closed form: speeds, accelerations, arcs, pushes, skids.
 
-use rsim_core::scenes::{Driver, lone_robot, robots};
-use rsim_core::{DifferentialDrive, Drive, RobotModel, SimConfig, World, scenes::Scene};
+use rsim_core::scenes::{self, Driver, lone_robot, robots};
+use rsim_core::{DifferentialDrive, Drive, RobotModel, World, scenes::Scene};
 
 /// Robot 0 after `steps` control steps.
 fn after(scene: &Scene, steps: u64) -> Vec<f32> {
@@ -56,7 +56,7 @@ fn unequal_wheels_drive_the_arc_of_the_closed_form() {
         wheels(&RobotModel::VSS_440RPM).track_width / 2.0 * (right + left) / (right - left);
     // The curvature, from three positions of the steady part.
     let at = |step: usize| {
-        let size = SimConfig::vss(1, 0).row_size();
+        let size = scenes::vss(1, 0).row_size();
         let robot = robots(&rows[step * size..][..size]).next().expect("a robot");
         [robot[0], robot[1]]
     };
@@ -144,7 +144,7 @@ fn a_robot_against_the_wall_stalls_and_stays_straight() {
 fn two_robots_head_on_stall() {
     // Two robots of one model are equally strong, so both stay. The test is that neither passes through
     // the other.
-    let config = SimConfig::vss(1, 1);
+    let config = scenes::vss(1, 1);
     let mut scene = Scene::at(
         "head_on",
         config,

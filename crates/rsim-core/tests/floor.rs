@@ -3,7 +3,7 @@
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::ball_column;
-use rsim_core::scenes::{Scene, lone_ball, rolling_ball, steps};
+use rsim_core::scenes::{self, Scene, lone_ball, rolling_ball, steps};
 use rsim_core::{BallModel, SimConfig};
 
 /// What F 3.4 tabulates of a straight kick without spin: slide end (m, s), speeds at 3 and 6 m
@@ -39,7 +39,7 @@ fn closed_form(ball: &BallModel, kick: f32) -> RollOut {
 
 /// A field with 100 m of free way.
 fn endless(ball: &BallModel) -> SimConfig {
-    let mut config = SimConfig { ball: ball.clone(), ..SimConfig::ssl(0, 0) };
+    let mut config = SimConfig { ball: ball.clone(), ..scenes::ssl(0, 0) };
     (config.field.length, config.field.width) = (200.0, 200.0);
     config
 }
@@ -130,7 +130,7 @@ fn the_path_of_the_ball_does_not_depend_on_the_tick() {
 #[test]
 fn a_grazing_contact_does_not_depend_on_the_tick() {
     let scenes = [0.001, 0.0025, 0.005].map(|tick| {
-        let mut scene = lone_ball(SimConfig::ssl(0, 0), [-2.0, 2.8], [4.0, 1.2]);
+        let mut scene = lone_ball(scenes::ssl(0, 0), [-2.0, 2.8], [4.0, 1.2]);
         scene.config.tick = tick;
         scene
     });
@@ -156,7 +156,7 @@ fn a_ball_that_rolls_already_does_not_slide() {
 
 #[test]
 fn back_spin_brakes_the_ball_and_reverses_it() {
-    let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [1.0, 0.0]);
+    let mut scene = lone_ball(scenes::ssl(0, 0), [0.0, 0.0], [1.0, 0.0]);
     scene.set_ball_column("spin_y", -4.0 / scene.config.ball.radius);
     let row = scene.after(4);
     within(row[ball_column("v_x")], 1.0 - 0.3, 1e-3, "braked by the full slide for 0.1 s");

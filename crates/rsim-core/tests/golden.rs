@@ -1,4 +1,4 @@
-//! Hashes of the rows of fourteen scenes: equal starts and commands may give other states only under
+//! Hashes of the rows of fourteen scenes under each engine: equal starts and commands may give other states only under
 //! another [`PHYSICS_VERSION`]. `make golden` renews the hashes once the version is raised.
 
 use std::collections::BTreeMap;
@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
 use rsim_core::scenes::{self, Driver, Scene};
-use rsim_core::{BallModel, Field, PHYSICS_VERSION, RobotModel, SimConfig};
+use rsim_core::{BallModel, EngineKind, Field, PHYSICS_VERSION, RobotModel, SimConfig};
 
 /// File with the version, then one hash per line.
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden.txt");
@@ -19,9 +19,9 @@ const STEPS: u64 = 200;
 
 /// Both leagues; rolling, contacts, chips, the dribbler, kicks, crowds, walls, own parameters.
 fn scenes() -> Vec<(&'static str, Scene)> {
-    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
     let wheels =
-        SimConfig::new(Field::SSL_A, BallModel::GRSIM, &RobotModel::SSL_GENERIC_WHEELS, 3, 3);
+        scenes::config(Field::SSL_A, BallModel::GRSIM, &RobotModel::SSL_GENERIC_WHEELS, 3, 3);
     let random = |config: SimConfig| Scene::lined_up("random", config, Driver::Random);
     vec![
         ("vss_rolling_ball", scenes::rolling_ball(2.5)),
@@ -30,8 +30,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("vss_crowded_kickoff", scenes::crowded_kickoff()),
         ("vss_5v5_crowd", Scene::lined_up("crowd", vss_5v5, Driver::Chase)),
         ("vss_skid", skid()),
-        ("ssl_random", scenes::ssl_random(SimConfig::ssl(3, 3))),
-        ("ssl_crowd", scenes::ssl_chase(SimConfig::ssl(6, 6))),
+        ("ssl_random", scenes::ssl_random(scenes::ssl(3, 3))),
+        ("ssl_crowd", scenes::ssl_chase(scenes::ssl(6, 6))),
         ("ssl_wheels_random", random(wheels)),
         ("ssl_kick", scenes::ball_in_mouth(&[0.5, 0.0, 1.0, 6.0, 0.0, 0.0])),
         ("ssl_chip", scenes::ball_in_mouth(&[0.0, 0.3, 0.0, 3.0, 3.5, 0.0])),
@@ -53,7 +53,7 @@ fn skid() -> Scene {
 fn corner() -> Scene {
     let poses = [[4.55, 2.55, 45.0], [4.4, 2.4, 45.0], [4.25, 2.25, 45.0]];
     let driver = Driver::Constant(vec![vec![2.0, 0.0, 0.0, 0.0, 0.0, 0.0]; 3]);
-    let mut scene = Scene::at("corner", SimConfig::ssl(3, 0), &poses, driver);
+    let mut scene = Scene::at("corner", scenes::ssl(3, 0), &poses, driver);
     scene.set_ball([4.7, 2.7], [1.0, 1.5]);
     scene.set_ball_column("z", 0.05);
     scene
@@ -61,7 +61,7 @@ fn corner() -> Scene {
 
 /// A world whose factors all differ from 1.
 fn own_parameters() -> Scene {
-    let mut scene = scenes::ssl_chase(SimConfig::ssl(2, 2));
+    let mut scene = scenes::ssl_chase(scenes::ssl(2, 2));
     let of_robots = ROBOT_PARAMETERS.len() * scene.config.n_robots();
     let factors = (0..BALL_PARAMETERS.len() + of_robots).map(|nth| 0.8 + 0.05 * (nth % 9) as f32);
     scene.parameters = Some(factors.collect());
@@ -86,15 +86,25 @@ fn kept() -> (Option<u32>, BTreeMap<String, String>) {
     (version, lines.map(|(name, hash)| (name.to_owned(), hash.to_owned())).collect())
 }
 
+/// Hashes of all scenes under each engine.
+fn hashes() -> Vec<(String, String)> {
+    let all = EngineKind::ALL.into_iter().flat_map(|engine| {
+        scenes().into_iter().map(move |(name, mut scene)| {
+            scene.config.engine = engine;
+            (format!("{}_{name}", engine.name()), format!("{:016x}", hash(&scene)))
+        })
+    });
+    all.collect()
+}
+
 #[test]
 fn physics_change_only_under_another_version() {
-    let found: Vec<_> =
-        scenes().iter().map(|(name, scene)| (*name, format!("{:016x}", hash(scene)))).collect();
+    let found = hashes();
     let (version, kept) = kept();
     let changed: Vec<_> = found
         .iter()
-        .filter(|(name, hash)| kept.get(*name).is_some_and(|kept| kept != hash))
-        .map(|(name, _)| *name)
+        .filter(|(name, hash)| kept.get(name).is_some_and(|kept| kept != hash))
+        .map(|(name, _)| name)
         .collect();
     let same_version = version == Some(PHYSICS_VERSION);
     assert!(
@@ -111,7 +121,7 @@ fn physics_change_only_under_another_version() {
         return;
     }
     let complete =
-        found.iter().all(|(name, _)| kept.contains_key(*name)) && kept.len() == found.len();
+        found.iter().all(|(name, _)| kept.contains_key(name)) && kept.len() == found.len();
     assert!(
         same_version && complete,
         "{FILE} is of version {version:?} with {} scenes: `make golden` renews it",

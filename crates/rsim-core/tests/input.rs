@@ -2,7 +2,9 @@
 
 use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, robots_mut};
-use rsim_core::{BallModel, Batch, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World};
+use rsim_core::{
+    BallModel, Batch, EngineKind, Field, PlaceError, RobotModel, SimConfig, SnapshotError, World,
+};
 
 fn message(config: &SimConfig) -> String {
     World::new(config).err().expect("refused").to_string()
@@ -10,7 +12,7 @@ fn message(config: &SimConfig) -> String {
 
 #[test]
 fn configurations_are_checked_by_name() {
-    let good = SimConfig::vss(3, 3);
+    let good = scenes::vss(3, 3);
     assert!(World::new(&good).is_ok());
     let spoilt = |spoil: &dyn Fn(&mut SimConfig)| {
         let mut config = good.clone();
@@ -21,8 +23,8 @@ fn configurations_are_checked_by_name() {
     assert!(spoilt(&|config| config.time_step = f32::NAN).contains("time_step"));
     assert!(spoilt(&|config| config.tick = 0.0).contains("tick"));
     assert!(spoilt(&|config| config.tick = 0.004).contains("whole number of ticks"));
-    assert!(message(&SimConfig::vss(6, 3)).contains("n_blue must be at most 5"));
-    assert!(message(&SimConfig::ssl(3, 12)).contains("n_yellow must be at most 11"));
+    assert!(message(&scenes::vss(6, 3)).contains("n_blue must be at most 5"));
+    assert!(message(&scenes::ssl(3, 12)).contains("n_yellow must be at most 11"));
     assert!(spoilt(&|config| config.yellow[1].mass = -1.0).contains("robot.mass"));
     assert!(spoilt(&|config| config.field.goal_width = 2.0).contains("field.goal_width"));
     assert!(
@@ -38,14 +40,14 @@ fn configurations_are_checked_by_name() {
 #[test]
 fn ticks_too_long_to_be_accurate_were_accepted() {
     for (tick, time_step) in [(0.006, 0.024), (0.01, 0.02), (0.0125, 0.025), (0.025, 0.025)] {
-        for config in [SimConfig::vss(1, 1), SimConfig::ssl(1, 1)] {
+        for config in [scenes::vss(1, 1), scenes::ssl(1, 1)] {
             let error = message(&SimConfig { tick, time_step, ..config });
             assert!(error.contains("tick must be at most 0.005 s"), "{error}");
             assert!(error.contains(&format!("got {tick}")), "{error}");
         }
     }
     for tick in [0.005, 0.0025, 0.001] {
-        assert!(World::new(&SimConfig { tick, ..SimConfig::vss(1, 1) }).is_ok(), "{tick}");
+        assert!(World::new(&SimConfig { tick, ..scenes::vss(1, 1) }).is_ok(), "{tick}");
     }
 }
 
@@ -54,7 +56,7 @@ fn every_preset_makes_a_match() {
     for field in Field::PRESETS {
         for robot in RobotModel::PRESETS {
             for ball in BallModel::PRESETS {
-                let config = SimConfig::new(field.clone(), ball.clone(), &robot, 1, 2);
+                let config = scenes::config(field.clone(), ball.clone(), &robot, 1, 2);
                 let label = format!("{} {} {}", field.name, robot.name, ball.name);
                 let mut world = World::new(&config).expect(&label);
                 world.step(&vec![1.0; config.command_size()]).expect(&label);
@@ -75,7 +77,7 @@ fn presets_are_found_by_name() {
 #[test]
 fn a_batch_needs_worlds_and_threads() {
     for (worlds, threads, name) in [(0, 1, "worlds"), (1, 0, "threads"), (1, 100_000, "threads")] {
-        let error = Batch::new(&SimConfig::vss(3, 3), worlds, threads).err().expect("refused");
+        let error = Batch::new(&scenes::vss(3, 3), worlds, threads).err().expect("refused");
         assert!(error.to_string().contains(name), "{error}");
     }
 }
@@ -164,6 +166,21 @@ fn foreign_and_damaged_snapshots_are_refused() {
     assert_eq!(batch.restore(&other.snapshot()), Err(SnapshotError::OtherConfig));
     let (fewer, _) = scenes::chase().batch(1, 1);
     assert_eq!(batch.restore(&fewer.snapshot()), Err(SnapshotError::OtherConfig));
+    for engine in EngineKind::ALL.into_iter().filter(|engine| *engine != scenes::engine()) {
+        let mut other = scenes::chase();
+        other.config.engine = engine;
+        let (other, _) = other.batch(2, 1);
+        assert_eq!(batch.restore(&other.snapshot()), Err(SnapshotError::OtherConfig));
+    }
     assert_eq!(batch.restore(&good), Ok(()));
     assert_eq!(batch.snapshot(), good, "nothing had changed");
+}
+
+#[test]
+fn engines_have_the_names_by_which_they_are_found() {
+    for engine in EngineKind::ALL {
+        assert_eq!(EngineKind::named(engine.name()), Ok(engine));
+    }
+    let error = EngineKind::named("box2d").expect_err("no engine").to_string();
+    assert_eq!(error, "engine must be \"rapier\" or \"compact\", got \"box2d\"");
 }

@@ -1,8 +1,8 @@
 //! Several kickers at one ball.
 
 use rsim_core::columns::{ball_column, robot_column};
-use rsim_core::scenes::{Driver, Scene, robots, uniform};
-use rsim_core::{Body, RobotModel, SimConfig};
+use rsim_core::scenes::{self, Driver, Scene, robots, uniform};
+use rsim_core::{Body, RobotModel};
 
 /// A robot so small that two can have the ball in their mouths from nearly one direction.
 fn small() -> RobotModel {
@@ -18,7 +18,7 @@ fn heading(degrees: f32) -> [f32; 2] {
 /// The ball's velocity after one tick in which robots of `model`, whose headings are `degrees` apart
 /// about the direction `middle`, kick it at these speeds.
 fn kicked(model: &RobotModel, middle: f32, degrees: f32, speeds: [f32; 2]) -> [f32; 2] {
-    let mut config = SimConfig::ssl(1, 1);
+    let mut config = scenes::ssl(1, 1);
     (config.blue, config.yellow) = (vec![model.clone()], vec![model.clone()]);
     config.time_step = config.tick;
     let commands = speeds.map(|speed| vec![0.0, 0.0, 0.0, speed, 0.0, 0.0]).to_vec();

@@ -1,9 +1,8 @@
 //! Symmetry: the future of a rotated or reflected scene is rotated or reflected too.
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
-use rsim_core::SimConfig;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, crossing_name};
-use rsim_core::scenes::{Driver, Scene, lone_ball, robots, robots_mut};
+use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots, robots_mut};
 
 /// A symmetry of the field: signs that it flips, and whether it swaps the teams.
 #[derive(Clone, Copy)]
@@ -100,13 +99,13 @@ const BOTH: [Symmetry; 2] = [HALF_TURN, REFLECTION];
 fn free_motion_mirrors_exactly() {
     let vss = Scene::at(
         "vss",
-        SimConfig::vss(2, 2),
+        scenes::vss(2, 2),
         &[[-0.5, 0.1, 10.0], [-0.4, -0.4, 80.0], [0.5, 0.2, 200.0], [0.4, -0.3, 120.0]],
         Driver::Constant(vec![vec![20.0, 17.0], vec![5.0, -5.0], vec![9.0, 9.5], vec![3.0, 2.0]]),
     );
     let ssl = Scene::at(
         "ssl",
-        SimConfig::ssl(2, 2),
+        scenes::ssl(2, 2),
         &[[-2.5, 0.1, 10.0], [-2.0, -2.0, 80.0], [2.5, 0.2, 200.0], [2.0, -1.0, 120.0]],
         Driver::Constant(vec![
             vec![1.0, 0.5, 2.0],
@@ -131,7 +130,7 @@ fn free_motion_mirrors_exactly() {
 fn a_flight_mirrors_exactly() {
     let poses = [[-2.0, 0.0, 0.0], [2.0, 0.5, 180.0]];
     let commands = vec![vec![0.0; 3]; 2];
-    let mut scene = Scene::at("chip", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+    let mut scene = Scene::at("chip", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([0.2, -0.3], [-1.0, 0.7]);
     scene.set_ball_column("v_z", 3.0);
     for symmetry in BOTH {
@@ -143,13 +142,13 @@ fn a_flight_mirrors_exactly() {
 fn one_contact_mirrors_to_a_tenth_of_a_millimetre() {
     let vss = |driver| {
         let poses = [[-0.3, 0.02, 5.0], [0.6, 0.0, 180.0]];
-        let mut scene = Scene::at("vss", SimConfig::vss(1, 1), &poses, driver);
+        let mut scene = Scene::at("vss", scenes::vss(1, 1), &poses, driver);
         scene.set_ball([0.0, 0.0], [-1.0, 0.0]);
         scene
     };
     let ssl = |driver| {
         let poses = [[-0.3, 0.03, 5.0], [2.0, 0.0, 180.0]];
-        let mut scene = Scene::at("ssl", SimConfig::ssl(1, 1), &poses, driver);
+        let mut scene = Scene::at("ssl", scenes::ssl(1, 1), &poses, driver);
         scene.set_ball([0.0, 0.0], [-1.5, 0.0]);
         scene
     };
@@ -169,7 +168,7 @@ fn one_contact_mirrors_to_a_tenth_of_a_millimetre() {
 fn a_wall_mirrors_too() {
     let scene = Scene {
         driver: Driver::Constant(Vec::new()),
-        ..lone_ball(SimConfig::ssl(0, 0), [0.3, 3.0], [2.0, 2.0])
+        ..lone_ball(scenes::ssl(0, 0), [0.3, 3.0], [2.0, 2.0])
     };
     // Without robots no teams are swapped.
     let reflected = Symmetry { swaps_teams: false, ..REFLECTION };

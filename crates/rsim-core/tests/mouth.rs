@@ -1,9 +1,9 @@
 //! Break beam, kicker and dribbler, with a ball in a robot's mouth.
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
+use rsim_core::RobotModel;
 use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, robot_column};
-use rsim_core::scenes::{Driver, Scene, ball_in_mouth, lone_omni, robots, steps};
-use rsim_core::{RobotModel, SimConfig};
+use rsim_core::scenes::{self, Driver, Scene, ball_in_mouth, lone_omni, robots, steps};
 
 const DRIBBLE: [f32; 3] = [0.0, 0.0, 1.0];
 
@@ -191,7 +191,7 @@ fn a_free_ball_is_pulled_away_by_a_dribbler() {
     let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
     let commands = vec![vec![0.0; 6], dribbling([-0.3, 0.0, 0.0])];
-    let mut scene = Scene::at("pull", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+    let mut scene = Scene::at("pull", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
     let row = scene.after(60);
     assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
@@ -204,8 +204,7 @@ fn another_robot_can_knock_the_ball_off_a_running_dribbler() {
     for speed in [0.5, 1.0, 2.0] {
         let poses = [[0.0, 0.0, 0.0], [front, 0.17, -90.0]];
         let commands = vec![dribbling([0.0; 3]), dribbling([speed, 0.0, 0.0])];
-        let mut scene =
-            Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+        let mut scene = Scene::at("steal", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
         scene.set_ball([front, 0.0], [0.0, 0.0]);
         let row = scene.after(60);
         assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0, "{speed} m/s: {row:?}");
@@ -218,7 +217,7 @@ fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
     let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[0.0, 0.0, 0.0], [2.0 * front, 0.0, 180.0]];
     let commands = vec![dribbling([0.0; 3]), dribbling([-0.5, 0.0, 0.0])];
-    let mut scene = Scene::at("steal", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+    let mut scene = Scene::at("steal", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
     // A robot with half the grip loses the ball to one that backs off gently.
     let mut factors = vec![1.0; scene.config.parameters_size()];
@@ -255,7 +254,7 @@ fn two_opposed_kicks_at_once_cancel() {
     let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
     let poses = [[-front, 0.0, 0.0], [front, 0.0, 180.0]];
     let commands = vec![vec![0.0, 0.0, 0.0, 6.0, 0.0, 0.0]; 2];
-    let mut scene = Scene::at("both", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+    let mut scene = Scene::at("both", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.config.time_step = scene.config.tick;
     let row = scene.after(1);
     assert!(row[ball_column("v_x")].abs() < 1e-4, "{row:?}");
@@ -282,7 +281,7 @@ fn a_kick_at_a_robot_right_before_it_does_not_get_into_it() {
         let front = RobotModel::SSL_GENERIC.front_distance() + 0.0215;
         let poses = [[0.0, 0.0, 0.0], [front + 0.0215 + gap + 0.09, 0.0, 0.0]];
         let commands = vec![vec![0.0, 0.0, 0.0, speed, 0.0, 0.0], vec![0.0; 6]];
-        let mut scene = Scene::at("wall", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+        let mut scene = Scene::at("wall", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
         scene.config.time_step = scene.config.tick;
         scene.set_ball([front, 0.0], [0.0, 0.0]);
         let (rows, _) = scene.play(&mut scene.world(), 6);

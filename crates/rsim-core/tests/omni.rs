@@ -1,7 +1,7 @@
 //! An omnidirectional robot against the limits of its model: times to a speed, directions, wheels, pushing.
 
 use rsim_core::columns::{ROBOT_PARAMETERS, parameters_size, robot_column};
-use rsim_core::scenes::{Driver, Scene, lone_omni, robots, steps};
+use rsim_core::scenes::{self, Driver, Scene, lone_omni, robots, steps};
 use rsim_core::{BallModel, Drive, Field, RobotModel, SimConfig};
 
 /// Robot 0 after each tick: (time, speed, turn rate).
@@ -78,7 +78,7 @@ fn a_saturated_wheel_does_not_bend_the_path() {
 fn pushing(push: f32, hold: f32, blue_traction: f32) -> Scene {
     let config = SimConfig {
         field: Field::SSL_A,
-        ..SimConfig::new(Field::SSL_A, BallModel::SSL_TIGERS, &RobotModel::SSL_GENERIC, 1, 1)
+        ..scenes::config(Field::SSL_A, BallModel::SSL_TIGERS, &RobotModel::SSL_GENERIC, 1, 1)
     };
     let poses = [[-0.0901, 0.0, 0.0], [0.0901, 0.0, 180.0]];
     let commands = vec![vec![push, 0.0, 0.0], vec![hold, 0.0, 0.0]];
@@ -119,7 +119,7 @@ fn a_standing_robot_holds_below_its_traction_and_slides_above_it() {
 fn a_ball_squeezed_at_the_traction_limit_does_not_sink_in() {
     let poses = [[-0.1125, 0.0, 180.0], [0.1125, 0.0, 0.0]];
     let commands = vec![vec![-2.0, 0.0, 0.0]; 2]; // backs to the ball: round against round
-    let scene = Scene::at("squeeze", SimConfig::ssl(1, 1), &poses, Driver::Constant(commands));
+    let scene = Scene::at("squeeze", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     let (rows, contacts) = scene.play(&mut scene.world(), 40);
     assert!(contacts > 40);
     let mut deepest = 0.0_f32;

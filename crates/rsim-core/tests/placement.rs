@@ -5,7 +5,7 @@ use rsim_core::columns::{
     BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
 };
 use rsim_core::scenes::{
-    Driver, Scene, ball_in_mouth, lone_ball, lone_omni, lone_robot, robots, uniform,
+    self, Driver, Scene, ball_in_mouth, lone_ball, lone_omni, lone_robot, robots, uniform,
 };
 use rsim_core::{Batch, SimConfig};
 
@@ -26,7 +26,7 @@ fn moving(config: SimConfig) -> Scene {
 
 #[test]
 fn a_placed_row_is_read_unchanged_and_reading_changes_nothing() {
-    for config in [SimConfig::vss(3, 2), SimConfig::ssl(2, 4)] {
+    for config in [scenes::vss(3, 2), scenes::ssl(2, 4)] {
         let scene = moving(config);
         let world = scene.world();
         let mut expected = scene.start.clone();
@@ -41,7 +41,7 @@ fn a_placed_row_is_read_unchanged_and_reading_changes_nothing() {
 
 #[test]
 fn the_motion_of_a_state_that_was_read_can_be_placed() {
-    let scene = moving(SimConfig::ssl(2, 2));
+    let scene = moving(scenes::ssl(2, 2));
     let row = scene.after(3);
     let mut world = scene.world();
     world.place(&row, None).expect("a state of a match");
@@ -57,7 +57,7 @@ fn the_motion_of_a_state_that_was_read_can_be_placed() {
 #[test]
 fn states_of_random_play_can_be_placed_again() {
     let mut flown = 0;
-    for config in [SimConfig::ssl(4, 4), SimConfig::vss(3, 3)] {
+    for config in [scenes::ssl(4, 4), scenes::vss(3, 3)] {
         let mut scene = Scene::lined_up("play", config, Driver::Random);
         scene.set_ball([0.0, 0.0], [0.5, 0.3]);
         scene.set_ball_column("v_z", 3.0);
@@ -73,10 +73,9 @@ fn states_of_random_play_can_be_placed_again() {
 
 #[test]
 fn a_ball_on_an_edge_can_be_placed() {
-    for (config, place, z) in [
-        (SimConfig::vss(0, 0), [0.5, 0.647], 0.049_99),
-        (SimConfig::ssl(0, 0), [4.5, 0.2], 0.179_9),
-    ] {
+    for (config, place, z) in
+        [(scenes::vss(0, 0), [0.5, 0.647], 0.049_99), (scenes::ssl(0, 0), [4.5, 0.2], 0.179_9)]
+    {
         let mut scene = lone_ball(config, place, [0.0, 0.0]);
         scene.set_ball_column("z", z);
         let mut world = lone_ball(scene.config.clone(), [0.0, 0.0], [0.0, 0.0]).world();
@@ -116,13 +115,13 @@ fn every_parameter_has_its_effect() {
     let robot_at = |row: &[f32]| robots(row).next().expect("a robot").to_vec();
 
     let rolling = |name: &str, factor: f32| {
-        let mut scene = Scene::lined_up("roll", SimConfig::ssl(1, 0), Driver::STILL);
+        let mut scene = Scene::lined_up("roll", scenes::ssl(1, 0), Driver::STILL);
         scene.set_ball([0.0, 1.0], [2.0, 0.0]);
         with(scene, one_changed(true, name, factor)).after(5)[v_x]
     };
     let slid = |factor: f32| 2.0 - rolling("sliding_deceleration", factor);
     assert!((slid(1.5) / slid(1.0) - 1.5).abs() < 0.01);
-    let mut rolled = Scene::lined_up("roll", SimConfig::ssl(1, 0), Driver::STILL);
+    let mut rolled = Scene::lined_up("roll", scenes::ssl(1, 0), Driver::STILL);
     rolled.set_ball([0.0, 1.0], [2.0, 0.0]);
     rolled.set_ball_column("spin_y", 2.0 / 0.0215);
     let lost = |factor: f32| {
@@ -131,7 +130,7 @@ fn every_parameter_has_its_effect() {
     assert!((lost(2.0) / lost(1.0) - 2.0).abs() < 0.01);
 
     let at_wall = |name: &str, factor: f32| {
-        let mut scene = Scene::lined_up("wall", SimConfig::ssl(1, 0), Driver::STILL);
+        let mut scene = Scene::lined_up("wall", scenes::ssl(1, 0), Driver::STILL);
         scene.set_ball([1.0, 3.2], [3.0, 3.0]);
         with(scene, one_changed(true, name, factor)).after(2)
     };
@@ -141,7 +140,7 @@ fn every_parameter_has_its_effect() {
     assert!(along(0.0) > along(0.5) && along(0.5) > along(1.0), "friction along the wall");
 
     let at_robot = |name: &str, factor: f32| {
-        let mut scene = Scene::at("hit", SimConfig::ssl(1, 0), &[[0.0, 0.0, 0.0]], Driver::STILL);
+        let mut scene = Scene::at("hit", scenes::ssl(1, 0), &[[0.0, 0.0, 0.0]], Driver::STILL);
         scene.set_ball([0.02, 0.2], [0.0, -3.0]);
         with(scene, one_changed(true, name, factor)).after(2)
     };
@@ -152,7 +151,7 @@ fn every_parameter_has_its_effect() {
     let pushed = |factor: f32| robot_at(&at_robot("mass", factor))[1];
     assert!(pushed(2.0) < 1.5 * pushed(1.0), "a heavy ball pushes it farther");
 
-    let mut chip = Scene::lined_up("chip", SimConfig::ssl(1, 0), Driver::STILL);
+    let mut chip = Scene::lined_up("chip", scenes::ssl(1, 0), Driver::STILL);
     chip.set_ball([0.0, 1.0], [2.0, 0.0]);
     chip.set_ball_column("v_z", 3.0);
     let hop = |factor: f32| {
@@ -198,7 +197,7 @@ fn every_parameter_has_its_effect() {
 
     let flown = |factor: f32| {
         let poses = [[0.6, 0.0, 180.0]];
-        let mut scene = Scene::at("over", SimConfig::ssl(1, 0), &poses, Driver::STILL);
+        let mut scene = Scene::at("over", scenes::ssl(1, 0), &poses, Driver::STILL);
         scene.set_ball([0.0, 0.0], [3.0, 0.0]);
         scene.set_ball_column("v_z", 2.2);
         with(scene, one_changed(false, "height", factor)).after(12)[0]
@@ -237,7 +236,7 @@ fn parameters_are_one_worlds_own_and_end_with_the_match() {
 
 #[test]
 fn impossible_parameters_are_refused_by_name() {
-    let scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
+    let scene = lone_ball(scenes::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
     for (name, factor) in [("mass", 0.0), ("mass", f32::NAN), ("hop", -0.5)] {
         let mut factors = vec![1.0; BALL_PARAMETERS.len()];
         factors[BALL_PARAMETERS.iter().position(|known| *known == name).expect("known")] = factor;

@@ -1,9 +1,8 @@
 //! Records of a control step in a row: touches, collisions, crossed lines.
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
-use rsim_core::SimConfig;
 use rsim_core::columns::{ball_column, crossing_name, robot_column};
-use rsim_core::scenes::{Driver, Scene, lone_ball, robots};
+use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots};
 
 fn column(row: &[f32], robot: usize, name: &str) -> f32 {
     robots(row).nth(robot).expect("a robot")[robot_column(name)]
@@ -12,7 +11,7 @@ fn column(row: &[f32], robot: usize, name: &str) -> f32 {
 #[test]
 fn a_touch_is_recorded_in_its_step_and_the_last_touch_is_kept() {
     let poses = [[0.5, 0.0, 180.0], [-0.5, 0.0, 0.0]];
-    let mut scene = Scene::at("touches", SimConfig::ssl(1, 1), &poses, Driver::STILL);
+    let mut scene = Scene::at("touches", scenes::ssl(1, 1), &poses, Driver::STILL);
     scene.set_ball([0.2, 0.0], [3.0, 0.0]);
     let (rows, _) = scene.play(&mut scene.world(), 40);
     let rows: Vec<&[f32]> = rows.chunks_exact(scene.config.row_size()).collect();
@@ -34,7 +33,7 @@ fn a_touch_is_recorded_in_its_step_and_the_last_touch_is_kept() {
 #[test]
 fn the_collision_speed_is_the_closing_speed() {
     // Blue 0 meets yellow 0 head on; blue 1 runs into blue 2.
-    let config = SimConfig::ssl(3, 1);
+    let config = scenes::ssl(3, 1);
     let poses = [[-0.5, 0.0, 0.0], [-0.5, 1.0, 0.0], [0.2, 1.0, 0.0], [0.5, 0.0, 180.0]];
     let commands = [2.0, 1.0, 0.0, 1.0].map(|forward| vec![forward, 0.0, 0.0]).to_vec();
     let mut scene = Scene::at("crash", config, &poses, Driver::Constant(commands));
@@ -64,7 +63,7 @@ fn crossings_have_line_point_and_height() {
         ([1.0, 2.5], [0.0, 4.0], "touch_line_left", [1.0, 3.0]),
         ([1.0, -2.5], [0.0, -4.0], "touch_line_right", [1.0, -3.0]),
     ] {
-        let scene = lone_ball(SimConfig::ssl(0, 0), from, velocity);
+        let scene = lone_ball(scenes::ssl(0, 0), from, velocity);
         let (rows, _) = scene.play(&mut scene.world(), 12);
         let crossed: Vec<&[f32]> = rows
             .chunks_exact(scene.config.row_size())

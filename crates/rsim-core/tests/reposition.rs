@@ -5,7 +5,7 @@ use rsim_core::columns::{
     BALL_COLUMNS, BALL_PARAMETERS, ROBOT_PARAMETERS, ball_column, parameters_size, robot_column,
 };
 use rsim_core::scenes::{self, Driver, Scene, ball_in_mouth, robots};
-use rsim_core::{PlaceError, SimConfig, World};
+use rsim_core::{PlaceError, World};
 
 const SIZE: usize = BALL_COLUMNS.len();
 const KICK: [f32; 6] = [0.0, 0.0, 0.0, 3.0, 0.0, 0.0];
@@ -25,7 +25,7 @@ fn row(world: &World) -> Vec<f32> {
 #[test]
 fn robots_continue_unchanged() {
     // Robots that drive, slip and push each other, far from the ball, in a world of its own.
-    let mut config = SimConfig::ssl(3, 3);
+    let mut config = scenes::ssl(3, 3);
     config.time_step = 0.025;
     let driver = Driver::Constant(vec![vec![1.0, 0.1, 0.3, 0.0, 0.0, 0.0]; 6]);
     let mut scene = Scene::lined_up("press", config, driver);
@@ -127,7 +127,7 @@ fn a_ball_that_cannot_be_there_changes_no_world() {
 
 #[test]
 fn a_worlds_own_height_of_robots_is_used() {
-    let scene = scenes::ssl_random(SimConfig::ssl(1, 0));
+    let scene = scenes::ssl_random(scenes::ssl(1, 0));
     let mut world = scene.world();
     let mut factors = vec![1.0; parameters_size(1)];
     let height = BALL_PARAMETERS.len()

@@ -2,7 +2,7 @@
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{ball_column, crossing_name};
-use rsim_core::scenes::{Driver, Scene, lone_ball, uniform};
+use rsim_core::scenes::{self, Driver, Scene, lone_ball, uniform};
 use rsim_core::{Field, SimConfig};
 
 const SPEED: f32 = 10.0; // m/s: 50 mm a tick, more than the ball is wide
@@ -23,9 +23,9 @@ fn rows(scene: &Scene, steps: u64) -> Vec<Vec<f32>> {
 #[test]
 fn no_shot_passes_a_wall() {
     for (config, reach) in [
-        (SimConfig::vss(0, 0), [0.85, 0.65]),
-        (SimConfig::ssl(0, 0), [4.8, 3.3]),
-        (SimConfig { field: Field::SSL_A, ..SimConfig::ssl(0, 0) }, [6.6, 4.8]),
+        (scenes::vss(0, 0), [0.85, 0.65]),
+        (scenes::ssl(0, 0), [4.8, 3.3]),
+        (SimConfig { field: Field::SSL_A, ..scenes::ssl(0, 0) }, [6.6, 4.8]),
     ] {
         let half = [config.field.half_length(), config.field.half_width()];
         for shot in 0..SHOTS {
@@ -46,7 +46,7 @@ fn no_shot_passes_the_sides_and_the_back_of_a_goal() {
     let mut kept_out = 0;
     let mut goals = 0;
     for shot in 0..SHOTS {
-        let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
+        let mut scene = lone_ball(scenes::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
         let draw = |nth: u64| uniform(shot + nth * 5000);
         // Half at the 20 mm side from beside the goal, half through the mouth at the back.
         let beside = shot % 2 == 0;
@@ -74,7 +74,7 @@ fn no_shot_passes_the_sides_and_the_back_of_a_goal() {
 
 #[test]
 fn no_shot_passes_a_robot() {
-    for (config, half) in [(SimConfig::vss(1, 0), 0.0375), (SimConfig::ssl(1, 0), 0.0715)] {
+    for (config, half) in [(scenes::vss(1, 0), 0.0375), (scenes::ssl(1, 0), 0.0715)] {
         let mut stopped = 0;
         for shot in 0..SHOTS {
             let degrees = 180.0 * uniform(shot + 77);
@@ -97,7 +97,7 @@ fn no_shot_passes_a_robot() {
 #[test]
 fn no_shot_bounces_off_a_body_that_it_misses() {
     // Past a robot in every direction, and past the front of a goal's side, by 2 to 10 mm.
-    for (config, clear) in [(SimConfig::vss(1, 0), 0.0375 * 1.4143), (SimConfig::ssl(1, 0), 0.09)] {
+    for (config, clear) in [(scenes::vss(1, 0), 0.0375 * 1.4143), (scenes::ssl(1, 0), 0.09)] {
         for shot in 0..SHOTS {
             let draw = |nth: u64| uniform(shot + nth * 5000);
             let poses = [[0.0, 0.0, 180.0 * draw(0)]];
@@ -116,7 +116,7 @@ fn no_shot_bounces_off_a_body_that_it_misses() {
         }
     }
     for shot in 0..SHOTS {
-        let mut scene = lone_ball(SimConfig::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
+        let mut scene = lone_ball(scenes::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
         let draw = |nth: u64| uniform(shot + nth * 5000);
         // Out of a goal, past the front of its side.
         let angle = 1.9 + 0.3 * draw(0);
@@ -134,12 +134,12 @@ fn no_shot_bounces_off_a_body_that_it_misses() {
 }
 
 fn config_radius() -> f32 {
-    SimConfig::ssl(0, 0).ball.radius
+    scenes::ssl(0, 0).ball.radius
 }
 
 #[test]
 fn an_oblique_shot_bounces_off_a_round_robot_by_coulombs_law() {
-    let mut config = SimConfig::ssl(1, 0);
+    let mut config = scenes::ssl(1, 0);
     (config.ball.sliding_deceleration, config.ball.rolling_deceleration) = (0.0, 0.0);
     for shot in 0..200 {
         let draw = |nth: u64| uniform(shot + nth * 5000);
@@ -176,6 +176,6 @@ fn an_oblique_shot_bounces_off_a_round_robot_by_coulombs_law() {
 #[test]
 fn corner_blocks_deflect_the_ball_round_the_corner() {
     // Along the side wall into the corner: a right wall would send it straight back.
-    let row = lone_ball(SimConfig::vss(0, 0), [0.4, 0.62], [2.0, 0.0]).after(12);
+    let row = lone_ball(scenes::vss(0, 0), [0.4, 0.62], [2.0, 0.0]).after(12);
     assert!(row[ball_column("v_y")] < -0.2, "it leaves the corner inward: {row:?}");
 }

@@ -1,7 +1,7 @@
 //! Fast balls at robots that spin.
 
 use rsim_core::columns::robot_column;
-use rsim_core::scenes::{Driver, Scene, robots, uniform};
+use rsim_core::scenes::{self, Driver, Scene, robots, uniform};
 use rsim_core::{Body, Drive, RobotModel, SimConfig};
 
 const DRAWS: u64 = 2000;
@@ -18,7 +18,7 @@ fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
         Drive::Omni(_) | Drive::OmniWheels(_) => vec![0.0, 0.0, rate, 0.0, 0.0, 0.0],
     };
     let vss = matches!(model.drive, Drive::Differential(_));
-    let config = if vss { SimConfig::vss(1, 0) } else { SimConfig::ssl(1, 0) };
+    let config = if vss { scenes::vss(1, 0) } else { scenes::ssl(1, 0) };
     let config = SimConfig { blue: vec![model.clone()], tick, ..config };
     let poses = [[0.0, 0.0, 180.0 * draw(1)]];
     let mut scene = Scene::at("turning", config, &poses, Driver::Constant(vec![command]));

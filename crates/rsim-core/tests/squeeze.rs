@@ -1,7 +1,9 @@
 //! A ball jammed between heavy bodies: it passes pushes on, and stores no energy.
 
-use rsim_core::scenes::{Driver, Scene, deepest_ball, driving, kinetic_energy, robots, uniform};
-use rsim_core::{Body, Field, RobotModel, SimConfig};
+use rsim_core::scenes::{
+    self, Driver, Scene, deepest_ball, driving, kinetic_energy, robots, uniform,
+};
+use rsim_core::{Body, EngineKind, Field, RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
 
@@ -126,15 +128,15 @@ fn check_presses(config: &SimConfig, speeds: &[(f32, f32)], drives: bool) {
 #[test]
 fn a_ball_at_the_wall_threw_ssl_robots_back() {
     let speeds = [(0.5, 2e-3), (0.9, 2e-3), (1.2, 2e-3), (2.2, 5e-3), (3.0, 5e-3), (3.7, 5e-3)];
-    check_presses(&SimConfig::ssl(1, 0), &speeds, true);
-    check_presses(&SimConfig::ssl(1, 0), &speeds, false);
+    check_presses(&scenes::ssl(1, 0), &speeds, true);
+    check_presses(&scenes::ssl(1, 0), &speeds, false);
 }
 
 #[test]
 fn a_ball_at_the_wall_threw_vsss_robots_back() {
     let speeds = [(0.5, 2e-3), (0.8, 2e-3), (1.19, 2e-3)];
-    check_presses(&SimConfig::vss(1, 0), &speeds, true);
-    check_presses(&SimConfig::vss(1, 0), &speeds, false);
+    check_presses(&scenes::vss(1, 0), &speeds, true);
+    check_presses(&scenes::vss(1, 0), &speeds, false);
 }
 
 /// Two robots that meet with the ball between them, along x.
@@ -151,7 +153,7 @@ struct Meeting {
 
 impl Meeting {
     fn scene(&self) -> Scene {
-        let mut config = SimConfig::ssl(1, 1);
+        let mut config = scenes::ssl(1, 1);
         config.tick = self.tick;
         let model = config.blue[0].clone();
         let away = model.bounding_radius() + config.ball.radius + self.gap;
@@ -246,14 +248,16 @@ fn a_ball_that_slid_along_an_oblique_front_sank_into_it() {
     }
 }
 
-/// Known error: at full speed a ball that slides out along an oblique front sometimes sinks into it by more
-/// than 3 mm, at most 6 mm. The engine treats outlines as straight within a part of a tick.
+/// Known error of rapier: at full speed a ball that slides out along an oblique front sometimes sinks
+/// into it by more than 3 mm, at most 6 mm. rapier treats outlines as straight within a part of a tick.
 #[test]
-#[should_panic(expected = "deeper than 3 mm")]
-fn a_ball_that_slides_along_an_oblique_front_at_full_speed_sinks_into_it() {
+fn a_ball_that_slides_along_an_oblique_front_at_full_speed_sinks_into_it_under_rapier() {
     let depths = depths_with_headings(3.7, [35.0, 180.0]);
     let deep = depths.iter().filter(|depth| **depth > 3e-3).count();
-    assert!(deep == 0, "{deep} of {} are deeper than 3 mm", depths.len());
+    match scenes::engine() {
+        EngineKind::Rapier => assert!(deep > 0, "the error is gone: this test must change"),
+        EngineKind::Compact => assert!(deep == 0, "{deep} of {} sink in", depths.len()),
+    }
 }
 
 #[test]

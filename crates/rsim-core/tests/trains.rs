@@ -1,6 +1,6 @@
 //! Robots in line that drive at a wall, with and without the ball between them.
 
-use rsim_core::scenes::{Driver, Scene, deepest_ball, deepest_robots, driving, robots};
+use rsim_core::scenes::{self, Driver, Scene, deepest_ball, deepest_robots, driving, robots};
 use rsim_core::{RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
@@ -29,8 +29,7 @@ fn train(config: &SimConfig, speed: f32, [gap, clear]: [f32; 2]) -> Scene {
 }
 
 fn check_trains(robots: usize, speeds: [f32; 2]) {
-    for (config, speed) in [SimConfig::vss(robots, 0), SimConfig::ssl(robots, 0)].iter().zip(speeds)
-    {
+    for (config, speed) in [scenes::vss(robots, 0), scenes::ssl(robots, 0)].iter().zip(speeds) {
         for tick in TICKS {
             for [gap, clear] in [[0.0, 0.0], [1e-3, 0.006], [1e-4, 0.011]] {
                 let config = SimConfig { tick, ..config.clone() };
@@ -66,8 +65,8 @@ fn robots_front_to_back_sank_into_each_other_when_the_first_was_stopped() {
 /// Plays a robot, a ball and a robot in line, driven at a wall that is `clear` (m) ahead of the first.
 fn check_chains(clear: f32) {
     for (config, speeds) in [
-        (SimConfig::ssl(2, 0), [0.6, 1.5, 2.5].as_slice()),
-        (SimConfig::vss(2, 0), [0.4, 0.8, 1.15].as_slice()),
+        (scenes::ssl(2, 0), [0.6, 1.5, 2.5].as_slice()),
+        (scenes::vss(2, 0), [0.4, 0.8, 1.15].as_slice()),
     ] {
         for speed in speeds.iter().copied() {
             for tick in TICKS {

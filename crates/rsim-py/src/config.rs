@@ -6,7 +6,7 @@ use std::hash::{Hash, Hasher};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
-use rsim_core::League;
+use rsim_core::{EngineKind, League};
 
 use crate::models::{BallModel, Field, Named, RobotModel, shortest};
 
@@ -20,9 +20,10 @@ impl SimConfig {
     #[new]
     #[pyo3(signature = (
         field = Named::Preset("vss_3v3".to_owned()), n_blue = 3, n_yellow = 3, *,
-        robot = None, ball = None, time_step = 0.025, tick = 0.005
+        robot = None, ball = None, time_step = 0.025, tick = 0.005, engine = "rapier"
     ), text_signature = "(field='vss_3v3', n_blue=3, n_yellow=3, *, robot=None, ball=None, \
-        time_step=0.025, tick=0.005)")]
+        time_step=0.025, tick=0.005, engine='rapier')")]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of Python's constructor")]
     fn new(
         field: Named<Field>,
         n_blue: i64,
@@ -31,7 +32,9 @@ impl SimConfig {
         ball: Option<Named<BallModel>>,
         time_step: f32,
         tick: f32,
+        engine: &str,
     ) -> PyResult<Self> {
+        let engine = EngineKind::named(engine).map_err(invalid)?;
         let field = field.found()?.0;
         let (n_blue, n_yellow) = (count("n_blue", n_blue)?, count("n_yellow", n_yellow)?);
         // Checked before the models are copied.
@@ -48,7 +51,7 @@ impl SimConfig {
             vec![robot; n_blue + n_yellow]
         };
         let yellow = blue.split_off(n_blue);
-        let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick };
+        let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick, engine };
         config.validate().map_err(invalid)?;
         Ok(Self(config))
     }
@@ -106,6 +109,11 @@ impl SimConfig {
     }
 
     #[getter]
+    fn engine(&self) -> &'static str {
+        self.0.engine.name()
+    }
+
+    #[getter]
     fn ticks_per_step(&self) -> usize {
         self.0.ticks_per_step()
     }
@@ -153,13 +161,15 @@ impl SimConfig {
             _ => format!("{robots:?}"),
         };
         format!(
-            "SimConfig({:?}, {}, {}, robot={robots}, ball={:?}, time_step={}, tick={})",
+            "SimConfig({:?}, {}, {}, robot={robots}, ball={:?}, time_step={}, tick={}, \
+             engine={:?})",
             config.field.name,
             config.blue.len(),
             config.yellow.len(),
             config.ball.name,
             config.time_step,
-            config.tick
+            config.tick,
+            config.engine.name()
         )
     }
 

@@ -1,28 +1,37 @@
-//! Contact engine of one match: bodies, walls, and rapier2d, which solves their contacts. No module
-//! outside this folder depends on the solver; `math.rs` has the vector types that all share.
+//! Contact engine of one match: moves all bodies by a tick and keeps them out of each other.
+//!
+//! This file is the interface. Bodies ([`bodies`]), the pairs that can meet ([`near`]), ticks without
+//! contacts and the rules for contacts of the ball ([`ball_contact`]) are common to both solvers. A
+//! solver takes the bodies, advances them by a tick in sub-steps without bounce, and reports the
+//! contacts that had an impulse; bounces follow from the report.
 
-mod ball_hooks;
-mod build;
+mod ball_contact;
+mod bodies;
+mod compact;
 mod contact_free;
 mod contacts;
+mod near;
+mod rapier;
 mod shapes;
-mod solver;
 
-use rapier2d::dynamics::{
-    IntegrationParameters, IslandManager, MassProperties, RigidBodyHandle, RigidBodySet,
-};
-use rapier2d::geometry::{BroadPhaseBvh, ColliderSet, NarrowPhase, SharedShape};
 use serde::{Deserialize, Serialize};
 
 use crate::body_params::BodyParams;
+use crate::geometry::arena::Wall;
+use crate::geometry::free_space::FreeSpace;
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
-use build::{LENGTH_UNIT, MIN_PREDICTION, PREDICTION_FACTOR};
+use crate::models::config::{EngineKind, SimConfig};
+use bodies::{AppliedForce, Bodies};
+use compact::{CompactScratch, CompactSolver, NearBodies};
+use contact_free::{ContactFreeBuffers, try_contact_free};
+use contacts::Contacts;
+use near::{NearPairs, Search};
+use rapier::{RapierScratch, RapierSolver};
 
-pub(crate) use ball_hooks::{BallHooks, BallPhase, SqueezedBall};
+pub(crate) use ball_contact::{BallPhase, BallRules, SqueezedBall};
 pub(crate) use contacts::{BallContact, Partner, RobotContact};
 pub(crate) use shapes::Shape;
-pub(crate) use solver::{NonFinite, Scratch};
 
 /// Index of the ball among the bodies.
 pub(crate) const BALL: usize = 0;
@@ -32,44 +41,58 @@ pub(crate) const fn robot(index: usize) -> usize {
     index + 1
 }
 
-/// Bodies of one match.
+/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` compares numbers.
+const SUB_STEPS: usize = 4;
+
+/// Friction of a wall against robots, averaged with the robot's own: that of robot against robot. No
+/// value is published for a robot that slides along a wall.
+const WALL_FRICTION: f32 = 0.2;
+
+/// Bodies of one match and their solver.
 #[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct Engine {
-    parameters: IntegrationParameters,
-    islands: IslandManager,
-    broad_phase: BroadPhaseBvh,
-    narrow_phase: NarrowPhase,
-    bodies: RigidBodySet,
-    colliders: ColliderSet,
-    handles: Vec<RigidBodyHandle>,
-    /// State of the bodies, valid between ticks; the solver's own copies may lag behind.
-    motions: Vec<Motion>,
-    forces: Vec<AppliedForce>,
-    inverses: Vec<InverseInertia>,
-    /// Mass of the ball in the solver, kg.
-    ball_mass: f32,
-    /// Whether a body's pose differs from the solver's copy.
-    moved: Vec<bool>,
-    /// Whether the solver's last tick had no impulses.
-    is_contact_free: bool,
+    bodies: Bodies,
+    solver: Solver,
+    /// Contacts of the last tick, or of the last part of it.
+    contacts: Contacts,
+    sub_steps: usize,
     /// Whether ticks without contacts go without the solver.
     contact_free_enabled: bool,
-    /// Number of ticks that went without the solver.
+    /// Number of ticks without contacts.
     contact_free_ticks: u32,
+    /// Whether the solver's last tick had no impulses.
+    is_contact_free: bool,
 }
 
-/// Force (N) and torque (N m) on a body during the next tick.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct AppliedForce {
-    force: Vector,
-    torque: f32,
+#[derive(Clone, Serialize, Deserialize)]
+enum Solver {
+    Rapier(Box<RapierSolver>),
+    Compact(CompactSolver),
 }
 
-/// Inverse mass (1/kg) and inverse moment of inertia (1/(kg m²)) of a body.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct InverseInertia {
-    mass: f32,
-    inertia: f32,
+/// Working memory of the engine, one per thread; its contents are of no use between steps.
+pub(crate) struct Scratch {
+    rapier: RapierScratch,
+    compact: CompactScratch,
+    near: NearPairs,
+    contact_free: ContactFreeBuffers,
+    /// Contacts of robots in the last solved part of a tick.
+    pub(crate) robot_contacts: Vec<RobotContact>,
+    /// Motion that robots would have after that part without contacts.
+    pub(crate) undisturbed: Vec<Undisturbed>,
+}
+
+impl Scratch {
+    pub(crate) fn new() -> Self {
+        Self {
+            rapier: RapierScratch::new(),
+            compact: CompactScratch::default(),
+            near: NearPairs::default(),
+            contact_free: ContactFreeBuffers::default(),
+            robot_contacts: Vec::new(),
+            undisturbed: Vec::new(),
+        }
+    }
 }
 
 /// Motion of a robot without contacts.
@@ -81,93 +104,159 @@ pub(crate) struct Undisturbed {
     pub(crate) spin: f32,
 }
 
+/// Sub-steps of a tick.
+#[derive(Debug, Clone, Copy)]
+struct SubSteps {
+    /// Length of each, s.
+    time: f32,
+    count: usize,
+}
+
+/// Error of a state that is no longer finite.
+#[derive(Debug)]
+pub(crate) struct NonFinite;
+
 impl Engine {
-    /// Gives the bodies other parameters: masses, and the prediction distance that depends on speeds.
-    pub(crate) fn set_params(&mut self, params: &BodyParams) {
-        // The ball does not rotate in the plane: its spin has three axes and is kept elsewhere.
-        self.set_mass(BALL, params.ball.mass, 1.0);
-        self.inverses[BALL].inertia = 0.0;
-        self.ball_mass = params.ball.mass;
-        for (index, body) in params.robots.iter().enumerate() {
-            self.set_mass(robot(index), body.model.mass, body.model.inertia());
+    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+        Self {
+            bodies: Bodies::new(params),
+            solver: match config.engine {
+                EngineKind::Rapier => {
+                    Solver::Rapier(Box::new(RapierSolver::new(config, params, walls)))
+                }
+                EngineKind::Compact => Solver::Compact(CompactSolver::default()),
+            },
+            contacts: Contacts::default(),
+            sub_steps: SUB_STEPS,
+            contact_free_enabled: true,
+            contact_free_ticks: 0,
+            is_contact_free: false,
         }
-        let speeds = params.robots.iter().map(|body| body.model.top_speed());
-        let distance = speeds.fold(0.0, f32::max) * self.parameters.dt;
-        let prediction = (PREDICTION_FACTOR * distance).max(MIN_PREDICTION);
-        self.parameters.normalized_prediction_distance = prediction / LENGTH_UNIT;
-        // The ball's collider is larger by the distance that a robot drives in a tick: for a body with
-        // soft continuous detection the engine ignores the motion of all others. The hook of the ball
-        // computes true distances.
-        let ball = self.bodies[self.handles[BALL]].colliders()[0];
-        self.colliders[ball].set_shape(SharedShape::ball(params.ball.radius + distance));
     }
 
-    fn set_mass(&mut self, body: usize, mass: f32, inertia: f32) {
-        self.inverses[body] = InverseInertia { mass: 1.0 / mass, inertia: 1.0 / inertia };
-        self.set_solver_mass(body, mass, inertia);
-    }
-
-    fn set_solver_mass(&mut self, body: usize, mass: f32, inertia: f32) {
-        let properties = MassProperties::new(Vector::ZERO, mass, inertia);
-        let body = &mut self.bodies[self.handles[body]];
-        self.colliders[body.colliders()[0]].set_mass_properties(properties);
-        // At once: the solver itself would update the body in its next step, after the first kick.
-        body.recompute_mass_properties_from_colliders(&self.colliders);
+    /// Gives the bodies other parameters.
+    pub(crate) fn set_params(&mut self, params: &BodyParams) {
+        self.bodies.set_params(params);
+        if let Solver::Rapier(solver) = &mut self.solver {
+            solver.set_params(params);
+        }
     }
 
     pub(crate) fn motion(&self, body: usize) -> Motion {
-        self.motions[body]
+        self.bodies.motions[body]
     }
 
     /// Sets the motion of a body. `heading` must be a unit vector.
     pub(crate) fn set_motion(&mut self, body: usize, motion: &Motion) {
-        self.motions[body] = *motion;
-        self.moved[body] = true;
+        self.bodies.motions[body] = *motion;
+        self.bodies.moved[body] = true;
     }
 
     /// Sets position (m) and velocity (m/s) of the ball.
     pub(crate) fn set_ball(&mut self, position: Vector, velocity: Vector) {
-        let ball = &mut self.motions[BALL];
+        let ball = &mut self.bodies.motions[BALL];
         (ball.position, ball.velocity) = (position, velocity);
-        self.moved[BALL] = true;
-    }
-
-    /// Whether the ball was jammed in the solver's last tick.
-    pub(crate) fn ball_was_jammed(&self) -> bool {
-        self.ball_mass * self.inverses[BALL].mass > 1.0 + f32::EPSILON
-    }
-
-    /// Writes the motion of robots after `time` without contacts into `undisturbed`.
-    pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
-        undisturbed.clear();
-        undisturbed.extend((robot(0)..self.motions.len()).map(|body| {
-            let (motion, force) = (&self.motions[body], &self.forces[body]);
-            let inverse = &self.inverses[body];
-            let velocity = motion.velocity + force.force * (inverse.mass * time);
-            Undisturbed { velocity, spin: motion.spin + force.torque * (inverse.inertia * time) }
-        }));
-    }
-
-    /// Acceleration of a body by the applied force during the next tick, m/s².
-    pub(crate) fn acceleration(&self, body: usize) -> Vector {
-        self.forces[body].force * self.inverses[body].mass
+        self.bodies.moved[BALL] = true;
     }
 
     /// Sets the velocity of a body, m/s.
     pub(crate) fn set_velocity(&mut self, body: usize, velocity: Vector) {
-        self.motions[body].velocity = velocity;
+        self.bodies.motions[body].velocity = velocity;
     }
 
     /// Applies an impulse (N s) to a body, at `arm` (m) from its centre of mass.
     pub(crate) fn apply_impulse(&mut self, body: usize, impulse: Vector, arm: Vector) {
-        let (motion, inverse) = (&mut self.motions[body], &self.inverses[body]);
-        motion.velocity += impulse * inverse.mass;
-        motion.spin += arm.perp_dot(impulse) * inverse.inertia;
+        self.bodies.apply_impulse(body, impulse, arm);
     }
 
     /// Sets force (N) and torque (N m) on a body during the next tick.
     pub(crate) fn set_force(&mut self, body: usize, force: Vector, torque: f32) {
-        self.forces[body] = AppliedForce { force, torque };
+        self.bodies.forces[body] = AppliedForce { force, torque };
+    }
+
+    /// Acceleration of a body by the applied force during the next tick, m/s².
+    pub(crate) fn acceleration(&self, body: usize) -> Vector {
+        self.bodies.forces[body].force * self.bodies.inverses[body].mass
+    }
+
+    /// Writes the motion of robots after `time` without contacts into `undisturbed`.
+    pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
+        self.bodies.list_undisturbed(time, undisturbed);
+    }
+
+    /// Whether the ball was jammed in the solver's last tick.
+    pub(crate) fn ball_was_jammed(&self) -> bool {
+        self.bodies.ball_was_jammed()
+    }
+
+    /// Whether contacts of the ball follow outlines that rotate within a tick.
+    pub(crate) fn follows_outlines(&self) -> bool {
+        matches!(self.solver, Solver::Compact(_))
+    }
+
+    /// Advances all bodies by a tick, or by the part of it that `rules` names.
+    pub(crate) fn step(
+        &mut self,
+        scratch: &mut Scratch,
+        rules: &BallRules,
+        free_space: &FreeSpace,
+    ) -> Result<(), NonFinite> {
+        let may_be_free = self.contact_free_enabled
+            && self.is_contact_free
+            && rules.squeezed.is_none()
+            && !self.bodies.ball_was_jammed();
+        self.bodies.ball_mass =
+            rules.squeezed.map_or(rules.params.ball.mass, |squeezed| squeezed.mass);
+        let sub_steps =
+            SubSteps { time: rules.time / self.sub_steps as f32, count: self.sub_steps };
+        let Self { bodies, solver, contacts, .. } = self;
+        let Scratch { rapier, compact, near, contact_free, .. } = scratch;
+        let is_free = match solver {
+            Solver::Rapier(solver) => {
+                let is_free = may_be_free && {
+                    near.find(bodies, rules, free_space, &Search::before_rapier(rules, sub_steps));
+                    try_contact_free(bodies, near, contact_free, sub_steps)
+                };
+                if !is_free {
+                    solver.solve(bodies, rapier, rules, sub_steps.count, contacts)?;
+                }
+                is_free
+            }
+            Solver::Compact(solver) => {
+                let search = Search::before_compact(bodies, rules);
+                near.find(bodies, rules, free_space, &search);
+                if near.pairs.is_empty() && self.contact_free_enabled {
+                    bodies.move_freely(sub_steps);
+                    solver.forget();
+                    true
+                } else {
+                    let near =
+                        NearBodies { pairs: &near.pairs, fastest: search.speed.unwrap_or(0.0) };
+                    !solver.solve(bodies, near, compact, rules, sub_steps, contacts)
+                }
+            }
+        };
+        if is_free {
+            self.contact_free_ticks = self.contact_free_ticks.wrapping_add(1);
+            self.contacts.clear();
+        }
+        self.is_contact_free = self.contacts.len() == 0;
+        Ok(())
+    }
+
+    /// Contacts of the ball with an impulse in the last tick.
+    pub(crate) fn ball_contacts(&self) -> impl Iterator<Item = BallContact> {
+        self.contacts.ball.iter().copied()
+    }
+
+    /// Writes the contacts of robots with an impulse in the last tick into `contacts`.
+    pub(crate) fn list_robot_contacts(&self, contacts: &mut Vec<RobotContact>) {
+        contacts.clone_from(&self.contacts.robots);
+    }
+
+    /// Number of pairs of bodies, or of a body and a wall, with an impulse in the last tick.
+    pub(crate) fn contacts(&self) -> usize {
+        self.contacts.len()
     }
 
     /// Sets whether ticks without contacts go without the solver.
@@ -177,10 +266,10 @@ impl Engine {
 
     /// Sets the number of sub-steps of a tick.
     pub(crate) fn set_sub_steps(&mut self, sub_steps: usize) {
-        self.parameters.num_solver_iterations = sub_steps;
+        self.sub_steps = sub_steps;
     }
 
-    /// Number of ticks without the solver since the match began.
+    /// Number of ticks without contacts since the match began.
     pub(crate) fn contact_free_ticks(&self) -> u32 {
         self.contact_free_ticks
     }

@@ -5,6 +5,8 @@ use rapier2d::parry::shape::SharedShape;
 
 use crate::geometry::arena::Wall;
 use crate::math::Pose;
+#[cfg(test)]
+use crate::math::Vector;
 use crate::models::robot::Body;
 
 /// A shape in the plane.
@@ -32,5 +34,45 @@ impl Shape {
         let contact = query::contact(pose, &*self.0, other_pose, &*other.0, 0.0);
         // All pairs of these shapes have a contact query; `Err` says that a pair has none.
         contact.ok().flatten().map_or(0.0, |contact| -contact.dist)
+    }
+}
+
+/// Contact of two shapes by parry, for tests that compare.
+#[cfg(test)]
+pub(super) struct ParryContact {
+    /// Unit vector from the first to the second.
+    pub(super) normal: Vector,
+    /// Points on the first (m) and their separations (m).
+    pub(super) points: Vec<(Vector, f32)>,
+}
+
+#[cfg(test)]
+impl Shape {
+    /// A disc.
+    pub(super) fn of_disc(radius: f32) -> Self {
+        Self(SharedShape::ball(radius))
+    }
+
+    /// Contact with another shape that is at most `prediction` (m) away.
+    pub(super) fn contact(
+        &self,
+        pose: &Pose,
+        other: &Self,
+        other_pose: &Pose,
+        prediction: f32,
+    ) -> Option<ParryContact> {
+        use rapier2d::parry::query::{
+            ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher,
+        };
+        let mut manifolds: Vec<ContactManifold<(), ()>> = Vec::new();
+        let between = pose.inverse() * *other_pose;
+        DefaultQueryDispatcher
+            .contact_manifolds(&between, &*self.0, &*other.0, prediction, &mut manifolds, &mut None)
+            .expect("parry has manifolds of these shapes");
+        let manifold = manifolds.into_iter().find(|manifold| !manifold.points.is_empty())?;
+        let normal = pose.rotation * manifold.local_n1;
+        let points = manifold.points.iter();
+        let points = points.map(|point| (pose.transform_point(point.local_p1), point.dist));
+        Some(ParryContact { normal, points: points.collect() })
     }
 }

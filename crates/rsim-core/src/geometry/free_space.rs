@@ -16,21 +16,45 @@ pub(crate) struct FreeSpace {
 /// A wall that stands on the floor.
 #[derive(Debug, Clone)]
 pub(crate) struct FloorWall {
+    /// Index among all walls.
+    pub(crate) index: usize,
     pub(crate) outline: PlacedOutline,
     /// Height of the upper edge, m.
     pub(crate) top: f32,
+    /// Corners of the smallest upright rectangle around the wall, m.
+    bounds: [Vector; 2],
+}
+
+impl FloorWall {
+    fn of(index: usize, wall: &Wall) -> Self {
+        let (turn, half) = (wall.pose.rotation, wall.half);
+        let [cos, sin] = [turn.re.abs(), turn.im.abs()];
+        let extent = Vector::new(half.x * cos + half.y * sin, half.x * sin + half.y * cos);
+        // Wider by more than any rounding.
+        let (center, extent) = (wall.pose.translation, extent + Vector::splat(1e-3));
+        let bounds = [center - extent, center + extent];
+        Self { index, outline: wall.placed(), top: wall.top, bounds }
+    }
+
+    /// Whether the wall reaches into a circle.
+    fn meets(&self, center: Vector, radius: f32) -> bool {
+        let [low, high] = self.bounds;
+        let is_near = center.x + radius > low.x
+            && center.x - radius < high.x
+            && center.y + radius > low.y
+            && center.y - radius < high.y;
+        is_near && self.outline.nearest(center).distance < radius
+    }
 }
 
 impl FreeSpace {
     pub(crate) fn of(field: &Field, walls: &[Wall]) -> Self {
-        let on_floor = walls.iter().filter(|wall| wall.stands_on_floor());
+        let on_floor = walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor());
         // Goals and corner blocks begin at the goal line, or a corner's leg before it.
         let half_x = field.half_length() - field.corner_leg;
         Self {
             half: Vector::new(half_x, field.max_y()),
-            walls: on_floor
-                .map(|wall| FloorWall { outline: wall.placed(), top: wall.top })
-                .collect(),
+            walls: on_floor.map(|(index, wall)| FloorWall::of(index, wall)).collect(),
         }
     }
 
@@ -43,6 +67,6 @@ impl FreeSpace {
         let extent = center.abs() + Vector::splat(radius);
         let is_free = extent.x < self.half.x && extent.y < self.half.y;
         let walls = if is_free { &[] } else { self.walls.as_slice() };
-        walls.iter().filter(move |wall| wall.outline.nearest(center).distance < radius)
+        walls.iter().filter(move |wall| wall.meets(center, radius))
     }
 }

@@ -10,6 +10,41 @@ use crate::models::league::League;
 use crate::models::numbers::Range;
 use crate::models::robot::RobotModel;
 
+/// Solver of contacts between bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum EngineKind {
+    /// rapier2d, the reference.
+    #[default]
+    Rapier,
+    /// The solver of this crate, made for a dozen bodies.
+    Compact,
+}
+
+impl EngineKind {
+    /// All engines.
+    pub const ALL: [Self; 2] = [Self::Rapier, Self::Compact];
+
+    /// Name of the engine.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rapier => "rapier",
+            Self::Compact => "compact",
+        }
+    }
+
+    /// The engine with this name.
+    ///
+    /// # Errors
+    /// [`ConfigError::Inconsistent`] for another name.
+    pub fn named(name: &str) -> Result<Self, ConfigError> {
+        Self::ALL.into_iter().find(|engine| engine.name() == name).ok_or_else(|| {
+            let names = Self::ALL.map(|engine| format!("{:?}", engine.name())).join(" or ");
+            ConfigError::Inconsistent(format!("engine must be {names}, got {name:?}"))
+        })
+    }
+}
+
 /// Field, models, teams and time steps of a simulator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SimConfig {
@@ -25,6 +60,9 @@ pub struct SimConfig {
     pub time_step: f32,
     /// Length of a physics tick, s. Shorter ticks are more accurate and slower.
     pub tick: f32,
+    /// Solver of contacts.
+    #[serde(default)]
+    pub engine: EngineKind,
 }
 
 impl SimConfig {
@@ -43,6 +81,7 @@ impl SimConfig {
             yellow: vec![robot.clone(); n_yellow],
             time_step: 0.025,
             tick: 0.005,
+            engine: EngineKind::default(),
         }
     }
 

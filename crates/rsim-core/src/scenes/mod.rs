@@ -1,5 +1,6 @@
 //! Scenes shared by tests, benchmarks and examples.
 
+mod configs;
 mod driver;
 mod measures;
 mod setup;
@@ -9,6 +10,7 @@ use crate::models::config::SimConfig;
 use crate::world::World;
 use crate::world::batch::Batch;
 
+pub use configs::{config, engine, ssl, vss};
 pub use driver::{Driver, driving};
 pub use measures::{ball_gap, deepest_ball, deepest_robots, kinetic_energy, robot_depth};
 
@@ -29,7 +31,7 @@ pub struct Scene {
 
 /// The ball rolls along x at `speed` (m/s), free for 1.2 m; all robots stand still.
 pub fn rolling_ball(speed: f32) -> Scene {
-    let mut scene = Scene::at("rolling_ball", SimConfig::vss(3, 3), &LINED_UP, Driver::STILL);
+    let mut scene = Scene::at("rolling_ball", vss(3, 3), &LINED_UP, Driver::STILL);
     scene.set_ball([-0.6, 0.0], [speed, 0.0]);
     scene
 }
@@ -43,17 +45,17 @@ pub fn vss_free() -> Scene {
 
 /// Six robots spread over the field, driving at random.
 pub fn random_play() -> Scene {
-    Scene::at("random", SimConfig::vss(3, 3), &SPREAD, Driver::Random)
+    Scene::at("random", vss(3, 3), &SPREAD, Driver::Random)
 }
 
 /// Six robots that chase the ball, in contact all the time.
 pub fn chase() -> Scene {
-    Scene::at("crowd", SimConfig::vss(3, 3), &SPREAD, Driver::Chase)
+    Scene::at("crowd", vss(3, 3), &SPREAD, Driver::Chase)
 }
 
 /// Six robots and the ball within 25 cm, pushing: many contacts from the first tick.
 pub fn crowded_kickoff() -> Scene {
-    Scene::at("crowded_kickoff", SimConfig::vss(3, 3), &CROWDED, Driver::Chase)
+    Scene::at("crowded_kickoff", vss(3, 3), &CROWDED, Driver::Chase)
 }
 
 /// SSL teams lined up in their halves, driving, kicking and dribbling at random.
@@ -69,7 +71,7 @@ pub fn ssl_chase(config: SimConfig) -> Scene {
 /// Robot 0 alone in the middle of an empty VSSS field, at rest, facing +x.
 pub fn lone_robot(wheels: [f32; 2]) -> Scene {
     let driver = Driver::Constant(vec![wheels.to_vec()]);
-    let mut scene = Scene::at("lone_robot", SimConfig::vss(1, 0), &[[0.0, 0.0, 0.0]], driver);
+    let mut scene = Scene::at("lone_robot", vss(1, 0), &[[0.0, 0.0, 0.0]], driver);
     scene.set_ball([0.0, 0.6], [0.0, 0.0]);
     scene
 }
@@ -77,7 +79,7 @@ pub fn lone_robot(wheels: [f32; 2]) -> Scene {
 /// An SSL robot alone in the middle of an empty field of division B, at rest, facing +x.
 pub fn lone_omni(command: &[f32]) -> Scene {
     let driver = Driver::Constant(vec![command.to_vec()]);
-    let mut scene = Scene::at("lone_omni", SimConfig::ssl(1, 0), &[[0.0, 0.0, 0.0]], driver);
+    let mut scene = Scene::at("lone_omni", ssl(1, 0), &[[0.0, 0.0, 0.0]], driver);
     scene.set_ball([0.0, 2.5], [0.0, 0.0]);
     scene
 }

@@ -10,7 +10,7 @@ mod squeeze;
 use crate::ball::rolling::GroundMotion;
 use crate::body_params::BodyParams;
 use crate::engine::{
-    BALL, BallHooks, BallPhase, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
+    BALL, BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
 };
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -44,7 +44,8 @@ impl Tick<'_> {
         self.drive_robots(state);
         let before = state.engine.motion(BALL).position.extend(state.ball.z);
         let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
-        let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
+        let is_fast = !state.engine.follows_outlines()
+            && squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
         let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
         for _ in 0..parts {
             let part = length / f32::from(parts);
@@ -172,8 +173,8 @@ impl Tick<'_> {
         Squeeze::find(&state.engine, self.params, free_space, velocity, height, time)
     }
 
-    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallHooks<'_> {
-        BallHooks { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
+    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallRules<'_> {
+        BallRules { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
     }
 
     fn drive_robots(&self, state: &mut State) {

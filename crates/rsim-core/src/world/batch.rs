@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_non_finite_state_names_its_world_and_can_be_placed_again() {
-        let scene = scenes::ssl_random(SimConfig::ssl(1, 1));
+        let scene = scenes::ssl_random(scenes::ssl(1, 1));
         for body in [BALL, robot(0), robot(1)] {
             for wrong in [f32::NAN, f32::INFINITY] {
                 let (mut batch, mut rows) = scene.batch(3, 1);

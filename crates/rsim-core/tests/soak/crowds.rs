@@ -2,7 +2,7 @@
 //! parameter at an end of its range.
 
 use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
-use rsim_core::scenes::{Driver, Scene, robots_mut, uniform};
+use rsim_core::scenes::{self, Driver, Scene, robots_mut, uniform};
 use rsim_core::{Field, RobotModel, SimConfig};
 
 use super::depths::Depths;
@@ -47,7 +47,7 @@ fn draw(episode: u64, part: u64) -> f32 {
 
 #[test]
 fn eleven_per_team_press_into_a_goal() {
-    let config = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let config = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
     play("11 v 11 in a goal", [0.2, 1.0, 10.0], [1.0, 4.0, 12.0], |episode| {
         let (depth, side) = (0.05 + 0.05 * draw(episode, 0), 0.7 * draw(episode, 1));
         chase(config.clone(), [config.field.half_length() + depth, side])
@@ -56,7 +56,7 @@ fn eleven_per_team_press_into_a_goal() {
 
 #[test]
 fn five_per_team_press_into_a_corner() {
-    let config = SimConfig { field: Field::VSS_5V5, ..SimConfig::vss(5, 5) };
+    let config = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
     play("5 v 5 in a corner", [0.2, 0.6, 6.0], [0.5, 1.0, 6.0], |episode| {
         let end = if episode % 2 == 0 { 1.0 } else { -1.0 };
         let ball = [end * 1.02, 0.82 - 0.05 * draw(episode, 0).abs()];
@@ -67,7 +67,7 @@ fn five_per_team_press_into_a_corner() {
 #[test]
 fn robots_that_spin_at_each_other_and_the_ball_stay_sound() {
     for model in [RobotModel::VSS_440RPM, RobotModel::VSS_650RPM] {
-        let mut config = SimConfig::vss(2, 2);
+        let mut config = scenes::vss(2, 2);
         (config.blue, config.yellow) = (vec![model.clone(); 2], vec![model.clone(); 2]);
         play("spin duels", [1.5, 4.0, 8.0], [2.0, 4.0, 8.0], |episode| {
             let full = vec![-100.0, 100.0];
@@ -90,7 +90,7 @@ fn robots_that_spin_at_each_other_and_the_ball_stay_sound() {
 
 #[test]
 fn a_flying_ball_in_every_corner_is_as_solid_as_on_the_floor() {
-    for config in [SimConfig::ssl(4, 0), SimConfig::vss(4, 0)] {
+    for config in [scenes::ssl(4, 0), scenes::vss(4, 0)] {
         let vss = config.field.corner_leg > 0.0;
         play("flying ball in a corner", [0.2, 0.5, 3.0], [0.3, 1.0, 3.0], |episode| {
             let sign = |odd: u64| if odd % 2 == 0 { 1.0_f32 } else { -1.0 };
@@ -125,7 +125,7 @@ fn a_flying_ball_in_every_corner_is_as_solid_as_on_the_floor() {
 
 #[test]
 fn parameters_at_the_ends_of_their_ranges_stay_sound() {
-    for config in [SimConfig::vss(3, 3), SimConfig::ssl(4, 4)] {
+    for config in [scenes::vss(3, 3), scenes::ssl(4, 4)] {
         play("own parameters", [0.3, 2.0, 12.0], [0.8, 4.0, 25.0], |episode| {
             let mut scene = chase(config.clone(), [0.3 * draw(episode, 0), 0.3 * draw(episode, 1)]);
             let names = BALL_PARAMETERS.iter().chain(

@@ -6,7 +6,7 @@ mod depths;
 
 use depths::Depths;
 use rsim_core::columns::ball_column;
-use rsim_core::scenes::{Driver, Scene, robot_depth, robots, uniform};
+use rsim_core::scenes::{self, Driver, Scene, robot_depth, robots, uniform};
 use rsim_core::{BallModel, Field, RobotModel, SimConfig};
 
 /// Ticks of the whole run, unless `RSIM_SOAK_TICKS` sets another number.
@@ -31,7 +31,7 @@ fn configs() -> Vec<SimConfig> {
         };
         for n_blue in 0..=field.max_robots {
             let n_yellow = (n_blue * 7 + 3) % (field.max_robots + 1);
-            let mut config = SimConfig::new(field.clone(), ball.clone(), &models[0], 0, 0);
+            let mut config = scenes::config(field.clone(), ball.clone(), &models[0], 0, 0);
             let team = |n: usize| models.iter().cycle().take(n).cloned().collect::<Vec<_>>();
             (config.blue, config.yellow) = (team(n_blue), team(n_yellow));
             configs.push(config);
@@ -103,7 +103,7 @@ fn random_play_stays_sound_on_every_field_with_every_team_size() {
 
 #[test]
 fn twenty_two_robots_that_push_into_a_corner_stay_sound() {
-    let config = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    let config = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
     let mut scene = Scene::lined_up("corner", config.clone(), Driver::Chase);
     // The ball lies in the corner, and all robots chase it.
     scene.set_ball([6.55, 4.75], [0.0, 0.0]);

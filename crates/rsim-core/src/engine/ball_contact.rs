@@ -1,12 +1,6 @@
-//! Contacts of the ball for the engine: the ball may fly, it is fast for its size, and robots have a
-//! flat front.
+//! Rules for contacts of the ball: it may fly, it is fast for its size, and robots have a flat front.
 
-use rapier2d::geometry::{Collider, SolverFlags};
-use rapier2d::pipeline::{
-    ContactModificationContext, ModifiableContacts, PairFilterContext, PhysicsHooks,
-};
-
-use super::contacts::{Partner, partner};
+use super::contacts::Partner;
 use crate::body_params::BodyParams;
 use crate::geometry::arena::Wall;
 use crate::geometry::motion::{rotated, rotation};
@@ -24,7 +18,7 @@ const FOUND: f32 = 1e-5;
 const MAX_ITERATIONS: usize = 32;
 
 /// Contact rules of the ball in one tick, or in a part of it.
-pub(crate) struct BallHooks<'a> {
+pub(crate) struct BallRules<'a> {
     pub(crate) params: &'a BodyParams,
     pub(crate) walls: &'a [Wall],
     pub(crate) phase: BallPhase,
@@ -58,82 +52,25 @@ pub(crate) struct SqueezedBall {
 }
 
 /// A body or wall that the ball approaches.
-struct Approached {
-    place: PlacedOutline,
+pub(super) struct Approached {
+    pub(super) place: PlacedOutline,
     /// Velocity of the ball relative to the centre of the approached body, m/s.
-    velocity: Vector,
+    pub(super) velocity: Vector,
     /// Turn rate of the approached body, rad/s.
-    spin: f32,
+    pub(super) spin: f32,
 }
 
 /// A predicted contact: normal, distance to it now, and the ball's centre at that instant.
-struct Touch {
-    normal: Vector,
+pub(super) struct Touch {
+    pub(super) normal: Vector,
     /// Distance along the normal, m.
-    distance: f32,
-    center: Vector,
+    pub(super) distance: f32,
+    pub(super) center: Vector,
 }
 
-impl PhysicsHooks for BallHooks<'_> {
-    // Only the ball's collider asks for hooks, so one of each pair is the ball.
-    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
-        let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
-        let met = colliders.iter().find_map(|collider| partner(collider.user_data));
-        met.is_some_and(|with| self.meets(with)).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
-    }
-
-    /// Moves the contact of the ball to where it will be. The engine has the nearest points of now, and
-    /// of a round robot only the disc; a fast ball touches at another point, or not at all.
-    fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
-        let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
-        let labels = colliders.map(|collider| partner(collider.user_data));
-        let (with, other, ball, sign) = match labels {
-            [Some(with), None] => (with, colliders[0], colliders[1], 1.0),
-            [None, Some(with)] => (with, colliders[1], colliders[0], -1.0),
-            _ => return,
-        };
-        let center = ball.translation();
-        let outline = match with {
-            Partner::Robot(index) => self.params.robots[index].outline,
-            Partner::Wall(index) => self.walls[index].outline(),
-        };
-        let motion = |collider: &Collider| {
-            let body = collider.parent().map(|handle| &context.bodies[handle]);
-            body.map_or((Vector::ZERO, 0.0), |body| (body.linvel(), body.angvel()))
-        };
-        let pose = other.position();
-        let ((ball_velocity, _), (velocity, spin)) = (motion(ball), motion(other));
-        let approached = Approached {
-            place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
-            velocity: ball_velocity - velocity,
-            spin,
-        };
-        let radius = self.params.ball.radius;
-        let touch = if self.squeezed.is_some() {
-            Some(Touch::of(&approached.place.nearest(center), center, radius))
-        } else {
-            approached.touch(center, radius, self.time)
-        };
-        if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
-            let Some(touch) = touch else {
-                manifold.solver_contacts.clear();
-                return;
-            };
-            *manifold.normal = touch.normal * sign;
-            for contact in manifold.solver_contacts.iter_mut() {
-                let on_ball = center - touch.normal * radius;
-                let on_other = touch.center - touch.normal * radius;
-                contact.dist = touch.distance;
-                (contact.anchor1, contact.anchor2) =
-                    if sign > 0.0 { (on_other, on_ball) } else { (on_ball, on_other) };
-            }
-        }
-    }
-}
-
-impl BallHooks<'_> {
+impl BallRules<'_> {
     /// Whether the ball can touch a robot or wall in the plane.
-    fn meets(&self, with: Partner) -> bool {
+    pub(super) fn meets(&self, with: Partner) -> bool {
         match self.phase {
             BallPhase::Floor => true,
             BallPhase::Air => false,
@@ -147,7 +84,7 @@ impl BallHooks<'_> {
 
 impl Touch {
     /// The nearest point of an outline, as touched by a ball that is just there.
-    fn of(nearest: &NearestPoint, center: Vector, radius: f32) -> Self {
+    pub(super) fn of(nearest: &NearestPoint, center: Vector, radius: f32) -> Self {
         let distance = nearest.distance - radius;
         Self { normal: nearest.normal, distance, center: center - nearest.normal * distance }
     }
@@ -160,7 +97,7 @@ impl Approached {
     /// Each iteration advances by a time before which the two cannot touch: the distance to a convex
     /// outline shrinks at most by the speed along the normal and, by rotation, by the speed of its
     /// farthest corner. So the search converges to the contact and never passes it.
-    fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
+    pub(super) fn touch(&self, center: Vector, radius: f32, time: f32) -> Option<Touch> {
         let mut nearest = self.place.nearest(center);
         if nearest.distance - radius <= TOUCHING {
             return Some(Touch::of(&nearest, center, radius));

@@ -1,4 +1,4 @@
-//! Construction of the engine: bodies, walls, and settings for bodies of a few centimetres.
+//! Bodies and walls in rapier, and settings for bodies of a few centimetres.
 
 use rapier2d::dynamics::{
     CoefficientCombineRule, IntegrationParameters, IslandManager, RigidBodyBuilder, RigidBodySet,
@@ -9,19 +9,18 @@ use rapier2d::geometry::{
 use rapier2d::pipeline::ActiveHooks;
 use rapier2d::prelude::SpringCoefficients;
 
-use super::contacts::{BALL_LABEL, Partner, label};
-use super::shapes::Shape;
-use super::{AppliedForce, Engine, InverseInertia};
+use super::RapierSolver;
+use super::report::{BALL_LABEL, label};
 use crate::body_params::BodyParams;
 use crate::columns::MAX_PLACED_SPEED;
+use crate::engine::contacts::Partner;
+use crate::engine::{SUB_STEPS, Shape, WALL_FRICTION};
 use crate::geometry::arena::Wall;
-use crate::geometry::motion::Motion;
-use crate::math::Vector;
 use crate::models::config::SimConfig;
 
-impl Engine {
-    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
-        let mut engine = Self {
+impl RapierSolver {
+    pub(in crate::engine) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+        let mut solver = Self {
             parameters: parameters(config.tick),
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None),
@@ -29,28 +28,21 @@ impl Engine {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
             handles: Vec::new(),
-            motions: Vec::new(),
-            forces: Vec::new(),
-            inverses: Vec::new(),
             ball_mass: params.ball.mass,
-            moved: Vec::new(),
-            is_contact_free: false,
-            contact_free_enabled: true,
-            contact_free_ticks: 0,
         };
-        engine.insert_ball(params, config.tick);
+        solver.insert_ball(params, config.tick);
         for index in 0..params.robots.len() {
-            engine.insert_robot(params, index);
+            solver.insert_robot(params, index);
         }
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
             let collider = ColliderBuilder::new(Shape::of_wall(wall).0)
                 .position(wall.pose)
                 .restitution(0.0)
                 .friction(WALL_FRICTION);
-            engine.colliders.insert(collider.user_data(label(Partner::Wall(index))));
+            solver.colliders.insert(collider.user_data(label(Partner::Wall(index))));
         }
-        engine.set_params(params);
-        engine
+        solver.set_params(params);
+        solver
     }
 
     fn insert_ball(&mut self, params: &BodyParams, tick: f32) {
@@ -73,7 +65,7 @@ impl Engine {
     fn insert_robot(&mut self, params: &BodyParams, index: usize) {
         let model = &params.robots[index].model;
         // The engine would bounce one point of a contact after the other, which turns two squares that
-        // meet face to face. So nothing bounces in the engine.
+        // meet face to face. So nothing bounces in the solver.
         let collider = ColliderBuilder::new(Shape::of_robot(model.body).0)
             .restitution(0.0)
             .friction(model.friction)
@@ -85,25 +77,14 @@ impl Engine {
         let handle = self.bodies.insert(body);
         self.colliders.insert_with_parent(collider, handle, &mut self.bodies);
         self.handles.push(handle);
-        self.motions.push(Motion::at_rest(Vector::ZERO, Vector::X));
-        self.forces.push(AppliedForce::default());
-        self.inverses.push(InverseInertia::default());
-        self.moved.push(false);
     }
 }
-
-/// Friction of a wall against robots, averaged with the robot's own: that of robot against robot. No
-/// value is published for a robot that slides along a wall.
-const WALL_FRICTION: f32 = 0.2;
 
 /// A body that never sleeps: sleep would freeze a slowly rolling ball, and a robot that waits for its
 /// command.
 fn awake_body() -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic().can_sleep(false)
 }
-
-/// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` compares numbers.
-const SUB_STEPS: usize = 4;
 
 /// Prediction distance of contacts, by the distance that the fastest robot drives in a tick: the
 /// distance that two robots which drive at each other close in a tick, and a tenth. It holds around

@@ -1,0 +1,69 @@
+//! Bodies in the solver.
+
+use crate::engine::bodies::{AppliedForce, InverseInertia};
+use crate::geometry::motion::{Motion, rotated};
+use crate::geometry::outline::{Outline, PlacedOutline};
+use crate::math::{Rotation, Vector};
+
+/// A body or wall, on a straight path within a sub-step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SolverBody {
+    /// m.
+    pub(super) position: Vector,
+    /// Cosine and sine of the heading.
+    pub(super) heading: Vector,
+    /// m/s.
+    pub(super) velocity: Vector,
+    /// rad/s.
+    pub(super) spin: f32,
+    /// 1/kg, and 1/(kg m²); 0 for a wall.
+    pub(super) inverse_mass: f32,
+    pub(super) inverse_inertia: f32,
+}
+
+impl SolverBody {
+    pub(super) fn of(motion: &Motion, inverse: InverseInertia) -> Self {
+        Self {
+            position: motion.position,
+            heading: motion.heading,
+            velocity: motion.velocity,
+            spin: motion.spin,
+            inverse_mass: inverse.mass,
+            inverse_inertia: inverse.inertia,
+        }
+    }
+
+    pub(super) fn of_wall(place: &PlacedOutline) -> Self {
+        Self {
+            position: place.position,
+            heading: Vector::new(place.heading.re, place.heading.im),
+            velocity: Vector::ZERO,
+            spin: 0.0,
+            inverse_mass: 0.0,
+            inverse_inertia: 0.0,
+        }
+    }
+
+    pub(super) fn write(&self, motion: &mut Motion) {
+        (motion.position, motion.heading) = (self.position, self.heading);
+        (motion.velocity, motion.spin) = (self.velocity, self.spin);
+    }
+
+    /// Outline of the body where it is.
+    pub(super) fn placed(&self, outline: Outline) -> PlacedOutline {
+        let heading = Rotation { re: self.heading.x, im: self.heading.y };
+        PlacedOutline { outline, position: self.position, heading }
+    }
+
+    /// Applies a force for `time` (s).
+    pub(super) fn accelerate(&mut self, force: &AppliedForce, inverse: InverseInertia, time: f32) {
+        self.velocity += force.force * inverse.mass * time;
+        self.spin += force.torque * inverse.inertia * time;
+    }
+
+    /// Moves the body for `time` (s).
+    pub(super) fn advance(&mut self, time: f32) {
+        self.position += self.velocity * time;
+        self.heading = rotated(self.heading, self.spin * time);
+    }
+}

@@ -1,0 +1,226 @@
+//! Constraint of a contact: its one or two points are solved together.
+//!
+//! Two points on one face share the load of the face. Solved one after the other, the first would take
+//! more than its part and turn the body.
+
+use super::body::SolverBody;
+use super::impulses::Impulses;
+use super::manifold::Manifold;
+use super::pass::Pass;
+use super::two_points::solve_two;
+use crate::math::Vector;
+
+/// A contact point in the solver.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ConstraintPoint {
+    /// On the field, m.
+    pub(super) position: Vector,
+    feature: u32,
+    /// Along the normal, N s.
+    pub(super) impulse: f32,
+    /// m.
+    separation: f32,
+    /// Levers of the normal about both bodies' centres, m.
+    levers: [f32; 2],
+    /// Speed by a unit impulse, 1/kg, and its inverse.
+    response: f32,
+    mass: f32,
+}
+
+/// Friction of a contact: its points lie on one face, so that their friction has one lever.
+#[derive(Debug, Clone, Copy, Default)]
+struct Friction {
+    coefficient: f32,
+    /// Along the tangent, N s.
+    impulse: f32,
+    /// Levers of the tangent about both bodies' centres, m.
+    levers: [f32; 2],
+    /// kg.
+    mass: f32,
+}
+
+/// The contact of two bodies, or of a body (`second`) with a wall.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Constraint {
+    /// Index of the pair.
+    pub(super) link: usize,
+    first: usize,
+    second: usize,
+    /// Unit vector from the first to the second.
+    pub(super) normal: Vector,
+    friction: Friction,
+    points: [ConstraintPoint; 2],
+    count: usize,
+    /// Speed at one point by a unit impulse at the other, 1/kg.
+    coupling: f32,
+}
+
+/// Relative motion of the two bodies of a constraint.
+struct Relative {
+    /// Of the centres, along the normal and along the tangent, m/s.
+    along: f32,
+    aside: f32,
+    /// rad/s.
+    spins: [f32; 2],
+}
+
+impl Relative {
+    /// Speed of a point along the normal, m/s.
+    fn closing(&self, levers: [f32; 2]) -> f32 {
+        self.along + self.spins[1] * levers[1] - self.spins[0] * levers[0]
+    }
+}
+
+impl Constraint {
+    /// The constraint of `manifold` between two bodies, which starts from `impulses`.
+    pub(super) fn new(
+        link: usize,
+        [first, second]: [usize; 2],
+        bodies: &[SolverBody],
+        manifold: &Manifold,
+        friction: f32,
+        impulses: &Impulses,
+    ) -> Self {
+        let (a, b) = (&bodies[first], &bodies[second]);
+        let normal = manifold.normal;
+        let linear = a.inverse_mass + b.inverse_mass;
+        let response = |[lever_a, lever_b]: [f32; 2], [other_a, other_b]: [f32; 2]| {
+            linear + lever_a * other_a * a.inverse_inertia + lever_b * other_b * b.inverse_inertia
+        };
+        let found = manifold.points();
+        let mut points = [ConstraintPoint::default(); 2];
+        for (point, found) in points.iter_mut().zip(found) {
+            let arms = [found.position - a.position, found.position - b.position];
+            let levers = arms.map(|arm| arm.perp_dot(normal));
+            let response = response(levers, levers);
+            *point = ConstraintPoint {
+                position: found.position,
+                feature: found.feature,
+                impulse: impulses.normal_of(found.feature),
+                separation: found.separation,
+                levers,
+                response,
+                mass: 1.0 / response,
+            };
+        }
+        let count = found.len();
+        let coupling = if count == 2 { response(points[0].levers, points[1].levers) } else { 0.0 };
+        let friction = if friction > 0.0 {
+            let middle = found[0].position.midpoint(found[count - 1].position);
+            let levers = [a, b].map(|body| (middle - body.position).dot(normal));
+            let mass = 1.0 / response(levers, levers);
+            Friction { coefficient: friction, impulse: impulses.tangent, levers, mass }
+        } else {
+            Friction::default()
+        };
+        Self { link, first, second, normal, friction, points, count, coupling }
+    }
+
+    pub(super) fn points(&self) -> &[ConstraintPoint] {
+        &self.points[..self.count]
+    }
+
+    pub(super) fn impulses(&self) -> Impulses {
+        let normals = self.points.map(|point| (point.feature, point.impulse));
+        Impulses { normals, tangent: self.friction.impulse }
+    }
+
+    /// Applies the impulses that the solution starts from.
+    pub(super) fn warm_start(&mut self, bodies: &mut [SolverBody]) {
+        let [one, two] = &self.points;
+        let impulses = [one.impulse, two.impulse];
+        if impulses[0] <= 0.0 && impulses[1] <= 0.0 {
+            self.friction.impulse = 0.0;
+            return;
+        }
+        let friction = self.friction.impulse;
+        let turns = self.turns(impulses);
+        let turns = [0, 1].map(|body| turns[body] + self.friction.levers[body] * friction);
+        self.apply(bodies, impulses[0] + impulses[1], friction, turns);
+    }
+
+    /// Moves the points with the bodies for `time` (s).
+    pub(super) fn close(&mut self, bodies: &[SolverBody], time: f32) {
+        let relative = self.relative(bodies);
+        for point in &mut self.points[..self.count] {
+            point.separation += relative.closing(point.levers) * time;
+        }
+    }
+
+    /// Corrects the velocities: along the normal, then by friction. Returns by how much the impulses
+    /// along the normal changed speeds at the points, m/s.
+    pub(super) fn solve(&mut self, bodies: &mut [SolverBody], pass: &Pass) -> f32 {
+        let relative = self.relative(bodies);
+        let [one, two] = &mut self.points;
+        let old = [one.impulse, two.impulse];
+        let is_idle = old[0] <= 0.0 && old[1] <= 0.0;
+        let row = pass.row(relative.closing(one.levers), one.separation);
+        let new = if self.count == 1 {
+            let total = (one.response * old[0] - row.speed) * (one.mass * row.mass_scale);
+            [total.max(0.0), 0.0]
+        } else {
+            let other = pass.row(relative.closing(two.levers), two.separation);
+            if is_idle && row.speed >= 0.0 && other.speed >= 0.0 {
+                return 0.0;
+            }
+            let offsets = [
+                row.speed - one.response * old[0] - self.coupling * old[1],
+                other.speed - two.response * old[1] - self.coupling * old[0],
+            ];
+            let diagonal = [one.response * row.stretch, two.response * other.stretch];
+            solve_two(diagonal, self.coupling, offsets)
+        };
+        if is_idle && new[0] <= 0.0 && new[1] <= 0.0 {
+            return 0.0;
+        }
+        [one.impulse, two.impulse] = new;
+        let changes = [new[0] - old[0], new[1] - old[1]];
+        let speeds = [changes[0] * one.response, changes[1] * two.response];
+        let mut turns = self.turns(changes);
+        let mut change = 0.0;
+        let Friction { coefficient, impulse, levers, mass } = self.friction;
+        if coefficient > 0.0 {
+            // The impulses along the normal change the slip only by turning the bodies.
+            let (a, b) = (&bodies[self.first], &bodies[self.second]);
+            let spins = [
+                relative.spins[0] - turns[0] * a.inverse_inertia,
+                relative.spins[1] + turns[1] * b.inverse_inertia,
+            ];
+            let slip = relative.aside + spins[1] * levers[1] - spins[0] * levers[0];
+            let limit = coefficient * (new[0] + new[1]);
+            let total = (impulse - mass * slip).clamp(-limit, limit);
+            self.friction.impulse = total;
+            change = total - impulse;
+            turns = [turns[0] + levers[0] * change, turns[1] + levers[1] * change];
+        }
+        self.apply(bodies, changes[0] + changes[1], change, turns);
+        speeds[0].abs().max(speeds[1].abs())
+    }
+
+    fn relative(&self, bodies: &[SolverBody]) -> Relative {
+        let (a, b) = (&bodies[self.first], &bodies[self.second]);
+        let velocity = b.velocity - a.velocity;
+        Relative {
+            along: velocity.dot(self.normal),
+            aside: self.normal.perp_dot(velocity),
+            spins: [a.spin, b.spin],
+        }
+    }
+
+    /// Angular impulses on both bodies by impulses at the points, N m s.
+    fn turns(&self, impulses: [f32; 2]) -> [f32; 2] {
+        let [one, two] = &self.points;
+        [0, 1].map(|body| one.levers[body] * impulses[0] + two.levers[body] * impulses[1])
+    }
+
+    /// Applies impulses along the normal and the tangent (N s) and angular impulses (N m s).
+    fn apply(&self, bodies: &mut [SolverBody], normal: f32, tangent: f32, turns: [f32; 2]) {
+        let impulse = self.normal * normal + self.normal.perp() * tangent;
+        let first = &mut bodies[self.first];
+        first.velocity -= impulse * first.inverse_mass;
+        first.spin -= turns[0] * first.inverse_inertia;
+        let second = &mut bodies[self.second];
+        second.velocity += impulse * second.inverse_mass;
+        second.spin += turns[1] * second.inverse_inertia;
+    }
+}

@@ -1,0 +1,168 @@
+//! Pairs that can meet in a tick, prepared for its sub-steps.
+
+use super::SubStep;
+use super::body::SolverBody;
+use super::boxes::{Rectangle, boxes};
+use super::constraint::Constraint;
+use super::discs::{Disc, discs, meet_ball, outline_and_disc};
+use super::impulses::Impulses;
+use super::manifold::Manifold;
+use crate::engine::ball_contact::BallRules;
+use crate::engine::contacts::Partner;
+use crate::engine::near::{Other, Pair};
+use crate::engine::{BALL, WALL_FRICTION};
+use crate::geometry::outline::Outline;
+use crate::math::Vector;
+
+/// Speed against each other, m/s, below which the contact points of two bodies that press on each other
+/// are found once a tick: they move by less than 1 mm in it.
+const STEADY: f32 = 0.2;
+
+/// A pair of bodies, or of a body and a wall; the ball always is the second.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    /// Identifies the pair from tick to tick.
+    pub(super) key: u32,
+    pub(super) first: usize,
+    pub(super) second: usize,
+    /// The robot or wall that the second meets.
+    pub(super) with: Partner,
+    outlines: [Outline; 2],
+    /// Distances of the outlines' farthest points, m.
+    radii: [f32; 2],
+    friction: f32,
+    /// Of the last sub-step.
+    pub(super) impulses: Impulses,
+    /// Sum over the sub-steps of a tick.
+    pub(super) total: Total,
+}
+
+/// Sum of a pair's impulses over the sub-steps of a tick.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Total {
+    /// Normals weighted by impulse, N s.
+    pub(super) normal: Vector,
+    /// Points weighted by impulse, N s m.
+    pub(super) point: Vector,
+    /// N s.
+    pub(super) impulse: f32,
+}
+
+impl Link {
+    /// The link of a pair, or `None` if the ball flies over the other. The body of a wall goes to the
+    /// end of `bodies`.
+    pub(super) fn of(pair: &Pair, rules: &BallRules, bodies: &mut Vec<SolverBody>) -> Option<Self> {
+        let one = pair.one;
+        let of = |body: usize| rules.params.robots[body - 1].model.friction;
+        let (first, second, outlines, with, met_friction) = match pair.other {
+            Other::Wall(index, place) => {
+                let outlines = [place.outline, one.outline];
+                (bodies.len(), one.body, outlines, Partner::Wall(index), WALL_FRICTION)
+            }
+            Other::Body(other) => {
+                // The first never is the ball.
+                let (first, second) = if other.body == BALL { (one, other) } else { (other, one) };
+                let outlines = [first.outline, second.outline];
+                let with = Partner::Robot(first.body - 1);
+                (first.body, second.body, outlines, with, of(first.body))
+            }
+        };
+        let is_ball = second == BALL;
+        if is_ball && !rules.meets(with) {
+            return None;
+        }
+        if let Other::Wall(_, place) = &pair.other {
+            bodies.push(SolverBody::of_wall(place));
+        }
+        // Friction of the ball is resolved elsewhere.
+        let friction = if is_ball { 0.0 } else { met_friction.midpoint(of(second)) };
+        let radii = outlines.map(|outline| radius(&outline));
+        let (impulses, total) = (Impulses::default(), Total::default());
+        let key = key(pair);
+        Some(Self { key, first, second, with, outlines, radii, friction, impulses, total })
+    }
+
+    /// Whether the constraint of the last sub-step still holds: the two press on each other and hardly
+    /// move against each other.
+    pub(super) fn is_steady(&self, bodies: &[SolverBody]) -> bool {
+        if self.second == BALL || !self.impulses.press() {
+            return false;
+        }
+        let (a, b) = (&bodies[self.first], &bodies[self.second]);
+        let rims = a.spin.abs() * self.radii[0] + b.spin.abs() * self.radii[1];
+        rims < STEADY && (b.velocity - a.velocity).length_squared() < STEADY * STEADY
+    }
+
+    /// The constraint of the pair in a sub-step, if the two can touch in it.
+    pub(super) fn constraint(
+        &self,
+        index: usize,
+        bodies: &[SolverBody],
+        step: &SubStep,
+    ) -> Option<Constraint> {
+        let pair = [self.first, self.second];
+        let manifold = self.manifold(pair.map(|body| &bodies[body]), step)?;
+        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, &self.impulses))
+    }
+
+    fn manifold(&self, [a, b]: [&SolverBody; 2], step: &SubStep) -> Option<Manifold> {
+        let window = step.window;
+        if self.second == BALL {
+            let ball = Disc { body: b, radius: self.radii[1] };
+            return meet_ball(a, self.outlines[0], ball, step.squeezed, window.time);
+        }
+        match self.outlines {
+            [Outline::Disc { .. }, Outline::Disc { .. }] => {
+                let [a, b] = [(a, self.radii[0]), (b, self.radii[1])]
+                    .map(|(body, radius)| Disc { body, radius });
+                discs(a, b, window)
+            }
+            [Outline::Box { half: first }, Outline::Box { half: second }] => {
+                let [a, b] = [(a, first, self.radii[0]), (b, second, self.radii[1])]
+                    .map(|(body, half, radius)| Rectangle { body, half, radius });
+                boxes(a, b, window)
+            }
+            [outline, Outline::Disc { radius }] => {
+                outline_and_disc(a, outline, Disc { body: b, radius }, window)
+            }
+            [Outline::Disc { radius }, outline] => {
+                let found = outline_and_disc(b, outline, Disc { body: a, radius }, window);
+                found.map(Manifold::reversed)
+            }
+            // Robots meet robots and walls as discs or boxes.
+            _ => None,
+        }
+    }
+
+    /// Keeps the impulses of a solved constraint, and adds them to the totals.
+    pub(super) fn keep(&mut self, constraint: &Constraint) {
+        self.impulses = constraint.impulses();
+        for point in constraint.points() {
+            self.total.normal += constraint.normal * point.impulse;
+            self.total.point += point.position * point.impulse;
+            self.total.impulse += point.impulse;
+        }
+    }
+}
+
+/// Distance of an outline's farthest point, m.
+fn radius(outline: &Outline) -> f32 {
+    match *outline {
+        Outline::Box { half } => half.length(),
+        Outline::CutDisc { radius, .. } | Outline::Disc { radius } => radius,
+    }
+}
+
+/// Identifies a pair from tick to tick.
+fn key(pair: &Pair) -> u32 {
+    let other = match pair.other {
+        Other::Body(body) => body.body,
+        Other::Wall(wall, _) => FIRST_WALL + wall,
+    };
+    #[allow(clippy::cast_possible_truncation)] // a match has few bodies and walls
+    let key = (pair.one.body << 8 | other) as u32;
+    key
+}
+
+/// Number of the first wall in a key; robots are below.
+const FIRST_WALL: usize = 64;

@@ -1,0 +1,69 @@
+//! Hooks of rapier for contacts of the ball.
+
+use rapier2d::geometry::{Collider, SolverFlags};
+use rapier2d::pipeline::{
+    ContactModificationContext, ModifiableContacts, PairFilterContext, PhysicsHooks,
+};
+
+use super::report::partner;
+use crate::engine::ball_contact::{Approached, BallRules, Touch};
+use crate::engine::contacts::Partner;
+use crate::geometry::outline::PlacedOutline;
+use crate::math::Vector;
+
+impl PhysicsHooks for BallRules<'_> {
+    // Only the ball's collider asks for hooks, so one of each pair is the ball.
+    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
+        let met = colliders.iter().find_map(|collider| partner(collider.user_data));
+        met.is_some_and(|with| self.meets(with)).then_some(SolverFlags::COMPUTE_RIGID_IMPULSES)
+    }
+
+    /// Moves the contact of the ball to where it will be. The engine has the nearest points of now, and
+    /// of a round robot only the disc; a fast ball touches at another point, or not at all.
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
+        let colliders = [context.collider1, context.collider2].map(|of| &context.colliders[of]);
+        let labels = colliders.map(|collider| partner(collider.user_data));
+        let (with, other, ball, sign) = match labels {
+            [Some(with), None] => (with, colliders[0], colliders[1], 1.0),
+            [None, Some(with)] => (with, colliders[1], colliders[0], -1.0),
+            _ => return,
+        };
+        let center = ball.translation();
+        let outline = match with {
+            Partner::Robot(index) => self.params.robots[index].outline,
+            Partner::Wall(index) => self.walls[index].outline(),
+        };
+        let motion = |collider: &Collider| {
+            let body = collider.parent().map(|handle| &context.bodies[handle]);
+            body.map_or((Vector::ZERO, 0.0), |body| (body.linvel(), body.angvel()))
+        };
+        let pose = other.position();
+        let ((ball_velocity, _), (velocity, spin)) = (motion(ball), motion(other));
+        let approached = Approached {
+            place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
+            velocity: ball_velocity - velocity,
+            spin,
+        };
+        let radius = self.params.ball.radius;
+        let touch = if self.squeezed.is_some() {
+            Some(Touch::of(&approached.place.nearest(center), center, radius))
+        } else {
+            approached.touch(center, radius, self.time)
+        };
+        if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
+            let Some(touch) = touch else {
+                manifold.solver_contacts.clear();
+                return;
+            };
+            *manifold.normal = touch.normal * sign;
+            for contact in manifold.solver_contacts.iter_mut() {
+                let on_ball = center - touch.normal * radius;
+                let on_other = touch.center - touch.normal * radius;
+                contact.dist = touch.distance;
+                (contact.anchor1, contact.anchor2) =
+                    if sign > 0.0 { (on_other, on_ball) } else { (on_ball, on_other) };
+            }
+        }
+    }
+}
