@@ -269,3 +269,11 @@ def test_equal_sizes_do_not_make_equal_layouts() -> None:
     sizes = {make.observation_size: make.layout for make in map(rsoccer.make_task, TASKS)}
     layouts = {make.layout for make in map(rsoccer.make_task, TASKS)}
     assert len(sizes) < len(layouts), "sizes alone do not distinguish the tasks"
+
+
+@every_task
+def test_an_unknown_engine_is_refused(name: str) -> None:
+    for make in constructors(name):
+        for wrong in ("box2d", 3):
+            with pytest.raises((TypeError, ValueError), match="engine"):
+                make(engine=wrong)

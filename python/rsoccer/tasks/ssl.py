@@ -76,6 +76,8 @@ class Ssl(Soccer):
     """Ball model: a preset's name or a `BallModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
+    engine: str = "rapier"
+    """Contact solver: "rapier" (the reference) or "compact" (faster)."""
 
     action_size = 5
     """Velocity x and y, turn rate, kick speed, dribbler."""
@@ -114,7 +116,9 @@ class Ssl(Soccer):
     def config(self) -> SimConfig:
         """Configuration with the field, robots and ball of the options and 25 ms steps."""
         n_blue, n_yellow = self.team_sizes()
-        return SimConfig(self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball)
+        return SimConfig(
+            self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball, engine=self.engine
+        )
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""

@@ -87,6 +87,8 @@ class Vss(Soccer):
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
     field: str | Field = "vss_3v3"
     """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
+    engine: str = "rapier"
+    """Contact solver: "rapier" (the reference) or "compact" (faster)."""
 
     action_size = 2
     """Left and right wheel."""
@@ -143,7 +145,9 @@ class Vss(Soccer):
     @cached_property
     def config(self) -> SimConfig:
         """Configuration with the field and robots of the options, a golf ball and 25 ms steps."""
-        return SimConfig(self.field, self.n_blue, self.n_yellow, robot=self.robot)
+        return SimConfig(
+            self.field, self.n_blue, self.n_yellow, robot=self.robot, engine=self.engine
+        )
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Draw random positions and headings, and a rolling ball where `ball_speed` is above 0."""
