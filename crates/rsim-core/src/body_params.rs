@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::impact::ContactBody;
 use crate::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
-use crate::drive::DriveLimits;
+use crate::drive::{BlockWheels, wheels_of};
 use crate::error::ConfigError;
 use crate::geometry::motion::Motion;
 use crate::geometry::outline::Outline;
@@ -19,6 +19,8 @@ use crate::models::robot::{Drive, RobotModel};
 pub(crate) struct BodyParams {
     pub(crate) ball: BallModel,
     pub(crate) robots: Vec<RobotParams>,
+    /// Wheels of the robots, by block.
+    pub(crate) wheels: Vec<BlockWheels>,
 }
 
 /// Parameters of a robot, prepared for stepping.
@@ -28,7 +30,6 @@ pub(crate) struct RobotParams {
     pub(crate) outline: Outline,
     /// m.
     pub(crate) bounding_radius: f32,
-    pub(crate) drive_limits: DriveLimits,
     /// 1/kg.
     pub(crate) inverse_mass: f32,
     /// 1/(kg m²).
@@ -38,11 +39,10 @@ pub(crate) struct RobotParams {
 }
 
 impl RobotParams {
-    fn of(model: RobotModel, kick_gain: f32, tick: f32) -> Self {
+    fn of(model: RobotModel, kick_gain: f32) -> Self {
         Self {
             outline: Outline::of(model.body),
             bounding_radius: model.bounding_radius(),
-            drive_limits: DriveLimits::of(&model, tick),
             inverse_mass: 1.0 / model.mass,
             inverse_inertia: 1.0 / model.inertia(),
             model,
@@ -78,13 +78,13 @@ impl RobotParams {
 impl BodyParams {
     /// Parameters of the models.
     pub(crate) fn of(config: &SimConfig) -> Self {
-        Self {
-            ball: config.ball.clone(),
-            robots: config
-                .robots()
-                .map(|model| RobotParams::of(model.clone(), 1.0, config.tick))
-                .collect(),
-        }
+        let robots = config.robots().map(|model| RobotParams::of(model.clone(), 1.0));
+        Self::new(config.ball.clone(), robots.collect(), config.tick)
+    }
+
+    fn new(ball: BallModel, robots: Vec<RobotParams>, tick: f32) -> Self {
+        let wheels = wheels_of(robots.iter().map(|body| &body.model), tick);
+        Self { ball, robots, wheels }
     }
 
     /// Parameters of the models times a world's own factors: [`BALL_PARAMETERS`], then
@@ -108,10 +108,10 @@ impl BodyParams {
         ball.validate()?;
         let robots = config.robots().zip(robots.chunks_exact(ROBOT_PARAMETERS.len()));
         let robots = robots.map(|(model, factors)| {
-            let body = varied_robot(model, factors, config.tick);
+            let body = varied_robot(model, factors);
             body.model.validate().map(|()| body)
         });
-        Ok(Self { ball, robots: robots.collect::<Result<_, _>>()? })
+        Ok(Self::new(ball, robots.collect::<Result<_, _>>()?, config.tick))
     }
 }
 
@@ -149,7 +149,7 @@ fn varied_ball(model: &BallModel, factors: &[f32]) -> BallModel {
     ball
 }
 
-fn varied_robot(model: &RobotModel, factors: &[f32], tick: f32) -> RobotParams {
+fn varied_robot(model: &RobotModel, factors: &[f32]) -> RobotParams {
     let [mass, height, acceleration, speed, traction, kick, grip] = *factors else {
         unreachable!("a robot has {ROBOT_PARAMETERS:?}")
     };
@@ -183,5 +183,5 @@ fn varied_robot(model: &RobotModel, factors: &[f32], tick: f32) -> RobotParams {
     if let Some(mouth) = &mut robot.mouth {
         mouth.dribbler_grip *= grip;
     }
-    RobotParams::of(robot, kick, tick)
+    RobotParams::of(robot, kick)
 }

@@ -14,6 +14,7 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod blocks;
 mod body_params;
 pub mod columns;
 mod drive;

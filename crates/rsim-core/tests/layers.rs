@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 /// use each other.
 const LAYERS: &[&[&str]] = &[
     &["math", "columns"],
+    &["blocks"],
     &["error"],
     &["models"],
     &["geometry"],

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BodyState, DriveLimits, WheelImpulse};
-use crate::math::Vector;
+use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
+use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited};
 use crate::models::robot::DifferentialDrive;
 
 /// Iterations for the speeds at which two tyres slip. Each shrinks the error by the ratio of a tick's
@@ -11,125 +11,142 @@ use crate::models::robot::DifferentialDrive;
 /// sliding to rolling.
 const REFINEMENTS: usize = 4;
 
-/// Limits of one tick.
+/// Slip below which a tyre rolls, m/s.
+const MIN_SLIP: f32 = 1e-6;
+
+/// Limits of one tick. A limit of friction is the change of a robot's speed by one tyre.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
     /// m.
-    half_track: f32,
+    half_track: Lanes,
     /// m.
-    wheel_radius: f32,
+    wheel_radius: Lanes,
     /// rad/s.
-    max_wheel_speed: f32,
-    /// Maximum impulse of a motor at the rim of its wheel, N s.
-    motor_impulse: f32,
-    /// Maximum impulse of a tyre that slips along its wheel only, N s.
-    longitudinal_impulse: f32,
-    /// Maximum impulse of a tyre that slips along the axle only, N s.
-    lateral_impulse: f32,
+    max_wheel_speed: Lanes,
+    /// Maximum friction against a motor at its limit, m/s.
+    motor: Lanes,
+    /// Maximum friction of a tyre that slips along its wheel only, m/s, and its inverse.
+    longitudinal: Lanes,
+    per_longitudinal: Lanes,
+    /// Maximum friction of a tyre that slips along the axle only, m/s, and its inverse.
+    lateral: Lanes,
+    per_lateral: Lanes,
+    /// Change of the turn rate (rad/s) by friction of 1 m/s at one wheel.
+    turn: Lanes,
+    /// Speed of the robot at a wheel, and at the other one, by full friction along that wheel, m/s.
+    own: Lanes,
+    other: Lanes,
+    /// Friction (m/s) that stops a slip of 1 m/s of one tyre against the other.
+    stop_turning: Lanes,
 }
 
 /// Slip of the two tyres over the floor, m/s: the velocity of their contact patches.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 struct Slip {
     /// Along the wheels, minus the rim speeds: left, right.
-    along: [f32; 2],
+    along: [Lanes; 2],
     /// Along the axle, the same for both tyres.
-    across: f32,
+    across: Lanes,
 }
 
-/// Friction of the floor on the tyres in a tick, N s.
-#[derive(Debug, Clone, Copy)]
+/// Friction of the floor on the tyres in a tick, as changes of the robot's speed, m/s.
 struct Friction {
     /// Along the wheels: left, right.
-    along: [f32; 2],
+    along: [Lanes; 2],
     /// Along the axle: left, right.
-    across: [f32; 2],
+    across: [Lanes; 2],
 }
 
 impl Wheels {
-    pub(super) fn of(drive: &DifferentialDrive, mass: f32, tick: f32) -> Self {
+    pub(super) fn of(robots: &[Driven<DifferentialDrive>; LANES], tick: f32) -> Self {
+        let lanes =
+            |number: fn(&Driven<DifferentialDrive>) -> f32| lanes_of(|lane| number(&robots[lane]));
+        let tick = Lanes::splat(tick);
+        let half_track = lanes(|robot| robot.drive.track_width / 2.0);
+        let longitudinal = lanes(|robot| robot.drive.longitudinal_grip / 2.0) * tick;
+        let lateral = lanes(|robot| robot.drive.lateral_grip / 2.0) * tick;
+        let mass_by_inertia = lanes(|robot| robot.mass / robot.inertia);
+        let turn = half_track * mass_by_inertia;
+        let turning = half_track * turn;
         Self {
-            half_track: drive.track_width / 2.0,
-            wheel_radius: drive.wheel_radius,
-            max_wheel_speed: drive.max_wheel_speed,
-            motor_impulse: drive.motor_torque / drive.wheel_radius * tick,
-            longitudinal_impulse: drive.longitudinal_grip * mass / 2.0 * tick,
-            lateral_impulse: drive.lateral_grip * mass / 2.0 * tick,
+            half_track,
+            wheel_radius: lanes(|robot| robot.drive.wheel_radius),
+            max_wheel_speed: lanes(|robot| robot.drive.max_wheel_speed),
+            motor: lanes(|robot| {
+                robot.drive.motor_torque / (robot.drive.wheel_radius * robot.mass)
+            }) * tick,
+            longitudinal,
+            per_longitudinal: Lanes::ONE / longitudinal,
+            lateral,
+            per_lateral: Lanes::ONE / lateral,
+            turn,
+            own: (Lanes::ONE + turning) * longitudinal,
+            other: (Lanes::ONE - turning) * longitudinal,
+            stop_turning: Lanes::splat(0.25) / turning,
         }
     }
 
-    /// Impulse of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick.
+    /// Effect of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick, for the robots
+    /// of `mask`.
     ///
     /// Rims turn as commanded; friction acts on each tyre against its slip at the end of the tick.
-    pub(super) fn impulse(
+    pub(super) fn effect(
         &self,
-        limits: &DriveLimits,
-        command: &[f32],
-        body: &BodyState,
-    ) -> WheelImpulse {
-        let rims = [command[0], command[1]].map(|speed| {
-            self.wheel_radius * speed.clamp(-self.max_wheel_speed, self.max_wheel_speed)
-        });
-        let slip = self.slip(body.velocity, body.spin, rims);
-        let rolling = self.rolling(limits, &slip);
-        let friction = if self.is_possible(&rolling) {
-            // Tyres that roll also compensate the load of the last tick. Those that slide give their
-            // maximum whatever the load.
-            let loaded = self.loaded(limits, body, &slip);
-            let rolling = self.rolling(limits, &loaded);
-            if self.is_possible(&rolling) { rolling } else { self.sliding(limits, &loaded) }
+        mask: Lanes,
+        command: &[Lanes; MAX_COLUMNS],
+        own: &OwnMotion,
+    ) -> WheelEffect {
+        let rims = [command[0], command[1]]
+            .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
+        let slip = self.slip(own.velocity, own.spin, rims);
+        let rolls = self.is_possible(&self.rolling(&slip));
+        // Tyres that roll also compensate the load of the last tick. Those that slide give their
+        // maximum whatever the load.
+        let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
+        let slip = Slip {
+            along: [0, 1].map(|wheel| slip.along[wheel] + (rolls & added.along[wheel])),
+            across: slip.across + (rolls & added.across),
+        };
+        let rolling = self.rolling(&slip);
+        let rolls = rolls & self.is_possible(&rolling);
+        let friction = if (rolls | !mask).all() {
+            rolling
         } else {
-            self.sliding(limits, &slip)
+            rolling.where_else(rolls, &self.sliding(&slip))
         };
         let [left, right] = friction.along;
-        WheelImpulse {
-            impulse: Vector::new(left + right, friction.across[0] + friction.across[1]),
-            angular_impulse: (right - left) * self.half_track,
-            change: Vector::ZERO,
+        let across = friction.across[0] + friction.across[1];
+        WheelEffect {
+            velocity: VectorLanes { x: left + right, y: across },
+            spin: (right - left) * self.turn,
+            change: VectorLanes::ZERO,
         }
     }
 
-    fn slip(&self, velocity: Vector, spin: f32, rims: [f32; 2]) -> Slip {
+    fn slip(&self, velocity: VectorLanes, spin: Lanes, rims: [Lanes; 2]) -> Slip {
         let turning = spin * self.half_track;
         let along = [velocity.x - turning - rims[0], velocity.x + turning - rims[1]];
         Slip { along, across: velocity.y }
     }
 
-    /// The slip with another load like that of the last tick.
-    fn loaded(&self, limits: &DriveLimits, body: &BodyState, slip: &Slip) -> Slip {
-        let pushed = body.load / limits.mass;
-        let spin = body.angular_load / limits.inertia;
-        let added = self.slip(pushed, spin, [0.0; 2]);
-        let along = [slip.along[0] + added.along[0], slip.along[1] + added.along[1]];
-        Slip { along, across: slip.across + added.across }
-    }
-
-    /// Inverse effective mass along a wheel, 1/kg: speed of the robot at that wheel and at the other one
-    /// by a unit impulse.
-    fn inverse_effective_mass(&self, limits: &DriveLimits) -> [f32; 2] {
-        let straight = 1.0 / limits.mass;
-        let turning = self.half_track * self.half_track / limits.inertia;
-        [straight + turning, straight - turning]
-    }
-
     /// Friction that stops all slip within the tick.
-    fn rolling(&self, limits: &DriveLimits, slip: &Slip) -> Friction {
+    fn rolling(&self, slip: &Slip) -> Friction {
         let [left, right] = slip.along;
-        let both = -limits.mass * (left + right) / 4.0;
-        let apart = limits.inertia * (left - right) / (4.0 * self.half_track * self.half_track);
-        let across = -limits.mass * slip.across / 2.0;
+        let both = Lanes::splat(-0.25) * (left + right);
+        let apart = self.stop_turning * (left - right);
+        let across = Lanes::splat(-0.5) * slip.across;
         Friction { along: [both - apart, both + apart], across: [across; 2] }
     }
 
     /// Whether motors and tyres can transmit this friction: that of a tyre lies within an ellipse.
-    fn is_possible(&self, friction: &Friction) -> bool {
-        let wheels = friction.along.iter().zip(friction.across);
-        wheels.into_iter().all(|(along, across)| {
-            let (along_share, across_share) =
-                (along / self.longitudinal_impulse, across / self.lateral_impulse);
-            along.abs() <= self.motor_impulse
-                && along_share * along_share + across_share * across_share <= 1.0
-        })
+    fn is_possible(&self, friction: &Friction) -> Lanes {
+        let [left, right] = [0, 1].map(|wheel| {
+            let along = friction.along[wheel] * self.per_longitudinal;
+            let across = friction.across[wheel] * self.per_lateral;
+            friction.along[wheel].abs().simd_le(self.motor)
+                & (along * along + across * across).simd_le(Lanes::ONE)
+        });
+        left & right
     }
 
     /// Friction of tyres that slide, against their slip at the end of the tick: along the wheel and
@@ -138,53 +155,54 @@ impl Wheels {
     /// For given magnitudes of the slips, friction is linear in their components. The iteration
     /// approaches the magnitudes from above, so friction never reverses a slip, and a tyre that starts to
     /// roll within the tick gets only the friction that stops it.
-    fn sliding(&self, limits: &DriveLimits, slip: &Slip) -> Friction {
-        let [own, other] = self
-            .inverse_effective_mass(limits)
-            .map(|inverse_mass| inverse_mass * self.longitudinal_impulse);
-        let aside = self.lateral_impulse / limits.mass;
+    fn sliding(&self, slip: &Slip) -> Friction {
         let mut end = *slip;
-        let mut per_slip = [0.0; 2];
+        let mut per_slip = [Lanes::ZERO; 2];
         for _ in 0..REFINEMENTS {
-            per_slip = end.along.map(|along| 1.0 / magnitude(along, end.across));
+            per_slip = end.along.map(|along| Lanes::ONE / magnitude(along, end.across));
             let [left, right] = per_slip;
-            let diagonal = [1.0 + own * left, 1.0 + own * right];
-            let coupling = [other * left, other * right];
+            let diagonal = [Lanes::ONE + self.own * left, Lanes::ONE + self.own * right];
+            let coupling = [self.other * left, self.other * right];
             let determinant = diagonal[0] * diagonal[1] - coupling[0] * coupling[1];
+            let inverse = Lanes::ONE / determinant;
             end = Slip {
                 along: [
-                    (slip.along[0] * diagonal[1] - slip.along[1] * coupling[1]) / determinant,
-                    (slip.along[1] * diagonal[0] - slip.along[0] * coupling[0]) / determinant,
+                    (slip.along[0] * diagonal[1] - slip.along[1] * coupling[1]) * inverse,
+                    (slip.along[1] * diagonal[0] - slip.along[0] * coupling[0]) * inverse,
                 ],
-                across: slip.across / (1.0 + aside * (left + right)),
+                across: slip.across / (Lanes::ONE + self.lateral * (left + right)),
             };
         }
-        let mut friction = Friction { along: [0.0; 2], across: [0.0; 2] };
-        for (wheel, per_slip) in per_slip.into_iter().enumerate() {
-            let along = -self.longitudinal_impulse * end.along[wheel] * per_slip;
-            let across = -self.lateral_impulse * end.across * per_slip;
-            (friction.along[wheel], friction.across[wheel]) = if along.abs() <= self.motor_impulse {
-                (along, across)
-            } else {
-                self.stalled(along, -limits.mass * slip.across / 2.0)
-            };
-        }
-        friction
+        let [left, right] = [0, 1].map(|wheel| {
+            let along = -self.longitudinal * end.along[wheel] * per_slip[wheel];
+            let across = -self.lateral * end.across * per_slip[wheel];
+            let turns = along.abs().simd_le(self.motor);
+            let (held, aside) = self.stalled(along, Lanes::splat(-0.5) * slip.across);
+            [turns.bitselect(along, held), turns.bitselect(across, aside)]
+        });
+        Friction { along: [left[0], right[0]], across: [left[1], right[1]] }
     }
 
     /// Friction of a tyre whose motor is weaker than its grip: the rim follows the floor, which leaves the
     /// tyre more friction along the axle.
-    fn stalled(&self, along: f32, across: f32) -> (f32, f32) {
-        let used = self.motor_impulse / self.longitudinal_impulse;
-        let left = self.lateral_impulse * (1.0 - used * used).max(0.0).sqrt();
-        (self.motor_impulse.copysign(along), across.clamp(-left, left))
+    fn stalled(&self, along: Lanes, across: Lanes) -> (Lanes, Lanes) {
+        let used = self.motor * self.per_longitudinal;
+        let left = self.lateral * larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt();
+        (limited(along, self.motor), limited(across, left))
+    }
+}
+
+impl Friction {
+    /// `self` in the lanes of `mask`, `other` in the others.
+    fn where_else(&self, mask: Lanes, other: &Self) -> Self {
+        let choose = |one: [Lanes; 2], two: [Lanes; 2]| {
+            [mask.bitselect(one[0], two[0]), mask.bitselect(one[1], two[1])]
+        };
+        Self { along: choose(self.along, other.along), across: choose(self.across, other.across) }
     }
 }
 
 /// Magnitude of a slip, m/s; never 0.
-fn magnitude(along: f32, across: f32) -> f32 {
-    (along * along + across * across).sqrt().max(MIN_SLIP)
+fn magnitude(along: Lanes, across: Lanes) -> Lanes {
+    larger((along * along + across * across).sqrt(), Lanes::splat(MIN_SLIP))
 }
-
-/// Slip below which a tyre rolls, m/s.
-const MIN_SLIP: f32 = 1e-6;

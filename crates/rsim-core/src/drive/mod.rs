@@ -1,140 +1,240 @@
-//! Wheels that move a robot by bounded forces, so that robots push, stall, skid and are pushed.
+//! Wheels that move robots by bounded forces, so that robots push, stall, skid and are pushed.
+//!
+//! The robots of a block are driven together. All quantities are per unit of mass or of inertia: an
+//! impulse is the change of velocity that it gives the robot.
 
 mod differential;
 mod omni;
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::motion::Motion;
-use crate::math::Vector;
-use crate::models::robot::{Drive, RobotModel};
+use crate::blocks::{BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot};
+use crate::geometry::motion_block::MotionBlock;
+use crate::models::robot::{DifferentialDrive, Drive, OmniDrive, RobotModel};
 
-/// Limits of a robot's wheels in one tick, and the inertia that they move.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct DriveLimits {
-    /// kg.
-    mass: f32,
-    /// kg m².
-    inertia: f32,
-    /// s.
-    tick: f32,
-    wheels: Wheels,
-}
+/// Number of columns of the longest part of a command for the wheels.
+const MAX_COLUMNS: usize = 4;
 
+/// Wheels of the robots of a block, in one tick.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-enum Wheels {
-    Differential(differential::Wheels),
+pub(crate) struct BlockWheels {
+    differential: Option<Mounted<differential::Wheels>>,
     /// Commanded by the body's velocity.
-    Omni(omni::Wheels),
+    omni: Option<Mounted<omni::Wheels>>,
     /// Commanded by the wheels' speeds.
-    EachOmni(omni::Wheels),
+    each_omni: Option<Mounted<omni::Wheels>>,
+    /// Length of the tick, s.
+    tick: f32,
 }
 
-impl DriveLimits {
-    pub(crate) fn of(model: &RobotModel, tick: f32) -> Self {
-        let (mass, inertia) = (model.mass, model.inertia());
-        let wheels = match &model.drive {
-            Drive::Differential(drive) => {
-                Wheels::Differential(differential::Wheels::of(drive, mass, tick))
-            }
-            Drive::Omni(drive) => Wheels::Omni(omni::Wheels::of(drive, mass, inertia, tick)),
-            Drive::OmniWheels(drive) => {
-                Wheels::EachOmni(omni::Wheels::of(drive, mass, inertia, tick))
-            }
-        };
-        Self { mass, inertia, tick, wheels }
+/// Wheels of one kind, and the lanes of the robots that have them.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Mounted<W> {
+    mask: Lanes,
+    wheels: W,
+}
+
+/// A robot's drive of one kind, with the mass (kg) and moment of inertia (kg m²) that it moves.
+struct Driven<'a, D> {
+    drive: &'a D,
+    mass: f32,
+    inertia: f32,
+}
+
+/// The wheels of all blocks of a match.
+pub(crate) fn wheels_of<'a>(
+    models: impl ExactSizeIterator<Item = &'a RobotModel>,
+    tick: f32,
+) -> Vec<BlockWheels> {
+    let mut blocks = vec![[None; LANES]; blocks_of(models.len())];
+    for (index, model) in models.enumerate() {
+        let (block, lane) = place_of(robot(index));
+        blocks[block][lane] = Some(model);
+    }
+    blocks.iter().map(|models| BlockWheels::of(models, tick)).collect()
+}
+
+impl BlockWheels {
+    fn of(models: &[Option<&RobotModel>; LANES], tick: f32) -> Self {
+        Self {
+            differential: mounted(models, differential_of, |all| {
+                differential::Wheels::of(&all, tick)
+            }),
+            omni: mounted(models, omni_of, |all| omni::Wheels::of(&all, tick)),
+            each_omni: mounted(models, each_omni_of, |all| omni::Wheels::of(&all, tick)),
+            tick,
+        }
     }
 }
 
-/// Motion and estimated load of a robot in its own frame: x forward, y to its left.
-struct BodyState {
+fn differential_of(model: &RobotModel) -> Option<&DifferentialDrive> {
+    if let Drive::Differential(drive) = &model.drive { Some(drive) } else { None }
+}
+
+fn omni_of(model: &RobotModel) -> Option<&OmniDrive> {
+    if let Drive::Omni(drive) = &model.drive { Some(drive) } else { None }
+}
+
+fn each_omni_of(model: &RobotModel) -> Option<&OmniDrive> {
+    if let Drive::OmniWheels(drive) = &model.drive { Some(drive) } else { None }
+}
+
+/// The wheels of the robots of a block whose drive is of the kind that `drive_of` finds. The lanes of the
+/// others get the numbers of one that has it.
+fn mounted<'a, D: 'a, W>(
+    models: &[Option<&'a RobotModel>; LANES],
+    drive_of: impl Fn(&'a RobotModel) -> Option<&'a D>,
+    wheels: impl FnOnce([Driven<'a, D>; LANES]) -> W,
+) -> Option<Mounted<W>> {
+    let of = |lane: usize| {
+        let model = models[lane]?;
+        let drive = drive_of(model)?;
+        Some(Driven { drive, mass: model.mass, inertia: model.inertia() })
+    };
+    let any = || (0..LANES).find_map(of);
+    any()?;
+    let mask = mask_of(|lane| of(lane).is_some());
+    let all = std::array::from_fn(|lane| of(lane).or_else(any).expect("one has this drive"));
+    Some(Mounted { mask, wheels: wheels(all) })
+}
+
+/// The parts of commands that the wheels of a block follow, by column.
+pub(crate) struct BlockCommands([Lanes; MAX_COLUMNS]);
+
+impl BlockCommands {
+    /// Reads the commands of block `block` from rows of `columns` numbers, one row per robot.
+    pub(crate) fn read(commands: &[f32], columns: usize, block: usize) -> Self {
+        let mut read = [[0.0; LANES]; MAX_COLUMNS];
+        let first = block * LANES;
+        for lane in 0..LANES {
+            let body = first + lane;
+            if body == BALL {
+                continue;
+            }
+            let Some(row) = commands.get((body - robot(0)) * columns..) else { break };
+            for (read, column) in read.iter_mut().zip(row.iter().take(columns)) {
+                read[lane] = *column;
+            }
+        }
+        Self(read.map(Lanes::from))
+    }
+}
+
+/// Motion and estimated load of the robots of a block in their own frames: x forward, y to the left.
+struct OwnMotion {
     /// m/s.
-    velocity: Vector,
+    velocity: VectorLanes,
     /// rad/s.
-    spin: f32,
-    /// Impulse by other bodies in the last tick, N s.
-    load: Vector,
-    /// Angular impulse by other bodies in the last tick, N m s.
-    angular_load: f32,
+    spin: Lanes,
+    /// Change of velocity by other bodies in the last tick, m/s.
+    load: VectorLanes,
+    /// Change of the turn rate by other bodies in the last tick, rad/s.
+    angular_load: Lanes,
     /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
-    last_change: Vector,
+    last_change: VectorLanes,
 }
 
-/// Effect of the wheels in a tick, in the robot's own frame.
-struct WheelImpulse {
-    /// N s.
-    impulse: Vector,
-    /// N m s.
-    angular_impulse: f32,
-    /// Part of the impulse without the compensation of loads, as a change of velocity, m/s.
-    change: Vector,
+/// Effect of the wheels of a block in a tick, in the robots' own frames.
+struct WheelEffect {
+    /// Change of velocity, m/s.
+    velocity: VectorLanes,
+    /// Change of the turn rate, rad/s.
+    spin: Lanes,
+    /// Change of velocity without the compensation of loads, m/s.
+    change: VectorLanes,
 }
 
-/// State of a robot's wheels between ticks.
+impl WheelEffect {
+    const NONE: Self =
+        Self { velocity: VectorLanes::ZERO, spin: Lanes::ZERO, change: VectorLanes::ZERO };
+
+    /// `self` in the lanes of `mask`, `other` in the others.
+    fn where_else(&self, mask: Lanes, other: &Self) -> Self {
+        Self {
+            velocity: self.velocity.where_else(mask, other.velocity),
+            spin: mask.bitselect(self.spin, other.spin),
+            change: self.change.where_else(mask, other.change),
+        }
+    }
+}
+
+/// Acceleration of the bodies of a block.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct BlockAcceleration {
+    /// m/s².
+    pub(crate) linear: VectorLanes,
+    /// rad/s².
+    pub(crate) angular: Lanes,
+}
+
+impl BlockAcceleration {
+    pub(crate) const NONE: Self = Self { linear: VectorLanes::ZERO, angular: Lanes::ZERO };
+}
+
+/// State of the wheels of a block between ticks.
 ///
 /// A bounded correction of the velocity alone lets a pushed robot creep: each tick corrects only the
 /// error of the last one. So wheels also compensate the load of the last tick, within the same bounds.
 /// They do so only while the robot is in contact: the load of an impact does not come again.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct DriveState {
-    /// Impulse by other bodies in the last tick, N s.
-    load: Vector,
-    /// Angular impulse by other bodies in the last tick, N m s.
-    angular_load: f32,
+    /// Change of velocity by other bodies in the last tick, m/s.
+    load: VectorLanes,
+    /// Change of the turn rate by other bodies in the last tick, rad/s.
+    angular_load: Lanes,
     /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
-    change: Vector,
+    change: VectorLanes,
     /// Velocity after the tick without contacts, m/s.
-    expected_velocity: Vector,
+    expected_velocity: VectorLanes,
     /// Turn rate after the tick without contacts, rad/s.
-    expected_spin: f32,
+    expected_spin: Lanes,
 }
 
 impl DriveState {
-    /// Force (N) and torque (N m) of the wheels that follow `command` for a tick.
-    pub(crate) fn wheel_force(
+    /// Accelerations of the robots by their wheels, which follow `commands` for a tick.
+    pub(crate) fn accelerate(
         &mut self,
-        limits: &DriveLimits,
-        command: &[f32],
-        motion: &Motion,
-    ) -> (Vector, f32) {
-        let own = |vector: Vector| {
-            let (cos, sin) = (motion.heading.x, motion.heading.y);
-            Vector::new(vector.x * cos + vector.y * sin, vector.y * cos - vector.x * sin)
-        };
-        let body = BodyState {
-            velocity: own(motion.velocity),
+        wheels: &BlockWheels,
+        commands: &BlockCommands,
+        motion: &MotionBlock,
+    ) -> BlockAcceleration {
+        let own = OwnMotion {
+            velocity: motion.velocity.seen_from(motion.heading),
             spin: motion.spin,
-            load: own(self.load),
+            load: self.load.seen_from(motion.heading),
             angular_load: self.angular_load,
-            last_change: own(self.change),
+            last_change: self.change.seen_from(motion.heading),
         };
-        let wheels = match &limits.wheels {
-            Wheels::Differential(wheels) => wheels.impulse(limits, command, &body),
-            Wheels::Omni(wheels) => {
-                wheels.impulse(limits, &wheels.target_of_velocity(command), &body)
-            }
-            Wheels::EachOmni(wheels) => {
-                wheels.impulse(limits, &wheels.target_of_wheel_speeds(command), &body)
-            }
-        };
-        let to_field = |own: Vector| motion.heading * own.x + motion.heading.perp() * own.y;
-        let impulse = to_field(wheels.impulse);
-        self.change = to_field(wheels.change);
-        self.expected_velocity = motion.velocity + impulse / limits.mass;
-        self.expected_spin = motion.spin + wheels.angular_impulse / limits.inertia;
-        (impulse / limits.tick, wheels.angular_impulse / limits.tick)
+        let BlockCommands(command) = commands;
+        let mut effect = WheelEffect::NONE;
+        if let Some(Mounted { mask, wheels }) = &wheels.differential {
+            effect = wheels.effect(*mask, command, &own).where_else(*mask, &effect);
+        }
+        if let Some(Mounted { mask, wheels }) = &wheels.omni {
+            let target = wheels.target_of_velocity(command);
+            effect = wheels.effect(&target, &own).where_else(*mask, &effect);
+        }
+        if let Some(Mounted { mask, wheels }) = &wheels.each_omni {
+            let target = wheels.target_of_wheel_speeds(command);
+            effect = wheels.effect(&target, &own).where_else(*mask, &effect);
+        }
+        let velocity = effect.velocity.rotated_by(motion.heading);
+        self.change = effect.change.rotated_by(motion.heading);
+        self.expected_velocity = motion.velocity + velocity;
+        self.expected_spin = motion.spin + effect.spin;
+        let per_second = Lanes::splat(1.0 / wheels.tick);
+        BlockAcceleration { linear: velocity * per_second, angular: effect.spin * per_second }
     }
 
-    /// Estimates the load of the tick from the difference to the expected motion. A robot that is not
-    /// `in_contact` after the tick has none.
-    pub(crate) fn estimate_load(
-        &mut self,
-        limits: &DriveLimits,
-        motion: &Motion,
-        in_contact: bool,
-    ) {
-        let factor = if in_contact { 1.0 } else { 0.0 };
-        self.load = (motion.velocity - self.expected_velocity) * (limits.mass * factor);
-        self.angular_load = (motion.spin - self.expected_spin) * (limits.inertia * factor);
+    /// Estimates the loads of the tick from the difference to the expected motion, for robots that are
+    /// in contact after the tick, one bit each. The others have none.
+    pub(crate) fn estimate_loads(&mut self, motion: &MotionBlock, in_contact: u64) {
+        (self.load, self.angular_load) = (VectorLanes::ZERO, Lanes::ZERO);
+        if in_contact & ((1 << LANES) - 1) != 0 {
+            let mask = mask_of(|lane| in_contact >> lane & 1 == 1);
+            let load = motion.velocity - self.expected_velocity;
+            self.load = load.where_else(mask, VectorLanes::ZERO);
+            self.angular_load = mask & (motion.spin - self.expected_spin);
+        }
     }
 }

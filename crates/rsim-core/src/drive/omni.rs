@@ -2,154 +2,180 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BodyState, DriveLimits, WheelImpulse};
+use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
+use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::columns::MAX_COMMAND;
-use crate::math::{Rotation, Vector};
+use crate::math::Rotation;
 use crate::models::robot::OmniDrive;
 
-/// Target velocity (m/s) and turn rate (rad/s) of a body, in its own frame.
+/// Target velocities (m/s) and turn rates (rad/s) of the robots of a block, in their own frames.
 pub(super) struct TargetVelocity {
-    velocity: Vector,
-    spin: f32,
+    velocity: VectorLanes,
+    spin: Lanes,
 }
 
 /// Limits of one tick, and the kinematics between body velocity and wheel speeds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
     /// Wheel speeds (rad/s) from forward, left and turning speed, one row per wheel.
-    from_body: [[f32; 3]; 4],
+    from_body: [[Lanes; 3]; 4],
     /// Least-squares inverse of `from_body`, for wheel speeds that do not fit together.
-    to_body: [[f32; 4]; 3],
-    max_wheel_speed: f32,
-    max_speed: f32,
-    max_turn_rate: f32,
+    to_body: [[Lanes; 4]; 3],
+    max_wheel_speed: Lanes,
+    max_speed: Lanes,
+    max_turn_rate: Lanes,
     /// Maximum changes of velocity in one tick, m/s.
-    speed_gain: f32,
-    speed_loss: f32,
+    speed_gain: Lanes,
+    speed_loss: Lanes,
     /// Maximum changes of the turn rate in one tick, rad/s.
-    spin_gain: f32,
-    spin_loss: f32,
-    /// Maximum impulse, N s.
-    traction: f32,
-    /// Maximum angular impulse, N m s.
-    angular_traction: f32,
+    spin_gain: Lanes,
+    spin_loss: Lanes,
+    /// Maximum change of velocity by friction, m/s.
+    traction: Lanes,
+    /// Maximum change of the turn rate by friction, rad/s.
+    angular_traction: Lanes,
     /// Maximum difference to the last tick's change of velocity, m/s; infinite without a limit.
-    jerk: f32,
+    jerk: Lanes,
 }
 
 impl Wheels {
-    pub(super) fn of(drive: &OmniDrive, mass: f32, inertia: f32, tick: f32) -> Self {
-        let from_body = drive.wheel_angles.map(|degrees| {
-            let Rotation { re: cos, im: sin } = Rotation::new(degrees.to_radians());
-            [-sin, cos, drive.wheel_distance].map(|part| part / drive.wheel_radius)
-        });
-        let traction = drive.max_traction * mass * tick;
+    pub(super) fn of(robots: &[Driven<OmniDrive>; LANES], tick: f32) -> Self {
+        let lanes =
+            |number: &dyn Fn(&Driven<OmniDrive>) -> f32| lanes_of(|lane| number(&robots[lane]));
+        let from_body = robots.each_ref().map(|robot| from_body(robot.drive));
+        let to_body = from_body.each_ref().map(least_squares_inverse);
         Self {
-            from_body,
-            to_body: least_squares_inverse(&from_body),
-            max_wheel_speed: drive.max_wheel_speed,
-            max_speed: drive.max_speed,
-            max_turn_rate: drive.max_turn_rate,
-            speed_gain: drive.max_acceleration * tick,
-            speed_loss: drive.max_deceleration * tick,
-            spin_gain: drive.max_angular_acceleration * tick,
-            spin_loss: drive.max_angular_deceleration * tick,
-            traction,
-            jerk: if drive.max_jerk > 0.0 { drive.max_jerk * tick * tick } else { f32::INFINITY },
+            from_body: std::array::from_fn(|wheel| {
+                std::array::from_fn(|part| lanes_of(|lane| from_body[lane][wheel][part]))
+            }),
+            to_body: std::array::from_fn(|part| {
+                std::array::from_fn(|wheel| lanes_of(|lane| to_body[lane][part][wheel]))
+            }),
+            max_wheel_speed: lanes(&|robot| robot.drive.max_wheel_speed),
+            max_speed: lanes(&|robot| robot.drive.max_speed),
+            max_turn_rate: lanes(&|robot| robot.drive.max_turn_rate),
+            speed_gain: lanes(&|robot| robot.drive.max_acceleration * tick),
+            speed_loss: lanes(&|robot| robot.drive.max_deceleration * tick),
+            spin_gain: lanes(&|robot| robot.drive.max_angular_acceleration * tick),
+            spin_loss: lanes(&|robot| robot.drive.max_angular_deceleration * tick),
+            traction: lanes(&|robot| robot.drive.max_traction * tick),
             // The wheels' forces act at their distance; at least what free turning takes.
-            angular_traction: (traction * drive.wheel_distance).max(
-                inertia * drive.max_angular_acceleration.max(drive.max_angular_deceleration) * tick,
-            ),
+            angular_traction: lanes(&|Driven { drive, mass, inertia }| {
+                let by_wheels = drive.max_traction * drive.wheel_distance * mass / inertia;
+                let free = drive.max_angular_acceleration.max(drive.max_angular_deceleration);
+                by_wheels.max(free) * tick
+            }),
+            jerk: lanes(&|robot| {
+                let jerk = robot.drive.max_jerk;
+                if jerk > 0.0 { jerk * tick * tick } else { f32::INFINITY }
+            }),
         }
     }
 
-    /// Target of the command `[forward, left, turn, ..]`.
-    pub(super) fn target_of_velocity(&self, command: &[f32]) -> TargetVelocity {
-        let limit = Vector::splat(MAX_COMMAND);
-        self.saturated(Vector::new(command[0], command[1]).clamp(-limit, limit), command[2])
+    /// Target of the commands `[forward, left, turn, ..]`.
+    pub(super) fn target_of_velocity(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
+        let limit = Lanes::splat(MAX_COMMAND);
+        let [x, y] = [command[0], command[1]].map(|speed| limited(speed, limit));
+        self.saturated(VectorLanes { x, y }, command[2])
     }
 
-    /// Target of a command of four wheel speeds, rad/s.
-    pub(super) fn target_of_wheel_speeds(&self, command: &[f32]) -> TargetVelocity {
-        let fastest = command[..4].iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
-        let factor = self.saturation_factor(fastest);
-        let [forward, left, turn] = self.to_body.map(|row| {
-            row.iter().zip(command).map(|(weight, speed)| weight * (speed * factor)).sum::<f32>()
+    /// Target of commands of four wheel speeds, rad/s.
+    pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
+        let factor = self.saturation_factor(&command.map(Lanes::abs));
+        let speeds = command.map(|speed| speed * factor);
+        let [x, y, turn] = self.to_body.map(|row| {
+            row[0] * speeds[0] + row[1] * speeds[1] + row[2] * speeds[2] + row[3] * speeds[3]
         });
-        self.saturated(Vector::new(forward, left), turn)
+        self.saturated(VectorLanes { x, y }, turn)
     }
 
     /// The target within the maximum speeds, without a change of direction.
-    fn saturated(&self, velocity: Vector, spin: f32) -> TargetVelocity {
-        let velocity = velocity.clamp_length_max(self.max_speed);
-        let spin = spin.clamp(-self.max_turn_rate, self.max_turn_rate);
-        let fastest = self.from_body.iter().fold(0.0_f32, |most, row| {
-            most.max((row[0] * velocity.x + row[1] * velocity.y + row[2] * spin).abs())
-        });
-        let factor = self.saturation_factor(fastest);
+    fn saturated(&self, velocity: VectorLanes, spin: Lanes) -> TargetVelocity {
+        let velocity = velocity.of_length_at_most(self.max_speed);
+        let spin = limited(spin, self.max_turn_rate);
+        let factor = self.saturation_factor(
+            &self
+                .from_body
+                .map(|row| (row[0] * velocity.x + row[1] * velocity.y + row[2] * spin).abs()),
+        );
         TargetVelocity { velocity: velocity * factor, spin: spin * factor }
     }
 
-    /// Factor on all wheel speeds if the fastest would turn at `fastest`, rad/s.
-    fn saturation_factor(&self, fastest: f32) -> f32 {
-        if fastest > self.max_wheel_speed { self.max_wheel_speed / fastest } else { 1.0 }
+    /// Factor on all wheel speeds if the wheels would turn at `speeds`, rad/s, none negative.
+    fn saturation_factor(&self, speeds: &[Lanes; 4]) -> Lanes {
+        let [one, two, three, four] = *speeds;
+        let fastest = larger(larger(one, two), larger(three, four));
+        let is_too_fast = fastest.simd_gt(self.max_wheel_speed);
+        is_too_fast.bitselect(self.max_wheel_speed / fastest, Lanes::ONE)
     }
 
-    /// Impulse of the wheels in a tick.
-    pub(super) fn impulse(
-        &self,
-        limits: &DriveLimits,
-        target: &TargetVelocity,
-        body: &BodyState,
-    ) -> WheelImpulse {
-        let error = target.velocity - body.velocity;
-        let slower = error.dot(body.velocity) < 0.0;
-        let limit = if slower { self.speed_loss } else { self.speed_gain };
-        let change = error.clamp_length_max(self.jerk_limited_change(error, limit));
-        let change = self.jerk_limited(change, body);
-        let spin_error = target.spin - body.spin;
-        let slower = spin_error * body.spin < 0.0;
-        let limit = if slower { self.spin_loss } else { self.spin_gain };
-        let spin_change = spin_error.clamp(-limit, limit);
-        let load = compensated_load(body.load, error, change);
-        let compensates = spin_error.abs() <= limit || spin_change * body.angular_load < 0.0;
-        let angular_load = if compensates { body.angular_load } else { 0.0 };
-        WheelImpulse {
+    /// Effect of the wheels in a tick.
+    pub(super) fn effect(&self, target: &TargetVelocity, own: &OwnMotion) -> WheelEffect {
+        let error = target.velocity - own.velocity;
+        let slower = error.dot(own.velocity).simd_lt(Lanes::ZERO);
+        let limit = slower.bitselect(self.speed_loss, self.speed_gain);
+        let change = error.of_length_at_most(self.jerk_limited_change(error, limit));
+        let change = self.jerk_limited(change, own);
+        let spin_error = target.spin - own.spin;
+        let slower = (spin_error * own.spin).simd_lt(Lanes::ZERO);
+        let limit = slower.bitselect(self.spin_loss, self.spin_gain);
+        let spin_change = limited(spin_error, limit);
+        let load = compensated_load(own.load, error, change);
+        let compensates =
+            spin_error.abs().simd_le(limit) | (spin_change * own.angular_load).simd_lt(Lanes::ZERO);
+        let angular_load = compensates & own.angular_load;
+        WheelEffect {
             change,
-            impulse: (change * limits.mass - load).clamp_length_max(self.traction),
-            angular_impulse: (limits.inertia * spin_change - angular_load)
-                .clamp(-self.angular_traction, self.angular_traction),
+            velocity: (change - load).of_length_at_most(self.traction),
+            spin: limited(spin_change - angular_load, self.angular_traction),
         }
     }
 
     /// Maximum change of speed (m/s) in a tick, at most `limit`, that can still fall to 0 by the time
     /// the velocity error is gone.
-    fn jerk_limited_change(&self, error: Vector, limit: f32) -> f32 {
-        if self.jerk.is_infinite() {
+    fn jerk_limited_change(&self, error: VectorLanes, limit: Lanes) -> Lanes {
+        let is_limited = self.jerk.simd_lt(Lanes::splat(f32::INFINITY));
+        if !is_limited.any() {
             return limit;
         }
         // n ticks whose changes fall by `jerk` each sum up to n (n + 1) / 2 of it.
-        let ticks = (2.0 * error.length() / self.jerk + 0.25).sqrt() - 0.5;
-        limit.min(self.jerk * ticks.max(0.0))
+        let length = error.length_squared().sqrt();
+        let ticks = (Lanes::splat(2.0) * length / self.jerk + Lanes::splat(0.25)).sqrt()
+            - Lanes::splat(0.5);
+        let change = smaller(limit, self.jerk * larger(ticks, Lanes::ZERO));
+        is_limited.bitselect(change, limit)
     }
 
     /// The change of velocity (m/s) nearest to `change` that the jerk limit allows after the last one.
-    fn jerk_limited(&self, change: Vector, body: &BodyState) -> Vector {
-        if self.jerk.is_infinite() {
+    fn jerk_limited(&self, change: VectorLanes, own: &OwnMotion) -> VectorLanes {
+        let is_limited = self.jerk.simd_lt(Lanes::splat(f32::INFINITY));
+        if !is_limited.any() {
             return change;
         }
-        body.last_change + (change - body.last_change).clamp_length_max(self.jerk)
+        let allowed = own.last_change + (change - own.last_change).of_length_at_most(self.jerk);
+        allowed.where_else(is_limited, change)
     }
 }
 
-/// The part of a load that the wheels compensate, N s. While the velocity error exceeds the change of
+/// The part of a load that the wheels compensate, m/s. While the velocity error exceeds the change of
 /// this tick, the part along the change is left out: wheels do not work against their own command.
-fn compensated_load(load: Vector, error: Vector, change: Vector) -> Vector {
-    if change == error {
+fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) -> VectorLanes {
+    if load == VectorLanes::ZERO {
         return load;
     }
-    let direction = change.normalize_or_zero();
-    load - direction * load.dot(direction).max(0.0)
+    let squared = change.length_squared();
+    let moves = squared.simd_gt(Lanes::splat(f32::MIN_POSITIVE));
+    let along = larger(load.dot(change), Lanes::ZERO) / squared;
+    let exceeds = !(change.x.simd_eq(error.x) & change.y.simd_eq(error.y));
+    load - change * (moves & exceeds & along)
+}
+
+/// Wheel speeds (rad/s) from forward, left and turning speed, one row per wheel.
+fn from_body(drive: &OmniDrive) -> [[f32; 3]; 4] {
+    drive.wheel_angles.map(|degrees| {
+        let Rotation { re: cos, im: sin } = Rotation::new(degrees.to_radians());
+        [-sin, cos, drive.wheel_distance].map(|part| part / drive.wheel_radius)
+    })
 }
 
 /// `(A^T A)^-1 A^T` of the four rows of A.
@@ -178,10 +204,21 @@ mod tests {
     use crate::models::robot::{Drive, RobotModel};
 
     fn wheels(model: &RobotModel) -> Wheels {
-        let (Drive::Omni(drive) | Drive::OmniWheels(drive)) = model.drive else {
+        let (Drive::Omni(drive) | Drive::OmniWheels(drive)) = &model.drive else {
             panic!("{} has other wheels", model.name)
         };
-        Wheels::of(&drive, model.mass, model.inertia(), 0.005)
+        let robot = || Driven { drive, mass: model.mass, inertia: model.inertia() };
+        Wheels::of(&std::array::from_fn(|_| robot()), 0.005)
+    }
+
+    fn command(numbers: [f32; MAX_COLUMNS]) -> [Lanes; MAX_COLUMNS] {
+        numbers.map(Lanes::splat)
+    }
+
+    /// Forward, left and turning speed in one lane.
+    fn speeds(target: &TargetVelocity, lane: usize) -> [f32; 3] {
+        let velocity = target.velocity.get(lane);
+        [velocity.x, velocity.y, target.spin.as_array()[lane]]
     }
 
     #[test]
@@ -189,13 +226,16 @@ mod tests {
         for model in RobotModel::PRESETS.into_iter().filter(|model| model.mouth.is_some()) {
             let wheels = wheels(&model);
             for body in [[1.0, 0.0, 0.0], [0.0, -0.7, 0.0], [0.3, 0.2, 3.0]] {
-                let speeds = wheels
-                    .from_body
-                    .map(|row| row.iter().zip(body).map(|(a, b)| a * b).sum::<f32>());
-                let TargetVelocity { velocity, spin } = wheels.target_of_wheel_speeds(&speeds);
-                let got = [velocity.x, velocity.y, spin];
-                for (got, expected) in got.iter().zip(body) {
-                    assert!((got - expected).abs() < 1e-4, "{}: {got} {expected}", model.name);
+                let wheel_speeds = wheels.from_body.map(|row| {
+                    row[0] * Lanes::splat(body[0])
+                        + row[1] * Lanes::splat(body[1])
+                        + row[2] * Lanes::splat(body[2])
+                });
+                let target = wheels.target_of_wheel_speeds(&wheel_speeds);
+                for lane in 0..LANES {
+                    for (got, expected) in speeds(&target, lane).iter().zip(body) {
+                        assert!((got - expected).abs() < 1e-4, "{}: {got} {expected}", model.name);
+                    }
                 }
             }
         }
@@ -204,9 +244,10 @@ mod tests {
     #[test]
     fn a_saturated_wheel_slows_all_and_keeps_the_direction() {
         let wheels = wheels(&RobotModel::SSL_GENERIC);
-        let TargetVelocity { velocity, spin } = wheels.target_of_velocity(&[3.0, 1.5, 20.0]);
-        assert!(velocity.length() < 3.0, "it is slower: {velocity}");
-        assert!((velocity.y / velocity.x - 0.5).abs() < 1e-5);
-        assert!((spin / velocity.x - 20.0 / 3.0).abs() < 1e-4);
+        let target = wheels.target_of_velocity(&command([3.0, 1.5, 20.0, 0.0]));
+        let [forward, left, turn] = speeds(&target, 1);
+        assert!(forward.hypot(left) < 3.0, "it is slower: {forward} {left}");
+        assert!((left / forward - 0.5).abs() < 1e-5);
+        assert!((turn / forward - 20.0 / 3.0).abs() < 1e-4);
     }
 }

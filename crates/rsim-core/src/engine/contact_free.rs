@@ -6,15 +6,14 @@
 //! normally.
 
 use super::SubSteps;
-use super::bodies::{Bodies, move_freely};
+use super::bodies::{Bodies, Motions};
 use super::near::NearPairs;
-use crate::geometry::motion::Motion;
 
 /// Buffers of [`try_contact_free`]; their contents are of no use between ticks.
 #[derive(Default)]
 pub(super) struct ContactFreeBuffers {
-    now: Vec<Motion>,
-    end: Vec<Motion>,
+    now: Motions,
+    end: Motions,
 }
 
 /// Advances all bodies by a tick without the solver if nothing touches in it. Otherwise nothing
@@ -28,22 +27,22 @@ pub(super) fn try_contact_free(
     if near.pairs.is_empty() {
         bodies.move_freely(sub_steps);
     } else {
-        let Bodies { motions, forces, inverses, .. } = bodies;
+        let Bodies { motions, accelerations, .. } = bodies;
         let ContactFreeBuffers { now, end } = buffers;
-        now.clone_from(motions);
+        now.copy_from(motions);
         for index in 0..=sub_steps.count {
             if !near.are_separated(now) {
                 return false;
             }
             if index == sub_steps.count {
-                end.clone_from(now);
+                end.copy_from(now);
             }
-            move_freely(now, forces, inverses, SubSteps { count: 1, ..sub_steps });
+            now.advance(accelerations, SubSteps { count: 1, ..sub_steps });
         }
         if !near.are_separated(now) {
             return false;
         }
-        motions.copy_from_slice(end);
+        motions.copy_from(end);
     }
     bodies.moved.fill(true);
     true

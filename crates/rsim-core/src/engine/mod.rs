@@ -16,13 +16,16 @@ mod shapes;
 
 use serde::{Deserialize, Serialize};
 
+use crate::blocks::{BALL, set_bits};
 use crate::body_params::BodyParams;
+use crate::drive::BlockAcceleration;
 use crate::geometry::arena::Wall;
 use crate::geometry::free_space::FreeSpace;
 use crate::geometry::motion::Motion;
+use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 use crate::models::config::{EngineKind, SimConfig};
-use bodies::{AppliedForce, Bodies};
+use bodies::Bodies;
 use compact::{CompactScratch, CompactSolver, NearBodies};
 use contact_free::{ContactFreeBuffers, try_contact_free};
 use contacts::Contacts;
@@ -32,14 +35,6 @@ use rapier::{RapierScratch, RapierSolver};
 pub(crate) use ball_contact::{BallPhase, BallRules, SqueezedBall};
 pub(crate) use contacts::{BallContact, Partner, RobotContact};
 pub(crate) use shapes::Shape;
-
-/// Index of the ball among the bodies.
-pub(crate) const BALL: usize = 0;
-
-/// Index of robot `index` among the bodies.
-pub(crate) const fn robot(index: usize) -> usize {
-    index + 1
-}
 
 /// Sub-steps of the solver in a tick. `cargo bench -p rsim-bench --bench solver` compares numbers.
 const SUB_STEPS: usize = 4;
@@ -78,7 +73,7 @@ pub(crate) struct Scratch {
     contact_free: ContactFreeBuffers,
     /// Contacts of robots in the last solved part of a tick.
     pub(crate) robot_contacts: Vec<RobotContact>,
-    /// Motion that robots would have after that part without contacts.
+    /// Motion that robots would have after that part without contacts, if the solver ran in it.
     pub(crate) undisturbed: Vec<Undisturbed>,
 }
 
@@ -143,25 +138,30 @@ impl Engine {
     }
 
     pub(crate) fn motion(&self, body: usize) -> Motion {
-        self.bodies.motions[body]
+        self.bodies.motions.get(body)
+    }
+
+    /// Motions of all bodies, by block.
+    pub(crate) fn motion_blocks(&self) -> &[MotionBlock] {
+        self.bodies.motions.blocks()
     }
 
     /// Sets the motion of a body. `heading` must be a unit vector.
     pub(crate) fn set_motion(&mut self, body: usize, motion: &Motion) {
-        self.bodies.motions[body] = *motion;
+        self.bodies.motions.set(body, motion);
         self.bodies.moved[body] = true;
     }
 
     /// Sets position (m) and velocity (m/s) of the ball.
     pub(crate) fn set_ball(&mut self, position: Vector, velocity: Vector) {
-        let ball = &mut self.bodies.motions[BALL];
-        (ball.position, ball.velocity) = (position, velocity);
+        let ball = Motion { position, velocity, ..self.bodies.motions.get(BALL) };
+        self.bodies.motions.set(BALL, &ball);
         self.bodies.moved[BALL] = true;
     }
 
     /// Sets the velocity of a body, m/s.
     pub(crate) fn set_velocity(&mut self, body: usize, velocity: Vector) {
-        self.bodies.motions[body].velocity = velocity;
+        self.bodies.motions.set_velocity(body, velocity);
     }
 
     /// Applies an impulse (N s) to a body, at `arm` (m) from its centre of mass.
@@ -169,19 +169,24 @@ impl Engine {
         self.bodies.apply_impulse(body, impulse, arm);
     }
 
-    /// Sets force (N) and torque (N m) on a body during the next tick.
-    pub(crate) fn set_force(&mut self, body: usize, force: Vector, torque: f32) {
-        self.bodies.forces[body] = AppliedForce { force, torque };
+    /// Sets the accelerations of the bodies of a block during the next tick.
+    pub(crate) fn set_acceleration(&mut self, block: usize, acceleration: BlockAcceleration) {
+        self.bodies.accelerations[block] = acceleration;
     }
 
-    /// Acceleration of a body by the applied force during the next tick, m/s².
+    /// Acceleration of a body during the next tick, m/s².
     pub(crate) fn acceleration(&self, body: usize) -> Vector {
-        self.bodies.forces[body].force * self.bodies.inverses[body].mass
+        self.bodies.acceleration(body).linear
     }
 
-    /// Writes the motion of robots after `time` without contacts into `undisturbed`.
-    pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
-        self.bodies.list_undisturbed(time, undisturbed);
+    /// Bound of the speeds of robots within `time` (s) without contacts, m/s.
+    pub(crate) fn fastest_robot(&self, time: f32) -> f32 {
+        self.bodies.fastest_robot(time)
+    }
+
+    /// Indices of the robots whose surrounding circle is nearer than `gap` (m) to that of the ball.
+    pub(crate) fn robots_near_ball(&self, gap: f32) -> impl Iterator<Item = usize> {
+        set_bits(self.bodies.robots_near_ball(gap))
     }
 
     /// Whether the ball was jammed in the solver's last tick.
@@ -210,7 +215,7 @@ impl Engine {
         let sub_steps =
             SubSteps { time: rules.time / self.sub_steps as f32, count: self.sub_steps };
         let Self { bodies, solver, contacts, .. } = self;
-        let Scratch { rapier, compact, near, contact_free, .. } = scratch;
+        let Scratch { rapier, compact, near, contact_free, undisturbed, .. } = scratch;
         let is_free = match solver {
             Solver::Rapier(solver) => {
                 let is_free = may_be_free && {
@@ -218,6 +223,7 @@ impl Engine {
                     try_contact_free(bodies, near, contact_free, sub_steps)
                 };
                 if !is_free {
+                    bodies.list_undisturbed(rules.time, undisturbed);
                     solver.solve(bodies, rapier, rules, sub_steps.count, contacts)?;
                 }
                 is_free
@@ -230,6 +236,7 @@ impl Engine {
                     solver.forget();
                     true
                 } else {
+                    bodies.list_undisturbed(rules.time, undisturbed);
                     let near =
                         NearBodies { pairs: &near.pairs, fastest: search.speed.unwrap_or(0.0) };
                     !solver.solve(bodies, near, compact, rules, sub_steps, contacts)

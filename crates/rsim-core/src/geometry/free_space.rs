@@ -1,5 +1,6 @@
 //! The part of a field without walls, as a quick test, and the walls that stand on the floor.
 
+use crate::blocks::{Lanes, VectorLanes};
 use crate::geometry::arena::Wall;
 use crate::geometry::outline::PlacedOutline;
 use crate::math::Vector;
@@ -56,6 +57,13 @@ impl FreeSpace {
             half: Vector::new(half_x, field.max_y()),
             walls: on_floor.map(|(index, wall)| FloorWall::of(index, wall)).collect(),
         }
+    }
+
+    /// Whether circles around the bodies of a block leave the rectangle without walls, one bit each.
+    pub(crate) fn left_by(&self, center: VectorLanes, radius: Lanes) -> u64 {
+        let inside = (center.x.abs() + radius).simd_lt(Lanes::splat(self.half.x))
+            & (center.y.abs() + radius).simd_lt(Lanes::splat(self.half.y));
+        u64::from((!inside).to_bitmask())
     }
 
     /// Walls that reach into a circle.

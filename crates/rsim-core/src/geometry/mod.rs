@@ -4,4 +4,5 @@ pub(crate) mod arena;
 pub(crate) mod clearance;
 pub(crate) mod free_space;
 pub(crate) mod motion;
+pub(crate) mod motion_block;
 pub(crate) mod outline;

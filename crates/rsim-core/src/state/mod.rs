@@ -31,6 +31,8 @@ pub(crate) struct State {
     pub(crate) engine: Engine,
     pub(crate) ball: BallState,
     pub(crate) robots: Vec<RobotState>,
+    /// Wheels of the robots, by block.
+    pub(crate) drives: Vec<DriveState>,
     pub(crate) touches: TouchRecord,
     pub(crate) crossing: Crossing,
     /// Body parameters of a world that differs from the models.
@@ -42,7 +44,6 @@ pub(crate) struct State {
 /// State that a robot keeps from one tick to the next, beyond its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct RobotState {
-    pub(crate) drive: DriveState,
     /// Time until the kicker is charged, s.
     pub(crate) recharging: f32,
     /// Speed of the dribbler by its maximum, 0 to 1.

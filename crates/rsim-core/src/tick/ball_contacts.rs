@@ -3,8 +3,9 @@
 use crate::ball::impact::{ContactBody, Sphere};
 use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
-use crate::engine::{BALL, BallContact, Partner, Undisturbed, robot};
+use crate::engine::{BallContact, Partner, Undisturbed};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::ball::Surface;

@@ -5,8 +5,9 @@
 use crate::ball::impact::{ContactBody, Sphere};
 use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
-use crate::engine::{BALL, Engine, robot};
+use crate::engine::Engine;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::{Clearance, Obstacle};
 use crate::math::{Vec3, Vector};

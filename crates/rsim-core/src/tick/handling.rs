@@ -3,41 +3,12 @@
 use crate::ball::kicks::Kicks;
 use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
-use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
-use crate::engine::{BALL, robot};
 use crate::math::{Vec3, Vector};
-use crate::models::robot::Drive;
 use crate::state::State;
+use crate::tick::commands::HandlingCommand;
 use crate::tick::flight::min_takeoff_speed;
-
-/// The part of a command for kicker and dribbler.
-struct HandlingCommand {
-    /// Speed of a kick along the floor, m/s.
-    kick: f32,
-    /// Upward speed of a chip, m/s.
-    chip: f32,
-    /// Speed of the dribbler by its maximum, 0 to 1.
-    dribbler: f32,
-}
-
-impl HandlingCommand {
-    /// The part of `command` for kicker and dribbler; `None` for a drive without them.
-    fn read(drive: &Drive, command: &[f32]) -> Option<Self> {
-        // The last three columns of an omnidirectional robot.
-        let at = match drive {
-            Drive::Differential(_) => return None,
-            Drive::Omni(_) => OMNI_COLUMNS.len() - 3,
-            Drive::OmniWheels(_) => OMNI_WHEELS_COLUMNS.len() - 3,
-        };
-        let [kick, chip, dribbler] = [command[at], command[at + 1], command[at + 2]];
-        Some(Self { kick, chip, dribbler: dribbler.clamp(0.0, 1.0) })
-    }
-
-    fn kicks(&self) -> bool {
-        self.kick > 0.0 || self.chip > 0.0
-    }
-}
 
 /// Sum of the effects of all robots on the ball in a tick.
 struct Effect {
@@ -57,10 +28,15 @@ struct Effect {
 pub(super) fn handle_ball(
     state: &mut State,
     params: &BodyParams,
-    commands: &[f32],
-    columns: usize,
+    commands: &[HandlingCommand],
     tick: f32,
 ) {
+    for robot in &mut state.robots {
+        robot.recharging = (robot.recharging - tick).max(0.0);
+    }
+    if commands.is_empty() {
+        return;
+    }
     let ball = state.engine.motion(BALL);
     let ground = GroundMotion { velocity: ball.velocity, spin: state.ball.spin };
     let mut all = Effect {
@@ -71,20 +47,14 @@ pub(super) fn handle_ball(
         kicked: false,
     };
     let mut handled = false;
-    for (index, body) in params.robots.iter().enumerate() {
-        let recharging = (state.robots[index].recharging - tick).max(0.0);
-        state.robots[index].recharging = recharging;
-        let command = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
-        let (Some(mouth), Some(command)) =
-            (&body.model.mouth, HandlingCommand::read(&body.model.drive, command))
-        else {
-            continue;
-        };
-        state.robots[index].dribbling = command.dribbler;
-        let kicks = command.kicks() && recharging == 0.0;
+    for command in commands {
+        let index = command.robot;
+        let kicks = command.kicks() && state.robots[index].recharging == 0.0;
         if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
             continue;
         }
+        let body = &params.robots[index];
+        let Some(mouth) = &body.model.mouth else { continue };
         let motion = state.engine.motion(robot(index));
         let held = HeldBall::find(&body.model, &motion, &params.ball, ball.position, state.ball.z);
         let Some(held) = held else { continue };

@@ -2,30 +2,31 @@
 //! solved, touches and crossings are recorded.
 
 mod ball_contacts;
+mod commands;
 mod flight;
 mod handling;
 mod robot_contacts;
 mod squeeze;
 
 use crate::ball::rolling::GroundMotion;
+use crate::blocks::{BALL, LANES};
 use crate::body_params::BodyParams;
-use crate::engine::{
-    BALL, BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall, robot,
-};
+use crate::engine::{BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::state::{Setup, State};
 use crate::tick::flight::Flight;
 use crate::tick::squeeze::Squeeze;
+pub(crate) use commands::StepCommands;
 
 /// Version of the physics, raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 5;
+pub const PHYSICS_VERSION: u32 = 6;
 
 /// Inputs of a tick.
 pub(crate) struct Tick<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) params: &'a BodyParams,
-    pub(crate) commands: &'a [f32],
+    pub(crate) commands: &'a StepCommands,
 }
 
 /// Speed of the ball or of a surface around it, m/s, above which a squeeze is solved in parts of the
@@ -40,7 +41,7 @@ impl Tick<'_> {
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
         let length = self.setup.config.tick;
-        handling::handle_ball(state, self.params, self.commands, self.columns(), length);
+        handling::handle_ball(state, self.params, &self.commands.handling, length);
         self.drive_robots(state);
         let before = state.engine.motion(BALL).position.extend(state.ball.z);
         let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
@@ -51,7 +52,7 @@ impl Tick<'_> {
             let part = length / f32::from(parts);
             self.move_bodies(state, scratch, part, squeeze.is_some())?;
         }
-        self.estimate_loads(state, &scratch.robot_contacts);
+        estimate_loads(state, &scratch.robot_contacts);
         let after = state.engine.motion(BALL).position.extend(state.ball.z);
         state.crossing.update(&self.setup.config.field, before, after);
         Ok(())
@@ -66,7 +67,6 @@ impl Tick<'_> {
         length: f32,
         may_squeeze: bool,
     ) -> Result<(), NonFinite> {
-        state.engine.list_undisturbed(length, &mut scratch.undisturbed);
         let before = state.engine.motion(BALL);
         if state.ball.is_down() {
             self.roll(state, &before, scratch, length, may_squeeze)?;
@@ -178,25 +178,21 @@ impl Tick<'_> {
     }
 
     fn drive_robots(&self, state: &mut State) {
-        let commands = self.commands.chunks_exact(self.columns());
-        for (index, command) in commands.enumerate() {
-            let motion = state.engine.motion(robot(index));
-            let limits = &self.params.robots[index].drive_limits;
-            let (force, torque) = state.robots[index].drive.wheel_force(limits, command, &motion);
-            state.engine.set_force(robot(index), force, torque);
+        let State { engine, drives, .. } = state;
+        let wheels = self.params.wheels.iter().zip(&self.commands.wheels);
+        for (block, (drive, (wheels, commands))) in drives.iter_mut().zip(wheels).enumerate() {
+            let motion = &engine.motion_blocks()[block];
+            let acceleration = drive.accelerate(wheels, commands, motion);
+            engine.set_acceleration(block, acceleration);
         }
     }
+}
 
-    fn estimate_loads(&self, state: &mut State, contacts: &[RobotContact]) {
-        let in_contact = robot_contacts::sustained(state, contacts);
-        for (index, body) in self.params.robots.iter().enumerate() {
-            let motion = state.engine.motion(robot(index));
-            let in_contact = in_contact & (1 << index) != 0;
-            state.robots[index].drive.estimate_load(&body.drive_limits, &motion, in_contact);
-        }
-    }
-
-    fn columns(&self) -> usize {
-        self.setup.command_columns.max(1)
+/// Estimates the loads of the tick on robots whose `contacts` last.
+fn estimate_loads(state: &mut State, contacts: &[RobotContact]) {
+    let in_contact = robot_contacts::sustained(state, contacts);
+    let State { engine, drives, .. } = state;
+    for (block, (drive, motion)) in drives.iter_mut().zip(engine.motion_blocks()).enumerate() {
+        drive.estimate_loads(motion, in_contact >> (block * LANES));
     }
 }

@@ -1,7 +1,8 @@
 //! Bounce of robots off each other and off walls, and the record of their collisions.
 
+use crate::blocks::robot;
 use crate::body_params::BodyParams;
-use crate::engine::{Partner, RobotContact, Undisturbed, robot};
+use crate::engine::{Partner, RobotContact, Undisturbed};
 use crate::math::Vector;
 use crate::state::State;
 
@@ -39,15 +40,15 @@ pub(super) fn resolve(
     }
 }
 
-/// Robots in sustained contact, one bit each: the partner of a contact in the last tick has not
+/// Bodies of the robots in sustained contact, one bit each: the partner of a contact in the last tick has not
 /// separated from them.
 pub(super) fn sustained(state: &State, contacts: &[RobotContact]) -> u64 {
     let lasting = contacts
         .iter()
         .filter(|contact| separation_speed(state, contact, current_motion) < SEPARATING);
     lasting.fold(0, |all, contact| {
-        let other = if let Partner::Robot(other) = contact.with { 1 << other } else { 0 };
-        all | 1 << contact.robot | other
+        let other = if let Partner::Robot(other) = contact.with { 1 << robot(other) } else { 0 };
+        all | 1 << robot(contact.robot) | other
     })
 }
 

@@ -5,8 +5,9 @@
 //! thrown back. The inertia of a jammed ball does not matter. So the ball gets the common velocity of
 //! the bodies that jam it, and, as long as it is jammed, a mass in the solver that passes pushes on.
 
+use crate::blocks::{BALL, robot};
 use crate::body_params::{BodyParams, RobotParams};
-use crate::engine::{BALL, Engine, SqueezedBall, robot};
+use crate::engine::{Engine, SqueezedBall};
 use crate::geometry::free_space::FreeSpace;
 use crate::math::Vector;
 
@@ -121,19 +122,11 @@ impl Sides {
     ) -> Self {
         let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
         let (center, radius) = (engine.motion(BALL).position, params.ball.radius);
-        let bodies = || {
-            let all = params.robots.iter().enumerate();
-            all.filter(|(_, body)| height < body.model.height)
-        };
         // A body from one side may press the ball against one at rest on the other.
-        let fastest =
-            bodies().map(|(index, _)| engine.motion(robot(index)).velocity.length_squared());
-        let fastest = fastest.fold(0.0, f32::max).sqrt();
-        let reach = NEAR + (2.0 * fastest + JAMMED_SLACK) * tick;
-        for (index, body) in bodies() {
-            let offset = center - engine.motion(robot(index)).position;
-            let near = radius + body.model.bounding_radius() + reach;
-            if offset.length_squared() < near * near {
+        let reach = NEAR + (2.0 * engine.fastest_robot(0.0) + JAMMED_SLACK) * tick;
+        for index in engine.robots_near_ball(reach) {
+            let body = &params.robots[index];
+            if height < body.model.height {
                 sides.add(Side::of_robot(engine, index, body, center, radius, tick));
             }
         }

@@ -207,7 +207,7 @@ impl Batch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{BALL, robot};
+    use crate::blocks::{BALL, robot};
     use crate::math::Vector;
     use crate::scenes;
 

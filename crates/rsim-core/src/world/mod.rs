@@ -13,7 +13,9 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use crate::ball::state::BallState;
+use crate::blocks::blocks_of;
 use crate::body_params::BodyParams;
+use crate::drive::DriveState;
 use crate::engine::{Engine, NonFinite, Scratch};
 use crate::error::{ConfigError, PlaceError, StepError};
 use crate::geometry::arena::walls;
@@ -22,13 +24,24 @@ use crate::models::config::SimConfig;
 use crate::state::crossing::Crossing;
 use crate::state::touch::TouchRecord;
 use crate::state::{RobotState, Setup, State};
-use crate::tick::Tick;
+use crate::tick::{StepCommands, Tick};
 use crate::world::line_up::line_up;
 use crate::world::placement::{Placement, Start};
 
 thread_local! {
     /// Working memory, one per thread and not per world: a world holds only the state of its match.
-    static SCRATCH: RefCell<Scratch> = RefCell::new(Scratch::new());
+    static MEMORY: RefCell<WorkingMemory> = RefCell::new(WorkingMemory::new());
+}
+
+struct WorkingMemory {
+    engine: Scratch,
+    commands: StepCommands,
+}
+
+impl WorkingMemory {
+    fn new() -> Self {
+        Self { engine: Scratch::new(), commands: StepCommands::default() }
+    }
 }
 
 /// One match: place it, step it, write its row.
@@ -61,6 +74,7 @@ impl World {
             engine: Engine::new(config, &params, &walls),
             ball: BallState::default(),
             robots: vec![RobotState::default(); config.n_robots()],
+            drives: vec![DriveState::default(); blocks_of(config.n_robots())],
             touches: TouchRecord::new(config.n_robots()),
             crossing: Crossing::default(),
             own_params: None,
@@ -145,9 +159,11 @@ impl World {
         let state = &mut self.state;
         let own_params = state.own_params.take();
         let params = own_params.as_deref().unwrap_or(&setup.params);
-        let tick = Tick { setup, params, commands };
-        let stepped = SCRATCH.with_borrow_mut(|scratch| {
-            (0..setup.config.ticks_per_step()).try_for_each(|_| tick.advance(state, scratch))
+        let stepped = MEMORY.with_borrow_mut(|memory| {
+            let WorkingMemory { engine, commands: read } = memory;
+            read.read(state, params, commands, setup.command_columns.max(1));
+            let tick = Tick { setup, params, commands: read };
+            (0..setup.config.ticks_per_step()).try_for_each(|_| tick.advance(state, engine))
         });
         state.own_params = own_params;
         stepped.and_then(|()| self.state.check_finite()).map_err(|NonFinite| {

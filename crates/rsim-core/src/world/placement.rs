@@ -1,9 +1,10 @@
 //! Checks of the rows that matches start from.
 
 use crate::ball::state::BallState;
+use crate::blocks::BALL;
 use crate::body_params::BodyParams;
 use crate::columns::{BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
-use crate::engine::{BALL, Shape};
+use crate::engine::Shape;
 use crate::error::PlaceError;
 use crate::geometry::arena::{Wall, position_limit};
 use crate::geometry::clearance::Clearance;

@@ -1,9 +1,9 @@
 //! State rows: the state of a match as numbers, in the order of [`crate::columns`].
 
 use crate::ball::mouth::beam_is_cut;
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
-use crate::engine::{BALL, robot};
 use crate::geometry::motion::Motion;
 use crate::state::State;
 

@@ -1,12 +1,12 @@
 //! Bodies in the solver.
 
-use crate::engine::bodies::{AppliedForce, InverseInertia};
+use crate::engine::bodies::{Acceleration, InverseInertia};
 use crate::geometry::motion::{Motion, rotated};
 use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::{Rotation, Vector};
 
 /// A body or wall, on a straight path within a sub-step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct SolverBody {
     /// m.
     pub(super) position: Vector,
@@ -44,9 +44,9 @@ impl SolverBody {
         }
     }
 
-    pub(super) fn write(&self, motion: &mut Motion) {
-        (motion.position, motion.heading) = (self.position, self.heading);
-        (motion.velocity, motion.spin) = (self.velocity, self.spin);
+    pub(super) fn motion(&self) -> Motion {
+        let Self { position, heading, velocity, spin, .. } = *self;
+        Motion { position, heading, velocity, spin }
     }
 
     /// Outline of the body where it is.
@@ -55,10 +55,10 @@ impl SolverBody {
         PlacedOutline { outline, position: self.position, heading }
     }
 
-    /// Applies a force for `time` (s).
-    pub(super) fn accelerate(&mut self, force: &AppliedForce, inverse: InverseInertia, time: f32) {
-        self.velocity += force.force * inverse.mass * time;
-        self.spin += force.torque * inverse.inertia * time;
+    /// Accelerates the body for `time` (s).
+    pub(super) fn accelerate(&mut self, acceleration: Acceleration, time: f32) {
+        self.velocity += acceleration.linear * time;
+        self.spin += acceleration.angular * time;
     }
 
     /// Moves the body for `time` (s).

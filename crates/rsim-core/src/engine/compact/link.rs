@@ -7,10 +7,11 @@ use super::constraint::Constraint;
 use super::discs::{Disc, discs, meet_ball, outline_and_disc};
 use super::impulses::Impulses;
 use super::manifold::Manifold;
+use crate::blocks::BALL;
+use crate::engine::WALL_FRICTION;
 use crate::engine::ball_contact::BallRules;
 use crate::engine::contacts::Partner;
 use crate::engine::near::{Other, Pair};
-use crate::engine::{BALL, WALL_FRICTION};
 use crate::geometry::outline::Outline;
 use crate::math::Vector;
 

@@ -23,11 +23,12 @@ mod report;
 mod two_points;
 mod warm_start;
 
+use super::SubSteps;
 use super::ball_contact::BallRules;
-use super::bodies::Bodies;
+use super::bodies::{Acceleration, Bodies};
 use super::contacts::Contacts;
 use super::near::Pair;
-use super::{BALL, SubSteps};
+use crate::blocks::{BALL, set_bits};
 use body::SolverBody;
 use constraint::Constraint;
 use impulses::Impulses;
@@ -53,7 +54,9 @@ const SETTLED: f32 = 0.1;
 /// Working memory of the solver, one per thread; its contents are of no use between ticks.
 #[derive(Default)]
 pub(super) struct CompactScratch {
+    /// All bodies by index, then walls. Only those that can meet others are in use.
     bodies: Vec<SolverBody>,
+    met: Vec<Met>,
     links: Vec<Link>,
     constraints: Vec<Constraint>,
     /// Constraints of the last sub-step.
@@ -72,7 +75,7 @@ impl CompactSolver {
         SubSteps { time, count }: SubSteps,
         contacts: &mut Contacts,
     ) -> bool {
-        scratch.read(bodies);
+        scratch.read(bodies, near.pairs);
         self.link(near.pairs, rules, time, &mut scratch.bodies, &mut scratch.links);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let min_passes = if jammed { MIN_PASSES_JAMMED } else { MIN_PASSES };
@@ -85,14 +88,22 @@ impl CompactSolver {
         let mut meets = false;
         scratch.constraints.clear();
         for _ in 0..count {
-            scratch.advance(bodies, &step, min_passes);
+            scratch.advance(&step, min_passes);
             meets |= !scratch.constraints.is_empty();
         }
+        bodies.move_freely(SubSteps { time, count });
         scratch.write(bodies);
         self.store(&scratch.links, bodies.ball_mass, time);
         report(&scratch.links, contacts);
         meets
     }
+}
+
+/// A body that can meet others in the tick.
+#[derive(Debug, Clone, Copy)]
+struct Met {
+    body: usize,
+    acceleration: Acceleration,
 }
 
 /// Bodies that can meet in a tick.
@@ -113,24 +124,31 @@ struct SubStep {
 }
 
 impl CompactScratch {
-    fn read(&mut self, bodies: &Bodies) {
-        let all = bodies.motions.iter().zip(&bodies.inverses);
+    /// Reads the bodies of `pairs`.
+    fn read(&mut self, bodies: &Bodies, pairs: &[Pair]) {
+        let met = pairs.iter().fold(0_u64, |met, pair| met | pair.bodies());
         self.bodies.clear();
-        self.bodies.extend(all.map(|(motion, inverse)| SolverBody::of(motion, *inverse)));
+        self.bodies.resize(bodies.motions.len(), SolverBody::default());
+        self.met.clear();
+        for body in set_bits(met) {
+            self.bodies[body] = SolverBody::of(&bodies.motions.get(body), bodies.inverse(body));
+            self.met.push(Met { body, acceleration: bodies.acceleration(body) });
+        }
         self.bodies[BALL].inverse_mass = 1.0 / bodies.ball_mass;
     }
 
     fn write(&self, bodies: &mut Bodies) {
-        let all = bodies.motions.iter_mut().zip(&self.bodies);
-        all.for_each(|(motion, body)| body.write(motion));
+        for Met { body, .. } in &self.met {
+            bodies.motions.set(*body, &self.bodies[*body].motion());
+        }
     }
 
-    /// Advances all bodies by a sub-step.
-    fn advance(&mut self, all: &Bodies, step: &SubStep, min_passes: usize) {
-        let Self { bodies, links, constraints, previous } = self;
+    /// Advances the bodies that can meet others by a sub-step.
+    fn advance(&mut self, step: &SubStep, min_passes: usize) {
+        let Self { bodies, met, links, constraints, previous } = self;
         let time = step.window.time;
-        for ((body, force), inverse) in bodies.iter_mut().zip(&all.forces).zip(&all.inverses) {
-            body.accelerate(force, *inverse, time);
+        for Met { body, acceleration } in met.iter() {
+            bodies[*body].accelerate(*acceleration, time);
         }
         std::mem::swap(constraints, previous);
         constraints.clear();
@@ -158,7 +176,9 @@ impl CompactScratch {
         for constraint in constraints.iter_mut() {
             constraint.close(bodies, time);
         }
-        bodies[..all.motions.len()].iter_mut().for_each(|body| body.advance(time));
+        for Met { body, .. } in met.iter() {
+            bodies[*body].advance(time);
+        }
         for constraint in constraints.iter_mut() {
             constraint.solve(bodies, &step.relaxing);
         }

@@ -1,7 +1,7 @@
 //! Contacts with an impulse in a tick.
 
 use super::link::Link;
-use crate::engine::BALL;
+use crate::blocks::BALL;
 use crate::engine::contacts::{BallContact, Contacts, RobotContact};
 
 /// Writes the contacts that had an impulse in the tick.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::SolverBody;
 use super::impulses::Impulses;
 use super::link::Link;
-use crate::engine::BALL;
+use crate::blocks::BALL;
 use crate::engine::ball_contact::BallRules;
 use crate::engine::near::Pair;
 

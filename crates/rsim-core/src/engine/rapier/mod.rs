@@ -13,10 +13,11 @@ use rapier2d::pipeline::PhysicsPipeline;
 use rapier2d::prelude::SoftBodySet;
 use serde::{Deserialize, Serialize};
 
+use super::NonFinite;
 use super::ball_contact::BallRules;
 use super::bodies::Bodies;
 use super::contacts::Contacts;
-use super::{BALL, NonFinite, robot};
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
 use crate::geometry::motion::Motion;
 use crate::math::{Pose, Vector};
@@ -141,31 +142,34 @@ impl RapierSolver {
 
     fn read_bodies(&mut self, bodies: &mut Bodies) {
         for (index, handle) in self.handles.iter().enumerate() {
-            let (body, motion) = (&mut self.bodies[*handle], &bodies.motions[index]);
+            let (body, motion) = (&mut self.bodies[*handle], bodies.motions.get(index));
             // The ball always: only then does the solver predict along its new velocity.
             if std::mem::take(&mut bodies.moved[index]) || index == BALL {
                 body.set_position(Pose::from_parts(motion.position, motion.rotation()), true);
             }
             body.set_linvel(motion.velocity, true);
             body.set_angvel(motion.spin, true);
-            let force = &bodies.forces[index];
             body.reset_forces(false);
             body.reset_torques(false);
-            body.add_force(force.force, true);
-            body.add_torque(force.torque, true);
+            if index != BALL {
+                let (gain, inverse) = (bodies.acceleration(index), bodies.inverse(index));
+                body.add_force(gain.linear / inverse.mass, true);
+                body.add_torque(gain.angular / inverse.inertia, true);
+            }
         }
     }
 
     fn write_bodies(&self, bodies: &mut Bodies) {
-        for (motion, handle) in bodies.motions.iter_mut().zip(&self.handles) {
+        for (index, handle) in self.handles.iter().enumerate() {
             let body = &self.bodies[*handle];
             let rotation = body.rotation();
-            *motion = Motion {
+            let motion = Motion {
                 position: body.translation(),
                 heading: Vector::new(rotation.re, rotation.im),
                 velocity: body.linvel(),
                 spin: body.angvel(),
             };
+            bodies.motions.set(index, &motion);
         }
     }
 }

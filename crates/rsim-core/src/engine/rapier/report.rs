@@ -5,7 +5,7 @@ use rapier2d::parry::query::TrackedContact;
 use rapier2d::prelude::{ContactData, ContactManifold, ContactPair};
 
 use super::RapierSolver;
-use crate::engine::BALL;
+use crate::blocks::BALL;
 use crate::engine::contacts::{BallContact, Contacts, Partner, RobotContact};
 use crate::math::Vector;
 

@@ -1,0 +1,101 @@
+//! Positions and motions of the bodies of a block.
+
+use serde::{Deserialize, Serialize};
+
+use crate::blocks::{Lanes, VectorLanes};
+use crate::geometry::motion::Motion;
+
+/// Position and velocity of the bodies of a block, by columns.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(crate) struct MotionBlock {
+    /// m.
+    pub(crate) position: VectorLanes,
+    /// Cosine and sine of the headings.
+    pub(crate) heading: VectorLanes,
+    /// m/s.
+    pub(crate) velocity: VectorLanes,
+    /// Turn rates, rad/s, counterclockwise.
+    pub(crate) spin: Lanes,
+}
+
+impl MotionBlock {
+    /// A block of bodies at rest in the origin.
+    pub(crate) const AT_REST: Self = Self {
+        position: VectorLanes::ZERO,
+        heading: VectorLanes { x: Lanes::ONE, y: Lanes::ZERO },
+        velocity: VectorLanes::ZERO,
+        spin: Lanes::ZERO,
+    };
+
+    /// Motion of the body in `lane`.
+    pub(crate) fn get(&self, lane: usize) -> Motion {
+        Motion {
+            position: self.position.get(lane),
+            heading: self.heading.get(lane),
+            velocity: self.velocity.get(lane),
+            spin: self.spin.as_array()[lane],
+        }
+    }
+
+    /// Sets the motion of the body in `lane`.
+    pub(crate) fn set(&mut self, lane: usize, motion: &Motion) {
+        self.position.set(lane, motion.position);
+        self.heading.set(lane, motion.heading);
+        self.velocity.set(lane, motion.velocity);
+        self.spin.as_mut_array()[lane] = motion.spin;
+    }
+
+    /// Moves the bodies by `count` steps of `time` (s), each with the given changes of velocity (m/s) and
+    /// turn rate (rad/s).
+    pub(crate) fn advance(
+        &mut self,
+        velocity_change: VectorLanes,
+        spin_change: Lanes,
+        time: f32,
+        count: usize,
+    ) {
+        let time = Lanes::splat(time);
+        let mut heading = self.heading;
+        for _ in 0..count {
+            self.velocity += velocity_change;
+            self.spin += spin_change;
+            self.position += self.velocity * time;
+            // To first order, as `rotated`; the product of all rotations is normalized once.
+            heading += heading.perp() * (self.spin * time);
+        }
+        self.heading = heading * (Lanes::ONE / heading.length_squared().sqrt());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::motion::rotated;
+    use crate::math::Vector;
+
+    #[test]
+    fn a_body_of_a_block_moves_as_it_would_alone() {
+        let motion = Motion {
+            position: Vector::new(0.3, -0.2),
+            heading: Vector::from_angle(2.0),
+            velocity: Vector::new(1.5, 0.4),
+            spin: 30.0,
+        };
+        let mut block = MotionBlock::AT_REST;
+        block.set(2, &motion);
+        assert_eq!(block.get(2), motion);
+        let (gain, turn) = (Vector::new(0.01, -0.02), 0.3);
+        block.advance(VectorLanes::splat(gain), Lanes::splat(turn), 1.25e-3, 4);
+        let mut alone = motion;
+        for _ in 0..4 {
+            alone.velocity += gain;
+            alone.spin += turn;
+            alone.position += alone.velocity * 1.25e-3;
+            alone.heading = rotated(alone.heading, alone.spin * 1.25e-3);
+        }
+        let moved = block.get(2);
+        assert!((moved.position - alone.position).length() < 1e-7);
+        assert!((moved.heading - alone.heading).length() < 1e-6);
+        assert_eq!((moved.velocity, moved.spin), (alone.velocity, alone.spin));
+    }
+}

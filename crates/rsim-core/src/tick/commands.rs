@@ -1,0 +1,76 @@
+//! Commands of a control step, read once for all of its ticks.
+
+use crate::body_params::BodyParams;
+use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
+use crate::drive::BlockCommands;
+use crate::models::robot::Drive;
+use crate::state::State;
+
+/// Commands of all robots for a control step.
+#[derive(Default)]
+pub(crate) struct StepCommands {
+    /// Commands of the wheels, by block.
+    pub(super) wheels: Vec<BlockCommands>,
+    /// Robots that are to kick or to dribble.
+    pub(super) handling: Vec<HandlingCommand>,
+}
+
+/// The part of a command for kicker and dribbler.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct HandlingCommand {
+    /// Index of the robot.
+    pub(super) robot: usize,
+    /// Speed of a kick along the floor, m/s.
+    pub(super) kick: f32,
+    /// Upward speed of a chip, m/s.
+    pub(super) chip: f32,
+    /// Speed of the dribbler by its maximum, 0 to 1.
+    pub(super) dribbler: f32,
+}
+
+impl StepCommands {
+    /// Reads the commands from rows of `columns` numbers, one row per robot, and sets the dribblers of
+    /// `state`.
+    pub(crate) fn read(
+        &mut self,
+        state: &mut State,
+        params: &BodyParams,
+        commands: &[f32],
+        columns: usize,
+    ) {
+        let blocks = 0..params.wheels.len();
+        self.wheels.clear();
+        self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
+        self.handling.clear();
+        for (index, body) in params.robots.iter().enumerate() {
+            let row = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
+            let Some(command) = HandlingCommand::read(index, &body.model.drive, row) else {
+                continue;
+            };
+            if body.model.mouth.is_some() {
+                state.robots[index].dribbling = command.dribbler;
+                if command.kicks() || command.dribbler > 0.0 {
+                    self.handling.push(command);
+                }
+            }
+        }
+    }
+}
+
+impl HandlingCommand {
+    /// The part of the command in `row` for kicker and dribbler; `None` for a drive without them.
+    fn read(robot: usize, drive: &Drive, row: &[f32]) -> Option<Self> {
+        // The last three columns of an omnidirectional robot.
+        let at = match drive {
+            Drive::Differential(_) => return None,
+            Drive::Omni(_) => OMNI_COLUMNS.len() - 3,
+            Drive::OmniWheels(_) => OMNI_WHEELS_COLUMNS.len() - 3,
+        };
+        let [kick, chip, dribbler] = [row[at], row[at + 1], row[at + 2]];
+        Some(Self { robot, kick, chip, dribbler: dribbler.clamp(0.0, 1.0) })
+    }
+
+    pub(super) fn kicks(&self) -> bool {
+        self.kick > 0.0 || self.chip > 0.0
+    }
+}
