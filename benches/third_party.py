@@ -5,10 +5,9 @@ Only this module imports them.
 
 import json
 import os
-import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import chdir, contextmanager
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
 from functools import cache
 from importlib import import_module, metadata
 from pathlib import Path
@@ -42,25 +41,17 @@ def name_with_version(module: str) -> str:
 
 @contextmanager
 def silence() -> Iterator[None]:
-    """Suppress output, also of compiled code: rSim prints while it steps."""
-    _flush()
+    """Suppress output, also of compiled code: rSim prints while it steps, pSim at every reset."""
     saved = [(stream, os.dup(stream)) for stream in (1, 2)]
-    with open(os.devnull, "w") as null:
+    with open(os.devnull, "w") as null, redirect_stdout(null), redirect_stderr(null):
         for stream, _ in saved:
             os.dup2(null.fileno(), stream)
-    try:
-        yield
-    finally:
-        _flush()
-        for stream, copy in saved:
-            os.dup2(copy, stream)
-            os.close(copy)
-
-
-def _flush() -> None:
-    """Write what Python has buffered, so that it goes where it was printed."""
-    sys.stdout.flush()
-    sys.stderr.flush()
+        try:
+            yield
+        finally:
+            for stream, copy in saved:
+                os.dup2(copy, stream)
+                os.close(copy)
 
 
 def silent(measure: Measure) -> Measure:
