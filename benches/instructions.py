@@ -42,14 +42,18 @@ PARTS: Final = {
     "solver": ("engine/rapier/", "engine/compact/", "engine/ball_contact"),
     "pair search": ("engine/near", "geometry/free_space"),
     "squeeze check": ("tick/squeeze",),
-    "free motion": ("engine/contact_free",),
+    "free motion": ("engine/contact_free", "engine/bodies.rs:move_freely"),
     "wheels": ("drive/",),
+    "loads": (),
     "ball": ("ball/rolling", "ball/impact", "tick/ball_contacts", "tick/flight"),
     "handling": ("ball/mouth", "ball/kicks", "tick/handling"),
     "robot contacts": ("tick/robot_contacts",),
+    "events": ("state/touch", "state/crossing"),
     "rows": ("world/row",),
 }
-"""Parts of a tick, and the beginnings of their files in the core. Files in no part are helpers."""
+"""Parts of a tick, and the beginnings of their files in the core, or a file and a function in it.
+Files in no part are helpers."""
+LOADS: Final = "estimate_load"  # in the names of functions of that part, which call those of others
 ENGINE_CRATES: Final = re.compile(r"/(rapier2d|parry2d)-[^/]*/")
 
 Address = tuple[str, str]  # object file, address
@@ -191,25 +195,29 @@ def parts_of_addresses(functions: dict[Name, Function], program: Path) -> dict[A
     addresses = {address for function in functions.values() for address in function.own}
     addresses |= {at for function in functions.values() for at, _, _ in function.calls}
     mine = sorted(address for address in addresses if address[0] == str(program))
-    found = (part_of(files) for files in source_files(program, [at for _, at in mine]))
+    found = (part_of(places) for places in source_places(program, [at for _, at in mine]))
     return {address: part for address, part in zip(mine, found, strict=True) if part}
 
 
-def source_files(program: Path, positions: Sequence[str]) -> Iterator[list[str]]:
-    """Yield the source files of each position, those of inlined functions first."""
-    command = ["addr2line", "--addresses", "--inlines", "--exe", str(program)]
+def source_places(program: Path, positions: Sequence[str]) -> Iterator[list[str]]:
+    """Yield file and function of each position, as "file:function", inlined functions first."""
+    command = ["addr2line", "--addresses", "--functions", "--inlines", "--exe", str(program)]
     asked = "\n".join(positions)
     ran = subprocess.run(command, input=asked, capture_output=True, text=True, check=True)
     for block in re.split(r"^0x", ran.stdout, flags=re.MULTILINE)[1:]:
-        yield block.splitlines()[1:]
+        _, *lines = block.splitlines()
+        files = (line.partition(":")[0] for line in lines[1::2])
+        yield [f"{file}:{name}" for file, name in zip(files, lines[::2], strict=True)]
 
 
-def part_of(files: Sequence[str]) -> str | None:
-    """Return the part of an instruction by its source files, those of inlined functions first."""
-    for file in files:
-        if ENGINE_CRATES.search(file):
+def part_of(places: Sequence[str]) -> str | None:
+    """Return the part of an instruction by its places, as `source_places` yields them."""
+    if any(LOADS in place for place in places):
+        return "loads"
+    for place in places:
+        if ENGINE_CRATES.search(place):
             return "solver"
-        _, _, name = file.partition(CORE)
+        _, _, name = place.partition(CORE)
         for part, beginnings in PARTS.items():
             if name.startswith(beginnings):
                 return part

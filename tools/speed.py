@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
+from benches.instructions import STORED
 from benches.interfaces import OUTSIDE
 from benches.measuring import MATCH_TIME
 from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
@@ -56,6 +57,11 @@ def summary() -> str:
         intro = f"{_source(machine, figures)} {MEANING.format(DEFAULT_ENGINE)}"
         parts.append(f"{intro}\n\n{physics_table(figures)}")
     return "\n\n".join([*parts, MORE])
+
+
+def instructions() -> str:
+    """Return the table of instructions per tick; empty if they were not counted."""
+    return STORED.read_text() if STORED.exists() else ""
 
 
 def feature() -> str:
@@ -343,6 +349,8 @@ def _memory(figures: list[Figure]) -> str:
     parts = []
     for scenario, group in groupby(figures, key=lambda figure: figure.scenario):
         by_engine = {f.engine: format_number(f.median, 2) for f in group}
+        if DEFAULT_ENGINE not in by_engine:
+            continue
         text = f"{by_engine[DEFAULT_ENGINE]} KiB for {scenario}"
         if OTHER_ENGINE in by_engine:
             text += f" ({by_engine[OTHER_ENGINE]} KiB with `{OTHER_ENGINE}`)"

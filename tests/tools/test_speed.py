@@ -73,6 +73,13 @@ def test_psim_is_compared_by_steps_and_by_time_of_play() -> None:
     assert "200 in `parallel_env`, 220 in `Matches`, 50 in pSim." in text
 
 
+def test_counted_instructions_are_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(speed, "STORED", tmp_path / "instructions.md")
+    assert speed.instructions() == ""
+    speed.STORED.write_text("| scene |\n")
+    assert speed.instructions() == "| scene |\n"
+
+
 def test_every_machine_has_a_section(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed, "RESULTS", tmp_path)
     assert speed.speed() == ""
