@@ -74,9 +74,10 @@ def test_psim_is_compared_by_steps_and_by_time_of_play() -> None:
 
 
 def test_counted_instructions_are_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(speed, "STORED", tmp_path / "instructions.md")
+    stored = tmp_path / "instructions.md"
+    monkeypatch.setattr(speed, "STORED", stored)
     assert speed.instructions() == ""
-    speed.STORED.write_text("| scene |\n")
+    stored.write_text("| scene |\n")
     assert speed.instructions() == "| scene |\n"
 
 
