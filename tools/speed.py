@@ -24,8 +24,8 @@ MEANING = (
     "brackets). The contact engine is the default, `{}`."
 )
 MORE = (
-    "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory and "
-    "VMAS, and the advice that follows from them. `make bench` measures your machine."
+    "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory, VMAS "
+    "and pSim, and the advice that follows from them. `make bench` measures your machine."
 )
 FEATURE = "**Speed.**"
 """Start of the sentence on speed in docs/index.md."""
