@@ -17,7 +17,7 @@ const DEFAULT_SUB_STEPS: usize = 4;
 
 /// Steps of a scene, and number of times that it is played; the fastest counts.
 const STEPS: u64 = 400;
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 15;
 
 /// Measurements of a scene.
 #[derive(Default)]
