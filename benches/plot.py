@@ -83,8 +83,9 @@ def _ratios(axes: "Axes", ratios: list[Figure], others: list[Figure]) -> None:
             axes.plot(
                 [figure.minimum, figure.maximum], [height, height], color="#333333", linewidth=1
             )
-            beside = 1.06 * max(figure.maximum, 1.04 * marks.get(figure.scenario, 0.0))
-            axes.text(beside, height, format_ratio(figure.median), va="center", fontsize=8)
+            axes.text(
+                figure.maximum * 1.06, height, format_ratio(figure.median), va="center", fontsize=8
+            )
     reference = ratios[0].variant.split(" / ")[1]
     axes.set(xscale="log", xlim=(1, 10 * max(figure.maximum for figure in ratios)))
     axes.set_yticks(range(len(scenarios)), scenarios)
@@ -102,10 +103,11 @@ def _rates(axes: "Axes", rates: list[Figure], others: list[Figure]) -> None:
     _mark(axes, [marks.get(case) for case in cases], heights, first=True)
     colours = [_colour(figure.variant) for figure in rates]
     axes.barh(heights, [figure.median for figure in rates], 0.7, color=colours)
-    for figure, height, case in zip(rates, heights, cases, strict=True):
+    for figure, height in zip(rates, heights, strict=True):
         axes.plot([figure.minimum, figure.maximum], [height, height], color="#333333", linewidth=1)
-        beside = 1.06 * max(figure.maximum, 1.1 * marks.get(case, 0.0))
-        axes.text(beside, height, format_number(figure.median), va="center", fontsize=8)
+        axes.text(
+            figure.maximum * 1.06, height, format_number(figure.median), va="center", fontsize=8
+        )
     axes.set_yticks(heights, [_label(figure) for figure in rates])
     slowest, fastest = min(f.minimum for f in rates), max(f.maximum for f in rates)
     axes.set(xscale="log", xlim=(min(slowest / 2, 100), 4 * fastest))
