@@ -254,7 +254,7 @@ def psim(figures: Sequence[Figure]) -> str:
     }
     return (
         f"{name} simulates VSSS on Box2D for PettingZoo, here with three learners against three "
-        "robots of noise, as in the task beside it. Its step is one tick of 16.7 ms, a step here "
+        f"robots of noise, as in `{scenario}`. Its step is one tick of 16.7 ms, a step here "
         f"25 ms in five ticks. `parallel_env` takes {ratio(ratios['ParallelEnv'])} as many steps "
         f"a second, `Matches` with one world {ratio(ratios['Matches'])}. Seconds of play "
         f"simulated per second: {times['ParallelEnv']} in `parallel_env`, {times['Matches']} in "
