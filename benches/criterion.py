@@ -24,11 +24,14 @@ def core_figures(folder: Path = CRITERION, *, since: float | None = None) -> Ite
         median = json.loads((path.parent / "estimates.json").read_text())["median"]
         interval = median["confidence_interval"]
         steps = 1e9 * case["throughput"]["Elements"]  # times are in nanoseconds
+        league, sizes, engine = case["group_id"].split("_")
+        teams = f"{LEAGUES[league]} {sizes.replace('v', ' v ')}"
         worlds, threads = case["value_str"].split("x")
         yield Figure(
             group="rust",
-            scenario=f"{_teams(case['group_id'])} {case['function_id']}",
+            scenario=f"{teams} {case['function_id']}",
             variant="rsim-core",
+            engine=engine,
             worlds=int(worlds),
             threads=int(threads),
             quantity="speed",
@@ -38,9 +41,3 @@ def core_figures(folder: Path = CRITERION, *, since: float | None = None) -> Ite
             maximum=steps / interval["lower_bound"],
             rounds=1,
         )
-
-
-def _teams(group: str) -> str:
-    """Return the teams of a benchmark group, such as "VSSS 3 v 3" for `vss_3v3_step`."""
-    league, sizes = group.removesuffix("_step").split("_")
-    return f"{LEAGUES[league]} {sizes.replace('v', ' v ')}"

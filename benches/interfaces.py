@@ -22,7 +22,7 @@ from benches.measuring import (
     calls_per_second,
     world_steps_per_second,
 )
-from benches.scenarios import HELD
+from benches.scenarios import DEFAULT_ENGINE, HELD
 from rsoccer.arrays import Array, Floats
 from rsoccer.train.timing import Clock, TimedSimulator
 
@@ -34,9 +34,9 @@ WARM_UP: Final = 100_000
 T = TypeVar("T")
 
 
-def matches(task: str, worlds: int, threads: int) -> Measure:
+def matches(task: str, worlds: int, threads: int, engine: str = DEFAULT_ENGINE) -> Measure:
     """Return a measure of `Matches`: speed and time outside physics."""
-    instance, clock = rsoccer.make_task(task), Clock()
+    instance, clock = rsoccer.make_task(task, engine=engine), Clock()
     simulator = TimedSimulator(instance.config, worlds, threads, clock)
     batch = rsoccer.Matches(instance, worlds, seed=0, threads=threads, simulator=simulator)
     batch.reset()

@@ -23,6 +23,7 @@ class Quantity(NamedTuple):
 
 SPEED: Final = Quantity("speed", "world-steps/s")
 RATIO: Final = Quantity("ratio", "x")
+MATCH_TIME: Final = Quantity("match time", "s of play per s")
 
 Values = dict[Quantity, float]  # ratios are taken of the first quantity
 Measure = Callable[[float], Values]  # measures for about that many seconds; 0 is a warm-up
@@ -36,6 +37,8 @@ class Variant:
     worlds: int
     threads: int
     start: Callable[[], Measure]
+    engine: str = ""
+    """Contact engine, if the variant has one."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ class Benchmark:
     scenario: str
     variants: tuple[Variant, ...]
     pairs: tuple[tuple[int, int], ...] = ()
+    repeats: bool = True
+    """False if every round would give the same values: then the first one suffices."""
 
     @property
     def title(self) -> str:
@@ -78,6 +83,8 @@ def measure(
     results: list[Rounds] = [[] for _ in prepared]
     for n in range(rounds):
         for (benchmark, measures), values in zip(prepared, results, strict=True):
+            if n and not benchmark.repeats:
+                continue
             log(f"round {n + 1} of {rounds}, {benchmark.title}")
             values.append(measure_round(measures, seconds, backward=n % 2 == 1))
     pairs = zip(prepared, results, strict=True)
@@ -112,21 +119,30 @@ def summarize(benchmark: Benchmark, rounds: Rounds) -> Iterator[Figure]:
     for i, variant in enumerate(benchmark.variants):
         for quantity in rounds[0][i]:
             values = [values[i][quantity] for values in rounds]
-            yield figure(benchmark, variant, variant.name, quantity, values)
+            yield figure(benchmark, variant, variant.name, variant.engine, quantity, values)
     for numerator, denominator in benchmark.pairs:
         variant, reference = benchmark.variants[numerator], benchmark.variants[denominator]
         ratios = [_first(values[numerator]) / _first(values[denominator]) for values in rounds]
-        yield figure(benchmark, variant, f"{variant.name} / {reference.name}", RATIO, ratios)
+        name, engine = f"{variant.name} / {reference.name}", variant.engine
+        if reference.engine and engine != reference.engine:
+            engine = f"{engine} / {reference.engine}"
+        yield figure(benchmark, variant, name, engine, RATIO, ratios)
 
 
 def figure(
-    benchmark: Benchmark, variant: Variant, name: str, quantity: Quantity, values: Sequence[float]
+    benchmark: Benchmark,
+    variant: Variant,
+    name: str,
+    engine: str,
+    quantity: Quantity,
+    values: Sequence[float],
 ) -> Figure:
     """Return median, minimum and maximum of the values of all rounds."""
     return Figure(
         group=benchmark.group,
         scenario=benchmark.scenario,
         variant=name,
+        engine=engine,
         worlds=variant.worlds,
         threads=variant.threads,
         quantity=quantity.name,
@@ -151,6 +167,16 @@ def calls_per_second(step: Callable[[], object], seconds: float) -> float:
 def world_steps_per_second(step: Callable[[], object], worlds: int) -> Measure:
     """Return a measure of the speed of `step`, which steps `worlds` worlds per call."""
     return lambda seconds: {SPEED: worlds * calls_per_second(step, seconds)}
+
+
+def with_match_time(measure: Measure, step: float) -> Measure:
+    """Return a measure that adds the simulated time, given the length of a step (s)."""
+
+    def timed(seconds: float) -> Values:
+        values = measure(seconds)
+        return {**values, MATCH_TIME: values[SPEED] * step}
+
+    return timed
 
 
 def select(benchmarks: Iterable[Benchmark], pattern: str) -> list[Benchmark]:

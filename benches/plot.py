@@ -1,15 +1,20 @@
-"""Bar charts of a table: speed relative to rSim, and speed of every interface."""
+"""Bar charts of a table: speed relative to rSim, and speed of every interface.
+
+Bars are figures of the default contact engine, diamonds of the other.
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from benches.result_files import Figure, Machine, format_number, format_ratio
+from benches.scenarios import DEFAULT_ENGINE, ENGINES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SINGLE, BATCH, THIRD_PARTY, NOOP = "#1f6f8b", "#7fb7c9", "#c8553d", "#b8bcc2"
+OTHER: Final = "#d9a441"  # marker of the engine that is not the default
 BAR: Final = 0.38  # width of a bar, relative to the distance of two scenarios
 ROW: Final = 0.26  # inches per bar
 WORLDS: Final = "world-steps/s"
@@ -21,15 +26,18 @@ def draw(figures: Sequence[Figure], machine: Machine, path: Path) -> Path | None
         from matplotlib.figure import Figure as Canvas
     except ImportError:
         return None
-    ratios, rates = core_ratios(figures), environment_rates(figures)
-    charts = [part for part in ((_ratios, ratios), (_rates, rates)) if part[1]]
+    default, other = ENGINES
+    charts = []
+    for draw_chart, select in ((_ratios, core_ratios), (_rates, environment_rates)):
+        if shown := select(figures, default):
+            charts.append((draw_chart, shown, select(figures, other)))
     if not charts:
         return None
-    sizes = [1.1 + ROW * rows(shown) for _, shown in charts]
+    sizes = [1.1 + ROW * rows(shown) for _, shown, _ in charts]
     canvas = Canvas(figsize=(8.0, sum(sizes) + 0.4), dpi=110, layout="constrained")
     grid = canvas.add_gridspec(len(charts), 1, height_ratios=sizes)
-    for number, (draw_chart, shown) in enumerate(charts):
-        draw_chart(canvas.add_subplot(grid[number]), shown)
+    for number, (draw_chart, shown, others) in enumerate(charts):
+        draw_chart(canvas.add_subplot(grid[number]), shown, others)
     caption = f"{machine.machine}, {machine.cores} cores, {machine.date}, commit {machine.commit}"
     canvas.supxlabel(caption, fontsize=8, color="#555555")
     canvas.savefig(path)
@@ -41,29 +49,36 @@ def rows(shown: Sequence[Figure]) -> float:
     return len({(f.scenario, f.variant, f.worlds, f.threads) for f in shown})
 
 
-def core_ratios(figures: Sequence[Figure]) -> list[Figure]:
-    """Return the ratios of `Simulator` to rSim."""
+def core_ratios(figures: Sequence[Figure], engine: str = DEFAULT_ENGINE) -> list[Figure]:
+    """Return the ratios of `Simulator` with an engine to rSim."""
     return [
         figure
         for figure in figures
-        if (figure.group, figure.quantity) == ("core", "ratio")
+        if (figure.group, figure.quantity, figure.engine) == ("core", "ratio", engine)
         and figure.variant.startswith("Simulator /")
     ]
 
 
-def environment_rates(figures: Sequence[Figure]) -> list[Figure]:
-    """Return the speeds of complete environments, third-party ones included."""
-    return [f for f in figures if f.group in ("single", "batched") and f.unit == WORLDS]
+def environment_rates(figures: Sequence[Figure], engine: str = DEFAULT_ENGINE) -> list[Figure]:
+    """Return the speeds of complete environments with an engine.
+
+    Environments without an engine, third-party ones included, are with those of the default.
+    """
+    engines = (engine, "") if engine == DEFAULT_ENGINE else (engine,)
+    groups = ("single", "batched")
+    return [f for f in figures if f.group in groups and f.unit == WORLDS and f.engine in engines]
 
 
-def _ratios(axes: "Axes", ratios: list[Figure]) -> None:
+def _ratios(axes: "Axes", ratios: list[Figure], others: list[Figure]) -> None:
     scenarios = list(dict.fromkeys(figure.scenario for figure in ratios))
     for position, worlds in enumerate(sorted({figure.worlds for figure in ratios})):
         shown = [figure for figure in ratios if figure.worlds == worlds]
         heights = [scenarios.index(figure.scenario) + (position - 0.5) * BAR for figure in shown]
+        marks = {f.scenario: f.median for f in others if f.worlds == worlds}
         label = "1 world" if worlds == 1 else f"{worlds} worlds"
         widths = [figure.median for figure in shown]
         axes.barh(heights, widths, BAR, color=(SINGLE, BATCH)[position % 2], label=label)
+        _mark(axes, [marks.get(figure.scenario) for figure in shown], heights, first=not position)
         for figure, height in zip(shown, heights, strict=True):
             axes.plot(
                 [figure.minimum, figure.maximum], [height, height], color="#333333", linewidth=1
@@ -72,7 +87,7 @@ def _ratios(axes: "Axes", ratios: list[Figure]) -> None:
                 figure.maximum * 1.06, height, format_ratio(figure.median), va="center", fontsize=8
             )
     reference = ratios[0].variant.split(" / ")[1]
-    axes.set(xscale="log", xlim=(1, 6 * max(figure.maximum for figure in ratios)))
+    axes.set(xscale="log", xlim=(1, 10 * max(figure.maximum for figure in ratios)))
     axes.set_yticks(range(len(scenarios)), scenarios)
     axes.invert_yaxis()
     axes.set_title(f"Physics on one thread: speed relative to {reference}", fontsize=11)
@@ -81,8 +96,11 @@ def _ratios(axes: "Axes", ratios: list[Figure]) -> None:
     _plain(axes)
 
 
-def _rates(axes: "Axes", rates: list[Figure]) -> None:
+def _rates(axes: "Axes", rates: list[Figure], others: list[Figure]) -> None:
     heights = range(len(rates))
+    marks = {(f.scenario, f.variant, f.worlds, f.threads): f.median for f in others}
+    cases = [(f.scenario, f.variant, f.worlds, f.threads) for f in rates]
+    _mark(axes, [marks.get(case) for case in cases], heights, first=True)
     colours = [_colour(figure.variant) for figure in rates]
     axes.barh(heights, [figure.median for figure in rates], 0.7, color=colours)
     for figure, height in zip(rates, heights, strict=True):
@@ -96,21 +114,43 @@ def _rates(axes: "Axes", rates: list[Figure]) -> None:
     axes.invert_yaxis()
     axes.set_title("Complete environments: world-steps per second", fontsize=11)
     axes.set_xlabel("world-steps per second (lines: slowest and fastest round)")
+    if others:
+        axes.legend(frameon=False, fontsize=8, loc="lower right")
     _plain(axes)
+
+
+def _mark(
+    axes: "Axes", medians: Sequence[float | None], heights: Sequence[float], *, first: bool
+) -> None:
+    """Mark medians of the engine that is not the default; only the first marks get a label."""
+    marked = [(x, height) for x, height in zip(medians, heights, strict=True) if x is not None]
+    if marked:
+        label = f"engine {ENGINES[1]}" if first else None
+        axes.plot(
+            *zip(*marked, strict=True),
+            "D",
+            color=OTHER,
+            markersize=4,
+            markeredgewidth=0.5,
+            markeredgecolor="black",
+            label=label,
+            zorder=3,
+        )
 
 
 def _label(figure: Figure) -> str:
     """Return variant, scenario, batch size and threads."""
     worlds = f", {figure.worlds:,} worlds" if figure.worlds > 1 else ""
     threads = f", {figure.threads} threads" if figure.threads > 1 else ""
-    scenario = "football" if figure.variant.startswith("vmas") else figure.scenario
+    theirs = {"vmas": "football", "pSim": "VSSS 3 v 3"}
+    scenario = theirs.get(figure.variant.split(" ")[0], figure.scenario)
     return f"{figure.variant}, {scenario}{worlds}{threads}"
 
 
 def _colour(variant: str) -> str:
     if variant.startswith("no-op"):
         return NOOP
-    return THIRD_PARTY if variant.startswith("vmas") else SINGLE
+    return THIRD_PARTY if variant.startswith(("vmas", "pSim")) else SINGLE
 
 
 def _plain(axes: "Axes") -> None:

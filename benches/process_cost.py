@@ -32,8 +32,9 @@ def memory(scenario: Scenario, worlds: int) -> Measure:
     """Return a measure of the memory of a world that has had contacts."""
 
     def measure(seconds: float) -> Values:
-        del seconds  # the duration is fixed
-        results = run_probe("memory", scenario.field, str(scenario.robots), str(worlds))
+        if not seconds:  # a warm-up has no effect on the next process
+            return {}
+        results = run_probe("memory", *described(scenario), str(worlds))
         return {MEMORY: results["bytes"] / 1024}
 
     return measure
@@ -52,12 +53,16 @@ def capacity(scenario: Scenario, worlds: int, threads: int) -> Measure:
     def measure(seconds: float) -> Values:
         if not seconds:  # a warm-up has no effect on the next process
             return {}
-        arguments = ("capacity", scenario.field, str(scenario.robots), str(worlds), str(threads))
-        results = run_probe(*arguments)
+        results = run_probe("capacity", *described(scenario), str(worlds), str(threads))
         gib = results["bytes"] / 2**30
         return {SPEED: results["speed"], PROCESS_MEMORY: gib, BUILD_TIME: results["build"]}
 
     return measure
+
+
+def described(scenario: Scenario) -> tuple[str, str, str]:
+    """Return engine, field and robots per team as arguments of the process."""
+    return scenario.engine, scenario.field, str(scenario.robots)
 
 
 def free_memory(system: Path = Path("/")) -> int:

@@ -1,8 +1,8 @@
 """Child process of `benches.process_cost`; prints its measurements as JSON.
 
-    memory FIELD ROBOTS WORLDS             bytes per world, after play in a crowd
-    capacity FIELD ROBOTS WORLDS THREADS   speed, memory and build time, in random play
-    startup                                seconds of imports, first environment and first resets
+    memory ENGINE FIELD ROBOTS WORLDS             bytes per world, after play in a crowd
+    capacity ENGINE FIELD ROBOTS WORLDS THREADS   speed, memory and build time, in random play
+    startup                                       seconds of imports, first environment and resets
 
 Example: `python -m benches.process_probe startup`. Nothing is imported before it is measured.
 """
@@ -23,22 +23,22 @@ def main() -> None:
     sys.stdout.write(json.dumps(run(*sys.argv[1:])))
 
 
-def run(kind: str, field: str = "", *numbers: str) -> dict[str, float]:
+def run(kind: str, engine: str = "", field: str = "", *numbers: str) -> dict[str, float]:
     """Return the results of a measurement by name."""
     if kind == "memory":
-        return memory(field, *map(int, numbers))
+        return memory(engine, field, *map(int, numbers))
     if kind == "capacity":
-        return capacity(field, *map(int, numbers))
+        return capacity(engine, field, *map(int, numbers))
     return startup()
 
 
-def memory(field: str, robots: int, worlds: int) -> dict[str, float]:
+def memory(engine: str, field: str, robots: int, worlds: int) -> dict[str, float]:
     """Measure the memory of a world, bytes."""
     from benches.scenarios import Driver, Scenario
     from benches.simulators import SimulatorAdapter, run_episode
     from rsoccer import WorldRng
 
-    scenario = Scenario("", field, robots, "crowd")
+    scenario = Scenario("", field, robots, "crowd", engine=engine)
     start, driver = scenario.start(WorldRng.seeded(0, worlds)), Driver(scenario, worlds)
     warm_up = SimulatorAdapter(scenario, 1)  # loads what does not depend on the number of worlds
     warm_up.place(scenario.start(WorldRng.seeded(0, 1)))
@@ -49,13 +49,13 @@ def memory(field: str, robots: int, worlds: int) -> dict[str, float]:
     return {"bytes": (resident_memory() - before) / worlds}
 
 
-def capacity(field: str, robots: int, worlds: int, threads: int) -> dict[str, float]:
+def capacity(engine: str, field: str, robots: int, worlds: int, threads: int) -> dict[str, float]:
     """Measure speed (world-steps/s), memory of the process (bytes) and build time (s)."""
     from benches.scenarios import Driver, Scenario
     from benches.simulators import SimulatorAdapter, check_contacts, run_episode
     from rsoccer import WorldRng
 
-    scenario = Scenario("", field, robots, "random")
+    scenario = Scenario("", field, robots, "random", engine=engine)
     began = time.perf_counter()
     simulator = SimulatorAdapter(scenario, worlds, threads)
     build = time.perf_counter() - began

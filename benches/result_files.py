@@ -27,6 +27,9 @@ class Figure:
     """Physics scenario or id of a task."""
     variant: str
     """Name of the variant; for a ratio, numerator / denominator."""
+    engine: str
+    """Contact engine; empty for third-party simulators and no-op environments. For a ratio of two
+    engines, numerator / denominator."""
     worlds: int
     threads: int
     quantity: str

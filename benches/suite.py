@@ -1,23 +1,35 @@
 """The benchmark suite: every benchmark with its variants, and the pairs that are compared."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from importlib.util import find_spec
 from itertools import product
+from typing import Final, TypeVar
 
 import rsoccer
 from benches import interfaces, process_cost, thread_scaling
-from benches.measuring import Benchmark, Measure, Variant
+from benches.measuring import Benchmark, Measure, Variant, with_match_time
 from benches.noop_envs import NoOpEnv, NoOpParallelEnv
-from benches.scenarios import SCENARIOS, Scenario
+from benches.scenarios import DEFAULT_ENGINE, ENGINES, SCENARIOS, Scenario
 from benches.simulators import RobosimAdapter, SimulatorAdapter, timed_episodes
-from benches.third_party import import_optional, name_with_version, silent, vmas_football
+from benches.third_party import (
+    PSIM_STEP,
+    import_optional,
+    name_with_version,
+    psim_match,
+    silent,
+    vmas_football,
+)
 from benches.training import training
 from rsoccer.compat import robosim as compat
 
-MATCH_TASK = "VSSSelfPlay-v0"
-SINGLE_TASK = "SSLGoToBall-v0"
+MATCH_TASK: Final = "VSSSelfPlay-v0"
+TEAM_TASK: Final = "VSSMulti-v0"
+LEARNER_TASK: Final = "VSS-v0"
+SINGLE_TASK: Final = "SSLGoToBall-v0"
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -27,7 +39,7 @@ class Sizes:
     core: int = 64
     """Batch size of the physics benchmarks, which also run on rSim."""
     batched: tuple[int, ...] = (1024, 8192)
-    """Batch sizes of `Matches`; the first is also the size of the vector environment."""
+    """Batch sizes of `Matches`; the first is also the size of the vector environments."""
     threads: int = 1024
     """Batch size for the comparison of one thread with two."""
     scaling: tuple[int, ...] = (64, 256, 1024, 4096, 16384)
@@ -45,15 +57,15 @@ def benchmarks(sizes: Sizes) -> Iterator[Benchmark]:
     yield scaling(SCENARIOS[0], sizes.scaling)
     yield batched(sizes)
     yield single_match()
+    yield team()
     yield single_robot(sizes.batched[0])
+    yield learner(sizes.batched[0])
     if find_spec("torch"):
-        train = partial(training, MATCH_TASK, sizes.training, 2)
-        yield Benchmark("training", MATCH_TASK, (Variant("trainer", sizes.training, 2, train),))
-    for scenario, worlds in ((SCENARIOS[0], sizes.memory), (SCENARIOS[4], sizes.memory // 4)):
-        memory = partial(process_cost.memory, scenario, worlds)
-        yield Benchmark("memory", scenario.teams, (Variant("Simulator", worlds, 1, memory),))
+        yield from (trainer(task, sizes.training) for task in (MATCH_TASK, LEARNER_TASK))
+    yield memory(SCENARIOS[0], sizes.memory)
+    yield memory(SCENARIOS[4], sizes.memory // 4)
     yield capacity(SCENARIOS[0], sizes.capacity, 2)
-    startup = Variant("fresh process", 1, 1, lambda: process_cost.startup)
+    startup = Variant("fresh process", 1, 1, lambda: process_cost.startup, DEFAULT_ENGINE)
     yield Benchmark("startup", MATCH_TASK, (startup,))
 
 
@@ -64,18 +76,29 @@ def core(scenario: Scenario, batch: int) -> Benchmark:
     """
     one = partial(timed_episodes, scenario, starts=batch)
     many = partial(timed_episodes, scenario, worlds=batch)
-    variants = [
-        Variant("Simulator", 1, 1, partial(one, partial(SimulatorAdapter, scenario, 1))),
-        Variant("Simulator", batch, 1, partial(many, partial(SimulatorAdapter, scenario, batch))),
-        Variant("compat.robosim", 1, 1, partial(one, partial(RobosimAdapter, scenario, compat))),
-    ]
-    if (robosim := import_optional("robosim")) is None:
-        return Benchmark("core", scenario.name, tuple(variants))
-    rsoccer_variants, reference = range(len(variants)), len(variants)
-    start = partial(quiet, partial(one, partial(RobosimAdapter, scenario, robosim)))
-    variants.append(Variant(name_with_version("robosim"), 1, 1, start))
-    pairs = tuple((index, reference) for index in rsoccer_variants)
-    return Benchmark("core", scenario.name, tuple(variants), pairs)
+    variants = []
+    for engine in ENGINES:
+        mine = partial(SimulatorAdapter, replace(scenario, engine=engine))
+        variants += [
+            Variant("Simulator", 1, 1, partial(one, partial(mine, 1)), engine),
+            Variant("Simulator", batch, 1, partial(many, partial(mine, batch)), engine),
+        ]
+    start = partial(one, partial(RobosimAdapter, scenario, compat))
+    variants.append(Variant("compat.robosim", 1, 1, start, DEFAULT_ENGINE))
+    pairs = engine_pairs(variants)
+    if (robosim := import_optional("robosim")) is not None:
+        pairs += [(index, len(variants)) for index in range(len(variants))]
+        start = partial(quiet, partial(one, partial(RobosimAdapter, scenario, robosim)))
+        variants.append(Variant(name_with_version("robosim"), 1, 1, start))
+    return Benchmark("core", scenario.name, tuple(variants), tuple(pairs))
+
+
+def engine_pairs(variants: Sequence[Variant]) -> list[tuple[int, int]]:
+    """Return the pairs of variants that differ by their engine alone, compact before rapier."""
+    keys = [(v.name, v.worlds, v.threads, v.engine) for v in variants]
+    compact = [key for key in keys if key[3] == "compact"]
+    pairs = [(key, (*key[:3], "rapier")) for key in compact]
+    return [(keys.index(one), keys.index(other)) for one, other in pairs if other in keys]
 
 
 def quiet(start: Callable[[], Measure]) -> Measure:
@@ -95,63 +118,132 @@ def threads(scenario: Scenario, worlds: int) -> Benchmark:
         separate = partial(thread_scaling.separate_simulators, scenario, worlds, number)
         hashing = partial(thread_scaling.hashing, number)
         variants += [
-            Variant("Simulator", worlds, number, step),
-            Variant("Simulators, one per thread", worlds, number, separate),
+            Variant("Simulator", worlds, number, step, scenario.engine),
+            Variant("Simulators, one per thread", worlds, number, separate, scenario.engine),
             Variant("hashing", 1, number, hashing),
         ]
     return Benchmark("threads", scenario.name, tuple(variants), ((3, 0), (4, 1), (5, 2)))
 
 
 def scaling(scenario: Scenario, sizes: tuple[int, ...]) -> Benchmark:
-    """Return the benchmark of speed over batch size, relative to the first size."""
-    step = partial(thread_scaling.one_simulator, scenario)
-    variants = tuple(Variant("Simulator", n, 1, partial(step, n, 1)) for n in sizes)
-    pairs = tuple((index, 0) for index in range(1, len(sizes)))
-    return Benchmark("scaling", scenario.name, variants, pairs)
+    """Return the benchmark of speed over batch size, relative to the first size.
+
+    The engine that is not the default is measured at the first and the last size.
+    """
+    variants: list[Variant] = []
+    pairs: list[tuple[int, int]] = []
+    for engine in ENGINES:
+        step = partial(thread_scaling.one_simulator, replace(scenario, engine=engine))
+        measured = sizes if engine == DEFAULT_ENGINE else (sizes[0], sizes[-1])
+        first = len(variants)
+        pairs += [(first + index, first) for index in range(1, len(measured))]
+        variants += [Variant("Simulator", n, 1, partial(step, n, 1), engine) for n in measured]
+    return Benchmark("scaling", scenario.name, tuple(variants), tuple(pairs))
+
+
+def memory(scenario: Scenario, worlds: int) -> Benchmark:
+    """Return the benchmark of the memory of a world, which is equal in every round."""
+    variants = []
+    for engine in ENGINES:
+        start = partial(process_cost.memory, replace(scenario, engine=engine), worlds)
+        variants.append(Variant("Simulator", worlds, 1, start, engine))
+    return Benchmark("memory", scenario.teams, tuple(variants), repeats=False)
 
 
 def capacity(scenario: Scenario, worlds: int, threads: int) -> Benchmark:
     """Return the benchmark of a very large batch in a process of its own."""
     start = partial(process_cost.capacity, scenario, worlds, threads)
-    variants = (Variant("Simulator", worlds, threads, start),)
+    variants = (Variant("Simulator", worlds, threads, start, scenario.engine),)
     return Benchmark("capacity", scenario.name, variants)
 
 
 def batched(sizes: Sizes) -> Benchmark:
     """Return the benchmark of `Matches`, compared with VMAS' football of equal team size."""
-    variants = [
-        Variant("Matches", worlds, number, partial(interfaces.matches, MATCH_TASK, worlds, number))
-        for worlds, number in product(sizes.batched, (1, 2))
-    ]
-    indices, pairs = {(v.worlds, v.threads): i for i, v in enumerate(variants)}, []
+    variants = []
+    for worlds, number, engine in product(sizes.batched, (1, 2), ENGINES):
+        start = partial(interfaces.matches, MATCH_TASK, worlds, number, engine)
+        variants.append(Variant("Matches", worlds, number, start, engine))
+    pairs = engine_pairs(variants)
+    on_two = [(index, v.worlds) for index, v in enumerate(variants) if v.threads == 2]
     if (vmas := import_optional("vmas")) is not None:
         # A second thread may slow torch down, so `Matches` on two is compared with both.
         for worlds, number in product(sizes.football, (1, 2)):
-            if (worlds, 2) in indices:
-                pairs.append((indices[worlds, 2], len(variants)))
-            start = partial(vmas_football, vmas, worlds, number)
-            variants.append(Variant(name_with_version("vmas"), worlds, number, start))
+            pairs += [(index, len(variants)) for index, equal in on_two if equal == worlds]
+            football = partial(vmas_football, vmas, worlds, number)
+            variants.append(Variant(name_with_version("vmas"), worlds, number, football))
     return Benchmark("batched", MATCH_TASK, tuple(variants), tuple(pairs))
 
 
 def single_match() -> Benchmark:
     """Return the benchmark of one match through PettingZoo, compared with a no-op environment."""
     env = partial(rsoccer.parallel_env, MATCH_TASK)
-    variants = (
-        Variant("ParallelEnv", 1, 1, lambda: interfaces.parallel(env())),
-        Variant("AECEnv", 1, 1, lambda: interfaces.aec(rsoccer.env(MATCH_TASK))),
+    variants = [
+        Variant("ParallelEnv", 1, 1, partial(started, interfaces.parallel, env, engine), engine)
+        for engine in ENGINES
+    ]
+    aec = partial(started, interfaces.aec, partial(rsoccer.env, MATCH_TASK), DEFAULT_ENGINE)
+    variants += [
+        Variant("AECEnv", 1, 1, aec, DEFAULT_ENGINE),
         Variant("no-op ParallelEnv", 1, 1, lambda: interfaces.parallel(NoOpParallelEnv(env()))),
-    )
-    return Benchmark("single", MATCH_TASK, variants, ((0, 2),))
+    ]
+    pairs = (*engine_pairs(variants), (0, len(variants) - 1))
+    return Benchmark("single", MATCH_TASK, tuple(variants), pairs)
+
+
+def started(
+    measure: Callable[[T], Measure], create: Callable[..., T], engine: str, **options: int
+) -> Measure:
+    """Return the measure of an environment that is created with an engine and other options."""
+    return measure(create(engine=engine, **options))
+
+
+def team() -> Benchmark:
+    """Return the benchmark of a team of three learners against noise, compared with pSim."""
+    time_step = rsoccer.make_task(TEAM_TASK).config.time_step
+    env = partial(rsoccer.parallel_env, TEAM_TASK)
+
+    def timed(start: Callable[[], Measure], step: float = time_step) -> Callable[[], Measure]:
+        return lambda: with_match_time(start(), step)
+
+    parallel = partial(started, interfaces.parallel, env, DEFAULT_ENGINE)
+    alone = partial(interfaces.matches, TEAM_TASK, 1, 1)
+    variants = [
+        Variant("ParallelEnv", 1, 1, timed(parallel), DEFAULT_ENGINE),
+        Variant("Matches", 1, 1, timed(alone), DEFAULT_ENGINE),
+    ]
+    if (psim := import_optional("pSim")) is None:
+        return Benchmark("single", TEAM_TASK, tuple(variants))
+    start = timed(partial(psim_match, psim), PSIM_STEP)
+    variants.append(Variant(name_with_version("pSim"), 1, 1, start))
+    return Benchmark("single", TEAM_TASK, tuple(variants), ((0, 2), (1, 2)))
 
 
 def single_robot(envs: int) -> Benchmark:
     """Return the benchmark of one robot through Gymnasium, single and vectorized."""
     env, vector = partial(rsoccer.single_env, SINGLE_TASK), partial(rsoccer.vector_env, SINGLE_TASK)
+    single = partial(started, interfaces.single, env, DEFAULT_ENGINE)
+    many = partial(started, interfaces.vector, partial(vector, envs), DEFAULT_ENGINE)
     variants = (
-        Variant("Env", 1, 1, lambda: interfaces.single(env())),
+        Variant("Env", 1, 1, single, DEFAULT_ENGINE),
         Variant("no-op Env", 1, 1, lambda: interfaces.single(NoOpEnv(env()))),
-        Variant("VectorEnv", envs, 1, lambda: interfaces.vector(vector(envs))),
-        Variant("VectorEnv", envs, 2, lambda: interfaces.vector(vector(envs, threads=2))),
+        Variant("VectorEnv", envs, 1, many, DEFAULT_ENGINE),
+        Variant("VectorEnv", envs, 2, partial(many, threads=2), DEFAULT_ENGINE),
     )
     return Benchmark("single", SINGLE_TASK, variants, ((0, 1),))
+
+
+def learner(envs: int) -> Benchmark:
+    """Return the benchmark of the vector environment with one learner in a match of six robots."""
+    vector = partial(rsoccer.vector_env, LEARNER_TASK, envs)
+    many = partial(started, interfaces.vector, vector, threads=2)
+    variants = [Variant("VectorEnv", envs, 2, partial(many, engine), engine) for engine in ENGINES]
+    return Benchmark("single", LEARNER_TASK, tuple(variants), tuple(engine_pairs(variants)))
+
+
+def trainer(task: str, worlds: int) -> Benchmark:
+    """Return the benchmark of rollouts and updates of the trainer."""
+    variants = [
+        Variant("trainer", worlds, 2, partial(training, task, engine, worlds, 2), engine)
+        for engine in ENGINES
+    ]
+    return Benchmark("training", task, tuple(variants), tuple(engine_pairs(variants)))

@@ -1,8 +1,8 @@
 """Measure the speed of rSoccer on this machine: `make bench`, or `python -m benches.throughput`.
 
 The suite covers physics, every interface, training, memory, capacity and start-up time, compared
-with the third-party simulators that are installed. It writes a table and a picture. A debug build
-is refused.
+with the third-party simulators that are installed. Both contact engines are measured in the same
+rounds. It writes a table and a picture. A debug build is refused.
 """
 
 import argparse
@@ -81,10 +81,11 @@ def parse_arguments(arguments: list[str] | None) -> argparse.Namespace:
 def format_line(figure: Figure) -> str:
     """Return a figure as one line of text."""
     title = f"{figure.group}: {figure.scenario}, {figure.variant}"
-    case = f"{title}, {figure.worlds} worlds, {figure.threads} threads"
+    engine = f", {figure.engine}" if figure.engine else ""
+    case = f"{title}{engine}, {figure.worlds} worlds, {figure.threads} threads"
     interval = f"({format_number(figure.minimum)} to {format_number(figure.maximum)})"
     return (
-        f"{case:<84} {format_number(figure.median):>9} {figure.unit} {figure.quantity} {interval}\n"
+        f"{case:<96} {format_number(figure.median):>9} {figure.unit} {figure.quantity} {interval}\n"
     )
 
 

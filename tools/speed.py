@@ -3,22 +3,29 @@
 from collections.abc import Callable, Sequence
 from itertools import groupby
 
+from benches.instructions import STORED
+from benches.interfaces import OUTSIDE
+from benches.measuring import MATCH_TIME
 from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
 from benches.result_files import RESULTS, Figure, Machine, format_number, format_ratio, load
+from benches.scenarios import DEFAULT_ENGINE, ENGINES
 from benches.thread_scaling import TIMED
 from tools.markdown import table
 from tools.paths import ROOT
 
 SPEED = "speed"
+OTHER_ENGINE = ENGINES[1]
+BY_ENGINE = "compact / rapier"
+"""Engine of a ratio of both."""
 MEANING = (
     "A step is 25 ms of a match in five physics ticks. In random play commands change every ten "
     "steps; in a crowd all robots drive at the ball. Speed-ups are relative to rSim, the "
     "simulator of robocin's rSoccer, run in turn in the same process (slowest and fastest round in "
-    "brackets)."
+    "brackets). The contact engine is the default, `{}`."
 )
 MORE = (
-    "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory and "
-    "VMAS, and the advice that follows from them. `make bench` measures your machine."
+    "[Speed](docs/speed.md) has the measurements of complete environments, threads, memory, VMAS "
+    "and pSim, and the advice that follows from them. `make bench` measures your machine."
 )
 FEATURE = "**Speed.**"
 """Start of the sentence on speed in docs/index.md."""
@@ -47,8 +54,14 @@ def summary() -> str:
     parts = []
     for path in sorted(RESULTS.glob("*.csv")):
         machine, figures = load(path)
-        parts.append(f"{_source(machine, figures)} {MEANING}\n\n{physics_table(figures)}")
+        intro = f"{_source(machine, figures)} {MEANING.format(DEFAULT_ENGINE)}"
+        parts.append(f"{intro}\n\n{physics_table(figures)}")
     return "\n\n".join([*parts, MORE])
+
+
+def instructions() -> str:
+    """Return the table of instructions per tick; empty if they were not counted."""
+    return STORED.read_text() if STORED.exists() else ""
 
 
 def feature() -> str:
@@ -56,7 +69,7 @@ def feature() -> str:
     more = "[Speed](speed.md) explains the cost of a step."
     for path in sorted(RESULTS.glob("*.csv")):
         machine, figures = load(path)
-        core = [f for f in figures if (f.group, f.scenario) == ("core", FEATURE_SCENARIO)]
+        core = [f for f in of_default(figures, "core") if f.scenario == FEATURE_SCENARIO]
         single = {f.variant: f for f in core if f.worlds == 1 and f.quantity in (SPEED, "ratio")}
         if "Simulator" not in single:
             continue
@@ -92,9 +105,19 @@ def _source(machine: Machine, figures: Sequence[Figure]) -> str:
 
 def physics(figures: Sequence[Figure]) -> str:
     """Return the table of physics speed, and the description of the comparison with rSim."""
-    core = [figure for figure in figures if figure.group == "core"]
+    core = of_default(figures, "core")
     reference = _reference(core)
-    return physics_table(figures) + (f"\n\n{comparison(reference, core)}" if reference else "")
+    parts = (
+        physics_table(figures),
+        comparison(reference, core) if reference else "",
+        other_engine(figures),
+    )
+    return "\n\n".join(part for part in parts if part)
+
+
+def of_default(figures: Sequence[Figure], group: str) -> list[Figure]:
+    """Return the figures of a group without those of the engine that is not the default."""
+    return [f for f in figures if f.group == group and f.engine in ("", DEFAULT_ENGINE)]
 
 
 def _reference(core: Sequence[Figure]) -> str | None:
@@ -104,7 +127,7 @@ def _reference(core: Sequence[Figure]) -> str | None:
 
 def physics_table(figures: Sequence[Figure]) -> str:
     """Return the table of physics speed by scenario, compared with rSim if that was measured."""
-    core = [figure for figure in figures if figure.group == "core"]
+    core = of_default(figures, "core")
     if not core:
         return ""
     reference = _reference(core)
@@ -124,6 +147,34 @@ def physics_table(figures: Sequence[Figure]) -> str:
             cells += [_cell(mine, f"Simulator / {reference}", worlds)] if reference else []
         rows.append(tuple(cells))
     return table(tuple(header), rows)
+
+
+def other_engine(figures: Sequence[Figure]) -> str:
+    """Return the table of the engine that is not the default, if it was measured."""
+    core = [f for f in figures if f.group == "core" and f.engine in (OTHER_ENGINE, BY_ENGINE)]
+    if not core:
+        return ""
+    reference = _reference([f for f in core if f.engine == OTHER_ENGINE])
+    sizes = sorted({figure.worlds for figure in core})
+    header = ["steps per second on one thread"]
+    for worlds in sizes:
+        header.append(f"`{OTHER_ENGINE}`, {worlds} worlds" if worlds > 1 else f"`{OTHER_ENGINE}`")
+        header += ["relative to rSim"] if reference else []
+        header.append("`compact` / `rapier`")
+    rows = []
+    for scenario, group in groupby(core, key=lambda figure: figure.scenario):
+        mine = list(group)
+        cells = [scenario]
+        for worlds in sizes:
+            cells.append(_cell(mine, "Simulator", worlds))
+            cells += [_cell(mine, f"Simulator / {reference}", worlds)] if reference else []
+            cells.append(_cell(mine, "Simulator / Simulator", worlds))
+        rows.append(tuple(cells))
+    text = (
+        f"The table above is for the default contact engine, `{DEFAULT_ENGINE}`. The other one, "
+        f"`{OTHER_ENGINE}`, was measured in the same rounds:"
+    )
+    return f"{text}\n\n{table(tuple(header), rows)}"
 
 
 def comparison(reference: str, core: Sequence[Figure]) -> str:
@@ -151,51 +202,94 @@ def interfaces(figures: Sequence[Figure]) -> str:
     ]
     if not rates:
         return ""
-    rows = [_interface_row(figure, figures) for figure in rates]
+    rows = [_interface_row(figure, figures) for figure in rates if figure.engine != OTHER_ENGINE]
     header = (
         "environment",
         "task",
         "worlds",
         "threads",
         "steps per second",
+        f"with `{OTHER_ENGINE}`",
+        "`compact` / `rapier`",
         "time outside physics",
     )
-    return table(header, rows) + football(figures)
+    return "\n\n".join(
+        part for part in (table(header, rows), football(figures), psim(figures)) if part
+    )
 
 
 def football(figures: Sequence[Figure]) -> str:
     """Return the comparison of `Matches` with VMAS at its faster number of threads, if measured."""
     ratios = [f for f in figures if f.variant.startswith("Matches / vmas")]
+    listed = {}
+    for engine in ENGINES:
+        mine = [figure for figure in ratios if figure.engine == engine]
+        sizes = sorted({figure.worlds for figure in mine})
+        closest = [min((f for f in mine if f.worlds == n), key=lambda f: f.median) for n in sizes]
+        listed[engine] = ", ".join(f"{ratio(f)} at {f.worlds:,} worlds" for f in closest)
+    if not listed[DEFAULT_ENGINE]:
+        return ""
+    vmas = ratios[0].variant.split(" / ")[1]
+    text = (
+        f"Speed of `Matches` on two threads relative to {vmas}'s football on one or two "
+        f"threads (the faster one), with three robots a side, all controlled: "
+        f"{listed[DEFAULT_ENGINE]}"
+    )
+    if listed[OTHER_ENGINE]:
+        text += f"; with `{OTHER_ENGINE}` {listed[OTHER_ENGINE]}"
+    return f"{text}. A step of football is 0.1 s in two ticks."
+
+
+def psim(figures: Sequence[Figure]) -> str:
+    """Return the comparison of one match with pSim, if that was measured."""
+    ratios = {f.variant.split(" / ")[0]: f for f in figures if " / pSim" in f.variant}
     if not ratios:
         return ""
-    sizes = sorted({figure.worlds for figure in ratios})
-    closest = [min((f for f in ratios if f.worlds == n), key=lambda f: f.median) for n in sizes]
-    listed = ", ".join(f"{ratio(f)} at {f.worlds:,} worlds" for f in closest)
-    vmas = ratios[0].variant.split(" / ")[1]
+    [scenario] = {figure.scenario for figure in ratios.values()}
+    name = ratios["ParallelEnv"].variant.split(" / ")[1]
+    times = {
+        f.variant: format_number(f.median)
+        for f in figures
+        if f.scenario == scenario and f.quantity == MATCH_TIME.name
+    }
     return (
-        f"\n\nSpeed of `Matches` on two threads relative to {vmas}'s football on one or two "
-        f"threads (the faster one), with three robots a side, all controlled: {listed}. A step of "
-        "football is 0.1 s in two ticks."
+        f"{name} simulates VSSS on Box2D for PettingZoo, here with three learners against three "
+        f"robots of noise, as in `{scenario}`. Its step is one tick of 16.7 ms, a step here "
+        f"25 ms in five ticks. `parallel_env` takes {ratio(ratios['ParallelEnv'])} as many steps "
+        f"a second, `Matches` with one world {ratio(ratios['Matches'])}. Seconds of play "
+        f"simulated per second: {times['ParallelEnv']} in `parallel_env`, {times['Matches']} in "
+        f"`Matches`, {times[name]} in pSim."
     )
 
 
 def _interface_row(figure: Figure, figures: Sequence[Figure]) -> tuple[str, ...]:
-    task = "football" if figure.variant.startswith("vmas") else f"`{figure.scenario}`"
-    key = (figure.group, figure.scenario, figure.variant, figure.worlds, figure.threads)
-    outside = [
-        f"{format_number(f.median, 2)} us per world-step"
-        for f in figures
-        if (f.group, f.scenario, f.variant, f.worlds, f.threads) == key
-        and f.quantity == "time outside physics"
-    ]
+    """Return the cells of an environment: figures of the default engine, then of the other."""
+    name = figure.variant
+    case = [f for f in figures if _case(f) == _case(figure)]
+    mine = [f for f in case if (f.variant, f.engine) == (name, figure.engine)]
+    other = [f for f in case if (f.variant, f.engine) == (name, OTHER_ENGINE)]
+    both = [f for f in case if (f.variant, f.engine) == (f"{name} / {name}", BY_ENGINE)]
+    outside = [f for f in mine if f.quantity == OUTSIDE.name]
     return (
-        INTERFACES.get(figure.variant, figure.variant),
-        task,
+        INTERFACES.get(name, name),
+        _task(figure),
         f"{figure.worlds:,}",
         str(figure.threads),
         format_number(figure.median),
-        *(outside or [""]),
+        next((format_number(f.median) for f in other if f.quantity == SPEED), ""),
+        next((ratio(f) for f in both), ""),
+        next((f"{format_number(f.median, 2)} us per world-step" for f in outside), ""),
     )
+
+
+def _task(figure: Figure) -> str:
+    """Return the id of the task; the name of a third-party simulator's own."""
+    theirs = {"vmas": "football", "pSim": "VSSS 3 v 3"}
+    return theirs.get(figure.variant.split(" ")[0], f"`{figure.scenario}`")
+
+
+def _case(figure: Figure) -> tuple[str, str, int, int]:
+    return figure.group, figure.scenario, figure.worlds, figure.threads
 
 
 def remarks(figures: Sequence[Figure]) -> str:
@@ -228,10 +322,22 @@ def _threads(figures: list[Figure]) -> str:
 
 
 def _scaling(figures: list[Figure]) -> str:
-    ratios = [f for f in figures if f.quantity == "ratio"]
     base = min(figure.worlds for figure in figures)
-    listed = ", ".join(f"{f.median:.2f}x at {f.worlds:,}" for f in ratios)
-    return f"Speed of a batch relative to {base} worlds ({_timed_steps(figures)}): {listed} worlds."
+    listed = {
+        engine: ", ".join(
+            f"{f.median:.2f}x at {f.worlds:,}"
+            for f in figures
+            if (f.quantity, f.engine) == ("ratio", engine)
+        )
+        for engine in ENGINES
+    }
+    text = (
+        f"Speed of a batch relative to {base} worlds ({_timed_steps(figures)}): "
+        f"{listed[DEFAULT_ENGINE]} worlds"
+    )
+    if listed[OTHER_ENGINE]:
+        text += f"; with `{OTHER_ENGINE}` {listed[OTHER_ENGINE]}"
+    return f"{text}."
 
 
 def _timed_steps(figures: Sequence[Figure]) -> str:
@@ -240,8 +346,16 @@ def _timed_steps(figures: Sequence[Figure]) -> str:
 
 
 def _memory(figures: list[Figure]) -> str:
-    listed = " and ".join(f"{format_number(f.median, 2)} KiB for {f.scenario}" for f in figures)
-    return f"Memory of a world that has had contacts: {listed}."
+    parts = []
+    for scenario, group in groupby(figures, key=lambda figure: figure.scenario):
+        by_engine = {f.engine: format_number(f.median, 2) for f in group}
+        if DEFAULT_ENGINE not in by_engine:
+            continue
+        text = f"{by_engine[DEFAULT_ENGINE]} KiB for {scenario}"
+        if OTHER_ENGINE in by_engine:
+            text += f" ({by_engine[OTHER_ENGINE]} KiB with `{OTHER_ENGINE}`)"
+        parts.append(text)
+    return f"Memory of a world that has had contacts: {' and '.join(parts)}."
 
 
 def _capacity(figures: list[Figure]) -> str:

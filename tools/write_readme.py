@@ -20,7 +20,7 @@ from rsoccer.tasks import legacy_names
 from tools.markdown import filled, table
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
-from tools.speed import feature, speed, summary
+from tools.speed import feature, instructions, speed, summary
 
 README = ROOT / "README.md"
 WRITTEN = (
@@ -191,6 +191,7 @@ def _thousands(value: float) -> str:
 PARTS: dict[str, Callable[[], str]] = {
     "curve": curve_picture,
     "demo": demo,
+    "instructions": instructions,
     "match": match_picture,
     "new_task": new_task,
     "old_names": old_names,

@@ -1,11 +1,15 @@
 """Made-up figures in the form of a machine's result table."""
 
+from benches.measuring import MATCH_TIME
 from benches.result_files import Figure, Machine
+from benches.scenarios import DEFAULT_ENGINE, ENGINES
 
 MACHINE = Machine("Some CPU @ 2.5GHz", 2, "2026-01-31", "abc1234-dirty", "0.1.0", "release")
 ROBOSIM = "robosim 1.2"
 TASK = "VSSSelfPlay-v0"
 RANDOM = "VSSS 3 v 3 random"
+OTHER_ENGINE = ENGINES[1]
+THIRD_PARTY_VARIANTS = ("robosim", "vmas", "pSim", "no-op", "hashing")
 
 
 def made_up(
@@ -17,17 +21,26 @@ def made_up(
     threads: int = 1,
     quantity: str = "speed",
     unit: str = "world-steps/s",
+    engine: str = DEFAULT_ENGINE,
 ) -> Figure:
     """Return a figure of three rounds, with minimum and maximum 10% off the median."""
     extremes = (round(0.9 * median, 4), round(1.1 * median, 4))
-    return Figure(group, scenario, variant, worlds, threads, quantity, unit, median, *extremes, 3)
+    engine = "" if variant.startswith(THIRD_PARTY_VARIANTS) else engine
+    case = (group, scenario, variant, engine, worlds, threads)
+    return Figure(*case, quantity, unit, median, *extremes, 3)
 
 
 def ratio(
-    group: str, scenario: str, variant: str, median: float, worlds: int, threads: int = 1
+    group: str,
+    scenario: str,
+    variant: str,
+    median: float,
+    worlds: int,
+    threads: int = 1,
+    engine: str = DEFAULT_ENGINE,
 ) -> Figure:
     """Return a ratio of three rounds."""
-    return made_up(group, scenario, variant, median, worlds, threads, "ratio", "x")
+    return made_up(group, scenario, variant, median, worlds, threads, "ratio", "x", engine)
 
 
 RSOCCER = [
@@ -60,4 +73,26 @@ SCALING = [
     ratio("threads", RANDOM, "hashing / hashing", 1.98, 1, 2),
     made_up("scaling", RANDOM, "Simulator", 50_000.0, 64),
     ratio("scaling", RANDOM, "Simulator / Simulator", 0.97, 16384),
+]
+OTHER = [
+    made_up("core", RANDOM, "Simulator", 10_000.0, engine=OTHER_ENGINE),
+    made_up("core", RANDOM, "Simulator", 20_000.0, 64, engine=OTHER_ENGINE),
+    ratio("core", RANDOM, "Simulator / Simulator", 2.5, 1, engine="compact / rapier"),
+    ratio("core", RANDOM, f"Simulator / {ROBOSIM}", 30.0, 1, engine=OTHER_ENGINE),
+    made_up("batched", TASK, "Matches", 30_000.0, 1024, 2, engine=OTHER_ENGINE),
+    ratio("batched", TASK, "Matches / Matches", 1.3, 1024, 2, engine="compact / rapier"),
+    ratio("batched", TASK, "Matches / vmas 1.5.2", 1.5, 1024, 2, engine=OTHER_ENGINE),
+    ratio("scaling", RANDOM, "Simulator / Simulator", 0.7, 16384, engine=OTHER_ENGINE),
+    made_up(
+        "memory", "SSL 11 v 11", "Simulator", 20.0, 512, 1, "memory", "KiB per world", OTHER_ENGINE
+    ),
+]
+PSIM = [
+    made_up("single", "VSSMulti-v0", "ParallelEnv", 8_000.0),
+    made_up("single", "VSSMulti-v0", "ParallelEnv", 200.0, 1, 1, *MATCH_TIME),
+    made_up("single", "VSSMulti-v0", "Matches", 220.0, 1, 1, *MATCH_TIME),
+    made_up("single", "VSSMulti-v0", "pSim 0.2.4", 3_000.0),
+    made_up("single", "VSSMulti-v0", "pSim 0.2.4", 50.0, 1, 1, *MATCH_TIME),
+    ratio("single", "VSSMulti-v0", "ParallelEnv / pSim 0.2.4", 2.5, 1),
+    ratio("single", "VSSMulti-v0", "Matches / pSim 0.2.4", 3.0, 1),
 ]

@@ -1,6 +1,9 @@
+import dataclasses
+
 import pytest
 
 from benches.measuring import (
+    MATCH_TIME,
     RATIO,
     SPEED,
     Benchmark,
@@ -12,6 +15,8 @@ from benches.measuring import (
     calls_per_second,
     measure,
     select,
+    summarize,
+    with_match_time,
 )
 
 LOAD = Quantity("load", "share")
@@ -93,3 +98,31 @@ def test_at_least_one_call_is_measured() -> None:
     called: list[int] = []
     assert calls_per_second(lambda: called.append(1), 0.0) > 0
     assert len(called) == 1
+
+
+def test_a_benchmark_without_repeats_is_measured_in_the_first_round() -> None:
+    order: list[str] = []
+    once = dataclasses.replace(benchmark(order), repeats=False)
+    figures = measure([once], 3, 0.1, lambda _: None)
+    assert order == ["fast", "slow"]
+    assert {figure.rounds for figure in figures} == {1}
+
+
+def test_a_ratio_of_two_engines_has_both_names() -> None:
+    fast, slow = benchmark([]).variants
+    pairs = {"compact": "compact", "rapier": "compact / rapier", "": "compact"}
+    for engine, expected in pairs.items():
+        variants = (
+            dataclasses.replace(fast, engine="compact"),
+            dataclasses.replace(slow, engine=engine),
+        )
+        made = dataclasses.replace(benchmark([]), variants=variants)
+        rounds = [[{SPEED: 4.0}, {SPEED: 2.0}]]
+        *speeds, ratio = summarize(made, rounds)
+        assert [figure.engine for figure in speeds] == ["compact", engine]
+        assert (ratio.engine, ratio.median) == (expected, 2.0)
+
+
+def test_the_simulated_time_is_added() -> None:
+    values = with_match_time(lambda _: {SPEED: 400.0}, 0.025)(1.0)
+    assert values == {SPEED: 400.0, MATCH_TIME: 10.0}

@@ -7,7 +7,7 @@ import pytest
 
 from benches import process_cost, suite, throughput
 from benches.result_files import ROOT, load, this_machine
-from benches.scenarios import CROWD, RANDOM
+from benches.scenarios import CROWD, ENGINES, RANDOM
 from benches.suite import Sizes
 
 QUICK = ["--rounds", "2", "--seconds", "0.001"]
@@ -42,14 +42,24 @@ def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
             "startup",
         ),
     }
-    assert {(f.variant, f.worlds, f.threads) for f in figures if f.group == "batched"} == {
-        *(("Matches", 3, 1), ("Matches", 3, 2), ("Matches", 4, 1), ("Matches", 4, 2)),
+    batched = [f for f in figures if (f.group, f.quantity) == ("batched", "speed")]
+    assert {(f.variant, f.engine, f.worlds, f.threads) for f in batched} == {
+        ("Matches", engine, worlds, threads)
+        for engine in ENGINES
+        for worlds in (3, 4)
+        for threads in (1, 2)
     }
+    for group in ("core", "batched", "single", "training"):
+        ratios = {f.engine for f in figures if (f.group, f.quantity) == (group, "ratio")}
+        assert "compact / rapier" in ratios
+    for group in ("scaling", "memory"):
+        assert {f.engine for f in figures if f.group == group} == set(ENGINES)
     assert {f.variant for f in figures if f.group == "single" and f.quantity == "speed"} == {
         *("ParallelEnv", "AECEnv", "no-op ParallelEnv", "Env", "no-op Env", "VectorEnv"),
+        "Matches",
     }
     for figure in figures:
-        assert figure.rounds == 2
+        assert figure.rounds == (1 if figure.group == "memory" else 2)
         assert figure.minimum <= figure.median <= figure.maximum
         # Few samples of random play may have no contact; memory may already have been allocated.
         assert figure.median > 0 or figure.quantity in ("robots in contact", "memory")

@@ -1,4 +1,4 @@
-//! Cost of contacts: `cargo bench -p rsim-bench --bench contacts` prints a table.
+//! Cost of contacts under both engines: `cargo bench -p rsim-bench --bench contacts` prints a table.
 //!
 //! Two teams face each other in lanes. In some lanes they push each other head on, in the others they
 //! stand still, far apart: the matches of a league differ by their contacts alone.
@@ -6,7 +6,7 @@
 use std::time::{Duration, Instant};
 
 use rsim_core::scenes::{self, Driver, Scene};
-use rsim_core::{Field, SimConfig, World};
+use rsim_core::{EngineKind, Field, SimConfig, World};
 
 /// Steps until pushing robots rest against each other, and timed steps after that.
 const SETTLING: usize = 40;
@@ -69,8 +69,8 @@ fn lanes(config: &SimConfig, ahead: &[f32], pairs: usize) -> Scene {
     scene
 }
 
-/// Rows of a league's table; the first match is the one without contacts.
-fn rows(teams: &str, matches: &[Match]) -> Vec<String> {
+/// Rows of a league and an engine; the first match is the one without contacts.
+fn rows(teams: &str, engine: EngineKind, matches: &[Match]) -> Vec<String> {
     let rounds: Vec<Vec<f64>> =
         (0..ROUNDS).map(|_| matches.iter().map(Match::play).collect()).collect();
     let without = median(rounds.iter().map(|times| times[0]));
@@ -82,7 +82,8 @@ fn rows(teams: &str, matches: &[Match]) -> Vec<String> {
             0 => String::new(),
             contacts => format!("{:.1}", (ratio - 1.0) * without / contacts as f64),
         };
-        format!("| {teams} | {} | {step:.0} | {ratio:.2} | {adds} |", played.pairs)
+        let engine = engine.name();
+        format!("| {teams} | `{engine}` | {} | {step:.1} | {ratio:.2} | {adds} |", played.pairs)
     };
     matches.iter().enumerate().map(row).collect()
 }
@@ -95,13 +96,15 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 
 #[allow(clippy::print_stdout)] // the table is what it is for
 fn main() {
-    let vss = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
-    let vss = [0, 1, 2, 3, 4, 5].map(|pairs| Match::new(&vss, &[46.0, 46.0], pairs));
-    let ssl = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
-    let ssl = [0, 1, 3, 5, 7, 9, 11].map(|pairs| Match::new(&ssl, &[3.7], pairs));
-    println!("| match | contacts | a step, us | relative | each contact adds, us |");
-    println!("| --- | ---: | ---: | ---: | ---: |");
-    for row in [rows("VSSS 5 v 5", &vss), rows("SSL 11 v 11", &ssl)].concat() {
-        println!("{row}");
+    println!("| match | engine | contacts | step, us | relative | per contact, us |");
+    println!("| --- | --- | ---: | ---: | ---: | ---: |");
+    for engine in EngineKind::ALL {
+        let vss = SimConfig { field: Field::VSS_5V5, engine, ..scenes::vss(5, 5) };
+        let vss = [0, 1, 2, 3, 4, 5].map(|pairs| Match::new(&vss, &[46.0, 46.0], pairs));
+        let ssl = SimConfig { field: Field::SSL_A, engine, ..scenes::ssl(11, 11) };
+        let ssl = [0, 1, 3, 5, 7, 9, 11].map(|pairs| Match::new(&ssl, &[3.7], pairs));
+        for row in [rows("VSSS 5 v 5", engine, &vss), rows("SSL 11 v 11", engine, &ssl)].concat() {
+            println!("{row}");
+        }
     }
 }

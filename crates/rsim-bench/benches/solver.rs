@@ -1,5 +1,5 @@
-//! Accuracy and cost of the solver's sub-steps and of the length of a tick:
-//! `cargo bench -p rsim-bench --bench solver` prints a table.
+//! Accuracy and cost of both solvers' sub-steps and of the length of a tick:
+//! `cargo bench -p rsim-bench --bench solver` prints a table for each.
 //!
 //! The overlap of bodies measures the error of the contacts. Costs are per second of play, so that ticks of
 //! different length compare, and relative to the default.
@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use std::time::{Duration, Instant};
 
 use rsim_core::scenes::{self, Driver, Scene, robots};
-use rsim_core::{RobotModel, SimConfig, World};
+use rsim_core::{EngineKind, RobotModel, SimConfig, World};
 
 const SUB_STEPS: [usize; 5] = [1, 2, 3, 4, 8];
 const TICKS: [f32; 3] = [0.001, 0.002_5, 0.005];
@@ -17,7 +17,7 @@ const DEFAULT_SUB_STEPS: usize = 4;
 
 /// Steps of a scene, and number of times that it is played; the fastest counts.
 const STEPS: u64 = 400;
-const ROUNDS: usize = 5;
+const ROUNDS: usize = 15;
 
 /// Measurements of a scene.
 #[derive(Default)]
@@ -80,12 +80,20 @@ fn head_on(config: SimConfig) -> Scene {
     scene
 }
 
-#[allow(clippy::print_stdout)] // the table is what it is for
+#[allow(clippy::print_stdout)] // the tables are what it is for
 fn main() {
+    for engine in EngineKind::ALL {
+        println!("{}", engine.name());
+        print_table(engine);
+    }
+}
+
+#[allow(clippy::print_stdout)]
+fn print_table(engine: EngineKind) {
     let settings = TICKS.iter().flat_map(|tick| SUB_STEPS.map(|sub_steps| (sub_steps, *tick)));
     let measured: Vec<_> = settings
         .map(|(sub_steps, tick)| {
-            let of = |config: SimConfig| SimConfig { tick, ..config };
+            let of = |config: SimConfig| SimConfig { tick, engine, ..config };
             let vss = Scene { config: of(scenes::vss(3, 3)), ..scenes::chase() };
             let ssl = scenes::ssl_chase(of(scenes::ssl(6, 6)));
             let crowd = play(&vss, sub_steps, |_| Vec::new());
@@ -100,7 +108,7 @@ fn main() {
         measured.iter().find(|(setting, ..)| *setting == default).expect("among them");
     let (usual_crowd, usual_swarm) = (time(crowd), time(swarm));
     println!(
-        "| sub-steps | tick, ms | 6v6 crowd: 99% of depths, mm | worst | head on, worst | time, 3v3 crowd | time, 6v6 crowd |"
+        "| sub-steps | tick, ms | 6v6 crowd: 99th percentile | 6v6 crowd: maximum | head on: maximum | time, 3v3 crowd | time, 6v6 crowd |"
     );
     println!("| ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for ((sub_steps, tick), crowd, mut swarm, pushing) in measured {

@@ -1,16 +1,15 @@
 //! Throughput of the physics alone: control steps (25 ms of 5 ms ticks) per second.
 //!
-//! League and team sizes x scene x worlds x threads. A scene restarts every 400 steps, so that a crowd
-//! does not end in a corner.
+//! League and team sizes x engine x scene x worlds x threads. A scene restarts every 400 steps, so that a
+//! crowd does not end in a corner. `cargo bench -p rsim-bench --bench step -- compact` measures the cases
+//! with that text in their name.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rsim_core::scenes::{self, Driver, Scene};
-use rsim_core::{Batch, Field, SimConfig};
-
-/// Steps between two starts of a scene.
-const EPISODE: u64 = 400;
+use rsim_bench::{Case, EPISODE, cases};
+use rsim_core::scenes::{self, Scene};
+use rsim_core::{Batch, EngineKind};
 
 /// Steps in which the contacts of a scene are counted.
 const WATCHED: u64 = 2 * EPISODE;
@@ -50,82 +49,40 @@ impl Player {
     }
 }
 
-/// A scene with the range of its contacts: a benchmark of a crowd must have a crowd.
-struct Case {
-    /// League and team sizes.
-    teams: &'static str,
-    scene: Scene,
-    /// Range of the number of contacts in the first steps.
-    contacts: std::ops::RangeInclusive<usize>,
-}
-
-fn cases() -> Vec<Case> {
-    let most = usize::MAX;
-    let mut cases = vec![
-        Case { teams: "vss_3v3", scene: scenes::vss_free(), contacts: 0..=0 },
-        Case { teams: "vss_3v3", scene: scenes::random_play(), contacts: 50..=most },
-        Case { teams: "vss_3v3", scene: scenes::chase(), contacts: 1000..=most },
-    ];
-    let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
-    for driver in [Driver::Random, Driver::Chase] {
-        let (name, contacts) = named(&driver, 50, 1000);
-        let scene = Scene::lined_up(name, vss_5v5.clone(), driver);
-        cases.push(Case { teams: "vss_5v5", scene, contacts: contacts..=most });
-    }
-    let ssl_a = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
-    for (teams, config, random, crowd) in [
-        ("ssl_1v1", scenes::ssl(1, 1), 1, 20),
-        ("ssl_6v6", scenes::ssl(6, 6), 20, 1000),
-        ("ssl_11v11", ssl_a, 20, 2000),
-    ] {
-        for driver in [Driver::STILL, Driver::Random, Driver::Chase] {
-            let (name, contacts) = named(&driver, random, crowd);
-            let free = driver == Driver::STILL;
-            let mut scene = Scene::lined_up(name, config.clone(), driver);
-            if free {
-                scene.set_ball([0.0, 0.3], [0.0, 1.0]);
-            }
-            let contacts = if free { 0..=0 } else { contacts..=most };
-            cases.push(Case { teams, scene, contacts });
-        }
-    }
-    cases
-}
-
-/// Label of a driver, and the minimum number of contacts: `random` in random play, `crowd` in a crowd.
-fn named(driver: &Driver, random: usize, crowd: usize) -> (&'static str, usize) {
-    match driver {
-        Driver::Constant(_) => ("free", 0),
-        Driver::Random => ("random", random),
-        Driver::Chase => ("crowd", crowd),
-    }
-}
-
 fn step(criterion: &mut Criterion) {
-    for Case { teams, scene, contacts } in cases() {
-        let (_, seen) = scene.play(&mut scene.world(), WATCHED);
-        assert!(contacts.contains(&seen), "{teams} {}: {seen} contacts", scene.name);
-        let mut group = criterion.benchmark_group(format!("{teams}_step"));
-        for (worlds, threads) in [(1, 1), (256, 1), (256, 2)] {
-            group.throughput(Throughput::Elements(worlds as u64));
-            let mut player = Player::new(scene.clone(), worlds, threads);
-            let id = BenchmarkId::new(scene.name, format!("{worlds}x{threads}"));
-            group.bench_function(id, |bencher| {
-                bencher.iter_custom(|iterations| {
-                    let mut spent = std::time::Duration::ZERO;
-                    for _ in 0..iterations {
-                        player.decide();
-                        let start = std::time::Instant::now();
-                        player.step();
-                        spent += start.elapsed();
-                    }
-                    black_box(&player.rows);
-                    spent
-                });
-            });
+    for case in cases() {
+        for engine in EngineKind::ALL {
+            step_with(criterion, &case, engine);
         }
-        group.finish();
     }
+}
+
+/// Measures a case with an engine. `benches/criterion.py` reads the names.
+fn step_with(criterion: &mut Criterion, case: &Case, engine: EngineKind) {
+    let scene = case.scene_with(engine);
+    let (_, seen) = scene.play(&mut scene.world(), WATCHED);
+    let name = format!("{}_{}", case.teams, engine.name());
+    assert!(case.contacts.contains(&seen), "{name} {}: {seen} contacts", scene.name);
+    let mut group = criterion.benchmark_group(name);
+    for (worlds, threads) in [(1, 1), (256, 1), (256, 2)] {
+        group.throughput(Throughput::Elements(worlds as u64));
+        let mut player = Player::new(scene.clone(), worlds, threads);
+        let id = BenchmarkId::new(scene.name, format!("{worlds}x{threads}"));
+        group.bench_function(id, |bencher| {
+            bencher.iter_custom(|iterations| {
+                let mut spent = std::time::Duration::ZERO;
+                for _ in 0..iterations {
+                    player.decide();
+                    let start = std::time::Instant::now();
+                    player.step();
+                    spent += start.elapsed();
+                }
+                black_box(&player.rows);
+                spent
+            });
+        });
+    }
+    group.finish();
 }
 
 fn place(criterion: &mut Criterion) {
@@ -140,7 +97,7 @@ fn place(criterion: &mut Criterion) {
 
 fn settings() -> Criterion {
     let (warm_up, measure) =
-        (std::time::Duration::from_millis(500), std::time::Duration::from_secs(2));
+        (std::time::Duration::from_millis(300), std::time::Duration::from_secs(1));
     Criterion::default().warm_up_time(warm_up).measurement_time(measure).sample_size(20)
 }
 
