@@ -6,6 +6,7 @@ use crate::blocks::{BALL, LANES, Lanes, VectorLanes, place_of, robot, set_bits};
 use crate::body_params::BodyParams;
 use crate::geometry::free_space::FreeSpace;
 use crate::geometry::outline::{Outline, PlacedOutline};
+use crate::math::Vector;
 
 /// Separation, m, above which two bodies do not touch. Of 40,000 ticks of VSSS random play, 11
 /// differed from the solver's at 0.2 mm, all with corners that pass each other, and none at 0.4 mm; at
@@ -143,32 +144,39 @@ impl NearPairs {
         let at_walls = self.find_reaches(bodies, params, free_space, search);
         let first = if search.ball_flies { robot(0) } else { BALL };
         for body in first..bodies.motions.len() {
-            let solid = Solid::of(body, params);
             let (block, lane) = place_of(body);
             let (radius, speed) = self.reaches[block].get(lane);
-            for met in set_bits(self.met_before(body, radius) >> first << first) {
-                let other = Solid::of(met, params);
-                let (one, margin) = if met == BALL {
+            let center = self.reaches[block].center.get(lane);
+            let met = self.met_before(body, center, radius) >> first << first;
+            let is_at_wall = at_walls >> body & 1 == 1;
+            if met == 0 && !is_at_wall {
+                continue;
+            }
+            let solid = Solid::of(body, params);
+            for other in set_bits(met) {
+                let (one, margin) = if other == BALL {
                     let (_, ball_speed) = self.reaches[0].get(BALL);
                     let margin = margin_of_ball(ball_speed + speed, params, search.between);
                     (solid.as_met_by_ball(params), margin)
                 } else {
                     (solid, MARGIN)
                 };
-                self.pairs.push(Pair { one, other: Other::Body(other), margin });
+                let other = Other::Body(Solid::of(other, params));
+                self.pairs.push(Pair { one, other, margin });
             }
-            if at_walls >> body & 1 == 0 {
-                continue;
+            if is_at_wall {
+                let margin = if body == BALL {
+                    margin_of_ball(speed, params, search.between)
+                } else {
+                    MARGIN
+                };
+                let walls = free_space.walls_near(center, radius);
+                self.pairs.extend(walls.map(|wall| Pair {
+                    one: solid,
+                    other: Other::Wall(wall.index, wall.outline),
+                    margin,
+                }));
             }
-            let margin =
-                if body == BALL { margin_of_ball(speed, params, search.between) } else { MARGIN };
-            let center = self.reaches[block].center.get(lane);
-            let walls = free_space.walls_near(center, radius);
-            self.pairs.extend(walls.map(|wall| Pair {
-                one: solid,
-                other: Other::Wall(wall.index, wall.outline),
-                margin,
-            }));
         }
     }
 
@@ -204,13 +212,12 @@ impl NearPairs {
         at_walls
     }
 
-    /// Bodies before `body`, which reaches `radius` (m), that it can meet, one bit each.
-    fn met_before(&self, body: usize, radius: f32) -> u64 {
-        let (last, lane) = place_of(body);
-        let center = VectorLanes::splat(self.reaches[last].center.get(lane));
+    /// Bodies before `body` that it can meet if it reaches `radius` (m) around `center`, one bit each.
+    fn met_before(&self, body: usize, center: Vector, radius: f32) -> u64 {
+        let (center, radius) = (VectorLanes::splat(center), Lanes::splat(radius));
         let mut met = 0;
-        for (block, reach) in self.reaches[..=last].iter().enumerate() {
-            let both = reach.radius + Lanes::splat(radius);
+        for (block, reach) in self.reaches[..=body / LANES].iter().enumerate() {
+            let both = reach.radius + radius;
             let near = (reach.center - center).length_squared().simd_lt(both * both);
             met |= u64::from(near.to_bitmask()) << (block * LANES);
         }
