@@ -28,7 +28,8 @@ def goal(play: Play) -> Floats:
     Returns:
         (n, observers).
     """
-    return goal_score(play.view.ball)
+    scores: Floats = _GOAL_SCORES[:, play.viewpoint.teams]
+    return scores.take(play.frame.ball.crossed.astype(np.intp), axis=0)
 
 
 def goal_score(ball: BallColumns) -> Floats:
@@ -40,7 +41,7 @@ def goal_score(ball: BallColumns) -> Floats:
     Returns:
         (...), of the same shape as `ball.crossed`.
     """
-    return _GOAL_SCORES[ball.crossed.astype(np.intp)]
+    return _GOAL_SCORES[:, 0].take(ball.crossed.astype(np.intp))
 
 
 def scored(play: Play) -> Mask:
@@ -65,8 +66,8 @@ def potential_difference(play: Play, potential: Potential) -> Floats:
     Returns:
         (n, observers) metres.
     """
-    last, view = play.last_view, play.view
-    return potential.difference(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
+    viewpoint, last_rows, rows = play.viewpoint.core, play.last_frame.rows, play.frame.rows
+    return potential.difference(viewpoint, last_rows, rows, play.threads)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
@@ -161,7 +162,11 @@ def weighted_terms(terms: dict[str, Floats], weights: Mapping[str, float]) -> di
     return {name: term * np.float32(weights[name]) for name, term in terms.items()}
 
 
-# (crossings,) score of each kind of crossing for the team that attacks +x.
+# (crossings, 2) score of each kind of crossing for blue, which attacks +x, and for yellow.
 _GOAL_SCORES = np.array(
-    [(i == GOAL_RIGHT) - (i == GOAL_LEFT) for i in range(len(CROSSINGS))], np.float32
+    [
+        [(i == GOAL_RIGHT) - (i == GOAL_LEFT), (i == GOAL_LEFT) - (i == GOAL_RIGHT)]
+        for i in range(len(CROSSINGS))
+    ],
+    np.float32,
 )

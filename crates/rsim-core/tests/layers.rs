@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: &[&[&str]] = &[
     &["math", "columns"],
     &["error"],
-    &["models"],
+    &["models", "threads"],
     &["geometry"],
     &["drive", "ball", "features"],
     &["body_params"],

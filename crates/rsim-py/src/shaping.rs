@@ -1,6 +1,6 @@
 //! Terms of rewards, for arrays of views and rows.
 
-use numpy::{Ix1, Ix3, Ix4, PyArray2, PyArrayMethods, PyReadonlyArray};
+use numpy::{Ix1, Ix3, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
@@ -8,6 +8,11 @@ use rsim_core::shaping;
 
 use crate::arrays::{Rows, readable, sizes, values};
 use crate::models::{BallModel, Field, RobotModel};
+use crate::threads::{Threads, write_rows};
+use crate::viewpoint::Viewpoint;
+
+/// Most worlds whose terms the caller's thread computes alone.
+const ALONE: usize = 256;
 
 /// A potential function for reward shaping, in metres.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -37,35 +42,29 @@ impl Potential {
         Err(PyValueError::new_err(format!("robot must have a mouth, got {got}")))
     }
 
+    #[pyo3(signature = (viewpoint, last_rows, rows, threads = None))]
     fn difference<'py>(
         &self,
         py: Python<'py>,
-        last_ball: &Bound<'py, PyAny>,
-        last_robots: &Bound<'py, PyAny>,
-        ball: &Bound<'py, PyAny>,
-        robots: &Bound<'py, PyAny>,
+        viewpoint: &Viewpoint,
+        last_rows: &Bound<'py, PyAny>,
+        rows: &Bound<'py, PyAny>,
+        threads: Option<&Threads>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let [n, observers, slots, _] = sizes("robots", robots)?;
-        let (ball_size, view_size) = (BALL_COLUMNS.len(), slots.max(1) * ROBOT_COLUMNS.len());
-        let shape = [n, observers, slots, ROBOT_COLUMNS.len()];
-        let balls = |name, array| readable(name, array, &[n, observers, ball_size]);
-        let views = |name, array| readable(name, array, &shape);
-        let last_ball: PyReadonlyArray<'_, f32, Ix3> = balls("last_ball", last_ball)?;
-        let ball: PyReadonlyArray<'_, f32, Ix3> = balls("ball", ball)?;
-        let last_robots: PyReadonlyArray<'_, f32, Ix4> = views("last_robots", last_robots)?;
-        let robots: PyReadonlyArray<'_, f32, Ix4> = views("robots", robots)?;
-        let (last_ball, last_robots) = (values(&last_ball), values(&last_robots));
-        let (ball, robots) = (values(&ball), values(&robots));
-        let differences = PyArray2::zeros(py, [n, observers], false);
+        let (n, rows) = viewpoint.rows("rows", rows)?;
+        let size = viewpoint.row_size();
+        let last_rows: Rows = readable("last_rows", last_rows, &[n, size])?;
+        let (last_rows, rows) = (values(&last_rows), values(&rows));
+        let observers = viewpoint.viewpoint.observers();
+        let differences = PyArray2::zeros(py, [n, observers.len()], false);
         {
             let mut out = differences.readwrite();
             let out = out.as_slice_mut()?;
-            py.detach(|| {
-                let now = ball.chunks_exact(ball_size).zip(robots.chunks_exact(view_size));
-                let before =
-                    last_ball.chunks_exact(ball_size).zip(last_robots.chunks_exact(view_size));
-                for (out, (now, before)) in out.iter_mut().zip(now.zip(before)) {
-                    *out = self.0.of(now.0, now.1) - self.0.of(before.0, before.1);
+            write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+                let row = world * size..(world + 1) * size;
+                let (last_row, row) = (&last_rows[row.clone()], &rows[row]);
+                for (out, observer) in out.iter_mut().zip(observers) {
+                    *out = self.0.difference(observer, last_row, row);
                 }
             });
         }
