@@ -712,13 +712,17 @@ class Steering:
 
     def __new__(cls, scales: Sequence[float], field_frame: bool, n_blue: int) -> Steering: ...
     def commands(
-        self, actions: NDArray[np.float32], rows: NDArray[np.float32]
+        self,
+        actions: NDArray[np.float32],
+        rows: NDArray[np.float32],
+        threads: Threads | None = None,
     ) -> NDArray[np.float32]:
         """Return the commands of actions.
 
         Args:
             actions: Actions (n, robots, 5), float32, each from -1 to 1.
             rows: State rows (n, row), float32, for the robots' headings.
+            threads: Threads that share the work; None for the caller's alone.
 
         Returns:
             Commands (n, robots, 6), float32, with the columns `COMMAND_COLUMNS["omni"]`.
@@ -876,7 +880,10 @@ class Potential:
         """
 
 def nearest_to_ball(
-    rows: NDArray[np.float32], n_blue: int, observers: NDArray[np.intp]
+    rows: NDArray[np.float32],
+    n_blue: int,
+    observers: NDArray[np.intp],
+    threads: Threads | None = None,
 ) -> NDArray[np.bool_]:
     """Return whether each observer is its team's nearest robot to the ball.
 
@@ -884,6 +891,7 @@ def nearest_to_ball(
         rows: State rows (n, row), float32.
         n_blue: Number of robots of the first team in a row.
         observers: Indices of robots in a row (observers,).
+        threads: Threads that share the work; None for the caller's alone.
 
     Returns:
         Flags (n, observers).
@@ -894,13 +902,16 @@ def nearest_to_ball(
     """
 
 def mean_action_magnitude(
-    actions: NDArray[np.float32], observers: NDArray[np.intp]
+    actions: NDArray[np.float32],
+    observers: NDArray[np.intp],
+    threads: Threads | None = None,
 ) -> NDArray[np.float32]:
     """Return the mean magnitude of each observer's action.
 
     Args:
         actions: Actions (n, robots, action), float32.
         observers: Indices of robots (observers,).
+        threads: Threads that share the work; None for the caller's alone.
 
     Returns:
         Means of absolute values (n, observers), float32.

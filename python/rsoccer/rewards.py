@@ -133,7 +133,8 @@ def nearest_to_ball(play: Play) -> Mask:
     Returns:
         (n, observers).
     """
-    return _core.nearest_to_ball(play.last_frame.rows, play.last_frame.n_blue, play.observers)
+    frame = play.last_frame
+    return _core.nearest_to_ball(frame.rows, frame.n_blue, play.observers, play.threads)
 
 
 def energy(play: Play) -> Floats:
@@ -145,21 +146,22 @@ def energy(play: Play) -> Floats:
     Returns:
         (n, observers) in [-1, 0].
     """
-    effort = mean_action_magnitude(play.actions, play.observers)
-    return np.negative(effort, out=effort)
+    return np.negative(mean_action_magnitude(play.actions, play.observers, play.threads))
 
 
-def weighted_terms(terms: dict[str, Floats], weights: Mapping[str, float]) -> dict[str, Floats]:
+def weighted_terms(
+    terms: dict[str, Floats], weights: Mapping[str, np.float32]
+) -> dict[str, Floats]:
     """Return reward terms times their weights.
 
     Args:
         terms: unweighted terms by name, each (n, observers) or (n, 1).
-        weights: weight of each term by name.
+        weights: weight of each term by name, float32 as the terms.
 
     Returns:
         Weighted terms by name, in the order of `terms`.
     """
-    return {name: term * np.float32(weights[name]) for name, term in terms.items()}
+    return {name: term * weights[name] for name, term in terms.items()}
 
 
 # (crossings, 2) score of each kind of crossing for blue, which attacks +x, and for yellow.

@@ -74,11 +74,13 @@ impl Potential {
 
 /// Returns whether each observer is its team's nearest robot to the ball.
 #[pyfunction]
+#[pyo3(signature = (rows, n_blue, observers, threads = None))]
 pub(crate) fn nearest_to_ball<'py>(
     py: Python<'py>,
     rows: &Bound<'py, PyAny>,
     n_blue: usize,
     observers: &Bound<'py, PyAny>,
+    threads: Option<&Threads>,
 ) -> PyResult<Bound<'py, PyArray2<bool>>> {
     let [n, size] = sizes("rows", rows)?;
     let rows: Rows = readable("rows", rows, &[n, size])?;
@@ -86,40 +88,43 @@ pub(crate) fn nearest_to_ball<'py>(
     let observers = indices(observers, robots)?;
     let rows = values(&rows);
     let nearest = PyArray2::zeros(py, [n, observers.len()], false);
-    if !observers.is_empty() {
+    {
         let mut out = nearest.readwrite();
-        let mut all = vec![false; robots];
-        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
-        for (out, row) in each.zip(rows.chunks_exact(size)) {
-            shaping::nearest_to_ball(row, n_blue, &mut all);
+        let out = out.as_slice_mut()?;
+        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+            let mut all = vec![false; robots];
+            shaping::nearest_to_ball(&rows[world * size..][..size], n_blue, &mut all);
             for (out, observer) in out.iter_mut().zip(&observers) {
                 *out = all[*observer];
             }
-        }
+        });
     }
     Ok(nearest)
 }
 
 /// Returns the mean magnitude of each observer's action.
 #[pyfunction]
+#[pyo3(signature = (actions, observers, threads = None))]
 pub(crate) fn mean_action_magnitude<'py>(
     py: Python<'py>,
     actions: &Bound<'py, PyAny>,
     observers: &Bound<'py, PyAny>,
+    threads: Option<&Threads>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let [n, robots, size] = sizes("actions", actions)?;
     let actions: PyReadonlyArray<'_, f32, Ix3> = readable("actions", actions, &[n, robots, size])?;
     let observers = indices(observers, robots)?;
     let actions = values(&actions);
     let magnitudes = PyArray2::zeros(py, [n, observers.len()], false);
-    if !observers.is_empty() && size > 0 {
+    if size > 0 {
         let mut out = magnitudes.readwrite();
-        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
-        for (out, actions) in each.zip(actions.chunks_exact(robots * size)) {
+        let out = out.as_slice_mut()?;
+        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+            let actions = &actions[world * robots * size..][..robots * size];
             for (out, observer) in out.iter_mut().zip(&observers) {
                 *out = shaping::mean_magnitude(&actions[observer * size..][..size]);
             }
-        }
+        });
     }
     Ok(magnitudes)
 }

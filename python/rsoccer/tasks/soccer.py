@@ -106,11 +106,12 @@ class Soccer(Task):
         """`DISCRETE_ACTIONS` with the option `discrete`, else None."""
         return self.DISCRETE_ACTIONS if self.discrete else None
 
-    @property
-    def term_weights(self) -> Mapping[str, float]:
+    @cached_property
+    def term_weights(self) -> Mapping[str, np.float32]:
         """Weight of each reward term by name: `REWARD_WEIGHTS` and the option `reward_weights`."""
-        weights = self.reward_weights
-        return self.PAPER_REWARD_WEIGHTS if isinstance(weights, str) else weights
+        given = self.reward_weights
+        weights = self.PAPER_REWARD_WEIGHTS if isinstance(given, str) else given
+        return {name: np.float32(weight) for name, weight in weights.items()}
 
     @cached_property
     def ego_features(self) -> EgoFeatures:
