@@ -17,7 +17,8 @@ pub(crate) struct Simulator(Batch);
 #[pymethods]
 impl Simulator {
     #[new]
-    #[pyo3(signature = (config, worlds = 1, threads = ThreadsOrCount::Count(1)))]
+    #[pyo3(signature = (config, worlds = 1, threads = ThreadsOrCount::Count(1)),
+        text_signature = "(config, worlds=1, threads=1)")]
     fn new(
         py: Python<'_>,
         config: SimConfig,
