@@ -20,6 +20,7 @@ from rsoccer._core import (
     Field,
     SimConfig,
     Simulator,
+    Threads,
     build_info,
     clip_actions,
     clip_in_place,
@@ -242,6 +243,41 @@ def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
     with pytest.raises(ValueError, match="damaged"):
         simulator.restore(before[:-7])
     assert simulator.snapshot() == before
+
+
+def test_simulators_on_the_same_threads_equal_one_on_its_own() -> None:
+    threads = Threads(2)
+    twins = [Simulator(CONFIG, 40, threads), Simulator(CONFIG, 40, threads), Simulator(CONFIG, 40)]
+    assert [twin.threads for twin in twins] == [2, 2, 1]
+    rows = np.zeros((3, 40, CONFIG.row_size), np.float32)
+    shape = (40, CONFIG.n_robots, len(CONFIG.command_columns))
+    commands = np.random.default_rng(0).uniform(-40.0, 40.0, shape).astype(np.float32)
+    for _ in range(5):
+        for twin, out in zip(twins, rows, strict=True):
+            twin.step(commands, out)
+    assert np.array_equal(rows[0], rows[2])
+    assert np.array_equal(rows[1], rows[2])
+
+
+@pytest.mark.parametrize("size", [0, 7, 200_000])
+def test_threads_copy_arrays_of_any_size(size: int) -> None:
+    source = np.random.default_rng(0).random((size, 2), np.float32)
+    for threads in (Threads(), Threads(3), pickle.loads(pickle.dumps(Threads(2)))):
+        out = np.full_like(source, np.nan)
+        threads.copy(source, out)
+        assert np.array_equal(out, source)
+
+
+def test_wrong_threads_and_arrays_are_refused_by_name() -> None:
+    assert Threads(3).count == 3
+    for count in (0, -1, 5000):
+        with pytest.raises(ValueError, match="threads"):
+            Threads(count)
+    zeros = np.zeros((2, 3), np.float32)
+    with pytest.raises(ValueError, match=r"out must have shape \(2, 3\), got \(3, 2\)"):
+        Threads().copy(zeros, np.zeros((3, 2), np.float32))
+    with pytest.raises(TypeError, match="source must be an array of float32, got float64"):
+        Threads().copy(zeros.astype(np.float64), zeros)
 
 
 def test_other_threads_run_during_a_step() -> None:

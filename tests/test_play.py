@@ -12,10 +12,11 @@ import pytest
 
 from rsoccer import Matches, WorldRng
 from rsoccer import play as play_module
+from rsoccer._core import Threads
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
 from rsoccer.play import Play
-from rsoccer.view import View
+from rsoccer.view import Viewpoint
 from tests.failing import FailingTask
 from tests.helpers import pushing, same
 
@@ -34,8 +35,10 @@ def arrays_in(value: object) -> list[Array]:
         return [value]
     if isinstance(value, Frame):
         return [value.rows]
-    if isinstance(value, View):
-        return [value.ball.data, value.robots.data]
+    if isinstance(value, Viewpoint):
+        return [value.observers, value.teams]
+    if isinstance(value, Threads):
+        return []
     if isinstance(value, WorldRng):
         return [value._state]
     if isinstance(value, Mapping):
@@ -118,7 +121,7 @@ CHECKS = [expect_take, expect_put, expect_arrays, expect_saving]
 
 
 def test_every_role_is_known_and_used() -> None:
-    assert set(ROLES.values()) == {"saved", "derived", "shared", "stream"}
+    assert set(ROLES.values()) == {"saved", "shared", "stream"}
     assert len(FIELDS) == len(PER_WORLD) + list(ROLES.values()).count("shared")
 
 
@@ -165,3 +168,19 @@ def test_a_field_left_out_of_saving_would_be_found(
         expect_arrays()
     with pytest.raises(AssertionError, match="saving: "):
         expect_saving()
+
+
+def test_views_follow_the_frames() -> None:
+    ours, theirs = two_plays()
+    old = ours.view.ball.data.copy()
+    ours.put(SOME, theirs.take(SOME))
+    for frame, view in ((ours.frame, ours.view), (ours.last_frame, ours.last_view)):
+        fresh = ours.viewpoint.new_view(WORLDS)
+        ours.viewpoint.fill(frame, fresh)
+        assert same(view.ball.data, fresh.ball.data)
+        assert same(view.robots.data, fresh.robots.data)
+    assert not same(ours.view.ball.data, old)
+    current = ours.view
+    ours.advance()
+    assert ours.last_view is current
+    assert not same(ours.view.robots.data, ours.last_view.robots.data)

@@ -4,7 +4,7 @@ import pytest
 from rsoccer import _core
 from rsoccer._core import CROSSINGS
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, NO_CROSSING, Frame
-from rsoccer.view import View, Viewpoint
+from rsoccer.view import CachedView, View, Viewpoint
 from tests import view_reference
 
 
@@ -92,15 +92,26 @@ def test_select_returns_some_observers(observers: slice | np.ndarray) -> None:
     assert (part.present == view.present[observers]).all()
 
 
-def test_take_and_put_are_inverse() -> None:
+def test_take_copies_some_worlds() -> None:
     view = view_of(random_frame(5, 2, 2), [0, 3])
-    worlds = np.array([1, 4])
+    worlds = np.array([4, 1])
     part = view.take(worlds)
-    before = view.robots.data.copy()
-    view.robots.data[worlds] = 9.0
-    view.put(worlds, part)
-    assert (view.robots.data == before).all()
+    assert np.array_equal(part.robots.data, view.robots.data[worlds])
+    assert np.array_equal(part.ball.data, view.ball.data[worlds])
     assert not np.shares_memory(part.ball.data, view.ball.data)
+
+
+def test_a_cached_view_is_computed_again_after_it_has_expired() -> None:
+    frame, viewpoint = random_frame(3, 2, 2), Viewpoint(2, 2, [0, 3])
+    cached = CachedView()
+    view = cached.of(frame, viewpoint)
+    before = view.ball.position.copy()
+    frame.ball.position[:] += 1.0
+    assert np.array_equal(cached.of(frame, viewpoint).ball.position, before)
+    cached.expire()
+    assert cached.of(frame, viewpoint) is view
+    assert np.array_equal(view.ball.position[:, 0], frame.ball.position)
+    assert np.array_equal(view.ball.position[:, 1], -frame.ball.position)
 
 
 def test_a_view_may_have_no_observers() -> None:

@@ -27,6 +27,7 @@ __all__ = [
     "SimConfig",
     "Simulator",
     "Steering",
+    "Threads",
     "Viewpoint",
     "build_info",
     "clip_actions",
@@ -711,13 +712,17 @@ class Steering:
 
     def __new__(cls, scales: Sequence[float], field_frame: bool, n_blue: int) -> Steering: ...
     def commands(
-        self, actions: NDArray[np.float32], rows: NDArray[np.float32]
+        self,
+        actions: NDArray[np.float32],
+        rows: NDArray[np.float32],
+        threads: Threads | None = None,
     ) -> NDArray[np.float32]:
         """Return the commands of actions.
 
         Args:
             actions: Actions (n, robots, 5), float32, each from -1 to 1.
             rows: State rows (n, row), float32, for the robots' headings.
+            threads: Threads that share the work; None for the caller's alone.
 
         Returns:
             Commands (n, robots, 6), float32, with the columns `COMMAND_COLUMNS["omni"]`.
@@ -728,6 +733,39 @@ class Steering:
         """
 
     def __reduce__(self) -> tuple[object, tuple[list[float], bool, int]]: ...
+
+@final
+class Threads:
+    """The caller's thread and its helpers, which share work on the rows of many worlds.
+
+    Results do not depend on the number of threads. Threads work after a fork, and pickle as their
+    number.
+
+    Args:
+        count: Number of threads, including the caller's, 1 to 1024.
+
+    Raises:
+        ValueError: `count` is out of its range.
+    """
+
+    def __new__(cls, count: int = 1) -> Threads: ...
+    @property
+    def count(self) -> int:
+        """Number of threads, including the caller's."""
+
+    def copy(self, source: NDArray[np.float32], out: NDArray[np.float32]) -> None:
+        """Copy an array.
+
+        Args:
+            source: Values, float32.
+            out: Output of the same shape, float32.
+
+        Raises:
+            TypeError: An array is not float32.
+            ValueError: The shapes differ, or the output is not writeable or not C-contiguous.
+        """
+
+    def __reduce__(self) -> tuple[object, tuple[int]]: ...
 
 @final
 class Viewpoint:
@@ -820,22 +858,21 @@ class Potential:
 
     def difference(
         self,
-        last_ball: NDArray[np.float32],
-        last_robots: NDArray[np.float32],
-        ball: NDArray[np.float32],
-        robots: NDArray[np.float32],
+        viewpoint: Viewpoint,
+        last_rows: NDArray[np.float32],
+        rows: NDArray[np.float32],
+        threads: Threads | None = None,
     ) -> NDArray[np.float32]:
-        """Return the difference of the potential between two views of each observer.
+        """Return the increase of the potential between two states, in the view of each observer.
 
         Args:
-            last_ball: Ball of the earlier view (n, observers, ball columns), float32, as
-                `Viewpoint.fill` writes it.
-            last_robots: Robots of the earlier view (n, observers, slots, robot columns), float32.
-            ball: Ball of the later view (n, observers, ball columns), float32.
-            robots: Robots of the later view (n, observers, slots, robot columns), float32.
+            viewpoint: The observers.
+            last_rows: State rows of the earlier state (n, row), float32.
+            rows: State rows of the later state (n, row), float32.
+            threads: Threads that share the work; None for the caller's alone.
 
         Returns:
-            Later minus earlier value (n, observers), float32, m.
+            Later minus earlier value (n, observers), float32, m; a new array.
 
         Raises:
             TypeError: An array is not float32.
@@ -843,7 +880,10 @@ class Potential:
         """
 
 def nearest_to_ball(
-    rows: NDArray[np.float32], n_blue: int, observers: NDArray[np.intp]
+    rows: NDArray[np.float32],
+    n_blue: int,
+    observers: NDArray[np.intp],
+    threads: Threads | None = None,
 ) -> NDArray[np.bool_]:
     """Return whether each observer is its team's nearest robot to the ball.
 
@@ -851,6 +891,7 @@ def nearest_to_ball(
         rows: State rows (n, row), float32.
         n_blue: Number of robots of the first team in a row.
         observers: Indices of robots in a row (observers,).
+        threads: Threads that share the work; None for the caller's alone.
 
     Returns:
         Flags (n, observers).
@@ -861,13 +902,16 @@ def nearest_to_ball(
     """
 
 def mean_action_magnitude(
-    actions: NDArray[np.float32], observers: NDArray[np.intp]
+    actions: NDArray[np.float32],
+    observers: NDArray[np.intp],
+    threads: Threads | None = None,
 ) -> NDArray[np.float32]:
     """Return the mean magnitude of each observer's action.
 
     Args:
         actions: Actions (n, robots, action), float32.
         observers: Indices of robots (observers,).
+        threads: Threads that share the work; None for the caller's alone.
 
     Returns:
         Means of absolute values (n, observers), float32.
@@ -950,23 +994,29 @@ class EgoFeatures:
         """Name and shape of each block, in order."""
 
     def encode(
-        self, ball: NDArray[np.float32], robots: NDArray[np.float32], extra: int = 0
-    ) -> NDArray[np.float32]:
-        """Return the features of views, all blocks side by side.
+        self,
+        viewpoint: Viewpoint,
+        rows: NDArray[np.float32],
+        actions: NDArray[np.float32],
+        out: NDArray[np.float32],
+        bounds: NDArray[np.float32] | None = None,
+        threads: Threads | None = None,
+    ) -> None:
+        """Write the features of each observer, all blocks side by side, and its action after them.
 
         Args:
-            ball: Ball of each view (n, observers, ball columns), float32, as `Viewpoint.fill`
-                writes it.
-            robots: Robots of each view (n, observers, slots, robot columns), float32: itself,
-                teammates, opponents, zeros for an empty slot.
-            extra: Number of zeros to append to each row for the caller to fill, 0 or above.
-
-        Returns:
-            A new array (n, observers, features + extra), float32.
+            viewpoint: The observers, each with 1 + n_teammates + n_opponents slots.
+            rows: State rows (n, row), float32.
+            actions: Last actions (n, robots, action), float32.
+            out: Output (n, observers, features + action), float32.
+            bounds: Bounds (features + action,), float32, each 0 or above: values are clipped to
+                [-bounds, bounds]. None clips nothing.
+            threads: Threads that share the work; None for the caller's alone.
 
         Raises:
             TypeError: An array is not float32.
-            ValueError: An array has another shape, or `extra` is below 0.
+            ValueError: An array has another shape, the output is not writeable or not C-contiguous,
+                a bound is below 0, or the viewpoint has another number of slots.
         """
 
     def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int]]: ...
@@ -981,13 +1031,15 @@ class Simulator:
     Args:
         config: Configuration of the matches.
         worlds: Number of matches, 1 or above.
-        threads: Number of threads that `step` uses, 1 to 1024.
+        threads: Number of threads that `step` uses, 1 to 1024, or `Threads` that do other work too.
 
     Raises:
         ValueError: `worlds` or `threads` is out of its range, or the teams do not fit on the field.
     """
 
-    def __new__(cls, config: SimConfig, worlds: int = 1, threads: int = 1) -> Simulator: ...
+    def __new__(
+        cls, config: SimConfig, worlds: int = 1, threads: int | Threads = 1
+    ) -> Simulator: ...
     @property
     def config(self) -> SimConfig:
         """Configuration of the matches."""

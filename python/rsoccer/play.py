@@ -1,7 +1,8 @@
 """State that a task may read, for n worlds: frames, views, actions and the task's own memory.
 
 `Play` lists its fields once. Copying worlds, overwriting worlds and saving all follow from the
-list, so a new field takes part in each of them.
+list, so a new field takes part in each of them. Views follow from the frames: they are computed
+when they are first read.
 """
 
 from collections.abc import Mapping
@@ -11,13 +12,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer._core import Threads
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
-from rsoccer.view import View, Viewpoint
+from rsoccer.view import CachedView, View, Viewpoint
 
 # Roles of fields that are not plain per-world state, for copying and saving.
-DERIVED: Final = {"role": "derived"}  # copied, but not saved: computed from saved fields
 SHARED: Final = {"role": "shared"}  # the same for all worlds: neither copied nor saved
 STREAM: Final = {"role": "stream"}  # copied, and saved beside the other random streams
 
@@ -30,10 +31,6 @@ class Play:
     """(n, ...) current state."""
     last_frame: Frame
     """(n, ...) state one control step ago; equal to `frame` after a reset."""
-    view: View = field(metadata=DERIVED)
-    """(n, observers, ...) `frame` in the coordinates of each observer."""
-    last_view: View = field(metadata=DERIVED)
-    """(n, observers, ...) `last_frame` in the coordinates of each observer."""
     commands: Floats
     """(n, robots, command) last commands of the robots, SI units."""
     actions: Floats
@@ -42,35 +39,52 @@ class Play:
     """(n,) random streams of the task, one per world."""
     memory: dict[str, Array]
     """(n, ...) arrays of the task, fresh after a reset; see `Task.new_memory`."""
-    observers: NDArray[np.intp] = field(metadata=SHARED)
-    """(observers,) indices of the robots that have a view, in the order of a state row."""
+    viewpoint: Viewpoint = field(metadata=SHARED)
+    """Observers, and the conversion of frames into their views."""
     steps: NDArray[np.int64]
     """(n,) control steps since the episode began."""
+    threads: Threads = field(default_factory=Threads, metadata=SHARED)
+    """Threads that share the work on many worlds; results do not depend on their number."""
+
+    def __post_init__(self) -> None:
+        """Begin without views."""
+        self._view, self._last_view = CachedView(), CachedView()
+
+    @property
+    def observers(self) -> NDArray[np.intp]:
+        """(observers,) indices of the robots that have a view, in the order of a state row."""
+        return self.viewpoint.observers
+
+    @property
+    def view(self) -> View:
+        """(n, observers, ...) `frame` in the coordinates of each observer."""
+        return self._view.of(self.frame, self.viewpoint)
+
+    @property
+    def last_view(self) -> View:
+        """(n, observers, ...) `last_frame` in the coordinates of each observer."""
+        return self._last_view.of(self.last_frame, self.viewpoint)
 
     def advance(self) -> None:
-        """Swap the buffers: the current frame and view become the last ones."""
+        """Swap the frames, once the next state is in `last_frame`: the current one becomes it."""
         self.frame, self.last_frame = self.last_frame, self.frame
-        self.view, self.last_view = self.last_view, self.view
+        self._view, self._last_view = self._last_view, self._view
+        self._view.expire()
 
-    def start(self, rows: Floats, viewpoint: Viewpoint) -> None:
+    def start(self, rows: Floats) -> None:
         """Begin episodes, with the last frame equal to the current one.
 
         Args:
             rows: (n, row) initial state rows.
-            viewpoint: fills the views.
         """
         self.frame.rows[:] = rows
         self.last_frame.rows[:] = rows
-        self.fill_views(viewpoint)
+        self.expire_views()
 
-    def fill_views(self, viewpoint: Viewpoint) -> None:
-        """Compute both views from the frames.
-
-        Args:
-            viewpoint: fills the views.
-        """
-        viewpoint.fill(self.frame, self.view)
-        viewpoint.fill(self.last_frame, self.last_view)
+    def expire_views(self) -> None:
+        """Have both views computed again; to be called after a change of the frames."""
+        self._view.expire()
+        self._last_view.expire()
 
     def take(self, worlds: NDArray[np.intp]) -> "Play":
         """Return a copy of some worlds.
@@ -91,6 +105,7 @@ class Play:
         """
         for name in _PER_WORLD:
             _put(getattr(self, name), worlds, getattr(part, name))
+        self.expire_views()
 
     def arrays(self) -> dict[str, Array]:
         """Return the arrays to save, by name; not copied. Random streams are saved by others."""
@@ -109,13 +124,13 @@ def _names(*roles: str) -> tuple[str, ...]:
     return tuple(f.name for f in fields(Play) if f.metadata.get("role", "saved") in roles)
 
 
-_PER_WORLD: Final = _names("saved", "derived", "stream")
+_PER_WORLD: Final = _names("saved", "stream")
 
 
 def _take(value: Any, worlds: NDArray[np.intp]) -> Any:  # noqa: ANN401  (a field's value)
     if isinstance(value, Mapping):
         return {key: array[worlds] for key, array in value.items()}
-    return value.take(worlds) if isinstance(value, Frame | View) else value[worlds]
+    return value.take(worlds) if isinstance(value, Frame) else value[worlds]
 
 
 def _put(value: Any, worlds: NDArray[np.intp], part: Any) -> None:  # noqa: ANN401  (a field's value)

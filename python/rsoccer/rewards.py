@@ -28,7 +28,8 @@ def goal(play: Play) -> Floats:
     Returns:
         (n, observers).
     """
-    return goal_score(play.view.ball)
+    scores: Floats = _GOAL_SCORES[:, play.viewpoint.teams]
+    return scores.take(play.frame.ball.crossed.astype(np.intp), axis=0)
 
 
 def goal_score(ball: BallColumns) -> Floats:
@@ -40,7 +41,7 @@ def goal_score(ball: BallColumns) -> Floats:
     Returns:
         (...), of the same shape as `ball.crossed`.
     """
-    return _GOAL_SCORES[ball.crossed.astype(np.intp)]
+    return _GOAL_SCORES[:, 0].take(ball.crossed.astype(np.intp))
 
 
 def scored(play: Play) -> Mask:
@@ -65,8 +66,8 @@ def potential_difference(play: Play, potential: Potential) -> Floats:
     Returns:
         (n, observers) metres.
     """
-    last, view = play.last_view, play.view
-    return potential.difference(last.ball.data, last.robots.data, view.ball.data, view.robots.data)
+    viewpoint, last_rows, rows = play.viewpoint.core, play.last_frame.rows, play.frame.rows
+    return potential.difference(viewpoint, last_rows, rows, play.threads)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
@@ -132,7 +133,8 @@ def nearest_to_ball(play: Play) -> Mask:
     Returns:
         (n, observers).
     """
-    return _core.nearest_to_ball(play.last_frame.rows, play.last_frame.n_blue, play.observers)
+    frame = play.last_frame
+    return _core.nearest_to_ball(frame.rows, frame.n_blue, play.observers, play.threads)
 
 
 def energy(play: Play) -> Floats:
@@ -144,24 +146,29 @@ def energy(play: Play) -> Floats:
     Returns:
         (n, observers) in [-1, 0].
     """
-    effort = mean_action_magnitude(play.actions, play.observers)
-    return np.negative(effort, out=effort)
+    return np.negative(mean_action_magnitude(play.actions, play.observers, play.threads))
 
 
-def weighted_terms(terms: dict[str, Floats], weights: Mapping[str, float]) -> dict[str, Floats]:
+def weighted_terms(
+    terms: dict[str, Floats], weights: Mapping[str, np.float32]
+) -> dict[str, Floats]:
     """Return reward terms times their weights.
 
     Args:
         terms: unweighted terms by name, each (n, observers) or (n, 1).
-        weights: weight of each term by name.
+        weights: weight of each term by name, float32 as the terms.
 
     Returns:
         Weighted terms by name, in the order of `terms`.
     """
-    return {name: term * np.float32(weights[name]) for name, term in terms.items()}
+    return {name: term * weights[name] for name, term in terms.items()}
 
 
-# (crossings,) score of each kind of crossing for the team that attacks +x.
+# (crossings, 2) score of each kind of crossing for blue, which attacks +x, and for yellow.
 _GOAL_SCORES = np.array(
-    [(i == GOAL_RIGHT) - (i == GOAL_LEFT) for i in range(len(CROSSINGS))], np.float32
+    [
+        [(i == GOAL_RIGHT) - (i == GOAL_LEFT), (i == GOAL_LEFT) - (i == GOAL_RIGHT)]
+        for i in range(len(CROSSINGS))
+    ],
+    np.float32,
 )

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import SimConfig, clip_in_place
+from rsoccer._core import SimConfig, Threads, clip_in_place
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame, robot_names, team_of
 from rsoccer.markers import Marker
@@ -271,17 +271,19 @@ class Task(ABC):
         """(observation_size,) lower bounds of the flat observation, the negative upper bounds."""
         return -self.observation_high
 
-    def observe(self, play: Play) -> Floats:
+    def observe(self, play: Play, out: Floats | None = None) -> Floats:
         """Compute the flat observation of each observer, clipped to the bounds.
 
         Args:
             play: state of n worlds.
+            out: (n, observers, observation_size) float32 output; None for a new array.
 
         Returns:
-            A new array (n, observers, observation_size).
+            The output (n, observers, observation_size).
         """
         n, observers = len(play.frame), len(play.observers)
-        flat = np.empty((n, observers, len(self.observation_high)), np.float32)
+        shape = (n, observers, len(self.observation_high))
+        flat = np.empty(shape, np.float32) if out is None else out
         if observers:
             blocks = self.frame_to_observations(play).values()
             flat_blocks = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks]
@@ -300,29 +302,31 @@ class Task(ABC):
         """
         return Viewpoint(self.n_blue, self.n_yellow, observers, self.sides)
 
-    def new_play(self, n: int, viewpoint: Viewpoint, rng: WorldRng) -> Play:
+    def new_play(
+        self, n: int, viewpoint: Viewpoint, rng: WorldRng, threads: Threads | None = None
+    ) -> Play:
         """Create the state of n worlds, with new memory and empty frames.
 
         Args:
             n: number of worlds.
             viewpoint: defines the observers.
             rng: (n,) random streams of the task.
+            threads: threads that share the work on many worlds; None for the caller's alone.
 
         Returns:
-            State whose frames and views are still to be filled, by `Play.start`.
+            State whose frames are still to be filled, by `Play.start`.
         """
         robots = self.n_blue + self.n_yellow
         return Play(
             frame=Frame.empty(n, self.n_blue, self.n_yellow),
             last_frame=Frame.empty(n, self.n_blue, self.n_yellow),
-            view=viewpoint.new_view(n),
-            last_view=viewpoint.new_view(n),
             commands=np.zeros((n, robots, len(self.config.command_columns)), np.float32),
             actions=np.zeros((n, robots, self.action_size), np.float32),
             rng=rng,
             memory=checks.memory("new_memory", self.new_memory(n), n),
-            observers=viewpoint.observers,
+            viewpoint=viewpoint,
             steps=np.zeros(n, np.int64),
+            threads=threads or Threads(),
         )
 
     def _sample_play(self) -> Play:
@@ -330,5 +334,5 @@ class Task(ABC):
         observer = 0 if "blue" in self.sides and self.n_blue else self.n_blue
         viewpoint = self.new_viewpoint([observer])
         play = self.new_play(1, viewpoint, WorldRng.seeded(0, 1))
-        play.start(self.get_initial_positions_frame(play.rng).rows, viewpoint)
+        play.start(self.get_initial_positions_frame(play.rng).rows)
         return play

@@ -72,16 +72,6 @@ class View:
             self.ball.data[worlds], self.robots.data[worlds], self.n_teammates, self.present
         )
 
-    def put(self, worlds: NDArray[np.intp], part: "View") -> None:
-        """Overwrite the view in some worlds.
-
-        Args:
-            worlds: (k,) indices of worlds.
-            part: view of k worlds with the same observers.
-        """
-        self.ball.data[worlds] = part.ball.data
-        self.robots.data[worlds] = part.robots.data
-
     def __reduce__(self) -> tuple[type["View"], tuple[Floats, Floats, int, Mask]]:
         # Pickled attribute by attribute, the parts would become copies.
         return View, (self.ball.data, self.robots.data, self.n_teammates, self.present)
@@ -104,6 +94,8 @@ class Viewpoint:
 
     Attributes:
         observers: (observers,) indices of the observing robots in the order of a state row.
+        teams: (observers,) team of each observer: 0 for blue, 1 for yellow.
+        core: the same viewpoint in the core, for its features.
     """
 
     def __init__(
@@ -124,8 +116,9 @@ class Viewpoint:
         self._n_teammates, self._n_opponents = slot_counts(n_blue, n_yellow, sides)
         self.observers = np.asarray(observers, np.intp)
         slots = [self._slots(observer, n_blue, n_yellow) for observer in observers]
-        rotated = [bool(observer >= n_blue) for observer in observers]
-        self._viewpoint = _core.Viewpoint(n_blue + n_yellow, slots, rotated)
+        rotated = self.observers >= n_blue
+        self.teams = rotated.astype(np.intp)
+        self.core = _core.Viewpoint(n_blue + n_yellow, slots, rotated.tolist())
         shape = (len(observers), 1 + self._n_teammates + self._n_opponents)
         present = [robot is not None for row in slots for robot in row]
         self._present = np.array(present, np.bool_).reshape(shape)
@@ -148,7 +141,7 @@ class Viewpoint:
             view: view of n worlds from `new_view`; overwritten.
         """
         if len(self.observers):
-            self._viewpoint.fill(frame.rows, view.ball.data, view.robots.data)
+            self.core.fill(frame.rows, view.ball.data, view.robots.data)
 
     def __reduce__(self) -> tuple[type["Viewpoint"], tuple[object, ...]]:
         return Viewpoint, self._arguments
@@ -169,3 +162,36 @@ class Viewpoint:
             *opponents,
             *empty * (self._n_opponents - len(opponents)),
         ]
+
+
+class CachedView:
+    """View of a frame, computed when it is first read after a change of the frame."""
+
+    __slots__ = ("_current", "_view")
+
+    def __init__(self) -> None:
+        """Begin without a view."""
+        self._view: View | None = None
+        self._current = False
+
+    def of(self, frame: Frame, viewpoint: Viewpoint) -> View:
+        """Return the view of a frame.
+
+        Args:
+            frame: state of n worlds, the same object or an equal one until `expire`.
+            viewpoint: computes the view, always the same.
+
+        Returns:
+            The view, always the same object; overwritten by the first call after `expire`.
+        """
+        view = self._view
+        if view is None:
+            view = self._view = viewpoint.new_view(len(frame))
+        if not self._current:
+            viewpoint.fill(frame, view)
+            self._current = True
+        return view
+
+    def expire(self) -> None:
+        """Have the view computed again, because the frame has changed."""
+        self._current = False

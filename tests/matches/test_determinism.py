@@ -134,6 +134,23 @@ def test_threads_do_not_change_results(name: str, controllers: Controllers | Non
         expect_equal(ours, [theirs])
 
 
+@pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0", "SSLDribbling-v0"])
+def test_threads_that_share_many_worlds_do_not_change_results(name: str) -> None:
+    """So many worlds that threads share observations and rewards too."""
+    worlds = 600
+    ours, theirs = (Matches(name, worlds, 3, threads, autoreset="same_step") for threads in (1, 3))
+    assert same(ours.reset(), theirs.reset())
+    rng = np.random.default_rng(0)
+    for _ in range(5):
+        actions = rng.uniform(-1, 1, (worlds, len(ours.agents), ours.action_size))
+        outcomes = [matches.step(actions.astype(np.float32)) for matches in (ours, theirs)]
+        mine, others = (
+            [outcome.observations, outcome.rewards, *outcome.terms.values()] for outcome in outcomes
+        )
+        assert all(map(same, mine, others))
+    assert same(ours.play.view.robots.data, theirs.play.view.robots.data)
+
+
 @each_task
 def test_matches_after_others_equal_fresh_matches(
     name: str, controllers: Controllers | None

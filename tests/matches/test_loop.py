@@ -133,6 +133,23 @@ def test_an_outcome_belongs_to_the_caller() -> None:
     )
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("autoreset", ["same_step", "disabled"])
+def test_results_do_not_change_after_their_step(threads: int, autoreset: str) -> None:
+    matches = Matches(Crowd(max_steps=5), 300, 0, threads, autoreset=autoreset)
+    kept: list[np.ndarray] = [matches.reset()]
+    for _ in range(4):
+        outcome = matches.step(np.ones_like(zeros(matches)))
+        kept += [outcome.observations, outcome.final_observations, outcome.rewards]
+        kept += [outcome.terminated, outcome.truncated, *outcome.terms.values()]
+        kept += [*outcome.metrics.values(), matches.done]
+    before = [array.copy() for array in kept]
+    matches.step(np.zeros_like(zeros(matches)))
+    matches.reset(seed=9)
+    matches.step(np.zeros_like(zeros(matches)))
+    assert all(map(same, kept, before))
+
+
 def test_after_a_reset_the_last_frame_equals_the_frame() -> None:
     matches = begun(Crowd())
     rng = np.random.default_rng(0)

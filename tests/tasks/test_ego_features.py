@@ -5,10 +5,12 @@ import pickle
 import numpy as np
 import pytest
 
-from rsoccer import list_tasks, make_task
-from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, EgoFeatures
+from rsoccer import _core, list_tasks, make_task
+from rsoccer._core import EgoFeatures, Threads
+from rsoccer.frame import row_size
 from rsoccer.matches import Matches
 from rsoccer.tasks.soccer import Soccer
+from rsoccer.view import Viewpoint
 from tests.tasks import ego_features_reference
 
 
@@ -35,43 +37,85 @@ def encoder() -> EgoFeatures:
     return EgoFeatures(config.field, config.robot, 2, 3)
 
 
-def views(n: int, slots: int = 6) -> tuple[np.ndarray, np.ndarray]:
+VIEWPOINT = Viewpoint(3, 3, [0, 2, 3, 5]).core
+ACTION_SIZE = 2
+SIZE = sum(int(np.prod(shape)) for _, shape in encoder().blocks) + ACTION_SIZE
+
+
+def states(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and actions of n worlds."""
     rng = np.random.default_rng(1)
-    ball = rng.uniform(-1, 1, (n, 4, len(BALL_COLUMNS))).astype(np.float32)
-    robots = rng.uniform(-1, 1, (n, 4, slots, len(ROBOT_COLUMNS))).astype(np.float32)
-    return ball, robots
+    rows = rng.uniform(-1, 1, (n, row_size(3, 3))).astype(np.float32)
+    return rows, rng.uniform(-1, 1, (n, 6, ACTION_SIZE)).astype(np.float32)
 
 
-def test_features_of_an_observer_depend_on_its_view_only() -> None:
-    ball, robots = views(5)
-    shared = encoder()
-    features, again = shared.encode(ball, robots), shared.encode(ball, robots)
-    assert np.array_equal(features, again)
-    assert not np.shares_memory(features, again), "each call returns an array of its own"
+def encoded(
+    rows: np.ndarray,
+    actions: np.ndarray,
+    viewpoint: _core.Viewpoint = VIEWPOINT,
+    *,
+    observers: int = 4,
+    features: EgoFeatures | None = None,
+    bounds: np.ndarray | None = None,
+    threads: Threads | None = None,
+) -> np.ndarray:
+    out = np.full((len(rows), observers, SIZE), np.nan, np.float32)
+    (features or encoder()).encode(viewpoint, rows, actions, out, bounds, threads)
+    return out
+
+
+def test_features_of_an_observer_depend_on_its_row_only() -> None:
+    rows, actions = states(5)
+    features = encoded(rows, actions)
+    assert np.isfinite(features).all()
     for world in range(5):
-        for observer in range(4):
-            one = (slice(world, world + 1), slice(observer, observer + 1))
-            assert np.array_equal(
-                encoder().encode(ball[one], robots[one])[0, 0], features[world, observer]
-            )
+        for index, observer in enumerate([0, 2, 3, 5]):
+            one = Viewpoint(3, 3, [observer]).core
+            alone = encoded(rows[world : world + 1], actions[world : world + 1], one, observers=1)
+            assert np.array_equal(alone[0, 0], features[world, index])
     copied = pickle.loads(pickle.dumps(encoder()))
-    assert np.array_equal(copied.encode(ball, robots), features)
+    assert np.array_equal(encoded(rows, actions, features=copied), features)
     assert copied.blocks == encoder().blocks
-    assert features.shape[2] == sum(int(np.prod(shape)) for _, shape in encoder().blocks)
 
 
-def test_wrong_views_are_refused_by_name() -> None:
-    ball, robots = views(2)
-    with pytest.raises(ValueError, match=r"ball must have 3 axes, got shape \(14,\)"):
-        encoder().encode(ball[0, 0], robots)
-    with pytest.raises(ValueError, match=r"robots must have shape \(2, 4, 6, 11\)"):
-        encoder().encode(ball, robots[:, :, :5])
-    with pytest.raises(TypeError, match="robots must be an array of float32, got float64"):
-        encoder().encode(ball, robots.astype(np.float64))
+def test_the_last_action_follows_the_features() -> None:
+    rows, actions = states(3)
+    assert np.array_equal(encoded(rows, actions)[:, :, -2:], actions[:, [0, 2, 3, 5]])
+
+
+def test_bounds_clip_features_and_actions() -> None:
+    rows, actions = states(20)
+    free, bounds = encoded(rows, actions), np.full(SIZE, 0.25, np.float32)
+    clipped = encoded(rows, actions, bounds=bounds)
+    assert np.array_equal(clipped, np.clip(free, -0.25, 0.25))
+    assert not np.array_equal(clipped, free)
+
+
+def test_features_do_not_depend_on_the_number_of_threads() -> None:
+    rows, actions = states(700)
+    alone = encoded(rows, actions)
+    for threads in (1, 2, 5):
+        assert np.array_equal(encoded(rows, actions, threads=Threads(threads)), alone)
+
+
+def test_wrong_arrays_are_refused_by_name() -> None:
+    rows, actions = states(2)
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(80,\)"):
+        encoded(rows[0], actions)
+    with pytest.raises(ValueError, match=r"actions must have shape \(2, 6, 2\)"):
+        encoded(rows, actions[:, :5])
+    with pytest.raises(TypeError, match="rows must be an array of float32, got float64"):
+        encoded(rows.astype(np.float64), actions)
+    with pytest.raises(ValueError, match=r"out must have shape \(2, 4, 74\), got \(2, 3, 74\)"):
+        encoded(rows, actions, observers=3)
+    with pytest.raises(ValueError, match="bounds must be 0 or above, got -1"):
+        encoded(rows, actions, bounds=-np.ones(SIZE, np.float32))
+    with pytest.raises(ValueError, match="viewpoint must have 6 slots, got 4"):
+        encoded(rows, actions, Viewpoint(2, 2, [0, 1, 2, 3]).core)
     with pytest.raises(ValueError, match="n_teammates"):
         EgoFeatures(make_task("VSS-v0").config.field, make_task("VSS-v0").config.robot, -1, 3)
 
 
 def test_no_observers_have_no_features() -> None:
-    ball, robots = views(3)
-    assert encoder().encode(ball[:, :0], robots[:, :0]).shape[:2] == (3, 0)
+    rows, actions = states(3)
+    assert encoded(rows, actions, Viewpoint(3, 3, []).core, observers=0).shape == (3, 0, SIZE)

@@ -1,7 +1,7 @@
 //! Physics of robot soccer, for reinforcement learning: many small matches, stepped fast.
 //!
 //! A [`SimConfig`] holds the constants of a simulator: field, robot and ball models, time step. A
-//! [`World`] is one match; a [`Batch`] is many, stepped on several threads. Commands go in as plain
+//! [`World`] is one match; a [`Batch`] is many, stepped on several [`Threads`]. Commands go in as plain
 //! rows, states come out as plain rows, whose columns are named once in [`columns`].
 //!
 //! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
@@ -26,6 +26,7 @@ mod math;
 mod models;
 pub mod scenes;
 mod state;
+mod threads;
 mod tick;
 mod world;
 
@@ -43,6 +44,7 @@ pub use models::league::League;
 pub use models::mouth::Mouth;
 pub use models::numbers::{Number, Range};
 pub use models::robot::{Body, DifferentialDrive, Drive, OmniDrive, RobotModel};
+pub use threads::Threads;
 pub use tick::PHYSICS_VERSION;
 pub use world::World;
 pub use world::batch::Batch;

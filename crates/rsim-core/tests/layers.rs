@@ -11,7 +11,7 @@ const LAYERS: &[&[&str]] = &[
     &["math", "columns"],
     &["blocks"],
     &["error"],
-    &["models"],
+    &["models", "threads"],
     &["geometry"],
     &["drive", "ball", "features"],
     &["body_params"],

@@ -20,17 +20,26 @@ pub(crate) fn clip_in_place(
         writeable("values", values, &[n, observers, size])?;
     let bounds: PyReadonlyArray<'_, f32, Ix1> = readable("bounds", bounds, &[size])?;
     let (bounds, values) = (arrays::values(&bounds), values.as_slice_mut()?);
-    if let Some(bound) = bounds.iter().find(|bound| bound.is_nan() || **bound < 0.0) {
-        return Err(PyValueError::new_err(format!("bounds must be 0 or above, got {bound}")));
-    }
-    py.detach(|| {
-        for row in values.chunks_exact_mut(size.max(1)) {
-            for (value, bound) in row.iter_mut().zip(&*bounds) {
-                *value = clip(*value, *bound);
-            }
-        }
-    });
+    check_bounds(&bounds)?;
+    py.detach(|| values.chunks_exact_mut(size.max(1)).for_each(|row| clip_row(row, &bounds)));
     Ok(())
+}
+
+/// Checks that all bounds are 0 or above.
+pub(crate) fn check_bounds(bounds: &[f32]) -> PyResult<()> {
+    match bounds.iter().find(|bound| bound.is_nan() || **bound < 0.0) {
+        None => Ok(()),
+        Some(bound) => {
+            Err(PyValueError::new_err(format!("bounds must be 0 or above, got {bound}")))
+        }
+    }
+}
+
+/// Clips each value of a row to its bound.
+pub(crate) fn clip_row(row: &mut [f32], bounds: &[f32]) {
+    for (value, bound) in row.iter_mut().zip(bounds) {
+        *value = clip(*value, *bound);
+    }
 }
 
 /// Returns a copy clipped to [-1, 1] of a finite float32 array of this shape, else None.

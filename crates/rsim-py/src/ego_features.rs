@@ -1,13 +1,19 @@
 //! Egocentric features, for arrays of views.
 
-use numpy::{Ix3, Ix4, PyArray3, PyArrayMethods, PyReadonlyArray};
+use numpy::{Ix1, Ix3, PyReadonlyArray, PyReadwriteArray};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 
-use crate::arrays::{readable, sizes, values};
+use crate::arrays::{readable, sizes, values, writeable};
+use crate::bounds::{check_bounds, clip_row};
 use crate::config::count;
 use crate::models::{Field, RobotModel};
+use crate::threads::{Threads, write_rows};
+use crate::viewpoint::Viewpoint;
+
+/// Most worlds whose features the caller's thread computes alone.
+const ALONE: usize = 32;
 
 /// Egocentric features of robots, scaled for a network.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -36,37 +42,61 @@ impl EgoFeatures {
         PyTuple::new(py, named.collect::<PyResult<Vec<_>>>()?)
     }
 
-    #[pyo3(signature = (ball, robots, extra = 0))]
-    fn encode<'py>(
+    #[pyo3(signature = (viewpoint, rows, actions, out, bounds = None, threads = None))]
+    #[expect(clippy::too_many_arguments, reason = "the arguments of Python's method")]
+    fn encode(
         &self,
-        py: Python<'py>,
-        ball: &Bound<'py, PyAny>,
-        robots: &Bound<'py, PyAny>,
-        extra: i64,
-    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
-        let [n, observers, _] = sizes("ball", ball)?;
-        let extra = count("extra", extra)?;
-        let (ball_size, robots_size) =
-            (BALL_COLUMNS.len(), self.features.slots() * ROBOT_COLUMNS.len());
-        let ball: PyReadonlyArray<'_, f32, Ix3> =
-            readable("ball", ball, &[n, observers, ball_size])?;
-        let shape = [n, observers, self.features.slots(), ROBOT_COLUMNS.len()];
-        let robots: PyReadonlyArray<'_, f32, Ix4> = readable("robots", robots, &shape)?;
-        let (ball, robots) = (values(&ball), values(&robots));
-        let size = self.features.size();
-        let numbers = PyArray3::zeros(py, [n, observers, size + extra], false);
+        py: Python<'_>,
+        viewpoint: &Viewpoint,
+        rows: &Bound<'_, PyAny>,
+        actions: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+        bounds: Option<&Bound<'_, PyAny>>,
+        threads: Option<&Threads>,
+    ) -> PyResult<()> {
+        let observers = viewpoint.viewpoint.observers();
+        if let Some(observer) = observers.first()
+            && observer.slots.len() != self.features.slots()
         {
-            let mut out = numbers.readwrite();
-            let out = out.as_slice_mut()?;
-            py.detach(|| {
-                let each = out.chunks_exact_mut(size + extra);
-                let views = ball.chunks_exact(ball_size).zip(robots.chunks_exact(robots_size));
-                each.zip(views).for_each(|(out, (ball, robots))| {
-                    self.features.encode(ball, robots, &mut out[..size]);
-                });
-            });
+            let (expected, got) = (self.features.slots(), observer.slots.len());
+            return Err(PyValueError::new_err(format!(
+                "viewpoint must have {expected} slots, got {got}"
+            )));
         }
-        Ok(numbers)
+        let (n, rows) = viewpoint.rows("rows", rows)?;
+        let [_, _, action_size] = sizes("actions", actions)?;
+        let robots = viewpoint.n_robots();
+        let actions: PyReadonlyArray<'_, f32, Ix3> =
+            readable("actions", actions, &[n, robots, action_size])?;
+        let (size, row_size) = (self.features.size(), viewpoint.row_size());
+        let width = size + action_size;
+        let mut out: PyReadwriteArray<'_, f32, Ix3> =
+            writeable("out", out, &[n, observers.len(), width])?;
+        let bounds: Option<PyReadonlyArray<'_, f32, Ix1>> =
+            bounds.map(|bounds| readable("bounds", bounds, &[width])).transpose()?;
+        let bounds = bounds.as_ref().map(values);
+        bounds.as_deref().map_or(Ok(()), check_bounds)?;
+        let (rows, actions) = (values(&rows), values(&actions));
+        let encode = |world: usize, out: &mut [f32]| {
+            let row = &rows[world * row_size..][..row_size];
+            let actions = &actions[world * robots * action_size..][..robots * action_size];
+            for (observer, out) in observers.iter().zip(out.chunks_exact_mut(width)) {
+                let (features, action) = out.split_at_mut(size);
+                self.features.encode(observer, row, features);
+                match observer.robot() {
+                    Some(robot) => {
+                        action.copy_from_slice(&actions[robot * action_size..][..action_size]);
+                    }
+                    None => action.fill(0.0),
+                }
+                if let Some(bounds) = &bounds {
+                    clip_row(out, bounds);
+                }
+            }
+        };
+        let out = out.as_slice_mut()?;
+        write_rows(py, threads, out, observers.len() * width, ALONE, encode);
+        Ok(())
     }
 
     fn __reduce__<'py>(

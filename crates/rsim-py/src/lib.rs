@@ -11,6 +11,7 @@ mod models;
 mod shaping;
 mod simulator;
 mod steering;
+mod threads;
 mod viewpoint;
 
 use pyo3::prelude::*;
@@ -32,6 +33,8 @@ mod _core {
     use crate::simulator::Simulator;
     #[pymodule_export]
     use crate::steering::Steering;
+    #[pymodule_export]
+    use crate::threads::Threads;
     #[pymodule_export]
     use crate::viewpoint::Viewpoint;
 

@@ -1,6 +1,6 @@
 //! Terms of rewards, for arrays of views and rows.
 
-use numpy::{Ix1, Ix3, Ix4, PyArray2, PyArrayMethods, PyReadonlyArray};
+use numpy::{Ix1, Ix3, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
@@ -8,6 +8,11 @@ use rsim_core::shaping;
 
 use crate::arrays::{Rows, readable, sizes, values};
 use crate::models::{BallModel, Field, RobotModel};
+use crate::threads::{Threads, write_rows};
+use crate::viewpoint::Viewpoint;
+
+/// Most worlds whose terms the caller's thread computes alone.
+const ALONE: usize = 256;
 
 /// A potential function for reward shaping, in metres.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -37,35 +42,29 @@ impl Potential {
         Err(PyValueError::new_err(format!("robot must have a mouth, got {got}")))
     }
 
+    #[pyo3(signature = (viewpoint, last_rows, rows, threads = None))]
     fn difference<'py>(
         &self,
         py: Python<'py>,
-        last_ball: &Bound<'py, PyAny>,
-        last_robots: &Bound<'py, PyAny>,
-        ball: &Bound<'py, PyAny>,
-        robots: &Bound<'py, PyAny>,
+        viewpoint: &Viewpoint,
+        last_rows: &Bound<'py, PyAny>,
+        rows: &Bound<'py, PyAny>,
+        threads: Option<&Threads>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let [n, observers, slots, _] = sizes("robots", robots)?;
-        let (ball_size, view_size) = (BALL_COLUMNS.len(), slots.max(1) * ROBOT_COLUMNS.len());
-        let shape = [n, observers, slots, ROBOT_COLUMNS.len()];
-        let balls = |name, array| readable(name, array, &[n, observers, ball_size]);
-        let views = |name, array| readable(name, array, &shape);
-        let last_ball: PyReadonlyArray<'_, f32, Ix3> = balls("last_ball", last_ball)?;
-        let ball: PyReadonlyArray<'_, f32, Ix3> = balls("ball", ball)?;
-        let last_robots: PyReadonlyArray<'_, f32, Ix4> = views("last_robots", last_robots)?;
-        let robots: PyReadonlyArray<'_, f32, Ix4> = views("robots", robots)?;
-        let (last_ball, last_robots) = (values(&last_ball), values(&last_robots));
-        let (ball, robots) = (values(&ball), values(&robots));
-        let differences = PyArray2::zeros(py, [n, observers], false);
+        let (n, rows) = viewpoint.rows("rows", rows)?;
+        let size = viewpoint.row_size();
+        let last_rows: Rows = readable("last_rows", last_rows, &[n, size])?;
+        let (last_rows, rows) = (values(&last_rows), values(&rows));
+        let observers = viewpoint.viewpoint.observers();
+        let differences = PyArray2::zeros(py, [n, observers.len()], false);
         {
             let mut out = differences.readwrite();
             let out = out.as_slice_mut()?;
-            py.detach(|| {
-                let now = ball.chunks_exact(ball_size).zip(robots.chunks_exact(view_size));
-                let before =
-                    last_ball.chunks_exact(ball_size).zip(last_robots.chunks_exact(view_size));
-                for (out, (now, before)) in out.iter_mut().zip(now.zip(before)) {
-                    *out = self.0.of(now.0, now.1) - self.0.of(before.0, before.1);
+            write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+                let row = world * size..(world + 1) * size;
+                let (last_row, row) = (&last_rows[row.clone()], &rows[row]);
+                for (out, observer) in out.iter_mut().zip(observers) {
+                    *out = self.0.difference(observer, last_row, row);
                 }
             });
         }
@@ -75,11 +74,13 @@ impl Potential {
 
 /// Returns whether each observer is its team's nearest robot to the ball.
 #[pyfunction]
+#[pyo3(signature = (rows, n_blue, observers, threads = None))]
 pub(crate) fn nearest_to_ball<'py>(
     py: Python<'py>,
     rows: &Bound<'py, PyAny>,
     n_blue: usize,
     observers: &Bound<'py, PyAny>,
+    threads: Option<&Threads>,
 ) -> PyResult<Bound<'py, PyArray2<bool>>> {
     let [n, size] = sizes("rows", rows)?;
     let rows: Rows = readable("rows", rows, &[n, size])?;
@@ -87,40 +88,43 @@ pub(crate) fn nearest_to_ball<'py>(
     let observers = indices(observers, robots)?;
     let rows = values(&rows);
     let nearest = PyArray2::zeros(py, [n, observers.len()], false);
-    if !observers.is_empty() {
+    {
         let mut out = nearest.readwrite();
-        let mut all = vec![false; robots];
-        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
-        for (out, row) in each.zip(rows.chunks_exact(size)) {
-            shaping::nearest_to_ball(row, n_blue, &mut all);
+        let out = out.as_slice_mut()?;
+        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+            let mut all = vec![false; robots];
+            shaping::nearest_to_ball(&rows[world * size..][..size], n_blue, &mut all);
             for (out, observer) in out.iter_mut().zip(&observers) {
                 *out = all[*observer];
             }
-        }
+        });
     }
     Ok(nearest)
 }
 
 /// Returns the mean magnitude of each observer's action.
 #[pyfunction]
+#[pyo3(signature = (actions, observers, threads = None))]
 pub(crate) fn mean_action_magnitude<'py>(
     py: Python<'py>,
     actions: &Bound<'py, PyAny>,
     observers: &Bound<'py, PyAny>,
+    threads: Option<&Threads>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let [n, robots, size] = sizes("actions", actions)?;
     let actions: PyReadonlyArray<'_, f32, Ix3> = readable("actions", actions, &[n, robots, size])?;
     let observers = indices(observers, robots)?;
     let actions = values(&actions);
     let magnitudes = PyArray2::zeros(py, [n, observers.len()], false);
-    if !observers.is_empty() && size > 0 {
+    if size > 0 {
         let mut out = magnitudes.readwrite();
-        let each = out.as_slice_mut()?.chunks_exact_mut(observers.len());
-        for (out, actions) in each.zip(actions.chunks_exact(robots * size)) {
+        let out = out.as_slice_mut()?;
+        write_rows(py, threads, out, observers.len(), ALONE, |world, out| {
+            let actions = &actions[world * robots * size..][..robots * size];
             for (out, observer) in out.iter_mut().zip(&observers) {
                 *out = shaping::mean_magnitude(&actions[observer * size..][..size]);
             }
-        }
+        });
     }
     Ok(magnitudes)
 }

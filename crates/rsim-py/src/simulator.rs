@@ -8,6 +8,7 @@ use rsim_core::columns::BALL_COLUMNS;
 
 use crate::arrays::{Commands, Mask, Rows, RowsOut, finite, readable, values, writeable};
 use crate::config::{SimConfig, count, invalid};
+use crate::threads::ThreadsOrCount;
 
 /// Many independent matches of one configuration.
 #[pyclass(module = "rsoccer._core")]
@@ -16,10 +17,17 @@ pub(crate) struct Simulator(Batch);
 #[pymethods]
 impl Simulator {
     #[new]
-    #[pyo3(signature = (config, worlds = 1, threads = 1))]
-    fn new(py: Python<'_>, config: SimConfig, worlds: i64, threads: i64) -> PyResult<Self> {
-        let (worlds, threads) = (count("worlds", worlds)?, count("threads", threads)?);
-        let batch = py.detach(|| Batch::new(&config.0, worlds, threads));
+    #[pyo3(signature = (config, worlds = 1, threads = ThreadsOrCount::Count(1)),
+        text_signature = "(config, worlds=1, threads=1)")]
+    fn new(
+        py: Python<'_>,
+        config: SimConfig,
+        worlds: i64,
+        threads: ThreadsOrCount<'_>,
+    ) -> PyResult<Self> {
+        let worlds = count("worlds", worlds)?;
+        let threads = threads.started(py)?;
+        let batch = py.detach(|| Batch::on_threads(&config.0, worlds, threads));
         Ok(Self(batch.map_err(invalid)?))
     }
 

@@ -7,6 +7,10 @@ use rsim_core::steering::ACTION_SIZE;
 
 use crate::arrays::{Rows, finite, readable, sizes, values};
 use crate::config::count;
+use crate::threads::{Threads, write_rows};
+
+/// Most worlds whose commands the caller's thread computes alone.
+const ALONE: usize = 256;
 
 /// Commands of omnidirectional robots from actions.
 #[pyclass(frozen, module = "rsoccer._core")]
@@ -24,30 +28,31 @@ impl Steering {
         Ok(Self { steering: rsim_core::Steering { scales, field_frame }, n_blue })
     }
 
+    #[pyo3(signature = (actions, rows, threads = None))]
     fn commands<'py>(
         &self,
         py: Python<'py>,
         actions: &Bound<'py, PyAny>,
         rows: &Bound<'py, PyAny>,
+        threads: Option<&Threads>,
     ) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let [n, robots, _] = sizes("actions", actions)?;
         let actions: PyReadonlyArray<'_, f32, Ix3> =
             readable("actions", actions, &[n, robots, ACTION_SIZE])?;
-        let rows: Rows = readable("rows", rows, &[n, row_size(robots)])?;
+        let row_size = row_size(robots);
+        let rows: Rows = readable("rows", rows, &[n, row_size])?;
         let (actions, rows) = (values(&actions), values(&rows));
         let commands = PyArray3::zeros(py, [n, robots, OMNI_COLUMNS.len()], false);
         {
             let mut out = commands.readwrite();
             let out = out.as_slice_mut()?;
-            py.detach(|| {
-                let states = rows
-                    .chunks_exact(row_size(robots))
-                    .flat_map(|row| row[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len()));
-                let inputs = actions.chunks_exact(ACTION_SIZE).zip(states).enumerate();
-                for (out, (index, (action, state))) in
-                    out.chunks_exact_mut(OMNI_COLUMNS.len()).zip(inputs)
-                {
-                    let rotated = index % robots >= self.n_blue;
+            write_rows(py, threads, out, robots * OMNI_COLUMNS.len(), ALONE, |world, out| {
+                let actions = actions[world * robots * ACTION_SIZE..].chunks_exact(ACTION_SIZE);
+                let row = &rows[world * row_size..][..row_size];
+                let states = row[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len());
+                let each = out.chunks_exact_mut(OMNI_COLUMNS.len()).zip(actions.zip(states));
+                for (robot, (out, (action, state))) in each.enumerate() {
+                    let rotated = robot >= self.n_blue;
                     self.steering.command(action, [state[2], state[3]], rotated, out);
                 }
             });

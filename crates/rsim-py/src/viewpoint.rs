@@ -11,7 +11,7 @@ use crate::arrays::{Rows, readable, sizes, values, writeable};
 /// The observers of a match, with the robots in the slots of each.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Viewpoint {
-    viewpoint: rsim_core::Viewpoint,
+    pub(crate) viewpoint: rsim_core::Viewpoint,
     n_robots: usize,
 }
 
@@ -42,10 +42,8 @@ impl Viewpoint {
         ball: &Bound<'_, PyAny>,
         robots: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let [n, _] = sizes("rows", rows)?;
+        let (n, rows) = self.rows("rows", rows)?;
         let (observers, slots) = (self.viewpoint.n_observers(), self.viewpoint.slots());
-        let size = row_size(self.n_robots);
-        let rows: Rows = readable("rows", rows, &[n, size])?;
         let ball_shape = [n, observers, BALL_COLUMNS.len()];
         let robots_shape = [n, observers, slots, ROBOT_COLUMNS.len()];
         let mut ball: PyReadwriteArray<'_, f32, Ix3> = writeable("ball", ball, &ball_shape)?;
@@ -58,10 +56,32 @@ impl Viewpoint {
         py.detach(|| {
             let balls = ball.chunks_exact_mut(observers * BALL_COLUMNS.len());
             let views = robots.chunks_exact_mut(observers * slots * ROBOT_COLUMNS.len());
-            for (row, (ball, robots)) in rows.chunks_exact(size).zip(balls.zip(views)) {
+            for (row, (ball, robots)) in rows.chunks_exact(self.row_size()).zip(balls.zip(views)) {
                 self.viewpoint.fill(row, ball, robots);
             }
         });
         Ok(())
+    }
+}
+
+impl Viewpoint {
+    /// Number of columns of a row.
+    pub(crate) fn row_size(&self) -> usize {
+        row_size(self.n_robots)
+    }
+
+    /// Number of robots in a row.
+    pub(crate) fn n_robots(&self) -> usize {
+        self.n_robots
+    }
+
+    /// Checks rows, and returns them with their number.
+    pub(crate) fn rows<'py>(
+        &self,
+        name: &str,
+        rows: &Bound<'py, PyAny>,
+    ) -> PyResult<(usize, Rows<'py>)> {
+        let [n, _] = sizes(name, rows)?;
+        Ok((n, readable(name, rows, &[n, self.row_size()])?))
     }
 }

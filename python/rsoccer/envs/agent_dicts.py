@@ -29,8 +29,10 @@ def stack_actions(actions: Mapping[str, Array], agents: Sequence[str], task: Tas
         ValueError: a wrong number of actions, or of numbers in an action. `check_actions` names
             the agent.
     """
-    rows = [np.asarray(spaces.action_vectors(task, actions[agent])) for agent in agents]
-    if len(actions) != len(agents) or any(row.dtype.kind != "f" for row in rows):
+    rows = [np.asarray(actions[agent]) for agent in agents]
+    if task.action_table is not None:
+        rows = [spaces.action_vectors(task, row) for row in rows]
+    if len(actions) != len(agents) or {row.dtype.kind for row in rows} != {"f"}:
         # Stacking would convert one agent's integers to floats without an error.
         raise ValueError("actions: see check_actions")
     return np.array([rows])

@@ -31,7 +31,7 @@ class EnvMatches(Matches):
     @property
     def begun(self) -> bool:
         """True if every match has begun an episode."""
-        return bool(np.count_nonzero(self._begun) == self.worlds)
+        return self._all_begun
 
     def check_running(self) -> None:
         """Refuse a step that needs a reset first.

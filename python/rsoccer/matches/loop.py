@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer._core import Simulator
+from rsoccer._core import Simulator, Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
@@ -29,6 +29,7 @@ from rsoccer.task import Task
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
 
 Indices = NDArray[np.intp]
+_NO_WORLDS: Final = np.empty(0, np.intp)
 Seed = int | Sequence[int | None] | None
 """Seed of the first world, or one seed per world; None: random streams continue."""
 
@@ -82,7 +83,8 @@ class Matches:
             worlds: number of matches, at least 1.
             seed: seed of the first world, at least 0. World i has the random streams of a single
                 match that is seeded `seed + i`.
-            threads: threads for physics, at least 1. Results do not depend on their number.
+            threads: threads for physics, observations and rewards, at least 1. Results do not
+                depend on their number.
             controllers: `LEARN`, a policy, its name or its file, by robot ("blue_0"), team
                 ("blue") or "all"; the task's defaults apply elsewhere.
             autoreset: reset of a match that ended: "same_step" (within the step that ends it),
@@ -101,23 +103,26 @@ class Matches:
         self.autoreset = autoreset
         self.assignment = assign(self.task, controllers, worlds)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
+        self._learner_indices = self.assignment.learner_indices
+        self._all_learn = len(self.agents) == len(self.assignment.observers)
         self.action_size = self.task.action_size
         self.observation_size = self.task.observation_size
         self.observation_low = self.task.observation_low
         self.observation_high = self.task.observation_high
-        threads = checks.integer("threads", threads, 1)
+        self._threads = Threads(checks.integer("threads", threads, 1))
         if simulator is None:
-            simulator = Simulator(self.task.config, worlds, threads)
+            simulator = Simulator(self.task.config, worlds, self._threads)
         self._simulator = simulator
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
         self._viewpoint = self.task.new_viewpoint(self.assignment.observers.tolist())
-        self.play = self.task.new_play(worlds, self._viewpoint, root.split("task"))
+        self.play = self._new_play(worlds, root.split("task"))
         for group in self.assignment.groups:
             group.rng = root.split(group.name)
         shape = (worlds, len(self.assignment.observers), self.observation_size)
         self._observations = np.zeros(shape, np.float32)
         self._done, self._begun = np.zeros((2, worlds), np.bool_)
+        self._all_begun = False
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
 
@@ -159,7 +164,7 @@ class Matches:
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
         if len(worlds):
             self._begin(worlds, rows, seeds)
-        return self._of_learners(self._observations)
+        return self._observed()
 
     def step(self, actions: Floats) -> Outcome:
         """Advance all matches by one control step.
@@ -178,7 +183,7 @@ class Matches:
         """
         self._consistency.check()
         actions = checks.actions(actions, (self.worlds, len(self.agents), self.action_size))
-        if np.count_nonzero(self._begun) < self.worlds:
+        if not self._all_begun:
             raise RuntimeError("step before reset: some worlds have begun no episode")
         self._step_calls += 1
         try:
@@ -208,14 +213,15 @@ class Matches:
             ValueError: a state of other matches. Nothing has changed.
         """
         self._state().write(state)
-        self.play.fill_views(self._viewpoint)
+        self._all_begun = bool(self._begun.all())
+        self.play.expire_views()
         self._consistency.repair()
 
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
-        waiting = np.flatnonzero(self._done)
-        paused = None
-        if len(waiting):
+        waiting, paused = _NO_WORLDS, None
+        if np.count_nonzero(self._done):
+            waiting = np.flatnonzero(self._done)
             groups = self.assignment.groups
             paused = PausedWorlds(waiting, self.play, groups, self._observations)
         self._simulate(actions, ~self._done if paused else None)
@@ -239,7 +245,6 @@ class Matches:
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
         self._reposition_balls(active)
-        self._viewpoint.fill(play.frame, play.view)
         play.steps += 1
 
     def _reposition_balls(self, active: Mask | None) -> None:
@@ -256,38 +261,46 @@ class Matches:
             balls, mask = balls[active[mask]], mask & active
         self._simulator.reposition_balls(mask, balls, out=play.frame.rows)
         play.last_frame.rows[mask] = play.frame.rows[mask]
-        self._viewpoint.fill(play.last_frame, play.last_view)
+        play.expire_views()
 
     def _evaluate(self) -> Outcome:
         """Compute rewards, ends, metrics and observations, before anything is reset."""
         task, play = self.task, self.play
         named, terminated = task.calculate_reward_and_done(play)
         terminated = result_checks.done(terminated, self.worlds)
-        shape = (self.worlds, len(play.observers))
-        terms = {
-            name: self._of_learners(result_checks.term(name, term, shape))
-            for name, term in named.items()
-        }
-        rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
-        for term in terms.values():
-            rewards += term
-        truncated = (play.steps >= task.max_steps) & ~terminated
+        terms, rewards = self._sum_terms(named)
+        truncated = np.greater(play.steps >= task.max_steps, terminated)  # late, not terminated
         metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}
-        self._observations = task.observe(play)
+        task.observe(play, out=self._observations)
         none = self._observations[:0]
         return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
 
+    def _sum_terms(self, named: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
+        """Copies (n, agents) of the learners' reward terms by name, and their sum (n, agents)."""
+        shape = (self.worlds, len(self.play.observers))
+        copies = np.empty((len(named), self.worlds, len(self.agents)), np.float32)
+        rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
+        for copied, (name, term) in zip(copies, named.items(), strict=True):
+            result_checks.term(name, term, shape)
+            is_common = term.shape != shape  # one column for all observers
+            copied[:] = term if is_common or self._all_learn else term[:, self._learner_indices]
+            rewards = rewards + copied  # `+=` is ten times slower on a single element
+        return dict(zip(named, copies, strict=True)), rewards
+
     def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
         """Reset matches as `autoreset` demands, and fill in the outcome's observations."""
-        ended = outcome.ended
         if self.autoreset == "next_step" and len(waiting):
             self._begin(waiting)
-        final = self._of_learners(self._observations)
+        final = self._observed()
         outcome.observations = outcome.final_observations = final
-        self._done |= ended
-        if self.autoreset == "same_step" and np.count_nonzero(ended):
+        ended = outcome.ended
+        if not np.count_nonzero(ended):
+            return
+        if self.autoreset == "same_step":
             self._begin(np.flatnonzero(ended))
-            outcome.observations = self._of_learners(self._observations)
+            outcome.observations = self._observed()
+        else:
+            self._done |= ended
 
     def _begin(
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
@@ -296,7 +309,7 @@ class Matches:
         start, *others = next_streams(self._state().streams, worlds, seeds)
         if rows is None:
             rows = self.task.get_initial_positions_frame(start).rows
-        part = self.task.new_play(len(worlds), self._viewpoint, others[0])
+        part = self._new_play(len(worlds), others[0])
         mask = np.zeros(self.worlds, np.bool_)
         mask[worlds] = True
         self._simulator.place(mask, rows, out=self.play.frame.rows)
@@ -313,17 +326,26 @@ class Matches:
 
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""
-        part.start(self.play.frame.rows[worlds], self._viewpoint)
+        part.start(self.play.frame.rows[worlds])
         self._observations[worlds] = self.task.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
         self._begun[worlds] = True
+        self._all_begun = bool(self._begun.all())
+
+    def _new_play(self, n: int, rng: WorldRng) -> Play:
+        """State of n worlds before their episodes begin."""
+        return self.task.new_play(n, self._viewpoint, rng, self._threads)
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""
         own = {"observations": self._observations, "done": self._done, "begun": self._begun}
         return MatchState.of(self._simulator, self.play, self.assignment.groups, self._start, own)
 
-    def _of_learners(self, values: Floats) -> Floats:
-        """Copy of the learners' part of values (n, observers, ...) of all observers."""
-        return np.array(values[:, self.assignment.learner_indices])
+    def _observed(self) -> Floats:
+        """Copy (n, agents, o) of the learners' observations."""
+        if not self._all_learn:
+            return np.array(self._observations[:, self._learner_indices])
+        copied = np.empty_like(self._observations)
+        self._threads.copy(self._observations, copied)
+        return copied

@@ -63,16 +63,13 @@ def repositioned(moves: object, n: int) -> tuple[Mask, Floats]:
     return mask, balls[np.argsort(worlds)]
 
 
-def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
-    """Validate a reward term and broadcast it to all observers.
+def term(name: str, value: Floats, shape: tuple[int, int]) -> None:
+    """Validate the shape of a reward term.
 
     Args:
         name: name of the term, for the error.
         value: (n, observers) or (n, 1).
         shape: (n, observers).
-
-    Returns:
-        (n, observers) float32, perhaps a read-only view.
 
     Raises:
         ValueError: another shape.
@@ -82,8 +79,6 @@ def term(name: str, value: Floats, shape: tuple[int, int]) -> Floats:
             f"calculate_reward_and_done: expected {shape} or {(shape[0], 1)} for {name!r}, "
             f"got {value.shape}"
         )
-    term = np.asarray(value, np.float32)
-    return term if term.shape == shape else np.broadcast_to(term, shape)
 
 
 def done(value: Mask, n: int) -> Mask:

@@ -19,7 +19,10 @@ Observes = Literal["nothing", "view", "observation"]
 
 @dataclass
 class PolicyInput:
-    """Input of one policy step, for the robots that the policy drives, in order."""
+    """Input of one policy step, for the robots that the policy drives, in order.
+
+    The arrays are valid during the call: the next step overwrites them.
+    """
 
     action_shape: tuple[int, int, int]
     """(n, robots, action): shape of the actions to return."""

@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer._core import EgoFeatures, clip_in_place
+from rsoccer._core import EgoFeatures
 from rsoccer.arrays import Floats
 from rsoccer.task import Play, Task
 from rsoccer.view import slot_counts
@@ -90,13 +90,12 @@ class Soccer(Task):
             blocks[name] = block if len(shape) == 1 else block.reshape(*flat.shape[:2], *shape)
         return blocks
 
-    def observe(self, play: Play) -> Floats:
-        """Compute the flat observation, (n, observers, observation_size), a new array."""
+    def observe(self, play: Play, out: Floats | None = None) -> Floats:
+        """Compute the flat observation, (n, observers, observation_size)."""
         if type(self).frame_to_observations is not Soccer.frame_to_observations:
-            return super().observe(play)
-        flat = self._features(play)  # no subclass adds blocks: the columns are in order already
-        clip_in_place(flat, self.observation_high)
-        return flat
+            return super().observe(play, out)
+        # No subclass adds blocks: the columns of the core's features are in order already.
+        return self._features(play, out, self.observation_high)
 
     def observation_limits(self) -> dict[str, float]:
         """Return a copy of `OBSERVATION_LIMITS`."""
@@ -107,11 +106,12 @@ class Soccer(Task):
         """`DISCRETE_ACTIONS` with the option `discrete`, else None."""
         return self.DISCRETE_ACTIONS if self.discrete else None
 
-    @property
-    def term_weights(self) -> Mapping[str, float]:
+    @cached_property
+    def term_weights(self) -> Mapping[str, np.float32]:
         """Weight of each reward term by name: `REWARD_WEIGHTS` and the option `reward_weights`."""
-        weights = self.reward_weights
-        return self.PAPER_REWARD_WEIGHTS if isinstance(weights, str) else weights
+        given = self.reward_weights
+        weights = self.PAPER_REWARD_WEIGHTS if isinstance(given, str) else given
+        return {name: np.float32(weight) for name, weight in weights.items()}
 
     @cached_property
     def ego_features(self) -> EgoFeatures:
@@ -135,9 +135,14 @@ class Soccer(Task):
             first += math.prod(shape)
         return tuple(blocks)
 
-    def _features(self, play: Play) -> Floats:
-        """Unclipped flat observation (n, observers, columns), a new array."""
-        size = self.action_size
-        flat = self.ego_features.encode(play.view.ball.data, play.view.robots.data, size)
-        flat[:, :, -size:] = play.actions[:, play.observers]
-        return flat
+    def _features(
+        self, play: Play, out: Floats | None = None, bounds: Floats | None = None
+    ) -> Floats:
+        """Flat observation (n, observers, columns) in `out` or a new array; clipped to `bounds`."""
+        if out is None:
+            columns = self._flat_blocks[-1][1].stop
+            out = np.empty((len(play.frame), len(play.observers), columns), np.float32)
+        self.ego_features.encode(
+            play.viewpoint.core, play.frame.rows, play.actions, out, bounds, play.threads
+        )
+        return out

@@ -5,7 +5,7 @@
 //! vectors takes products. The features are in the core, and not with the tasks, because they are
 //! computed for every robot of every world in every step.
 
-use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::features::viewpoint::{Observer, ViewedBall, ViewedRobot};
 use crate::math::Vector;
 use crate::models::field::Field;
 use crate::models::robot::RobotModel;
@@ -39,9 +39,9 @@ const MIN_LENGTH: f32 = 1e-6;
 struct Writer<'a>(std::slice::IterMut<'a, f32>);
 
 impl Writer<'_> {
-    fn write(&mut self, numbers: &[f32]) {
-        for (number, to) in numbers.iter().zip(&mut self.0) {
-            *to = *number;
+    fn write<const N: usize>(&mut self, numbers: [f32; N]) {
+        for (number, to) in numbers.into_iter().zip(&mut self.0) {
+            *to = number;
         }
     }
 }
@@ -116,58 +116,63 @@ impl EgoFeatures {
         self.blocks().iter().map(|(_, shape)| shape.iter().product::<usize>()).sum()
     }
 
-    /// Writes the features of one robot. `ball` and `robots` are its view, attacking +x: the columns of
-    /// [`crate::columns`] of the ball, and of itself, teammates, opponents, zeros for an empty slot.
-    pub fn encode(&self, ball: &[f32], robots: &[f32], out: &mut [f32]) {
-        debug_assert_eq!(ball.len(), BALL_COLUMNS.len());
-        debug_assert_eq!(robots.len(), self.n_slots * ROBOT_COLUMNS.len());
+    /// Writes the features of an observer of a row, in its view, which attacks +x. An empty slot has
+    /// zeros.
+    pub fn encode(&self, observer: &Observer, row: &[f32], out: &mut [f32]) {
+        debug_assert_eq!(observer.slots.len(), self.n_slots);
         debug_assert_eq!(out.len(), self.size());
         let mut writer = Writer(out.iter_mut());
-        let (position, velocity) = (self.position_scale, self.velocity_scale);
-        let &[x, y, z, v_x, v_y, v_z, ..] = ball else { unreachable!("{BALL_COLUMNS:?}") };
-        let ball = [x * position, y * position, z * position];
-        let ball_velocity = [v_x * velocity, v_y * velocity, v_z * velocity];
-        let dimensions = if self.have_mouths { 3 } else { 2 };
-        writer.write(&ball[..dimensions]);
-        writer.write(&ball_velocity[..dimensions]);
-        for robot in robots.chunks_exact(ROBOT_COLUMNS.len()) {
-            let &[x, y, cos, sin, v_x, v_y, v_theta, beam, ..] = robot else {
-                unreachable!("{ROBOT_COLUMNS:?}")
-            };
-            let turn_rate = v_theta * self.turn_rate_scale;
-            let motion = [v_x * velocity, v_y * velocity, turn_rate];
-            writer.write(&[x * position, y * position, cos, sin]);
-            writer.write(&motion);
-            if self.have_mouths {
-                writer.write(&[beam]);
-            }
+        let ball = observer.ball(row);
+        self.encode_ball(&ball, &mut writer);
+        for robot in observer.robots(row) {
+            self.encode_robot(&robot, &mut writer);
         }
-        self.encode_relative([Vector::new(x, y), Vector::new(v_x, v_y)], robots, &mut writer);
+        self.encode_relative(&ball, observer.robots(row), &mut writer);
+    }
+
+    fn encode_ball(&self, ball: &ViewedBall, writer: &mut Writer) {
+        let (position, velocity) =
+            (ball.position * self.position_scale, ball.velocity * self.velocity_scale);
+        if self.have_mouths {
+            let height = ball.height * self.position_scale;
+            let vertical_velocity = ball.vertical_velocity * self.velocity_scale;
+            writer.write([position.x, position.y, height]);
+            writer.write([velocity.x, velocity.y, vertical_velocity]);
+        } else {
+            writer.write([position.x, position.y, velocity.x, velocity.y]);
+        }
+    }
+
+    fn encode_robot(&self, robot: &ViewedRobot, writer: &mut Writer) {
+        let (position, heading) = (robot.position * self.position_scale, robot.heading);
+        let velocity = robot.velocity * self.velocity_scale;
+        writer.write([position.x, position.y, heading.x, heading.y]);
+        writer.write([velocity.x, velocity.y, robot.turn_rate * self.turn_rate_scale]);
+        if self.have_mouths {
+            writer.write([robot.beam]);
+        }
     }
 
     /// Writes the blocks relative to the robot.
     fn encode_relative(
         &self,
-        [ball, ball_velocity]: [Vector; 2],
-        robots: &[f32],
+        ball: &ViewedBall,
+        mut robots: impl Iterator<Item = ViewedRobot>,
         writer: &mut Writer,
     ) {
-        let (own, others) = robots.split_at(ROBOT_COLUMNS.len());
-        let frame = BodyFrame {
-            position: Vector::new(own[0], own[1]),
-            heading: Vector::new(own[2], own[3]),
-        };
-        let to_ball = ball - frame.position;
-        writer.write(&frame.polar(to_ball, self.position_scale));
-        writer.write(&frame.polar(self.goal - frame.position, self.position_scale));
-        writer.write(&shot(&frame, to_ball, self.goal - ball));
-        for velocity in [Vector::new(own[4], own[5]), ball_velocity] {
-            writer.write(&(frame.rotate(velocity) * self.velocity_scale).to_array());
+        let own = robots.next().unwrap_or_default();
+        let frame = BodyFrame { position: own.position, heading: own.heading };
+        let to_ball = ball.position - frame.position;
+        writer.write(frame.polar(to_ball, self.position_scale));
+        writer.write(frame.polar(self.goal - frame.position, self.position_scale));
+        writer.write(shot(&frame, to_ball, self.goal - ball.position));
+        for velocity in [own.velocity, ball.velocity] {
+            writer.write((frame.rotate(velocity) * self.velocity_scale).to_array());
         }
-        writer.write(&(frame.rotate(to_ball) * self.position_scale).to_array());
-        for other in others.chunks_exact(ROBOT_COLUMNS.len()) {
-            let offset = Vector::new(other[0], other[1]) - frame.position;
-            writer.write(&(frame.rotate(offset) * self.position_scale).to_array());
+        writer.write((frame.rotate(to_ball) * self.position_scale).to_array());
+        for other in robots {
+            let offset = other.position - frame.position;
+            writer.write((frame.rotate(offset) * self.position_scale).to_array());
         }
     }
 }
@@ -187,6 +192,7 @@ fn shot(frame: &BodyFrame, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::columns::{BALL_COLUMNS, row_size};
 
     #[test]
     fn all_features_are_written_and_their_number_is_that_of_the_blocks() {
@@ -194,10 +200,10 @@ mod tests {
             [(Field::VSS_3V3, RobotModel::VSS_440RPM), (Field::SSL_B, RobotModel::SSL_GENERIC)]
         {
             let features = EgoFeatures::new(&field, &robot, 2, 3);
-            let ball = vec![0.5; BALL_COLUMNS.len()];
-            let robots = vec![0.25; features.slots() * ROBOT_COLUMNS.len()];
+            let slots = vec![Some(4), Some(5), None, Some(0), Some(1), Some(2)];
+            let observer = Observer { rotated: true, slots };
             let mut out = vec![f32::NAN; features.size()];
-            features.encode(&ball, &robots, &mut out);
+            features.encode(&observer, &vec![0.25; row_size(6)], &mut out);
             assert!(out.iter().all(|number| number.is_finite()), "{out:?}");
         }
     }
@@ -205,16 +211,18 @@ mod tests {
     #[test]
     fn ball_and_goal_straight_ahead_are_a_straight_shot() {
         let features = EgoFeatures::new(&Field::VSS_3V3, &RobotModel::VSS_440RPM, 0, 0);
-        let mut ball = vec![0.0; BALL_COLUMNS.len()];
-        ball[0] = 0.375;
-        let mut robot = vec![0.0; ROBOT_COLUMNS.len()];
-        robot[2] = 1.0;
-        let mut out = vec![0.0; features.size()];
-        features.encode(&ball, &robot, &mut out);
-        let first = 4 + 7;
-        assert_eq!(out[first..first + 6], [0.5, 1.0, 0.0, 1.0, 1.0, 0.0]);
-        let near = (-3.0_f32).exp();
-        let shot = &out[first + 6..first + 10];
-        assert!(shot.iter().zip([1.0, 0.0, near, near]).all(|(a, b)| (a - b).abs() < 1e-6));
+        for (rotated, sign) in [(false, 1.0), (true, -1.0)] {
+            let observer = Observer { rotated, slots: vec![Some(0)] };
+            let mut row = vec![0.0; row_size(1)];
+            row[0] = 0.375 * sign;
+            row[BALL_COLUMNS.len() + 2] = sign;
+            let mut out = vec![0.0; features.size()];
+            features.encode(&observer, &row, &mut out);
+            let first = 4 + 7;
+            assert_eq!(out[first..first + 6], [0.5, 1.0, 0.0, 1.0, 1.0, 0.0]);
+            let near = (-3.0_f32).exp();
+            let shot = &out[first + 6..first + 10];
+            assert!(shot.iter().zip([1.0, 0.0, near, near]).all(|(a, b)| (a - b).abs() < 1e-6));
+        }
     }
 }

@@ -4,6 +4,7 @@
 //! back and forth gains nothing.
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::features::viewpoint::{Observer, ViewedRobot};
 use crate::math::Vector;
 use crate::models::ball::BallModel;
 use crate::models::field::Field;
@@ -52,10 +53,18 @@ impl Potential {
         Self::AtMouth { reach: robot.front_distance() + ball.radius }
     }
 
-    /// Value for a robot's view: the ball's columns, and the columns of `robots`, itself first.
-    pub fn of(&self, ball: &[f32], robots: &[f32]) -> f32 {
-        let ball = Vector::new(ball[0], ball[1]);
-        let own = Vector::new(robots[0], robots[1]);
+    /// Increase from `last_row` to `row` for an observer, in its view, which attacks +x.
+    pub fn difference(&self, observer: &Observer, last_row: &[f32], row: &[f32]) -> f32 {
+        let of = |row| {
+            let own = observer.robots(row).next().unwrap_or_default();
+            self.of(observer.ball(row).position, &own)
+        };
+        of(row) - of(last_row)
+    }
+
+    /// Value for a robot and the position of the ball in its view.
+    fn of(&self, ball: Vector, robot: &ViewedRobot) -> f32 {
+        let own = robot.position;
         match *self {
             Self::BallToGoal { goal_x } => {
                 let to = |x: f32| Vector::new(x, ball.y).length();
@@ -70,7 +79,7 @@ impl Potential {
                 -(point - own).length()
             }
             Self::AtMouth { reach } => {
-                let mouth = own + Vector::new(robots[2], robots[3]) * reach;
+                let mouth = own + robot.heading * reach;
                 -(ball - mouth).length()
             }
         }
@@ -107,10 +116,13 @@ mod tests {
 
     const FIELD: Field = Field::VSS_3V3;
 
-    fn view(ball: [f32; 2], me: [f32; 4]) -> (Vec<f32>, Vec<f32>) {
-        let mut robots = vec![0.0; ROBOT_COLUMNS.len()];
-        robots[..4].copy_from_slice(&me);
-        (ball.to_vec(), robots)
+    fn value(potential: &Potential, [x, y]: [f32; 2], own: [f32; 4]) -> f32 {
+        let robot = ViewedRobot {
+            position: Vector::new(own[0], own[1]),
+            heading: Vector::new(own[2], own[3]),
+            ..ViewedRobot::default()
+        };
+        potential.of(Vector::new(x, y), &robot)
     }
 
     #[test]
@@ -128,10 +140,7 @@ mod tests {
             ),
         ];
         for (potential, best, me, worse) in cases {
-            let of = |ball| {
-                let (ball, robots) = view(ball, me);
-                potential.of(&ball, &robots)
-            };
+            let of = |ball| value(&potential, ball, me);
             assert!(of(best) > of(worse) + 0.05, "{potential:?}");
         }
     }
@@ -140,8 +149,8 @@ mod tests {
     fn the_point_behind_a_ball_at_the_wall_is_inside_the_field() {
         let potential = Potential::behind_ball(&FIELD, 0.08);
         let place = [0.08 - FIELD.half_length(), 0.0, 1.0, 0.0];
-        let (ball, robots) = view([0.02 - FIELD.half_length(), 0.0], place);
-        assert!(potential.of(&ball, &robots).abs() < 1e-6);
+        let ball = [0.02 - FIELD.half_length(), 0.0];
+        assert!(value(&potential, ball, place).abs() < 1e-6);
     }
 
     #[test]

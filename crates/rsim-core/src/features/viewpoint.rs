@@ -1,6 +1,7 @@
 //! State rows as views of robots: itself, teammates, opponents and the ball, always attacking +x.
 
 use crate::columns::{BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS, ball_column};
+use crate::math::Vector;
 
 /// The observers of a match, with the robots in the slots of each.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +35,11 @@ impl Viewpoint {
             rotated_crossings: CROSSINGS.map(rotated_crossing),
             crossed: ball_column("crossed"),
         }
+    }
+
+    /// The observers, in the order of views.
+    pub fn observers(&self) -> &[Observer] {
+        &self.observers
     }
 
     /// Number of observers.
@@ -74,6 +80,70 @@ impl Viewpoint {
             }
         }
     }
+}
+
+impl Observer {
+    /// Index of the observer itself in the row; `None` for an observer without a robot.
+    pub fn robot(&self) -> Option<usize> {
+        self.slots.first().copied().flatten()
+    }
+
+    /// Sign of components along the field's x and y axes in the observer's view.
+    fn flip(&self) -> f32 {
+        if self.rotated { -1.0 } else { 1.0 }
+    }
+
+    /// The ball of a row in the observer's view.
+    pub(super) fn ball(&self, row: &[f32]) -> ViewedBall {
+        let &[x, y, z, v_x, v_y, v_z, ..] = row else { unreachable!("{BALL_COLUMNS:?}") };
+        let flip = self.flip();
+        ViewedBall {
+            position: Vector::new(x, y) * flip,
+            height: z,
+            velocity: Vector::new(v_x, v_y) * flip,
+            vertical_velocity: v_z,
+        }
+    }
+
+    /// The observer itself and the robots in its other slots, in its view of a row; zeros for an empty
+    /// slot.
+    pub(super) fn robots(&self, row: &[f32]) -> impl Iterator<Item = ViewedRobot> {
+        let (flip, robots) = (self.flip(), &row[BALL_COLUMNS.len()..]);
+        self.slots.iter().map(move |slot| {
+            let Some(place) = slot else { return ViewedRobot::default() };
+            let columns = &robots[place * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()];
+            let &[x, y, cos, sin, v_x, v_y, turn_rate, beam, ..] = columns else {
+                unreachable!("{ROBOT_COLUMNS:?}")
+            };
+            ViewedRobot {
+                position: Vector::new(x, y) * flip,
+                heading: Vector::new(cos, sin) * flip,
+                velocity: Vector::new(v_x, v_y) * flip,
+                turn_rate,
+                beam,
+            }
+        })
+    }
+}
+
+/// The ball in the view of an observer, which attacks +x, SI units.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ViewedBall {
+    pub(super) position: Vector,
+    pub(super) height: f32,
+    pub(super) velocity: Vector,
+    pub(super) vertical_velocity: f32,
+}
+
+/// A robot in the view of an observer, which attacks +x, SI units; `beam` is 1 if the ball is in its
+/// break beam.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct ViewedRobot {
+    pub(super) position: Vector,
+    pub(super) heading: Vector,
+    pub(super) velocity: Vector,
+    pub(super) turn_rate: f32,
+    pub(super) beam: f32,
 }
 
 fn write<const N: usize>(signs: &[f32; N], from: &[f32], to: &mut [f32]) {

@@ -1,19 +1,20 @@
 //! Many matches of one configuration, stepped from plain slices on several threads.
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::columns::BALL_COLUMNS;
 use crate::error::{ConfigError, PlaceError, SnapshotError, StepError};
 use crate::models::config::SimConfig;
 use crate::state::State;
+use crate::threads::Threads;
 use crate::world::World;
-use crate::world::pool::Pool;
 use crate::world::snapshot::{self, Header};
 
 /// Many independent matches. World `i` gives the same bits as a single [`World`], whatever the number of
 /// worlds and threads.
 pub struct Batch {
     worlds: Vec<World>,
-    /// `None` for one thread.
-    pool: Option<Pool>,
+    threads: Threads,
 }
 
 /// Maximum number of worlds that a thread takes at once; taking them costs next to nothing compared with
@@ -29,17 +30,26 @@ impl Batch {
     /// # Errors
     /// As [`SimConfig::validate`]; 0 or too many worlds; 0 threads, or more than can be started.
     pub fn new(config: &SimConfig, worlds: usize, threads: usize) -> Result<Self, ConfigError> {
-        for (name, count) in [("worlds", worlds), ("threads", threads)] {
-            if count == 0 {
-                return Err(ConfigError::Zero { name });
-            }
+        Self::on_threads(config, worlds, Threads::new(threads)?)
+    }
+
+    /// As [`Batch::new`], on threads that may also do other work.
+    ///
+    /// # Errors
+    /// As [`SimConfig::validate`]; 0 or too many worlds.
+    pub fn on_threads(
+        config: &SimConfig,
+        worlds: usize,
+        threads: Threads,
+    ) -> Result<Self, ConfigError> {
+        if worlds == 0 {
+            return Err(ConfigError::Zero { name: "worlds" });
         }
         if worlds > MAX_WORLDS {
             return Err(ConfigError::TooManyWorlds { max: MAX_WORLDS, got: worlds });
         }
         let world = World::new(config)?;
-        let pool = if threads > 1 { Some(Pool::new(threads)?) } else { None };
-        Ok(Self { worlds: vec![world; worlds], pool })
+        Ok(Self { worlds: vec![world; worlds], threads })
     }
 
     /// Configuration of the matches.
@@ -54,7 +64,7 @@ impl Batch {
 
     /// Number of threads that `step` uses.
     pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, Pool::threads)
+        self.threads.count()
     }
 
     /// Starts new matches in the worlds of the mask. `rows` has one row for each of these worlds, and so
@@ -148,29 +158,29 @@ impl Batch {
         active: Option<&[bool]>,
     ) -> Result<(), StepError> {
         let size = self.config().row_size();
-        let step = |(index, (world, row)): (usize, (&mut World, &mut [f32]))| {
-            if active.is_some_and(|active| !active[index]) {
-                return Ok(());
+        let lost = Mutex::new(Vec::new());
+        let step = |first: usize, worlds: &mut [World], rows: &mut [f32]| {
+            let each = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
+            for (index, (world, row)) in (first..).zip(each) {
+                if active.is_some_and(|active| !active[index]) {
+                    continue;
+                }
+                match world.step(commands(index)) {
+                    Ok(()) => world.write_row(row),
+                    Err(_) => lost.lock().unwrap_or_else(PoisonError::into_inner).push(index),
+                }
             }
-            world.step(commands(index)).map_err(|_| index)?;
-            world.write_row(row);
-            Ok(())
         };
-        // A single world never uses a pool: handing it to a thread costs more than stepping it.
-        let lost: Vec<usize> =
-            if let Some(pool) = self.pool.as_mut().filter(|_| self.worlds.len() > 1) {
-                let portion = (self.worlds.len() / (8 * pool.threads())).clamp(1, MAX_PORTION);
-                let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
-                let firsts = (0..).step_by(portion);
-                let portions = firsts.zip(pairs).map(|(first, (worlds, rows))| {
-                    let pairs = worlds.iter_mut().zip(rows.chunks_exact_mut(size));
-                    (first..).zip(pairs).map(&step)
-                });
-                pool.share(portions)
-            } else {
-                let pairs = self.worlds.iter_mut().zip(out.chunks_exact_mut(size));
-                pairs.enumerate().map(step).filter_map(Result::err).collect()
-            };
+        if self.worlds.len() == 1 {
+            // Handing a single world to a thread costs more than stepping it.
+            step(0, &mut self.worlds, out);
+        } else {
+            let portion = self.threads.portion(self.worlds.len(), 1, MAX_PORTION);
+            let pairs = self.worlds.chunks_mut(portion).zip(out.chunks_mut(portion * size));
+            let portions = (0..).step_by(portion).zip(pairs);
+            self.threads.share(portions, |(first, (worlds, rows))| step(first, worlds, rows));
+        }
+        let lost = lost.into_inner().unwrap_or_else(PoisonError::into_inner);
         if lost.is_empty() { Ok(()) } else { Err(StepError::in_worlds(lost)) }
     }
 

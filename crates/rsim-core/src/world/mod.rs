@@ -3,7 +3,6 @@
 pub(crate) mod batch;
 mod line_up;
 mod placement;
-mod pool;
 mod reposition;
 mod row;
 mod snapshot;
