@@ -28,12 +28,12 @@ WIDTHS = (64, 4096)
 """Smallest and largest width of an image, pixels."""
 DEFAULT_WIDTHS = (640, 1280)
 """Smallest and largest default width of an image, pixels."""
-ROBOT_PIXELS = 18
-"""Pixels across the smallest robot that make its number readable."""
+ROBOT_PIXELS = 22
+"""Pixels across the smallest robot at which its number, heading and dribbler are distinct."""
 
 
 def default_width(config: SimConfig, min_width: int = DEFAULT_WIDTHS[0]) -> int:
-    """Compute the width at which the robots' numbers are readable.
+    """Compute the width at which the robots are large enough to read.
 
     Args:
         config: the configuration: its field and robots.
