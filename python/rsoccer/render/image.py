@@ -102,6 +102,7 @@ class Renderer:
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         caption: str = "",
         extras: Sequence[Shape] = (),
+        overlay: Sequence[Shape] = (),
     ) -> Image:
         """Draw one world.
 
@@ -112,6 +113,7 @@ class Renderer:
             names: names of blue and of yellow on the score board.
             caption: large text across the field; none if empty.
             extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
+            overlay: further shapes above all others.
 
         Returns:
             A new image (height, width, 3), uint8.
@@ -122,6 +124,7 @@ class Renderer:
         board = Board(score, clock, names, caption)
         canvas = self._background.copy()
         self._rasterizer.draw(canvas, foreground_shapes(self.config, row, board, extras))
+        self._rasterizer.draw(canvas, overlay)
         return _pixels(canvas)
 
 
