@@ -231,6 +231,25 @@ def test_play_opens_a_window_for_some_seconds(task: str) -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
+def test_play_without_a_display_says_so() -> None:
+    pytest.importorskip("pygame")
+    hidden = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"), "")
+    done = run("play", "VSS-v0", "--seconds", "0.1", "--width", "128", **hidden)
+    assert done.returncode == 2
+    assert "no display to open a window on" in done.stderr
+
+
+def test_play_without_pygame_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    loaded = [name for name in sys.modules if name.startswith(("rsoccer.render", "rsoccer.human"))]
+    for name in loaded:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    assert cli.main(["play", "VSS-v0"]) == 2
+    assert "pip install 'rsoccer[render]'" in capsys.readouterr().err
+
+
 @pytest.fixture
 def played(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Replace the session by a record of the task, the controllers and the robot."""

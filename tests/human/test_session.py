@@ -1,4 +1,5 @@
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -238,3 +239,9 @@ def test_a_speed_that_is_not_positive_is_refused() -> None:
     task = make_task("VSS-v0")
     with pytest.raises(ValueError, match=r"speed: expected a positive number, got 0\.0"):
         Session(task, team_controllers(task, "blue_0"), speed=0.0)
+
+
+def test_the_page_lists_the_keys_of_the_help() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "tutorials" / "play.md").read_text()
+    for keys, meaning in {*screen.OMNI_HELP, *screen.DIFFERENTIAL_HELP}:
+        assert any(keys in line and meaning in line for line in page.splitlines()), keys

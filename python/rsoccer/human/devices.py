@@ -30,6 +30,7 @@ class Devices:
         self.keyboard = Keyboard()
         self.gamepad = gamepad
         self._finds_gamepads = gamepad is None and _begin_controllers()
+        self.find_gamepad()
 
     def handle_event(self, event: pygame.Event) -> None:
         """Read an event of the window.
