@@ -116,6 +116,8 @@ PRIVATE: Final = (
     "rsoccer.envs.*",
     "rsoccer.evaluate.*",
     "rsoccer.files",
+    "rsoccer.human",
+    "rsoccer.human.*",
     "rsoccer.matches",
     "rsoccer.matches.*",
     "rsoccer.policies.*",

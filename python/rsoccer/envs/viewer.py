@@ -14,6 +14,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
+    from rsoccer.render.effects import Effects
     from rsoccer.render.window import Window
 
 Image = NDArray[np.uint8]
@@ -45,6 +46,7 @@ class Viewer:
             raise ValueError(f"render_mode: expected one of {modes} or None, got {mode!r}")
         self._mode, self._modes, self._fps = mode, modes, frames_per_second(task)
         self._window: Window | None = None
+        self._effects: dict[int, Effects] = {}
         self.closed = False
 
     def render(self, matches: EnvMatches) -> Image | None:
@@ -93,15 +95,19 @@ class Viewer:
         self.check_open("render")
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
+        from rsoccer.render.effects import Effects
         from rsoccer.render.image import draw_image
         from rsoccer.render.overlay import task_overlay
 
+        config, row, clock = matches.task.config, matches.frame.rows[world], matches.clock(world)
+        effects = self._effects.setdefault(world, Effects(config))
+        events = effects.update(row, clock, matches.play.commands[world])
         return draw_image(
-            matches.task.config,
-            matches.frame.rows[world],
+            config,
+            row,
             score=matches.score(world),
-            clock=matches.clock(world),
-            extras=task_overlay(matches, world),
+            clock=clock,
+            extras=(*task_overlay(matches, world), *events),
         )
 
     def check_open(self, call: str) -> None:
