@@ -189,11 +189,6 @@ impl Engine {
         self.bodies.ball_was_jammed()
     }
 
-    /// Whether contacts of the ball follow outlines that rotate within a tick.
-    pub(crate) fn follows_outlines(&self) -> bool {
-        matches!(self.solver, Solver::Compact(_))
-    }
-
     /// Advances all bodies by a tick, or by the part of it that `rules` names.
     pub(crate) fn step(
         &mut self,

@@ -90,7 +90,7 @@ impl CompactSolver {
         }
         scratch.write(bodies);
         self.store(&scratch.links, bodies.ball_mass, time);
-        report(&scratch.links, contacts);
+        report(&scratch.links, &scratch.bodies, contacts);
         meets
     }
 }
