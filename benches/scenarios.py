@@ -14,6 +14,10 @@ import numpy as np
 from rsoccer import Frame, SimConfig, WorldRng, spawn
 from rsoccer.arrays import Floats
 
+DEFAULT_ENGINE: Final = SimConfig().engine
+ENGINES: Final = (DEFAULT_ENGINE, *({"compact", "rapier"} - {DEFAULT_ENGINE}))
+"""The contact engines, the default first."""
+
 EPISODE: Final = 400  # steps of a random scenario between two placements
 HELD: Final = 10  # steps for which a random command is held
 
@@ -46,6 +50,8 @@ class Scenario:
     """Kind of play: "random" or "crowd"."""
     episode: int = EPISODE
     """Steps between two placements."""
+    engine: str = DEFAULT_ENGINE
+    """Contact engine."""
 
     @property
     def name(self) -> str:
@@ -55,7 +61,7 @@ class Scenario:
     @cached_property
     def config(self) -> SimConfig:
         """Simulator configuration: steps of 25 ms, ticks of 5 ms, the league's robots and ball."""
-        return SimConfig(self.field, self.robots, self.robots)
+        return SimConfig(self.field, self.robots, self.robots, engine=self.engine)
 
     @property
     def has_wheel_commands(self) -> bool:
