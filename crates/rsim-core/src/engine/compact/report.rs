@@ -18,7 +18,8 @@ pub(super) fn report(links: &[Link], bodies: &[SolverBody], contacts: &mut Conta
         }
         let (with, normal) = (*with, total.normal / length);
         if *second == BALL {
-            contacts.ball.push(BallContact { with, normal, impulse: total.impulse });
+            let (impulse, arm) = (total.impulse, total.arms[0] / total.impulse);
+            contacts.ball.push(BallContact { with, normal, impulse, arm });
         } else {
             let [on_first, on_second] = [(first, total.arms[0]), (second, total.arms[1])]
                 .map(|(body, arm)| bodies[*body].position + arm / total.impulse);
