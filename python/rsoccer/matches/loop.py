@@ -52,6 +52,8 @@ class Matches:
         observation_low: (o,) lower bounds.
         observation_high: (o,) upper bounds.
         play: state of all worlds, to be read only.
+        observer_terms: (n, observers) weighted reward terms of the last step by name, of all
+            robots that observe, `play.observers`; to be read only, valid until the next step.
 
     Example:
         >>> import numpy as np
@@ -118,6 +120,7 @@ class Matches:
         shape = (worlds, len(self.assignment.observers), self.observation_size)
         self._observations = np.zeros(shape, np.float32)
         self._done, self._begun = np.zeros((2, worlds), np.bool_)
+        self.observer_terms: dict[str, Floats] = {}
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
 
@@ -264,10 +267,10 @@ class Matches:
         named, terminated = task.calculate_reward_and_done(play)
         terminated = result_checks.done(terminated, self.worlds)
         shape = (self.worlds, len(play.observers))
-        terms = {
-            name: self._of_learners(result_checks.term(name, term, shape))
-            for name, term in named.items()
+        self.observer_terms = {
+            name: result_checks.term(name, term, shape) for name, term in named.items()
         }
+        terms = {name: self._of_learners(term) for name, term in self.observer_terms.items()}
         rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
         for term in terms.values():
             rewards += term
