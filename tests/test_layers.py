@@ -32,15 +32,17 @@ LAYERS = [
     {"envs.viewer"},
     {"envs.parallel", "envs.single", "envs.vector", "evaluate"},
     {"__init__"},
-    {"render", "testing", "train"},
+    {"render", "testing"},
+    {"replay"},
+    {"train"},
     {"commands", "demo"},
     {"cli"},
     {"__main__"},
 ]
 KNOWN = set().union(*LAYERS)
 
-# Environments import the renderer when they first render.
-LATE = {("envs.viewer", "render")}
+# Environments and matches import the renderer when they first render.
+LATE = {("envs.viewer", "render"), ("matches.loop", "render")}
 
 
 def module_of(path: Path) -> str:

@@ -214,6 +214,20 @@ class Matches:
         self.play.fill_views(self._viewpoint)
         self._consistency.repair()
 
+    def _repr_png_(self) -> bytes | None:
+        """An image of the first world, for notebooks; None before a reset or without pygame."""
+        if not self._begun[0]:
+            return None
+        try:
+            from rsoccer.render import Picture, draw_image
+        except ModuleNotFoundError:
+            return None
+        from rsoccer.render.overlay import task_overlay
+
+        clock = float(self.play.steps[0]) * self.task.config.time_step
+        row, extras = self.frame.rows[0], task_overlay(self)
+        return Picture(draw_image(self.task.config, row, clock=clock, extras=extras)).to_png()
+
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
         waiting = np.flatnonzero(self._done)

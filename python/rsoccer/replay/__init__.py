@@ -4,7 +4,8 @@
     >>> replay = record_replay("VSSSelfPlay-v0", {"blue": "chase", "yellow": "ou"}, seconds=5.0)
     >>> path = replay.save_html("match.html")
 
-`Recorder` records beside a step loop of your own. `Replay.resume` continues a match from a snapshot.
+`Recorder` records beside a step loop of your own. `Replay.resume` continues a match from a
+snapshot.
 """
 
 from rsoccer.replay.container import ReplayError

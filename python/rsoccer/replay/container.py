@@ -103,7 +103,9 @@ def _checked_head(content: bytes) -> int:
     if found != content[_FIXED.size : _START]:
         raise ReplayError("checksum: expected SHA-256 of the content, got another: damaged")
     if head_size > len(content) - _START:
-        raise ReplayError(f"header: expected at most {len(content) - _START} bytes, got {head_size}")
+        raise ReplayError(
+            f"header: expected at most {len(content) - _START} bytes, got {head_size}"
+        )
     return int(head_size)
 
 

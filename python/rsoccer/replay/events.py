@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 
 from rsoccer._core import CROSSINGS
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 
 if TYPE_CHECKING:
@@ -49,11 +49,12 @@ def step_events(
         Kicks and touches, then a crossing.
     """
     frame = Frame(np.ascontiguousarray(rows, np.float32), config.n_blue, config.n_yellow)
-    events = []
     kicked = _kicking(config, frame, commands)
     before, after = frame.robots.touched_ball > 0
-    for robot in np.flatnonzero(kicked | (after & ~before)):
-        events.append(Event(index, "kick" if kicked[robot] else "touch", robots[robot], ""))
+    events = [
+        Event(index, "kick" if kicked[robot] else "touch", robots[robot], "")
+        for robot in np.flatnonzero(kicked | (after & ~before))
+    ]
     crossed = int(frame.ball.crossed[1])
     if crossed:
         last = int(frame.ball.last_touch[1])
@@ -66,8 +67,8 @@ def step_events(
     return events
 
 
-def _kicking(config: SimConfig, frame: Frame, commands: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Robots (robots,) that kicked: they touched the ball on such a command, and it gained speed."""
+def _kicking(config: SimConfig, frame: Frame, commands: Floats) -> Mask:
+    """Robots (robots,) that kicked: one touched the ball on such a command, and it gained speed."""
     columns = config.command_columns
     none = np.zeros(config.n_robots, np.bool_)
     if "kick_v_x" not in columns or not config.n_robots:

@@ -153,9 +153,7 @@ def decode(name: str, content: bytes, frames: int, steps: list[float]) -> Double
         ReplayError: bytes of another length.
     """
     if len(content) != 4 * frames * len(steps):
-        raise ReplayError(
-            f"{name}: expected {4 * frames * len(steps)} bytes, got {len(content)}"
-        )
+        raise ReplayError(f"{name}: expected {4 * frames * len(steps)} bytes, got {len(content)}")
     planes = np.frombuffer(content, np.uint8).reshape(4, -1)
     zigzag = np.ascontiguousarray(planes.T).view("<u4")[:, 0].reshape(len(steps), frames)
     differences = (zigzag >> np.uint32(1)).astype(np.int32) ^ -(zigzag & np.uint32(1)).astype(

@@ -152,9 +152,7 @@ class Recorder:
         observers = tuple(task.robots[i] for i in play.observers)
         names = {name: None for terms in self._terms for name in terms}
         none = np.zeros(len(observers), np.float32)
-        terms = {
-            name: np.stack([step.get(name, none) for step in self._terms]) for name in names
-        }
+        terms = {name: np.stack([step.get(name, none) for step in self._terms]) for name in names}
         last = [] if self._ended else [Episode(self._start, len(self._rows), "")]
         return Replay(
             task=task.name,

@@ -127,7 +127,8 @@ class Replay:
     @cached_property
     def clock(self) -> Doubles:
         """(f,) seconds of play; the clock runs on over all episodes."""
-        return np.cumsum(~self.starts) * self.config.time_step
+        clock: Doubles = np.cumsum(~self.starts) * np.float64(self.config.time_step)
+        return clock
 
     @cached_property
     def score(self) -> NDArray[np.int64]:

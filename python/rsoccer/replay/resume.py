@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 
 LEARNER: Final = "LEARN"
 """Name of a learner among the controllers of a replay."""
-_MODELS: Final = {"Field": Field, "BallModel": BallModel, "RobotModel": RobotModel}
+_MODELS: Final[dict[str, type[Field | BallModel | RobotModel]]] = {
+    "Field": Field,
+    "BallModel": BallModel,
+    "RobotModel": RobotModel,
+}
 
 
 def resume(
@@ -75,9 +79,7 @@ def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
     unknown = [robot for robot, name in controllers.items() if name is None]
     if unknown:
         raise ReplayError(f"controllers: expected policies for {unknown}: they have no name")
-    return {
-        robot: LEARN if name == LEARNER else str(name) for robot, name in controllers.items()
-    }
+    return {robot: LEARN if name == LEARNER else str(name) for robot, name in controllers.items()}
 
 
 def described_controllers(controllers: Mapping[str, Controller]) -> dict[str, str | None]:
@@ -116,9 +118,7 @@ def described_options(task: Task) -> dict[str, Any] | None:
             return None
         names = registry.list_options(type(task))
         values = {name: (getattr(task, name), getattr(default, name)) for name in names}
-        return {
-            name: _encoded(value) for name, (value, usual) in values.items() if value != usual
-        }
+        return {name: _encoded(value) for name, (value, usual) in values.items() if value != usual}
     except (AttributeError, TypeError, ValueError):
         return None
 
