@@ -1,13 +1,16 @@
 import base64
 import json
 import re
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from rsoccer._core import Field, SimConfig
 from rsoccer.render import palette
-from rsoccer.replay import Replay, page
+from rsoccer.replay import Replay, ReplayError, page
 from rsoccer.replay.page import scene, to_frame, to_html
 from tests.replay.conftest import ssl, vss
 
@@ -85,6 +88,24 @@ def test_the_page_has_the_colours_of_the_pictures() -> None:
     variables = set(re.findall(r"var\(--([\w-]+)\)", page._web("style.css")))
     own = set(re.findall(r"--([\w-]+):", page._web("style.css")))
     assert variables <= own | set(scene(ssl().config)["colors"])
+
+
+def test_the_page_needs_no_pygame(tmp_path: Path) -> None:
+    code = (
+        "import sys; sys.modules['pygame'] = sys.modules['PIL'] = sys.modules['torch'] = None\n"
+        "from rsoccer.replay import record_replay\n"
+        "record_replay(controllers={'all': 'zero'}, seconds=0.1).save_html(sys.argv[1])\n"
+    )
+    file = tmp_path / "match.html"
+    command = [sys.executable, "-c", code, str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert file.stat().st_size > 20_000
+
+
+def test_a_page_is_an_html_file(tmp_path: Path) -> None:
+    with pytest.raises(ReplayError, match=r"ending in \.html"):
+        vss().save_html(tmp_path / "match.txt")
 
 
 def test_every_part_of_the_page_is_used() -> None:

@@ -42,7 +42,7 @@ class Episode:
     """metrics of the task at the end, by name; empty without an end"""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Replay:
     """One world of a match, recorded frame by frame; f frames over one or more episodes.
 

@@ -167,8 +167,9 @@ class Player {
 
   fillTexts() {
     const { header } = this.replay;
-    setText($("name-blue"), header.names[0] || "blue");
-    setText($("name-yellow"), header.names[1] || "yellow");
+    const teamName = (team) => (this.robots.some((name) => name.startsWith(team)) ? team : "\u2013");
+    setText($("name-blue"), header.names[0] || teamName("blue"));
+    setText($("name-yellow"), header.names[1] || teamName("yellow"));
     const duration = this.replay.clock(this.last, this.scene.timeStep);
     this.duration = clockText(duration);
     const versions = `rSoccer ${header.package}, physics ${header.physics}`;
