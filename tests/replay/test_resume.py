@@ -113,7 +113,18 @@ def test_a_policy_without_a_name_has_to_be_given() -> None:
 
 @pytest.mark.parametrize(
     "options",
-    [{"unknown": 1}, {"max_steps": -5}, {"field": {"model": "Field", "json": "{"}}, {"robot": {}}],
+    [
+        {"unknown": 1},
+        {"max_steps": -5},
+        {"max_steps": "many"},
+        {"reward_weights": 5},
+        {"reward_weights": {"mapping": {"goal": None}}},
+        {"field": {"model": "Field", "json": "{"}},
+        {"field": {"model": "Field", "json": 5}},
+        {"robot": {}},
+        {"n_blue": 10**30},
+    ],
+    ids=str,
 )
 def test_wrong_options_are_refused(options: dict[str, object]) -> None:
     with pytest.raises(ReplayError, match=r"resume|options"):

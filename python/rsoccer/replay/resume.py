@@ -16,6 +16,8 @@ from rsoccer.task import LEARN, Learn, Task
 if TYPE_CHECKING:
     from rsoccer.replay.replay import Replay
 
+# A task's own checks of its options may meet values of any type.
+_REFUSALS: Final = (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError)
 LEARNER: Final = "LEARN"
 """Name of a learner among the controllers of a replay."""
 _MODELS: Final[dict[str, type[Field | BallModel | RobotModel]]] = {
@@ -61,7 +63,7 @@ def resume(
         matches.load_state_dict(replay.snapshots[frame])
     except ReplayError:
         raise
-    except (OSError, TypeError, ValueError) as error:
+    except _REFUSALS as error:
         raise ReplayError(f"resume: {error}") from error
     return matches
 
