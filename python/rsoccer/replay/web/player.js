@@ -305,7 +305,7 @@ class Player {
     setText(tip.lastChild, rows.map(([name, text]) => `${name}: ${text}`).join("\n"));
     const { clientWidth, clientHeight } = tip.parentElement;
     const [x, y] = this.pointer;
-    const left = x + 18 + tip.offsetWidth > clientWidth ? x - 14 - tip.offsetWidth : x + 18;
+    const left = x + 30 + tip.offsetWidth > clientWidth ? x - 30 - tip.offsetWidth : x + 30;
     tip.style.left = `${Math.max(0, left)}px`;
     tip.style.top = `${Math.max(0, Math.min(y - 20, clientHeight - tip.offsetHeight))}px`;
   }
