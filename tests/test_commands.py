@@ -11,6 +11,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
+from rsoccer.replay import Replay, record_replay
 from tests.policies.networks import network_for
 
 
@@ -63,7 +64,7 @@ def test_the_module_runs_as_the_command() -> None:
         ([], ["list", "train", "evaluate", "watch", "play", "Robot soccer"]),
         (["train"], ["--samples", "decisions to learn from", "--resume"]),
         (["evaluate"], ["POLICY", "--opponents", "half of them as blue", "--json PATH"]),
-        (["watch"], ["POLICY", "--video PATH", "needs no display"]),
+        (["watch"], ["POLICY|REPLAY", "--video PATH", "needs no display", "--html", "--save"]),
         (["play"], ["TASK", "--robot ROBOT", "--controllers", "keyboard or gamepad"]),
     ],
 )
@@ -104,6 +105,17 @@ def test_evaluate_prints_a_table_and_writes_results(
     zero, ou = json.loads(file.read_text())
     assert (zero["opponent"], ou["opponent"]) == ("zero", "ou")
     assert zero["wins"] + zero["draws"] + zero["losses"] == 4
+
+
+def test_evaluate_writes_the_last_match(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    page, saved = tmp_path / "match.html", tmp_path / "match.rsr"
+    options = ["--matches", "2", "--html", str(page), "--save", str(saved)]
+    assert cli.main(["evaluate", "fetch", "--task", "SSLGoToBall-v0", *options]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[-2:] == [f"page: {page}", f"replay: {saved}"]
+    replay = Replay.load(saved)
+    assert (replay.task, replay.names, len(replay.episodes)) == ("SSLGoToBall-v0", ("FETCH", ""), 1)
+    assert page.read_text().startswith("<!doctype html>")
 
 
 def test_evaluate_checks_the_output_folder_before_it_plays(
@@ -210,6 +222,62 @@ def test_watch_opens_a_window() -> None:
 )
 def test_the_scoreboard_names_the_policies(player: str, shown: str) -> None:
     assert vars(commands)["_team_name"](player) == shown
+
+
+def test_watch_saves_a_replay_and_plays_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("pygame")
+    saved, page, video = (tmp_path / f"match.{kind}" for kind in ("rsr", "html", "gif"))
+    made = ["watch", "chase", "--seconds", "0.5", "--snapshots", "0.25", "--save", str(saved)]
+    assert cli.main(made) == 0
+    replay = Replay.load(saved)
+    assert (replay.seconds, replay.names, list(replay.snapshots)) == (
+        0.5,
+        ("CHASE", "OU"),
+        [0, 10, 20],
+    )
+    assert f"replay: {saved} (" in capsys.readouterr().out
+    played = ["watch", str(saved), "--video", str(video), "--html", str(page), "--width", "128"]
+    assert cli.main(played) == 0
+    printed = capsys.readouterr().out
+    assert printed.splitlines() == [f"page: {page}", f"video: {video}"]
+    assert video.stat().st_size > 1000
+    assert page.read_text() == replay.to_html()
+
+
+def test_watch_plays_a_replay_in_a_window(tmp_path: Path) -> None:
+    pytest.importorskip("pygame")
+    saved = record_replay(controllers={"all": "zero"}, seconds=0.3).save(tmp_path / "match.rsr")
+    done = run("watch", str(saved), "--speed", "10", "--width", "128", SDL_VIDEODRIVER="dummy")
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", "")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--html", "match.txt"], "html: expected a name ending in .html, got match.txt"),
+        (["--save", "match.html"], "save: expected a name ending in .rsr, got match.html"),
+        (["--save", "absent/match.rsr"], "save: expected a file in a folder that exists"),
+        (["--save", "match.rsr", "--snapshots", "0"], "snapshot_interval: expected a positive"),
+    ],
+)
+def test_watch_refuses_files_that_it_cannot_write(
+    options: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["watch", "chase", *options]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_watch_refuses_bad_replays_and_options_of_matches(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "match.rsr"
+    file.write_bytes(b"something else")
+    assert cli.main(["watch", str(file)]) == 2
+    assert "match.rsr is not a usable replay: magic" in capsys.readouterr().err
+    assert cli.main(["watch", str(file), "--opponent", "ou"]) == 2
+    assert "opponent: expected none for a replay, got ou" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])

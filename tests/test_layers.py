@@ -32,7 +32,9 @@ LAYERS = [
     {"envs.viewer"},
     {"envs.parallel", "envs.single", "envs.vector", "evaluate"},
     {"__init__"},
-    {"render", "testing", "train"},
+    {"render", "testing"},
+    {"replay"},
+    {"train"},
     {"human"},
     {"commands", "demo"},
     {"cli"},
@@ -40,8 +42,8 @@ LAYERS = [
 ]
 KNOWN = set().union(*LAYERS)
 
-# Environments import the renderer when they first render.
-LATE = {("envs.viewer", "render")}
+# Environments and matches import the renderer when they first render.
+LATE = {("envs.viewer", "render"), ("matches.loop", "render")}
 
 
 def module_of(path: Path) -> str:

@@ -271,6 +271,10 @@ class SoccerVectorEnv(SingleLearner, VectorEnv[Floats, Array, Array]):
         """
         self._viewer.close()
 
+    def _repr_png_(self) -> bytes | None:
+        """An image of the first match, for notebooks."""
+        return self._viewer.png(self._matches)
+
     def _infos(self, outcome: Outcome, steps: NDArray[np.int64]) -> Infos:
         """Metrics and steps of the matches that have ended, in Gymnasium's form."""
         ended = outcome.ended

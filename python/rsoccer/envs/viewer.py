@@ -110,6 +110,25 @@ class Viewer:
             extras=(*task_overlay(matches, world), *events),
         )
 
+    def png(self, matches: EnvMatches) -> bytes | None:
+        """Return an image of the first match for notebooks, whatever the render mode.
+
+        Args:
+            matches: all matches.
+
+        Returns:
+            Content of a PNG file; None without a match to show, and without pygame.
+        """
+        if self.closed or not matches.begun:
+            return None
+        try:
+            image = self.image(matches)
+        except ModuleNotFoundError:
+            return None
+        from rsoccer.render.picture import Picture
+
+        return Picture(image).to_png()
+
     def check_open(self, call: str) -> None:
         """Refuse a call after `close`.
 
@@ -159,6 +178,10 @@ class ViewedMatch:
         `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
         self._viewer.close()
+
+    def _repr_png_(self) -> bytes | None:
+        """An image of the match, for notebooks."""
+        return self._viewer.png(self._matches)
 
 
 def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:

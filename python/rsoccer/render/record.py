@@ -15,11 +15,10 @@ from rsoccer.matches import Matches
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
+from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import write_video
 from rsoccer.task import Task
 
-GOAL_PAUSE = 0.8
-"""Seconds of still picture at a goal, before the next episode begins."""
 MIN_WIDTH = 720
 """Default width of a video, pixels; a large field has a wider one."""
 
