@@ -110,7 +110,9 @@ def cases() -> Iterator[Case]:
     yield Case("SSL robot pushes a robot of weaker wheels", _push, 1.5, _pushed)
     yield Case("VSSS robot pushes the side of another", _vss_push, 1.0, _pushed)
     yield Case("VSSS robot pushes the ball", _vss_push_ball, 0.5, _carried)
-    yield Case("ball squeezed between two SSL robots at 2 and 1 m/s", _squeeze, 0.2, _squeezed)
+    for fast, slow in ((0.8, 0.4), (1.0, 0.5)):
+        name = f"ball squeezed between two SSL robots at {fast} and {slow} m/s"
+        yield Case(name, _squeeze(fast, slow), 0.2, _squeezed)
     yield Case("dribbled ball, bumped by an opponent at 1 m/s", _bump, 0.4, _bumped)
 
 
@@ -296,13 +298,16 @@ def _carried(of: Trajectory) -> Iterator[Measurement]:
     yield CARRIED, np.hypot(*(of.ball.position[-1, 0] - of.ball.position[0, 0]))
 
 
-def _squeeze() -> Scene:
-    scene = _ssl(1, 1)
-    apart = GENERIC.radius + BALL.radius + 0.01
-    scene.face(0, 180.0)
-    scene.robots.position[0, :, 0] = (-apart, apart)
-    scene.robots.velocity[0, :, 0] = (2.0, -1.0)
-    return scene
+def _squeeze(fast: float, slow: float) -> Callable[[], Scene]:
+    def start() -> Scene:
+        scene = _ssl(1, 1)
+        apart = GENERIC.radius + BALL.radius + 0.01
+        scene.face(0, 180.0)
+        scene.robots.position[0, :, 0] = (-apart, apart)
+        scene.robots.velocity[0, :, 0] = (fast, -slow)
+        return scene
+
+    return start
 
 
 def _squeezed(of: Trajectory) -> Iterator[Measurement]:
