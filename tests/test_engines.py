@@ -12,6 +12,7 @@ from rsoccer.arrays import Floats
 from rsoccer.testing.pressure import Pressing
 
 TASKS = ["VSSSelfPlay-v0", "SSLSelfPlay-v0"]
+ENGINES = ("compact", "rapier")
 STEPS = 60
 
 
@@ -26,15 +27,16 @@ def rows(task: rsoccer.Task, worlds: int, seed: int, threads: int = 1) -> Floats
 
 @pytest.mark.parametrize("name", TASKS)
 def test_engines_play_out_differently_where_robots_push(name: str) -> None:
-    reference = rows(rsoccer.make_task(name), 4, 1)
+    reference = rows(rsoccer.make_task(name, engine="rapier"), 4, 1)
     compact = rows(rsoccer.make_task(name, engine="compact"), 4, 1)
     assert np.isfinite(compact).all()
     assert not np.array_equal(compact, reference)
 
 
+@pytest.mark.parametrize("engine", ENGINES)
 @pytest.mark.parametrize("name", TASKS)
-def test_a_row_of_a_batch_equals_a_single_world(name: str) -> None:
-    task = rsoccer.make_task(name, engine="compact")
+def test_a_row_of_a_batch_equals_a_single_world(name: str, engine: str) -> None:
+    task = rsoccer.make_task(name, engine=engine)
     assert np.array_equal(rows(task, 5, 3), rows(task, 5, 3, threads=2))
     for config in (task.config, pickle.loads(pickle.dumps(task.config))):
         batch, alone = Simulator(config, 5), Simulator(config, 1)
@@ -50,9 +52,12 @@ def test_a_row_of_a_batch_equals_a_single_world(name: str) -> None:
         assert np.array_equal(out[4:], single)
 
 
+@pytest.mark.parametrize(("engine", "other"), [ENGINES, ENGINES[::-1]])
 @pytest.mark.parametrize("name", TASKS)
-def test_saved_matches_continue_exactly_and_only_with_their_engine(name: str) -> None:
-    task = rsoccer.make_task(name, engine="compact")
+def test_saved_matches_continue_exactly_and_only_with_their_engine(
+    name: str, engine: str, other: str
+) -> None:
+    task = rsoccer.make_task(name, engine=engine)
     first, second = Matches(task, 3, 0), Matches(task, 3, 9)
     for matches in (first, second):
         matches.reset()
@@ -64,11 +69,12 @@ def test_saved_matches_continue_exactly_and_only_with_their_engine(name: str) ->
         second.step(actions)
     assert np.array_equal(first.frame.rows, second.frame.rows)
     with pytest.raises(ValueError, match="configuration"):
-        Matches(name, 3).load_state_dict(first.state_dict())
+        Matches(rsoccer.make_task(name, engine=other), 3).load_state_dict(first.state_dict())
 
 
-def test_the_default_is_the_reference() -> None:
-    assert SimConfig().engine == rsoccer.make_task("VSS-v0").config.engine == "compact"
-    assert SimConfig() != SimConfig(engine="compact")
+def test_the_default_is_the_compact_solver() -> None:
+    for name in rsoccer.list_tasks():
+        assert rsoccer.make_task(name).config.engine == SimConfig().engine == "compact"
+    assert SimConfig() != SimConfig(engine="rapier")
     with pytest.raises(ValueError, match='engine must be "rapier" or "compact", got "box2d"'):
         SimConfig(engine="box2d")

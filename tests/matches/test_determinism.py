@@ -157,7 +157,7 @@ def test_matches_after_others_equal_fresh_matches(
 ) -> None:
     used = crowded(name, controllers, WORLDS, seed=100)
     used.reset()
-    touched, _ = play_both(used, 40, lambda actions, outcome, step: None)
+    touched, _ = play_both(used, 80, lambda actions, outcome, step: None)
     assert touched > 0
     fresh = crowded(name, controllers, WORLDS, seed=7)
     assert same(used.reset(7), fresh.reset())
