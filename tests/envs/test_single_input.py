@@ -17,7 +17,7 @@ from tests.single_learner import draw
     ("make", "error", "message"),
     [
         (lambda: single_env("VSS-v9"), ValueError, "unknown task 'VSS-v9'.*VSSMulti-v0"),
-        (lambda: single_env("VSS-v0", bal_speed=1), ValueError, "unknown option bal_speed"),
+        (lambda: single_env("VSS-v0", bal_speed=1), TypeError, "unexpected keyword .* .bal_speed."),
         (lambda: single_env("VSS-v0", max_steps=0), ValueError, "max_steps.*at least 1.*0"),
         (lambda: single_env("VSS-v0", "ansi"), ValueError, "render_mode.*rgb_array.*'ansi'"),
         (

@@ -1,8 +1,7 @@
-"""Arguments that the environments of all libraries take: task, learner, reset options, actions."""
+"""Arguments that the environments of all libraries take: learner, reset options, actions."""
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,48 +12,7 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
 from rsoccer.envs import spaces
-from rsoccer.registry import as_task, make_task
 from rsoccer.task import LEARN, Task
-
-
-def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
-    """Return the task that an environment plays.
-
-    Args:
-        task: a task, or the name of a registered one.
-        max_steps: time limit of an episode in control steps; None for the task's own.
-        options: options of a registered task, by name.
-
-    Raises:
-        TypeError: not a task, or options for a Task object.
-        ValueError: an unknown task or option, or a value out of range.
-    """
-    if isinstance(task, str):
-        time_limit = {} if max_steps is None else {"max_steps": max_steps}
-        return make_task(task, **options, **time_limit)
-    if options:
-        raise TypeError(
-            f"options: a Task object has its own options, got {sorted(options)} in addition"
-        )
-    task = as_task(task)
-    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
-
-
-def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
-    """Return a copy of a task with another time limit; the caller's task does not change.
-
-    Args:
-        task: the task.
-        max_steps: time limit of an episode in control steps, at least 1.
-        name: name of the caller's argument, for the error message.
-
-    Raises:
-        TypeError: not an integer.
-        ValueError: less than 1.
-    """
-    task = copy.copy(task)
-    object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
-    return task
 
 
 def single_learner_controllers(

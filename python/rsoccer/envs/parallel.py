@@ -24,10 +24,10 @@ from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts, spaces
 from rsoccer.envs.env_matches import EnvMatches
-from rsoccer.envs.options import initial_rows, reset_options, resolve_task, with_max_steps
+from rsoccer.envs.options import initial_rows, reset_options
 from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
-from rsoccer.global_state import LIMIT, StateEncoder
+from rsoccer.registry import resolve_task, with_max_steps
 from rsoccer.task import Task
 
 Infos = dict[str, dict[str, Any]]
@@ -59,8 +59,9 @@ def parallel_env(
         An environment to `reset`. `SoccerParallelEnv` describes spaces, infos and ends.
 
     Raises:
-        TypeError: an argument of the wrong type, or options for a `Task` object.
-        ValueError: an unknown task, option, controller or render mode, a value out of range, or no
+        TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+            object.
+        ValueError: an unknown task, controller or render mode, a value out of range, or no
             robot that learns.
 
     Example:
@@ -94,8 +95,9 @@ def env(
         ends are those of `SoccerParallelEnv`.
 
     Raises:
-        TypeError: an argument of the wrong type, or options for a `Task` object.
-        ValueError: an unknown task, option, controller or render mode, a value out of range, or no
+        TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+            object.
+        ValueError: an unknown task, controller or render mode, a value out of range, or no
             robot that learns.
 
     Example:
@@ -211,8 +213,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         agents = self.possible_agents
         self._observation_spaces = {agent: spaces.observation_space(task) for agent in agents}
         self._action_spaces = {agent: spaces.action_space(task) for agent in agents}
-        self._state_encoder = StateEncoder(task.config)
-        self.state_space = Box(-LIMIT, LIMIT, (self._state_encoder.size,))
+        self.state_space = spaces.state_space(task)
 
     @property
     def task(self) -> Task:
@@ -264,7 +265,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             (state,) float32 in `state_space`: ball, blue robots, yellow robots, in absolute
             coordinates, scaled to about 1.
         """
-        state: Floats = self._state_encoder.encode(self._matches.frame.rows)[0]
+        state: Floats = self._matches.states()[0]
         return state
 
     @property

@@ -29,10 +29,10 @@ from rsoccer.envs.options import (
     action_array,
     initial_rows,
     reset_options,
-    resolve_task,
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
+from rsoccer.registry import resolve_task
 from rsoccer.task import Task
 
 Action = Array | np.integer[Any] | int
@@ -66,8 +66,9 @@ def single_env(
         An environment to `reset`. `SoccerEnv` describes spaces, infos and seeding.
 
     Raises:
-        TypeError: an argument of the wrong type, or options for a `Task` object.
-        ValueError: an unknown task, option, robot, controller or render mode, a value out of
+        TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+            object.
+        ValueError: an unknown task, robot, controller or render mode, a value out of
             range, or not exactly one learner.
 
     Example:

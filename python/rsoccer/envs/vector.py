@@ -28,11 +28,11 @@ from rsoccer.envs.options import (
     action_array,
     initial_rows,
     reset_options,
-    resolve_task,
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
+from rsoccer.registry import resolve_task
 from rsoccer.task import Task
 
 RENDER_MODES = ("rgb_array",)
@@ -76,8 +76,9 @@ def vector_env(
         Environments to `reset`. `SoccerVectorEnv` describes spaces, infos and seeding.
 
     Raises:
-        TypeError: an argument of the wrong type, or options for a `Task` object.
-        ValueError: an unknown task, option, robot, controller or mode, a value out of range, or
+        TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+            object.
+        ValueError: an unknown task, robot, controller or mode, a value out of range, or
             not exactly one learner.
 
     Example:
