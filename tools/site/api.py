@@ -35,6 +35,7 @@ GROUPS: Final = (
             "rsoccer.envs.parallel",
             "rsoccer.envs.single",
             "rsoccer.envs.vector",
+            "rsoccer.envs.robots_vector",
             "rsoccer.envs.spaces",
             "rsoccer.global_state",
         ),
