@@ -1,5 +1,6 @@
 """The reference of the Python package: which modules it shows, and in which order."""
 
+import ast
 import importlib
 import inspect
 import pkgutil
@@ -101,9 +102,13 @@ GROUPS: Final = (
             "rsoccer.render.window",
         ),
     ),
+    Group("Libraries", ("rsoccer.sb3",)),
     Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
 )
 """Every public module, once."""
+
+INTEGRATIONS: Final = {"rsoccer.sb3": "stable_baselines3"}
+"""Modules that need a library of the group `wrappers`, with its name: Sphinx does without it."""
 
 PRIVATE: Final = (
     "rsoccer.__main__",
@@ -156,6 +161,11 @@ def modules() -> list[str]:
     return [module for group in GROUPS for module in group.modules]
 
 
+def loadable() -> list[str]:
+    """Return the modules of the reference that need no library of the group `wrappers`."""
+    return [module for module in modules() if module not in INTEGRATIONS]
+
+
 def found() -> list[str]:
     """Return the names of all modules that the package has."""
     walked = pkgutil.walk_packages(rsoccer.__path__, "rsoccer.")
@@ -202,7 +212,7 @@ def _rust(linked: bool) -> str:
 
 def _modules(group: Group) -> str:
     """The modules of a group as a table."""
-    rows = [(f"[`{name}`]({name}.md)", _summary(_load(name))) for name in group.modules]
+    rows = [(f"[`{name}`]({name}.md)", _module_summary(name)) for name in group.modules]
     return table(("module", "summary"), rows)
 
 
@@ -218,7 +228,7 @@ def home(name: str) -> str:
         LookupError: No module of the reference has it.
     """
     thing = getattr(rsoccer, name)
-    for module in modules():
+    for module in loadable():
         loaded = _load(module)
         own = getattr(thing, "__module__", module) == module
         if own and getattr(loaded, name, None) is thing:
@@ -246,8 +256,21 @@ def _load(module: str) -> object:
     return importlib.import_module(module)
 
 
+def _module_summary(name: str) -> str:
+    """The first paragraph of a module's docstring, without importing what needs a library."""
+    if name not in INTEGRATIONS:
+        return _summary(_load(name))
+    path = ROOT / "python" / f"{name.replace('.', '/')}.py"
+    return _first_paragraph(ast.get_docstring(ast.parse(path.read_text())))
+
+
 def _summary(thing: object) -> str:
     """The first paragraph of a docstring, in one line."""
     documented = inspect.ismodule(thing) or inspect.isclass(thing) or inspect.isroutine(thing)
     text = inspect.getdoc(thing) if documented else inspect.getdoc(type(thing))
+    return _first_paragraph(text)
+
+
+def _first_paragraph(text: str | None) -> str:
+    """The first paragraph of a docstring as a cell of a table."""
     return " ".join((text or "").split("\n\n")[0].split()).replace("|", "\\|")

@@ -34,6 +34,17 @@ class EnvMatches(Matches):
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
 
+    @classmethod
+    def unseeded(cls, task: Task, worlds: int, **settings: Any) -> EnvMatches:  # noqa: ANN401
+        """Return matches with a random seed: two environments must not play the same match.
+
+        Args:
+            task: the task that is played.
+            worlds: number of matches, at least 1.
+            **settings: further arguments of `Matches`.
+        """
+        return cls(task, worlds, secrets.randbits(63), **settings)
+
     @property
     def begun(self) -> bool:
         """True if every match has begun an episode."""
@@ -141,7 +152,7 @@ def _resumed(
 ) -> EnvMatches:
     """Matches that continue from a state; without one, new matches with a random seed."""
     if state is None:
-        return EnvMatches(task, worlds, secrets.randbits(63), **settings)
+        return EnvMatches.unseeded(task, worlds, **settings)
     matches = EnvMatches(task, worlds, 0, **settings)
     matches.load_state_dict(state)
     return matches

@@ -10,7 +10,6 @@
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Mapping
 from typing import Any
 
@@ -199,14 +198,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         self._viewer = Viewer(render_mode, task)
         self.render_mode = render_mode
         self.last_metrics: dict[str, float] = {}
-        # A random seed: two environments without a seed must not play the same match.
-        self._matches = EnvMatches(
-            task,
-            1,
-            secrets.randbits(63),
-            controllers=controllers,
-            autoreset="disabled",
-        )
+        self._matches = EnvMatches.unseeded(task, 1, controllers=controllers, autoreset="disabled")
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
         require_learners(self.possible_agents)
