@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 import rsoccer
-from tools.site.api import INTEGRATIONS
+from tools.site.api import library_of
 
 CLAUSES = {
     "How",
@@ -43,7 +43,7 @@ ARTICLES = {"A", "An", "The"}
 def module_names() -> Iterator[str]:
     yield "rsoccer"
     for module in pkgutil.walk_packages(rsoccer.__path__, "rsoccer."):
-        needed = INTEGRATIONS.get(module.name)
+        needed = library_of(module.name)
         if needed is not None and find_spec(needed) is None:
             continue
         if not module.name.rsplit(".", 1)[1].startswith("_"):

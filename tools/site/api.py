@@ -107,8 +107,11 @@ GROUPS: Final = (
 )
 """Every public module, once."""
 
-INTEGRATIONS: Final = {"rsoccer.sb3": "stable_baselines3"}
-"""Modules that need a library of the group `wrappers`, with its name: Sphinx does without it."""
+LIBRARIES: Final = {"rsoccer.sb3": "stable_baselines3"}
+"""Library that an integration needs, by the beginning of the names of its modules.
+
+Sphinx does without these libraries.
+"""
 
 PRIVATE: Final = (
     "rsoccer.__main__",
@@ -163,7 +166,17 @@ def modules() -> list[str]:
 
 def loadable() -> list[str]:
     """Return the modules of the reference that need no library of the group `wrappers`."""
-    return [module for module in modules() if module not in INTEGRATIONS]
+    return [module for module in modules() if library_of(module) is None]
+
+
+def library_of(module: str) -> str | None:
+    """Return the library of the group `wrappers` that a module needs, if any."""
+    needed = (
+        library
+        for start, library in LIBRARIES.items()
+        if module == start or module.startswith(f"{start}.")
+    )
+    return next(needed, None)
 
 
 def found() -> list[str]:
@@ -258,7 +271,7 @@ def _load(module: str) -> object:
 
 def _module_summary(name: str) -> str:
     """The first paragraph of a module's docstring, without importing what needs a library."""
-    if name not in INTEGRATIONS:
+    if library_of(name) is None:
         return _summary(_load(name))
     path = ROOT / "python" / f"{name.replace('.', '/')}.py"
     return _first_paragraph(ast.get_docstring(ast.parse(path.read_text())))
