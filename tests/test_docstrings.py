@@ -11,12 +11,14 @@ import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
 from functools import cache, cached_property
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import rsoccer
+from tools.site.api import library_of
 
 CLAUSES = {
     "How",
@@ -41,6 +43,9 @@ ARTICLES = {"A", "An", "The"}
 def module_names() -> Iterator[str]:
     yield "rsoccer"
     for module in pkgutil.walk_packages(rsoccer.__path__, "rsoccer."):
+        needed = library_of(module.name)
+        if needed is not None and find_spec(needed) is None:
+            continue
         if not module.name.rsplit(".", 1)[1].startswith("_"):
             yield module.name
 

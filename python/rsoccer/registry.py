@@ -1,10 +1,12 @@
 """Registry of tasks by name, with aliases and removed names."""
 
+import copy
 import inspect
 import re
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
+from rsoccer import checks
 from rsoccer.envs import ids
 from rsoccer.task import Task
 
@@ -27,9 +29,8 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 def register(name: str, task_class: type[Task]) -> None:
     """Register a task class and set its `name`.
 
-    PettingZoo's and Gymnasium's registries get the id "rsoccer/<name>", Gymnasium's only where
-    exactly one robot learns. Neither gets it where an option has no default. Use `alias` for a
-    second name.
+    PettingZoo's and Gymnasium's registries get the id "rsoccer/<name>". Neither gets it where no
+    robot learns or an option has no default. Use `alias` for a second name.
 
     Args:
         name: letters, digits and underscores with a version, such as "MyTask-v0".
@@ -70,7 +71,8 @@ def alias(name: str, task: str, **options: Any) -> None:  # noqa: ANN401  (the t
         **options: preset options of the task.
 
     Raises:
-        ValueError: `name` has no version or is taken, or `make_task` refuses the task or options.
+        TypeError: an unknown option, or an option's value of the wrong type.
+        ValueError: `name` has no version or is taken, or `make_task` refuses the task or a value.
     """
     _check_name(name)
     if name in _TASKS or _ALIASES.get(name, (task, options)) != (task, options):
@@ -117,7 +119,8 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         The task.
 
     Raises:
-        ValueError: an unknown name or option, or an option's value that the task refuses.
+        TypeError: an unknown option, or an option's value of the wrong type.
+        ValueError: an unknown name, or an option's value that the task refuses.
 
     Example:
         >>> import rsoccer
@@ -134,7 +137,9 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
     if unknown:
-        raise ValueError(f"{name}: unknown option {', '.join(unknown)}; valid are {valid}")
+        # Python's own words: TorchRL probes for options and reads them.
+        names = ", ".join(map(repr, unknown))
+        raise TypeError(f"{name}: got an unexpected keyword argument {names}; valid are {valid}")
     return task_class(**options)
 
 
@@ -152,6 +157,46 @@ def as_task(task: object) -> Task:
         return make_task(task)
     if not isinstance(task, Task):
         raise TypeError(f"task: expected a task or its name, got {task!r}")
+    return task
+
+
+def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
+    """Return the task that matches or an environment play.
+
+    Args:
+        task: a task, or the name of a registered one.
+        max_steps: time limit of an episode in control steps; None for the task's own.
+        options: options of a registered task, by name.
+
+    Raises:
+        TypeError: not a task, an unknown option, or options for a Task object.
+        ValueError: an unknown task, or a value out of range.
+    """
+    if isinstance(task, str):
+        time_limit = {} if max_steps is None else {"max_steps": max_steps}
+        return make_task(task, **options, **time_limit)
+    if options:
+        raise TypeError(
+            f"options: a Task object has its own options, got {sorted(options)} in addition"
+        )
+    task = as_task(task)
+    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
+
+
+def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
+    """Return a copy of a task with another time limit; the caller's task does not change.
+
+    Args:
+        task: the task.
+        max_steps: time limit of an episode in control steps, at least 1.
+        name: name of the caller's argument, for the error message.
+
+    Raises:
+        TypeError: not an integer.
+        ValueError: less than 1.
+    """
+    task = copy.copy(task)
+    object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
     return task
 
 

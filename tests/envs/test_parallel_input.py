@@ -51,7 +51,7 @@ def test_the_time_limit_has_two_names() -> None:
     ("make", "message"),
     [
         (lambda: parallel_env("VSS-v9"), "unknown task 'VSS-v9'.*VSSMulti-v0"),
-        (lambda: parallel_env(SELF_PLAY, bal_speed=1.0), "unknown option bal_speed.*ball_speed"),
+        (lambda: parallel_env(SELF_PLAY, bal_speed=1.0), "unexpected .* 'bal_speed'.*ball_speed"),
         (lambda: parallel_env(SELF_PLAY, max_cycles=0), "max_steps.*at least 1.*0"),
         (lambda: parallel_env(SELF_PLAY, "ansi"), "render_mode.*rgb_array.*'ansi'"),
         (lambda: parallel_env(SELF_PLAY, controllers={"red": "ou"}), "unknown.*red.*blue_0"),
@@ -59,7 +59,7 @@ def test_the_time_limit_has_two_names() -> None:
     ],
 )
 def test_wrong_options_are_named(make: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
+    with pytest.raises((TypeError, ValueError), match=message):
         make()
 
 

@@ -62,7 +62,7 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
             "reward_weights: expected a number for 'energy'",
         ),
         ({"discrete": 1}, TypeError, "discrete: expected True or False, got 1"),
-        ({"colour": 1}, ValueError, "unknown option colour"),
+        ({"colour": 1}, TypeError, "unexpected keyword argument .colour."),
     ],
 )
 @pytest.mark.parametrize("name", NAMES)

@@ -1,9 +1,8 @@
-"""Arguments that the environments of all libraries take: task, learner, reset options, actions."""
+"""Arguments that the environments of all libraries take: learner, reset options, actions."""
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,48 +12,54 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
 from rsoccer.envs import spaces
-from rsoccer.registry import as_task, make_task
+from rsoccer.frame import team_of
+from rsoccer.lineup import DEFAULT_OPPONENT
 from rsoccer.task import LEARN, Task
+from rsoccer.view import SIDES
 
 
-def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
-    """Return the task that an environment plays.
+def learner_controllers(
+    task: Task, learner: str | None, controllers: Controllers | None
+) -> dict[str, Controller]:
+    """Return a controller for each robot.
 
     Args:
-        task: a task, or the name of a registered one.
-        max_steps: time limit of an episode in control steps; None for the task's own.
-        options: options of a registered task, by name.
+        task: the task that is played.
+        learner: the only robot that learns; None for all robots that the task and the controllers
+            let learn.
+        controllers: controllers of the other robots, by robot, team or "all". `DEFAULT_OPPONENT`
+            replaces the task's other learners where a learner and no controller is given.
 
     Raises:
-        TypeError: not a task, or options for a Task object.
-        ValueError: an unknown task or option, or a value out of range.
+        TypeError: something that is not a controller.
+        ValueError: an unknown robot, or no robot that learns.
     """
-    if isinstance(task, str):
-        time_limit = {} if max_steps is None else {"max_steps": max_steps}
-        return make_task(task, **options, **time_limit)
-    if options:
-        raise TypeError(
-            f"options: a Task object has its own options, got {sorted(options)} in addition"
+    given = given_by_name(controllers)
+    if learner is not None:
+        if learner not in task.robots:
+            raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")
+        named = {"all", *SIDES, *task.robots}.intersection(given)
+        others = [name for name in task.agents if not {"all", team_of(name), name} & named]
+        given = {**given, **dict.fromkeys(others, DEFAULT_OPPONENT), learner: LEARN}
+    resolved = resolve(task, given)
+    require_learners([robot for robot, controller in resolved.items() if controller is LEARN])
+    return resolved
+
+
+def require_learners(learners: Sequence[str]) -> None:
+    """Refuse an environment without learners.
+
+    Args:
+        learners: names of the robots that learn.
+
+    Raises:
+        ValueError: there are none.
+    """
+    if not learners:
+        raise ValueError(
+            "controllers: expected at least one learner, got none; rsoccer.Matches runs "
+            "without learners"
         )
-    task = as_task(task)
-    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
-
-
-def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
-    """Return a copy of a task with another time limit; the caller's task does not change.
-
-    Args:
-        task: the task.
-        max_steps: time limit of an episode in control steps, at least 1.
-        name: name of the caller's argument, for the error message.
-
-    Raises:
-        TypeError: not an integer.
-        ValueError: less than 1.
-    """
-    task = copy.copy(task)
-    object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
-    return task
 
 
 def single_learner_controllers(
@@ -65,24 +70,19 @@ def single_learner_controllers(
     Args:
         task: the task that is played.
         learner: the robot that learns; None if the task and the controllers leave one only.
-        controllers: controllers of the other robots, by robot, team or "all".
+        controllers: controllers of the other robots, as for `learner_controllers`.
 
     Raises:
         TypeError: something that is not a controller.
         ValueError: an unknown robot, or none or several robots that learn.
     """
-    given = given_by_name(controllers)
-    if learner is not None:
-        if learner not in task.robots:
-            raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")
-        given[learner] = LEARN
-    resolved = resolve(task, given)
+    resolved = learner_controllers(task, learner, controllers)
     learners = [robot for robot, controller in resolved.items() if controller is LEARN]
     if len(learners) != 1:
         raise ValueError(
-            f"{task.name}: expected exactly one learner, got {learners or 'none'}: name the "
-            "learner and the other robots' controllers, as in "
-            f"learner={task.robots[0]!r}, controllers={{'all': 'ou'}}"
+            f"{task.name}: expected exactly one learner, got {learners}: name the learner and the "
+            f"other robots' controllers, as in learner={task.robots[0]!r}, "
+            "controllers={'all': 'ou'}"
         )
     return resolved
 

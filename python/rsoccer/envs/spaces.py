@@ -1,14 +1,14 @@
-"""Observation and action spaces of one agent.
+"""Observation and action spaces of one agent, and the space of global states.
 
-`Matches` takes actions as vectors of numbers in [-1, 1]. For a task with an `action_table`, an
-agent of an environment chooses the index of one of the table's rows; only the environments convert
-indices to vectors.
+Actions are vectors of numbers in [-1, 1]. For a task with an `action_table`, an agent chooses the
+index of one of the table's rows.
 """
 
 import numpy as np
 from gymnasium.spaces import Box, Discrete
 
 from rsoccer.arrays import Array, Floats
+from rsoccer.global_state import LIMIT, StateEncoder
 from rsoccer.task import Task
 
 ActionSpace = Box[np.float32] | Discrete[np.int64]
@@ -40,6 +40,18 @@ def action_space(task: Task) -> ActionSpace:
     if task.action_table is None:
         return Box(-1.0, 1.0, (task.action_size,))
     return Discrete(len(task.action_table))
+
+
+def state_space(task: Task) -> Box[np.float32]:
+    """Return the space of the global state of one match.
+
+    Args:
+        task: the task that is played.
+
+    Returns:
+        Box (state,) float32 from -`LIMIT` to `LIMIT`; `StateEncoder` names its columns.
+    """
+    return Box(-LIMIT, LIMIT, (StateEncoder(task.config).size,))
 
 
 def action_vectors(task: Task, actions: Array) -> Array:

@@ -1,6 +1,6 @@
 """The step loop: many matches of one task at once, as arrays."""
 
 from rsoccer.matches.loop import AUTORESETS, Matches
-from rsoccer.matches.outcome import Outcome
+from rsoccer.matches.outcome import Episodes, Outcome
 
-__all__ = ["AUTORESETS", "Matches", "Outcome"]
+__all__ = ["AUTORESETS", "Episodes", "Matches", "Outcome"]

@@ -5,23 +5,28 @@ batch of one. All resets, of all worlds or of some, go through `Matches._begin`.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Final
+from functools import cached_property
+from typing import Any, Final
 
 import numpy as np
+from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import Simulator, Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers, assign
+from rsoccer.envs import spaces
+from rsoccer.envs.spaces import ActionSpace
 from rsoccer.frame import Frame
+from rsoccer.global_state import StateEncoder
 from rsoccer.matches import result_checks
 from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.match_state import MatchState
-from rsoccer.matches.outcome import Outcome
+from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
 from rsoccer.play import Play
-from rsoccer.registry import as_task
+from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.simulator_interface import SimulatorLike
 from rsoccer.task import Task
@@ -75,6 +80,8 @@ class Matches:
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
         simulator: SimulatorLike | None = None,
+        max_steps: int | None = None,
+        **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
         """Prepare matches; `reset` begins them.
 
@@ -91,14 +98,19 @@ class Matches:
                 "next_step" (the next step resets it, ignores its actions and pays no reward) or
                 "disabled" (it waits for `reset`).
             simulator: moves the robots in place of `rsoccer.Simulator`.
+            max_steps: time limit of an episode in control steps, at least 1; None for the task's
+                own.
+            **options: options of a registered task, the fields of its class.
 
         Raises:
-            TypeError: an argument of the wrong type.
+            TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+                object.
             ValueError: an unknown task, controller or autoreset mode, or a number out of range.
         """
         if autoreset not in AUTORESETS:
             raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
-        self.task = as_task(task)
+        self.task = resolve_task(task, max_steps, options)
+        self._discrete = self.task.action_table is not None
         self.worlds = checks.integer("worlds", worlds, 1)
         self.autoreset = autoreset
         self.assignment = assign(self.task, controllers, worlds)
@@ -123,6 +135,8 @@ class Matches:
         self._observations = np.zeros(shape, np.float32)
         self._done, self._begun = np.zeros((2, worlds), np.bool_)
         self._all_begun = False
+        self._returns = np.zeros((worlds, len(self.agents)))
+        self._final_rows: tuple[Indices, Floats] | None = None
         self._observer_terms: Mapping[str, Floats] = {}
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
@@ -146,6 +160,58 @@ class Matches:
     def done(self) -> Mask:
         """(n,) matches that ended and wait for a reset; all False with "same_step"."""
         return self._done.copy()
+
+    @cached_property
+    def observation_space(self) -> Box[np.float32]:
+        """Observation space of one agent: Box (o,) float32; `task.blocks` names the parts."""
+        return spaces.observation_space(self.task)
+
+    @cached_property
+    def action_space(self) -> ActionSpace:
+        """Action space of one agent: Box (action,) float32 from -1 to 1, or Discrete.
+
+        It is Discrete for tasks with an `action_table`.
+        """
+        return spaces.action_space(self.task)
+
+    @cached_property
+    def state_space(self) -> Box[np.float32]:
+        """Space of the global state of one world: Box (state,) float32."""
+        return spaces.state_space(self.task)
+
+    @property
+    def state_size(self) -> int:
+        """Numbers in the global state of one world."""
+        return self._state_encoder.size
+
+    @cached_property
+    def _state_encoder(self) -> StateEncoder:
+        return StateEncoder(self.task.config)
+
+    def states(self) -> Floats:
+        """Return the global state of each world, for centralized critics.
+
+        Returns:
+            (n, state) float32 in `state_space`, a new array: ball, blue robots, yellow robots, in
+            absolute coordinates, scaled to about 1, as `SoccerParallelEnv.state` returns it.
+        """
+        return self._state_encoder.encode(self.frame.rows)
+
+    def final_states(self) -> Floats:
+        """Return the global states after the last step, before it began new episodes.
+
+        They belong to `Outcome.final_observations`, as `states` belongs to
+        `Outcome.observations`.
+
+        Returns:
+            (n, state) float32, a new array: the last state of the old episode where one began in
+            the last step ("same_step"), equal to `states` elsewhere and after a reset.
+        """
+        states = self.states()
+        if self._final_rows is not None:
+            worlds, rows = self._final_rows
+            states[worlds] = self._state_encoder.encode(rows)
+        return states
 
     def reset(
         self, seed: Seed = None, mask: Mask | None = None, rows: Floats | None = None
@@ -175,14 +241,15 @@ class Matches:
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
         if len(worlds):
             self._begin(worlds, rows, seeds)
+            self._final_rows = None
         return self._observed()
 
-    def step(self, actions: Floats) -> Outcome:
+    def step(self, actions: Array) -> Outcome:
         """Advance all matches by one control step.
 
         Args:
-            actions: (n, agents, action) float, clipped to [-1, 1]. Integers from 0 for tasks with
-                an `action_table` are converted by the environments, not here.
+            actions: (n, agents, action) float, clipped to [-1, 1]. For tasks with an
+                `action_table` also (n, agents) integers, indices of its rows.
 
         Returns:
             Observations, rewards and ends, all in new arrays.
@@ -190,9 +257,12 @@ class Matches:
         Raises:
             RuntimeError: a world was never reset, or the matches are inconsistent.
             TypeError: actions of the wrong type. Nothing has changed.
-            ValueError: actions of the wrong shape, or not finite. Nothing has changed.
+            ValueError: actions of the wrong shape, not finite, or an index out of range. Nothing
+                has changed.
         """
         self._consistency.check()
+        if self._discrete:
+            actions = self._action_vectors(actions)
         actions = checks.actions(actions, (self.worlds, len(self.agents), self.action_size))
         if not self._all_begun:
             raise RuntimeError("step before reset: some worlds have begun no episode")
@@ -224,9 +294,19 @@ class Matches:
             ValueError: a state of other matches. Nothing has changed.
         """
         self._state().write(state)
+        self._final_rows = None
         self._all_begun = bool(self._begun.all())
         self.play.expire_views()
         self._consistency.repair()
+
+    def _action_vectors(self, actions: Array) -> Array:
+        """Actions (n, agents, action) of a discrete task, from indices (n, agents) or vectors."""
+        indices = np.asarray(actions)
+        if indices.dtype.kind not in "iu":
+            return actions
+        if indices.shape != (shape := (self.worlds, len(self.agents))):
+            raise ValueError(f"actions: expected shape {shape} of integers, got {indices.shape}")
+        return spaces.action_vectors(self.task, indices)
 
     def _repr_png_(self) -> bytes | None:
         """An image of the first world, for notebooks; None before a reset or without pygame."""
@@ -244,6 +324,7 @@ class Matches:
 
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
+        self._final_rows = None
         waiting, paused = _NO_WORLDS, None
         if np.count_nonzero(self._done):
             waiting = np.flatnonzero(self._done)
@@ -253,6 +334,7 @@ class Matches:
         outcome = self._evaluate()
         if paused:
             paused.restore(self._observations, outcome)
+        self._returns = self._returns + outcome.rewards
         self._autoreset(waiting, outcome)
         return outcome
 
@@ -322,11 +404,24 @@ class Matches:
         ended = outcome.ended
         if not np.count_nonzero(ended):
             return
+        worlds = np.flatnonzero(ended)
+        outcome.episodes = self._ended_episodes(worlds, outcome)
         if self.autoreset == "same_step":
-            self._begin(np.flatnonzero(ended))
+            self._final_rows = worlds, self.play.frame.rows[worlds]
+            self._begin(worlds)
             outcome.observations = self._observed()
         else:
             self._done |= ended
+
+    def _ended_episodes(self, worlds: Indices, outcome: Outcome) -> Episodes:
+        """Statistics of the episodes that ended in some worlds."""
+        return Episodes(
+            worlds,
+            self.play.steps[worlds],
+            self._returns[worlds],
+            outcome.terminated[worlds],
+            {name: values[worlds] for name, values in outcome.metrics.items()},
+        )
 
     def _begin(
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
@@ -356,6 +451,7 @@ class Matches:
         self._observations[worlds] = self.task.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
+        self._returns[worlds] = 0.0
         self._begun[worlds] = True
         self._all_begun = bool(self._begun.all())
 
@@ -365,7 +461,12 @@ class Matches:
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""
-        own = {"observations": self._observations, "done": self._done, "begun": self._begun}
+        own: dict[str, Array] = {
+            "observations": self._observations,
+            "returns": self._returns,
+            "done": self._done,
+            "begun": self._begun,
+        }
         return MatchState.of(self._simulator, self.play, self.assignment.groups, self._start, own)
 
     def _observed(self) -> Floats:

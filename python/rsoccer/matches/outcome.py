@@ -2,7 +2,26 @@
 
 from dataclasses import dataclass
 
-from rsoccer.arrays import Floats, Mask
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer.arrays import Doubles, Floats, Mask
+
+
+@dataclass(frozen=True)
+class Episodes:
+    """Statistics of the k episodes that ended in one step."""
+
+    worlds: NDArray[np.intp]
+    """(k,) indices of their worlds, in ascending order."""
+    lengths: NDArray[np.int64]
+    """(k,) control steps."""
+    returns: Doubles
+    """(k, agents) sums of each agent's rewards."""
+    terminated: Mask
+    """(k,) True where the task ended the episode, False at the time limit."""
+    metrics: dict[str, Floats]
+    """(k,) metrics of the task by name."""
 
 
 @dataclass
@@ -25,6 +44,8 @@ class Outcome:
     """(n,) the time limit ended the episode: the future exists but is not played."""
     metrics: dict[str, Floats]
     """(n,) metrics of the task by name; valid where the episode ended."""
+    episodes: Episodes | None = None
+    """Statistics of the episodes that ended in this step; None where none ended."""
 
     @property
     def ended(self) -> Mask:
