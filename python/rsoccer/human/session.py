@@ -17,7 +17,8 @@ from rsoccer.matches import Matches
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
-from rsoccer.render.scoreboard import GOAL_PAUSE, MIN_WIDTH
+from rsoccer.render.record import MIN_WIDTH
+from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Shape
 from rsoccer.render.window import Window
 from rsoccer.task import Task
