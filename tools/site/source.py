@@ -44,7 +44,8 @@ def lay_out(folder: Path, rust: bool = True) -> None:
         page.write_text(linked(page.read_text(), page.relative_to(folder)))
     for name, target in TOP.items():
         (folder / target).write_text(linked((ROOT / name).read_text(), Path(name)))
-    shutil.copytree(RESULTS, folder / "results", ignore=shutil.ignore_patterns("*.csv"))
+    pictures_only = shutil.ignore_patterns("*.csv", "*.json", "*.md")
+    shutil.copytree(RESULTS, folder / "results", ignore=pictures_only)
     write_examples(folder / "examples.md")
     write_tasks(folder / "tasks")
     api.write(folder / "api", rust)
