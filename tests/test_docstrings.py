@@ -3,7 +3,7 @@
 import ast
 import builtins
 import doctest
-import importlib
+import importlib.util
 import inspect
 import pkgutil
 import re
@@ -72,7 +72,16 @@ def _member(path: str, name: str, attribute: Any, owner: type) -> Iterator[tuple
         yield path, attribute, owner
 
 
-MODULES = {name: importlib.import_module(name) for name in module_names()}
+def is_importable(name: str) -> bool:
+    """False for an integration whose library is not installed."""
+    library = next((lib for part, lib in LIBRARIES.items() if name.startswith(part)), "sys")
+    return importlib.util.find_spec(library) is not None
+
+
+LIBRARIES = {"rsoccer.torchrl": "torchrl"}
+"""Library that an integration needs, by the beginning of the names of its modules."""
+
+MODULES = {name: importlib.import_module(name) for name in module_names() if is_importable(name)}
 OBJECTS = [found for name in MODULES for found in objects_of(name)]
 FUNCTIONS = [(path, value, owner) for path, value, owner in OBJECTS if inspect.isfunction(value)]
 CLASSES = [(path, value) for path, value, _ in OBJECTS if inspect.isclass(value)]

@@ -32,7 +32,7 @@ LAYERS = [
     {"envs.viewer"},
     {"envs.parallel", "envs.single", "envs.vector", "evaluate"},
     {"__init__"},
-    {"render", "testing", "train"},
+    {"render", "testing", "torchrl", "train"},
     {"commands", "demo"},
     {"cli"},
     {"__main__"},
