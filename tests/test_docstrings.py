@@ -78,7 +78,7 @@ def is_importable(name: str) -> bool:
     return importlib.util.find_spec(library) is not None
 
 
-LIBRARIES = {"rsoccer.torchrl": "torchrl"}
+LIBRARIES = {"rsoccer.rllib": "ray", "rsoccer.torchrl": "torchrl"}
 """Library that an integration needs, by the beginning of the names of its modules."""
 
 MODULES = {name: importlib.import_module(name) for name in module_names() if is_importable(name)}

@@ -33,6 +33,7 @@ LAYERS = [
     {"envs.parallel", "envs.single", "envs.vector", "evaluate"},
     {"__init__"},
     {"render", "testing", "torchrl", "train"},
+    {"rllib"},
     {"commands", "demo"},
     {"cli"},
     {"__main__"},
