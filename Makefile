@@ -4,6 +4,7 @@ PYTHON ?= # interpreter for .venv; found automatically if empty
 CARGO ?= cargo
 
 VENV := .venv
+LIBRARIES := .venv-libraries
 BIN := $(VENV)/bin
 # --no-compile: modules are compiled when imported; most of torch and sympy never is.
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --no-compile --constraint constraints.txt
@@ -20,7 +21,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site format docs site physics golden soak coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries format docs site physics golden soak coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -60,6 +61,9 @@ check-python: $(VENV)/built ## run the tests of the package, the README and the 
 check-site: $(VENV)/site ## build the documentation site without the crates; warnings are errors
 	$(BIN)/python -m tools.site --without-rust
 
+check-libraries: $(LIBRARIES)/made ## run the tests with other trainer libraries, in an environment of their own
+	$(LIBRARIES)/bin/python -m pytest tests/wrappers tests/test_page_code.py tests/test_docstrings.py
+
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix
@@ -92,7 +96,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(BIN)/python -m benches.throughput
 
 clean: ## remove all outputs of make, installed Python packages included
-	rm -rf $(VENV) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(LIBRARIES) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	rm -f python/rsoccer/_core*.so
 
 # Stamp files mark completed steps, so that a second `make` skips them.
@@ -114,6 +118,15 @@ $(VENV)/built: $(VENV)/tools $(RUST)
 	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
 	maturin develop --release --skip-install >/dev/null 2>&1 & \
 	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status
+	@touch $@
+
+# It sees the packages of .venv, and has the group's own ones beside them.
+$(LIBRARIES)/made: pyproject.toml constraints.txt $(VENV)/built
+	@echo "downloading the trainer libraries (0.3 GB)"
+	$(BIN)/python -m venv --clear --without-pip $(LIBRARIES)
+	@$(LIBRARIES)/bin/python tools/see_packages.py $(VENV)
+	$(BIN)/python -m pip --python $(LIBRARIES)/bin/python install --disable-pip-version-check --no-compile \
+		--quiet --constraint constraints.txt --group wrappers
 	@touch $@
 
 $(VENV)/site: $(VENV)/built

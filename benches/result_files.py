@@ -21,8 +21,8 @@ class Figure:
     """Measured values of one quantity of one variant."""
 
     group: str
-    """Group of benchmarks: core, threads, scaling, batched, single, training, memory, capacity,
-    startup or rust."""
+    """Group of benchmarks: core, threads, scaling, batched, single, libraries, training, memory,
+    capacity, startup or rust."""
     scenario: str
     """Physics scenario or id of a task."""
     variant: str

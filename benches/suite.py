@@ -1,6 +1,6 @@
 """The benchmark suite: every benchmark with its variants, and the pairs that are compared."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from importlib.util import find_spec
@@ -8,7 +8,7 @@ from itertools import product
 from typing import Final, TypeVar
 
 import rsoccer
-from benches import interfaces, process_cost, thread_scaling
+from benches import interfaces, libraries, process_cost, thread_scaling
 from benches.measuring import Benchmark, Measure, Variant, with_match_time
 from benches.noop_envs import NoOpEnv, NoOpParallelEnv
 from benches.scenarios import DEFAULT_ENGINE, ENGINES, SCENARIOS, Scenario
@@ -21,7 +21,7 @@ from benches.third_party import (
     silent,
     vmas_football,
 )
-from benches.training import training
+from benches.training import example, training
 from rsoccer.compat import robosim as compat
 
 MATCH_TASK: Final = "VSSSelfPlay-v0"
@@ -30,6 +30,8 @@ LEARNER_TASK: Final = "VSS-v0"
 SINGLE_TASK: Final = "SSLGoToBall-v0"
 
 T = TypeVar("T")
+Start = Callable[[str, int], Measure]
+"""Start of a measure of a task in a number of worlds."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,8 @@ class Sizes:
     """Batch size for the comparison of one thread with two."""
     scaling: tuple[int, ...] = (64, 256, 1024, 4096, 16384)
     football: tuple[int, ...] = (32, 1024, 8192)
+    libraries: tuple[int, ...] = (8, 64)
+    """Batch sizes of matches through other libraries."""
     training: int = 256
     memory: int = 2048
     capacity: int = 100_000
@@ -60,6 +64,7 @@ def benchmarks(sizes: Sizes) -> Iterator[Benchmark]:
     yield team()
     yield single_robot(sizes.batched[0])
     yield learner(sizes.batched[0])
+    yield from through_libraries(sizes.libraries)
     if find_spec("torch"):
         yield from (trainer(task, sizes.training) for task in (MATCH_TASK, LEARNER_TASK))
     yield memory(SCENARIOS[0], sizes.memory)
@@ -240,10 +245,48 @@ def learner(envs: int) -> Benchmark:
     return Benchmark("single", LEARNER_TASK, tuple(variants), tuple(engine_pairs(variants)))
 
 
+def through_libraries(sizes: tuple[int, ...]) -> Iterator[Benchmark]:
+    """Yield the benchmarks of other libraries' environments, compared with `Matches`.
+
+    Those of a library that is absent are skipped.
+    """
+    robots: dict[str, Start] = {"Gymnasium robots_vector_env": libraries.robots}
+    for task in (MATCH_TASK, TEAM_TASK):
+        yield through_library(task, sizes, robots)
+    rows: dict[str, Start] = {
+        "SB3 SoccerVecEnv": partial(libraries.sb3, wrapped=False),
+        "SB3 SoccerVecEnv, monitored and normalized": partial(libraries.sb3, wrapped=True),
+    }
+    loop: dict[str, Start] = {"SB3 DummyVecEnv": libraries.sb3_dummy}
+    yield through_library(TEAM_TASK, sizes, rows)
+    for task in (LEARNER_TASK, SINGLE_TASK):
+        yield through_library(task, sizes, rows | loop)
+    yield through_library(TEAM_TASK, sizes, {"SuperSuit concat_vec_envs_v1": libraries.supersuit})
+
+
+def through_library(task: str, sizes: tuple[int, ...], ways: Mapping[str, Start]) -> Benchmark:
+    """Return the benchmark of one library's environments by name, compared with `Matches`."""
+    variants: list[Variant] = []
+    pairs: list[tuple[int, int]] = []
+    for worlds in sizes:
+        reference = len(variants)
+        alone = partial(interfaces.matches, task, worlds, 1)
+        variants.append(Variant("Matches", worlds, 1, alone, DEFAULT_ENGINE))
+        for name, start in ways.items():
+            pairs.append((len(variants), reference))
+            variants.append(Variant(name, worlds, 1, partial(start, task, worlds), DEFAULT_ENGINE))
+    return Benchmark("libraries", task, tuple(variants), tuple(pairs))
+
+
 def trainer(task: str, worlds: int) -> Benchmark:
-    """Return the benchmark of rollouts and updates of the trainer."""
+    """Return the benchmark of rollouts and updates of the trainer, and of the example's PPO."""
     variants = [
         Variant("trainer", worlds, 2, partial(training, task, engine, worlds, 2), engine)
         for engine in ENGINES
     ]
-    return Benchmark("training", task, tuple(variants), tuple(engine_pairs(variants)))
+    pairs = engine_pairs(variants)
+    alike = next(i for i, variant in enumerate(variants) if variant.engine == DEFAULT_ENGINE)
+    pairs.append((len(variants), alike))
+    start = partial(example, task, worlds, 2)
+    variants.append(Variant("examples/13_ppo.py", worlds, 2, start, DEFAULT_ENGINE))
+    return Benchmark("training", task, tuple(variants), tuple(pairs))

@@ -1,14 +1,17 @@
-"""Training speed: rollouts and updates of the trainer."""
+"""Training speed: rollouts and updates of the trainer, and of the example's own loop."""
 
+import runpy
 import time
 from functools import partial
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 from unittest import mock
 
+import rsoccer
 from benches.measuring import Measure, Quantity, Values
 
 DECISIONS: Final = Quantity("speed", "decisions/s")
+EXAMPLE: Final = Path(__file__).parents[1] / "examples" / "13_ppo.py"
 
 
 def training(task: str, engine: str, worlds: int, threads: int) -> Measure:
@@ -34,5 +37,25 @@ def training(task: str, engine: str, worlds: int, threads: int) -> Measure:
             trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
             elapsed = time.perf_counter() - start
         return {DECISIONS: (trainer.samples - before) / elapsed}
+
+    return measure
+
+
+def example(task: str, worlds: int, threads: int) -> Measure:
+    """Measure updates of the PPO in `examples/13_ppo.py`; at least one."""
+    import torch
+
+    matches = rsoccer.Matches(task, worlds, 0, threads, autoreset="disabled")
+    ppo: Any = runpy.run_path(str(EXAMPLE))["PPO"](matches, central=False)
+
+    def measure(seconds: float) -> Values:
+        torch.set_num_threads(1)
+        decisions, start, elapsed = 0, time.perf_counter(), 0.0
+        while not elapsed or elapsed < seconds:
+            samples = ppo.collect()
+            ppo.learn(samples)
+            decisions += len(samples[0])
+            elapsed = time.perf_counter() - start
+        return {DECISIONS: decisions / elapsed}
 
     return measure

@@ -3,7 +3,7 @@
 import ast
 import builtins
 import doctest
-import importlib.util
+import importlib
 import inspect
 import pkgutil
 import re
@@ -11,12 +11,14 @@ import textwrap
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
 from functools import cache, cached_property
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import rsoccer
+from tools.site.api import library_of
 
 CLAUSES = {
     "How",
@@ -41,6 +43,9 @@ ARTICLES = {"A", "An", "The"}
 def module_names() -> Iterator[str]:
     yield "rsoccer"
     for module in pkgutil.walk_packages(rsoccer.__path__, "rsoccer."):
+        needed = library_of(module.name)
+        if needed is not None and find_spec(needed) is None:
+            continue
         if not module.name.rsplit(".", 1)[1].startswith("_"):
             yield module.name
 
@@ -72,16 +77,7 @@ def _member(path: str, name: str, attribute: Any, owner: type) -> Iterator[tuple
         yield path, attribute, owner
 
 
-def is_importable(name: str) -> bool:
-    """False for an integration whose library is not installed."""
-    library = next((lib for part, lib in LIBRARIES.items() if name.startswith(part)), "sys")
-    return importlib.util.find_spec(library) is not None
-
-
-LIBRARIES = {"rsoccer.rllib": "ray", "rsoccer.torchrl": "torchrl"}
-"""Library that an integration needs, by the beginning of the names of its modules."""
-
-MODULES = {name: importlib.import_module(name) for name in module_names() if is_importable(name)}
+MODULES = {name: importlib.import_module(name) for name in module_names()}
 OBJECTS = [found for name in MODULES for found in objects_of(name)]
 FUNCTIONS = [(path, value, owner) for path, value, owner in OBJECTS if inspect.isfunction(value)]
 CLASSES = [(path, value) for path, value, _ in OBJECTS if inspect.isclass(value)]

@@ -16,6 +16,7 @@ QUICK = {
     "09_old_simulator.py": [],
     "11_turns.py": [],
     "12_entities.py": [],
+    "13_ppo.py": ["--worlds", "8", "--samples", "256", "--central"],
 }
 
 

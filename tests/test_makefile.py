@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import venv
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
@@ -69,3 +70,20 @@ def test_an_installed_torch_is_found(tmp_path: Path) -> None:
     ran = make_venv(tmp_path / "venv", PYTHON=python, CARGO="true")
     assert ran.returncode == 0, ran.stderr
     assert (tmp_path / "venv" / "torch.pth").read_text().strip() == str(packages)
+
+
+def test_an_environment_sees_the_packages_of_another(tmp_path: Path) -> None:
+    own, other = tmp_path / "own", tmp_path / "other"
+    venv.create(own)
+    folder = f"lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages"
+    (other / folder).mkdir(parents=True)
+    (other / folder / "borrowed.py").write_text("number = 3")
+    (other / folder / "editable.pth").write_text(f"{tmp_path}\n")
+    (tmp_path / "editable.py").write_text("number = 4")
+    python = str(own / "bin" / "python")
+    script = str(ROOT / "tools" / "see_packages.py")
+    subprocess.run([python, script, str(other)], check=True)
+    program = "import borrowed, editable; print(borrowed.number + editable.number)"
+    command = [python, "-c", program]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert ran.stdout == "7\n"

@@ -39,6 +39,7 @@ INTERFACES = {
     "no-op Env": "no-op Env of equal shape",
     "VectorEnv": "Gymnasium, `vector_env`",
     "trainer": "trainer, decisions",
+    "examples/13_ppo.py": "`examples/13_ppo.py`, decisions",
 }
 
 

@@ -17,6 +17,7 @@ import pettingzoo
 import rsoccer
 from rsoccer import policies
 from rsoccer.tasks import legacy_names
+from tools.library_speed import libraries
 from tools.markdown import filled, table
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
@@ -27,6 +28,7 @@ WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
     DOCS / "index.md",
+    DOCS / "libraries.md",
     DOCS / "policies.md",
     DOCS / "speed.md",
     DOCS / "tutorials" / "new-task.md",
@@ -192,6 +194,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "curve": curve_picture,
     "demo": demo,
     "instructions": instructions,
+    "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,
     "old_names": old_names,

@@ -5,8 +5,9 @@
     >>> observations = matches.reset()  # (1024, 6, o)
 
 `Matches` steps many matches as arrays. `parallel_env` and `env` are PettingZoo's environments,
-`single_env` and `vector_env` Gymnasium's for one learner. A `Task` defines observations, actions,
-rewards and the ends of episodes, a `Policy` controls robots that do not learn.
+`single_env` and `vector_env` Gymnasium's for one learner, `robots_vector_env` its vector
+environment with a row for each robot. A `Task` defines observations, actions, rewards and the ends
+of episodes, a `Policy` controls robots that do not learn.
 """
 
 from rsoccer._core import (
@@ -20,6 +21,7 @@ from rsoccer._core import (
     build_info,
 )
 from rsoccer.envs.parallel import env, parallel_env
+from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
 from rsoccer.evaluate import evaluate
@@ -78,6 +80,7 @@ __all__ = [
     "make_task",
     "parallel_env",
     "register",
+    "robots_vector_env",
     "single_env",
     "vector_env",
 ]

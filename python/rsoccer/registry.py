@@ -29,9 +29,8 @@ _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*-v[0-9]+")
 def register(name: str, task_class: type[Task]) -> None:
     """Register a task class and set its `name`.
 
-    PettingZoo's and Gymnasium's registries get the id "rsoccer/<name>", Gymnasium's only where
-    exactly one robot learns. Neither gets it where an option has no default. Use `alias` for a
-    second name.
+    PettingZoo's and Gymnasium's registries get the id "rsoccer/<name>". Neither gets it where no
+    robot learns or an option has no default. Use `alias` for a second name.
 
     Args:
         name: letters, digits and underscores with a version, such as "MyTask-v0".

@@ -1,6 +1,7 @@
 import dataclasses
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,16 @@ from benches.scenarios import CROWD, ENGINES, RANDOM
 from benches.suite import Sizes
 
 QUICK = ["--rounds", "2", "--seconds", "0.001"]
-SMALL = Sizes(2, batched=(3, 4), threads=4, scaling=(1, 3), training=4, memory=64, capacity=8)
+SMALL = Sizes(
+    core=2,
+    batched=(3, 4),
+    threads=4,
+    scaling=(1, 3),
+    libraries=(2,),
+    training=4,
+    memory=64,
+    capacity=8,
+)
 
 
 @pytest.fixture(autouse=True)
@@ -36,6 +46,7 @@ def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
             "scaling",
             "batched",
             "single",
+            "libraries",
             "training",
             "memory",
             "capacity",
@@ -58,6 +69,10 @@ def test_everything_is_measured_and_stored(tmp_path: Path) -> None:
         *("ParallelEnv", "AECEnv", "no-op ParallelEnv", "Env", "no-op Env", "VectorEnv"),
         "Matches",
     }
+    ratios = {f.variant for f in figures if (f.group, f.quantity) == ("libraries", "ratio")}
+    assert "Gymnasium robots_vector_env / Matches" in ratios
+    assert ("SB3 SoccerVecEnv / Matches" in ratios) == bool(find_spec("stable_baselines3"))
+    assert "examples/13_ppo.py / trainer" in {f.variant for f in figures}
     for figure in figures:
         assert figure.rounds == (1 if figure.group == "memory" else 2)
         assert figure.minimum <= figure.median <= figure.maximum

@@ -17,6 +17,7 @@ from pettingzoo import AECEnv
 import rsoccer
 from rsoccer import registry
 from rsoccer.envs.parallel import SoccerParallelEnv
+from rsoccer.envs.robots_vector import RobotsVectorEnv
 from rsoccer.envs.single import SoccerEnv
 from rsoccer.envs.vector import SoccerVectorEnv
 from rsoccer.task import LEARN, Learn
@@ -55,8 +56,26 @@ def run(program: str) -> None:
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_gymnasium_has_the_tasks_with_one_learner(name: str) -> None:
-    assert (f"rsoccer/{name}" in gymnasium.registry) == (name in ONE_LEARNER)
+def test_gymnasium_has_every_task(name: str) -> None:
+    agents = rsoccer.make_task(name).agents
+    options: dict[str, Any] = {} if name in ONE_LEARNER else {"learner": agents[-1]}
+    env = gymnasium.make(f"rsoccer/{name}", max_steps=9, **options)
+    assert isinstance(env.unwrapped, SoccerEnv)
+    assert env.unwrapped.learner == options.get("learner", "blue_0")
+    observation, _ = env.reset(seed=0)
+    assert env.observation_space.contains(observation)
+    envs = gymnasium.make_vec(f"rsoccer/{name}", 2 * len(agents))
+    assert isinstance(envs.unwrapped, RobotsVectorEnv)
+    assert (envs.num_envs, envs.unwrapped.matches) == (2 * len(agents), 2)
+
+
+def test_an_id_with_several_learners_asks_for_one() -> None:
+    with pytest.raises(ValueError, match=r"exactly one learner, got \['blue_0'.*learner='blue_0'"):
+        gymnasium.make("rsoccer/VSSMulti-v0")
+    envs = gymnasium.make_vec("rsoccer/VSSMulti-v0", 4, learner="blue_1")
+    assert (envs.num_envs, envs.unwrapped.robots) == (4, ("blue_1",))  # type: ignore[attr-defined]
+    sync = gymnasium.make_vec("rsoccer/VSSMulti-v0", 4, "sync", learner="blue_1")
+    assert comparable(envs.reset(seed=3)) == comparable(sync.reset(seed=3))
 
 
 def test_an_id_may_include_the_package_to_import() -> None:
@@ -181,7 +200,7 @@ def test_a_new_task_gets_its_ids() -> None:
     rsoccer.register("Together-v0", Together)
     env: Any = gymnasium.make("rsoccer/Mine-v3").unwrapped
     assert type(env.task) is Mine
-    assert "rsoccer/Together-v0" not in gymnasium.registry
+    assert gymnasium.make_vec("rsoccer/Together-v0", 6).num_envs == 6
     assert {"rsoccer/Mine-v3", "rsoccer/Together-v0"} <= pettingzoo.parallel_registry.keys()
     assert {"rsoccer/Mine-v3", "rsoccer/Together-v0"} <= pettingzoo.aec_registry.keys()
 

@@ -176,3 +176,17 @@ def test_render_without_a_mode_warns() -> None:
     match.reset()
     with pytest.warns(UserWarning, match="rgb_array"):
         assert match.render() is None
+
+
+def test_the_last_infos_hold_the_metrics() -> None:
+    """They were once in `last_metrics` only, which trainers do not read."""
+    match = parallel_env(SELF_PLAY, max_cycles=3)
+    match.reset(seed=0)
+    still = {agent: np.zeros(2, np.float32) for agent in match.agents}
+    every = [match.step(still)[4] for _ in range(3)]
+    assert every[:2] == [{agent: {} for agent in match.possible_agents}] * 2
+    expected = {"goal_score": 0.0, "steps": 3.0, "TimeLimit.truncated": True}
+    assert every[2] == dict.fromkeys(match.possible_agents, expected)
+    assert match.last_metrics == {"goal_score": 0.0, "steps": 3.0}
+    first, *others = every[2].values()
+    assert all(info is not first for info in others)

@@ -1,15 +1,20 @@
-"""Stable-Baselines3: its checker, training on one match, and the example with many matches."""
+"""Stable-Baselines3: its checker, training on one match, and `SoccerVecEnv`."""
 
+import copy
+import importlib
+import pickle
 import runpy
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import cloudpickle  # type: ignore[import-untyped]
 import gymnasium
 import numpy as np
 import pytest
 
 import rsoccer
-from tests.single_learner import ONE_LEARNER
+from tests.single_learner import TASKS
 
 stable_baselines3 = pytest.importorskip("stable_baselines3")
 env_checker = pytest.importorskip("stable_baselines3.common.env_checker")
@@ -62,56 +67,258 @@ def test_the_time_limit_truncates_for_bootstrapped_values() -> None:
     assert ended[1][0]["terminal_observation"].shape == envs.observation_space.shape
 
 
-# -- Many matches, by the example -------------------------------------------------------------
+# -- Many matches ------------------------------------------------------------------------------
 
 
 def many(name: str = "VSS-v0", matches: int = 3, **options: Any) -> Any:  # noqa: ANN401
-    """Short matches in the example's class."""
-    return runpy.run_path(str(EXAMPLE))["StableMatches"](
-        f"rsoccer/{name}", matches, **{"max_steps": MAX_STEPS, **options}
-    )
+    """Short matches."""
+    sb3 = importlib.import_module("rsoccer.sb3")
+    return sb3.SoccerVecEnv(name, matches, **{"max_steps": MAX_STEPS, **options})
+
+
+def drawn(envs: Any, rng: np.random.Generator) -> Any:  # noqa: ANN401
+    return rng.uniform(-1.0, 1.0, (envs.num_envs, *envs.action_space.shape)).astype(np.float32)
+
+
+def updated(model: Any, steps: int) -> None:  # noqa: ANN401
+    """Learn for some steps, and assert that the weights changed and are finite."""
+    before = [weight.detach().clone() for weight in model.policy.parameters()]
+    model.learn(steps)
+    after = list(model.policy.parameters())
+    assert model.num_timesteps == steps
+    assert all(bool(weight.isfinite().all()) for weight in after)
+    assert any(bool((a != b).any()) for a, b in zip(before, after, strict=True))
 
 
 @pytest.mark.parametrize("discrete", [False, True])
-@pytest.mark.parametrize("name", ONE_LEARNER)
+@pytest.mark.parametrize("name", TASKS)
 def test_ppo_makes_a_first_update_on_every_task(name: str, discrete: bool) -> None:
     envs = many(name, discrete=discrete)
+    assert envs.num_envs == 3 * len(rsoccer.make_task(name).agents)
     model = stable_baselines3.PPO(
         "MlpPolicy", envs, n_steps=24, batch_size=36, n_epochs=1, seed=0, device="cpu"
     )
-    before = [weight.detach().clone() for weight in model.policy.parameters()]
-    model.learn(72)
-    after = list(model.policy.parameters())
-    assert model.num_timesteps == 72
-    assert all(bool(weight.isfinite().all()) for weight in after)
-    assert any(bool((a != b).any()) for a, b in zip(before, after, strict=True))
+    updated(model, 24 * envs.num_envs)
+    assert len(model.ep_info_buffer) >= envs.num_envs
+    assert rsoccer.make_task(name).success in model.ep_info_buffer[0]
     envs.close()
 
 
-def test_matches_of_the_example_equal_single_environments() -> None:
-    """Stable-Baselines3 itself can make such a vector environment, which is slower."""
+@pytest.mark.parametrize("algorithm", ["SAC", "TD3", "DQN", "A2C"])
+def test_other_algorithms_make_updates(algorithm: str) -> None:
+    envs = many("VSSMulti-v0", 2, discrete=algorithm == "DQN")
+    settings: dict[str, Any] = {} if algorithm == "A2C" else {"learning_starts": 12}
+    learner = getattr(stable_baselines3, algorithm)
+    updated(learner("MlpPolicy", envs, seed=0, device="cpu", **settings), 240)
+
+
+@pytest.mark.parametrize("name", ["VSS-v0", "VSSSelfPlay-v0"])
+def test_rows_equal_single_environments(name: str) -> None:
+    """Of one learner, bit for bit those of Stable-Baselines3's own vector environment."""
+    agents = rsoccer.make_task(name).agents
+    ours = many(name)
+    robots = rsoccer.robots_vector_env(
+        name, matches=3, max_steps=MAX_STEPS, autoreset_mode="same_step"
+    )
+    ours.seed(5)
+    np.testing.assert_array_equal(ours.reset(), robots.reset(seed=5)[0])
+    assert ours.robots == agents
+    rng = np.random.default_rng(0)
+    returns = np.zeros(ours.num_envs)
+    for _ in range(MAX_STEPS):
+        actions = drawn(ours, rng)
+        observations, rewards, ended, infos = ours.step(actions)
+        expected = robots.step(actions)
+        np.testing.assert_array_equal(observations, expected[0])
+        np.testing.assert_array_equal(rewards, expected[1])
+        np.testing.assert_array_equal(ended, expected[2] | expected[3])
+        returns += rewards
+        rewards[:] = 1e9  # PPO adds values to the rewards in place
+    assert ended.all()
+    last = expected[4]
+    for row, info in enumerate(infos):
+        np.testing.assert_array_equal(info["terminal_observation"], last["final_obs"][row])
+        assert info["TimeLimit.truncated"] is True
+        for key in ("goal_score", "steps"):
+            assert info[key] == last["final_info"][key][row]
+        assert info["episode"]["r"] == pytest.approx(returns[row], abs=1e-5)
+        assert info["episode"]["l"] == MAX_STEPS
+        assert info["episode"]["goal_score"] == info["goal_score"]
+    assert len(
+        np.unique(np.stack([info["terminal_observation"] for info in infos]), axis=0)
+    ) == len(infos)
+
+
+def test_matches_equal_the_librarys_own_vector_environment() -> None:
     make_vec_env = pytest.importorskip("stable_baselines3.common.env_util").make_vec_env
     theirs = make_vec_env("rsoccer/VSS-v0", 3, seed=5, env_kwargs={"max_steps": MAX_STEPS})
     ours = many()
     ours.seed(5)
     np.testing.assert_array_equal(ours.reset(), theirs.reset())
     rng = np.random.default_rng(0)
-    for _ in range(MAX_STEPS - 1):
-        actions = rng.uniform(-1.0, 1.0, (3, 2)).astype(np.float32)
+    for _ in range(MAX_STEPS):
+        actions = drawn(ours, rng)
         given, expected = ours.step(actions), theirs.step(actions)
-        for value, reference in zip(given[:3], expected[:3], strict=True):
-            np.testing.assert_array_equal(value, reference)
-        assert given[3] == [{}] * 3
-    given, expected = ours.step(actions), theirs.step(actions)
-    np.testing.assert_array_equal(given[1], expected[1])
-    assert given[2].tolist() == expected[2].tolist() == [True] * 3
+        np.testing.assert_array_equal(given[1], expected[1])
+        assert given[2].tolist() == expected[2].tolist()
     for info, reference in zip(given[3], expected[3], strict=True):
         np.testing.assert_array_equal(
             info["terminal_observation"], reference["terminal_observation"]
         )
         for name in ("TimeLimit.truncated", "goal_score", "steps"):
             assert info[name] == reference[name]
-        assert info["TimeLimit.truncated"] is True
+        for name in ("r", "l"):
+            assert info["episode"][name] == pytest.approx(reference["episode"][name], abs=1e-5)
+
+
+def test_an_end_by_the_task_is_not_bootstrapped() -> None:
+    envs = many("SSLPassEndurance-v0", 4, max_steps=300)
+    envs.reset()
+    rng = np.random.default_rng(0)
+    found: list[Any] = []
+    while len(found) < 4:
+        *_, ended, infos = envs.step(drawn(envs, rng))
+        found += [infos[row] for row in np.flatnonzero(ended)]
+    assert all(info["TimeLimit.truncated"] is False for info in found)
+
+
+def test_seeds_are_those_of_matches_and_hold_for_one_reset() -> None:
+    envs = many("VSSMulti-v0", 2)
+    assert envs.seed(7) == [7, 7, 7, 8, 8, 8]
+    first = envs.reset()
+    again = envs.reset()
+    assert (first != again).any()
+    envs.seed(7)
+    np.testing.assert_array_equal(envs.reset(), first)
+    matches = rsoccer.Matches("VSSMulti-v0", 2)
+    np.testing.assert_array_equal(first.reshape(2, 3, -1), matches.reset(seed=7))
+    assert len(envs.seed()) == 6
+    with pytest.raises(TypeError, match="seed: expected a whole number"):
+        envs.seed(1.5)
+
+
+def test_unseeded_environments_and_copies_play_different_matches() -> None:
+    envs = many()
+    every = [envs, many(), copy.deepcopy(envs), cloudpickle.loads(cloudpickle.dumps(envs))]
+    assert len({each.reset().tobytes() for each in every}) == 4
+    twin = pickle.loads(pickle.dumps(envs))
+    np.testing.assert_array_equal(envs.reset(), twin.reset())
+
+
+def test_options_set_the_start_of_the_next_reset() -> None:
+    matches = rsoccer.Matches("VSSMulti-v0", 3)
+    matches.reset(seed=1)
+    row = matches.frame.rows[0].copy()
+    envs = many("VSSMulti-v0", 3)
+    envs.set_options({"frame": row})
+    given = envs.reset()
+    for match in range(3):
+        np.testing.assert_array_equal(given[3 * match : 3 * match + 3], given[:3])
+    assert (envs.reset() != given).any(), "options hold once"
+    envs.set_options([{"frame": row} if match == 1 else {} for match in (0, 1, 2) for _ in "abc"])
+    envs.seed(4)
+    mixed = envs.reset()
+    np.testing.assert_array_equal(mixed[3:6], given[:3])
+    envs.seed(4)
+    np.testing.assert_array_equal(mixed[[0, 6]], envs.reset()[[0, 6]])
+
+
+def test_attributes_and_methods_are_by_row() -> None:
+    envs = many("VSSMulti-v0", 2)
+    envs.reset()
+    assert envs.get_attr("render_mode") == [None] * 6
+    assert envs.get_attr("task", [0, 3])[1].name == "VSSMulti-v0"
+    assert not envs.has_attr("action_masks")
+    assert envs.env_is_wrapped(gymnasium.Wrapper, 0) == [False]
+    states = envs.env_method("state", indices=[0, 3])
+    np.testing.assert_array_equal(states[1], envs.states()[5])
+    assert (states[0] != states[1]).any()
+    with pytest.raises(AttributeError, match="rows have no method 'reset'; they have"):
+        envs.env_method("reset")
+    with pytest.raises(TypeError, match="state: expected no arguments"):
+        envs.env_method("state", 1)
+    with pytest.raises(AttributeError, match="task: attributes of matches cannot be set"):
+        envs.set_attr("task", None)
+
+
+def test_images_are_of_matches() -> None:
+    pytest.importorskip("pygame")
+    envs = many("VSSMulti-v0", 2, render_mode="rgb_array")
+    envs.reset()
+    images = envs.get_images()
+    assert len(images) == 2
+    tiled = envs.render()
+    assert tiled.shape[0] * tiled.shape[1] == 2 * images[0].shape[0] * images[0].shape[1]
+    np.testing.assert_array_equal(envs.env_method("render", indices=4)[0], images[1])
+    assert many().get_images() == [None] * 3
+
+
+@pytest.mark.parametrize(
+    ("make", "error", "message"),
+    [
+        (lambda: many(matches=0), ValueError, "matches: expected at least 1, got 0"),
+        (lambda: many(learner="red_0"), ValueError, "learner: expected one of"),
+        (lambda: many(bal_speed=1.0), TypeError, "unexpected keyword argument 'bal_speed'"),
+        (lambda: many(render_mode="ansi"), ValueError, "render_mode: expected one of"),
+        (lambda: many(controllers={"all": "ou"}), ValueError, "at least one learner"),
+    ],
+)
+def test_bad_arguments_are_named(
+    make: Callable[[], object], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        make()
+
+
+def test_bad_steps_are_refused() -> None:
+    envs = many()
+    with pytest.raises(RuntimeError, match="step before reset"):
+        envs.step(np.zeros((3, 2), np.float32))
+    envs.reset()
+    with pytest.raises(RuntimeError, match="step_wait before step_async"):
+        envs.step_wait()
+    with pytest.raises(ValueError, match="actions: expected 3 rows, got 2"):
+        envs.step(np.zeros((2, 2), np.float32))
+    envs.close()
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+        envs.reset()
+
+
+def test_one_robot_may_learn_among_others() -> None:
+    envs = many("VSSSelfPlay-v0", 2, learner="yellow_1")
+    assert (envs.robots, envs.num_envs) == (("yellow_1",), 2)
+
+
+def test_a_model_is_saved_with_normalized_observations(tmp_path: Path) -> None:
+    vec_env = importlib.import_module("stable_baselines3.common.vec_env")
+    envs = vec_env.VecNormalize(vec_env.VecMonitor(many(), info_keywords=("goal_score",)))
+    model = stable_baselines3.PPO(
+        "MlpPolicy", envs, n_steps=32, batch_size=48, n_epochs=1, seed=0, device="cpu"
+    )
+    updated(model, 96)
+    assert {"r", "l", "t", "goal_score"} <= set(model.ep_info_buffer[0])
+    model.save(tmp_path / "model")
+    envs.save(str(tmp_path / "statistics"))
+    loaded_envs = vec_env.VecNormalize.load(str(tmp_path / "statistics"), many())
+    loaded = stable_baselines3.PPO.load(tmp_path / "model", env=loaded_envs, device="cpu")
+    observations = loaded_envs.reset()
+    np.testing.assert_array_equal(
+        model.predict(observations, deterministic=True)[0],
+        loaded.predict(observations, deterministic=True)[0],
+    )
+    loaded.learn(96)
+
+
+def test_policies_are_evaluated_by_the_library() -> None:
+    evaluation = importlib.import_module("stable_baselines3.common.evaluation")
+    vec_env = importlib.import_module("stable_baselines3.common.vec_env")
+    model = stable_baselines3.PPO("MlpPolicy", many(), n_steps=8, batch_size=8, device="cpu")
+    envs = vec_env.VecMonitor(many("VSS-v0", 2))
+    returns, lengths = evaluation.evaluate_policy(
+        model, envs, n_eval_episodes=4, return_episode_rewards=True
+    )
+    assert lengths == [MAX_STEPS] * 4
+    assert np.isfinite(returns).all()
 
 
 def test_the_example_runs(capsys: pytest.CaptureFixture[str]) -> None:

@@ -34,7 +34,8 @@ def test_the_robots_of_a_match_are_a_vector_with_autoreset() -> None:
         assert not terminated.any()
         ended = step % MAX_CYCLES == 0
         assert truncated.tolist() == [ended] * ROBOTS
-        assert all(("terminal_observation" in info) == ended for info in infos)
+        names = {"terminal_observation", "goal_score", "steps", "TimeLimit.truncated"}
+        assert all(set(info) == (names if ended else set()) for info in infos)
 
 
 @pytest.mark.parametrize("name", TASKS)
@@ -70,6 +71,25 @@ def test_copies_of_a_match_follow_their_own_seeds() -> None:
     assert len(np.unique(last, axis=0)) == MATCHES * ROBOTS
 
 
+def test_unseeded_copies_play_different_matches() -> None:
+    """All of them once played the same match."""
+    envs = supersuit.concat_vec_envs_v1(robots(), MATCHES)
+    assert len(np.unique(envs.reset()[0], axis=0)) == MATCHES * ROBOTS
+
+
+def test_its_stable_baselines3_form_bootstraps_at_the_time_limit() -> None:
+    pytest.importorskip("stable_baselines3")
+    envs = supersuit.concat_vec_envs_v1(robots(), 2, base_class="stable_baselines3")
+    envs.reset()
+    for _ in range(MAX_CYCLES):
+        _, _, ended, infos = envs.step(np.zeros((2 * ROBOTS, 2), np.float32))
+    assert ended.all()
+    for info in infos:
+        assert info["TimeLimit.truncated"] is True
+        assert info["steps"] == MAX_CYCLES
+        assert info["terminal_observation"].shape == envs.observation_space.shape
+
+
 # Python 3.12 and later warn of forks; tests/matches/test_fork.py shows ours to be safe.
 @pytest.mark.filterwarnings("ignore:.*multi-threaded.*fork:DeprecationWarning")
 def test_copies_in_other_processes_play_the_same() -> None:
@@ -85,10 +105,7 @@ def test_copies_in_other_processes_play_the_same() -> None:
 
 
 def test_its_stable_baselines3_form_trains() -> None:
-    """Its wrapper has no seed, so the vector environment below it is seeded, and PPO is not.
-
-    Without these seeds all copies would play the same match.
-    """
+    """Its wrapper has no seed, so the vector environment below it is seeded, and PPO is not."""
     ppo = pytest.importorskip("stable_baselines3").PPO
     envs = supersuit.concat_vec_envs_v1(robots(), MATCHES, base_class="stable_baselines3")
     envs.venv.reset(seed=0)

@@ -65,6 +65,13 @@ def test_a_single_learner_match_is_wrapped(discrete: bool) -> None:
     assert ends(env.rollout(STEPS, break_when_any_done=False)) == [4, 9]
 
 
+def test_gym_env_makes_a_match_by_id() -> None:
+    """It asks for `frameskip` first and recognises an unknown option by Python's own words."""
+    env = gym_lib.GymEnv("rsoccer/VSS-v0", max_steps=MAX_CYCLES)
+    utils.check_env_specs(env)
+    assert ends(env.rollout(STEPS, break_when_any_done=False)) == [4, 9]
+
+
 def test_many_matches_with_same_step_autoreset_are_wrapped() -> None:
     matches = gymnasium.make_vec(
         "rsoccer/VSS-v0", 3, max_steps=MAX_CYCLES, autoreset_mode="same_step"

@@ -1,5 +1,6 @@
 """The reference of the Python package: which modules it shows, and in which order."""
 
+import ast
 import importlib
 import inspect
 import pkgutil
@@ -35,6 +36,7 @@ GROUPS: Final = (
             "rsoccer.envs.parallel",
             "rsoccer.envs.single",
             "rsoccer.envs.vector",
+            "rsoccer.envs.robots_vector",
             "rsoccer.envs.spaces",
             "rsoccer.global_state",
         ),
@@ -100,9 +102,30 @@ GROUPS: Final = (
             "rsoccer.render.window",
         ),
     ),
+    Group(
+        "Libraries",
+        (
+            "rsoccer.sb3",
+            "rsoccer.torchrl",
+            "rsoccer.rllib.env",
+            "rsoccer.rllib.runner",
+            "rsoccer.rllib.league",
+            "rsoccer.rllib.episodes",
+        ),
+    ),
     Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
 )
 """Every public module, once."""
+
+LIBRARIES: Final = {
+    "rsoccer.rllib": "ray",
+    "rsoccer.sb3": "stable_baselines3",
+    "rsoccer.torchrl": "torchrl",
+}
+"""Library that an integration needs, by the beginning of the names of its modules.
+
+Sphinx does without these libraries.
+"""
 
 PRIVATE: Final = (
     "rsoccer.__main__",
@@ -121,6 +144,7 @@ PRIVATE: Final = (
     "rsoccer.policies.*",
     "rsoccer.render",
     "rsoccer.render.*",
+    "rsoccer.rllib",
     "rsoccer.tasks",
     "rsoccer.tasks.*",
     "rsoccer.testing",
@@ -153,6 +177,21 @@ def write(folder: Path, rust: bool) -> None:
 def modules() -> list[str]:
     """Return the names of all modules in the reference."""
     return [module for group in GROUPS for module in group.modules]
+
+
+def loadable() -> list[str]:
+    """Return the modules of the reference that need no library of the group `wrappers`."""
+    return [module for module in modules() if library_of(module) is None]
+
+
+def library_of(module: str) -> str | None:
+    """Return the library of the group `wrappers` that a module needs, if any."""
+    needed = (
+        library
+        for start, library in LIBRARIES.items()
+        if module == start or module.startswith(f"{start}.")
+    )
+    return next(needed, None)
 
 
 def found() -> list[str]:
@@ -201,7 +240,7 @@ def _rust(linked: bool) -> str:
 
 def _modules(group: Group) -> str:
     """The modules of a group as a table."""
-    rows = [(f"[`{name}`]({name}.md)", _summary(_load(name))) for name in group.modules]
+    rows = [(f"[`{name}`]({name}.md)", _module_summary(name)) for name in group.modules]
     return table(("module", "summary"), rows)
 
 
@@ -217,7 +256,7 @@ def home(name: str) -> str:
         LookupError: No module of the reference has it.
     """
     thing = getattr(rsoccer, name)
-    for module in modules():
+    for module in loadable():
         loaded = _load(module)
         own = getattr(thing, "__module__", module) == module
         if own and getattr(loaded, name, None) is thing:
@@ -245,8 +284,21 @@ def _load(module: str) -> object:
     return importlib.import_module(module)
 
 
+def _module_summary(name: str) -> str:
+    """The first paragraph of a module's docstring, without importing what needs a library."""
+    if library_of(name) is None:
+        return _summary(_load(name))
+    path = ROOT / "python" / f"{name.replace('.', '/')}.py"
+    return _first_paragraph(ast.get_docstring(ast.parse(path.read_text())))
+
+
 def _summary(thing: object) -> str:
     """The first paragraph of a docstring, in one line."""
     documented = inspect.ismodule(thing) or inspect.isclass(thing) or inspect.isroutine(thing)
     text = inspect.getdoc(thing) if documented else inspect.getdoc(type(thing))
+    return _first_paragraph(text)
+
+
+def _first_paragraph(text: str | None) -> str:
+    """The first paragraph of a docstring as a cell of a table."""
     return " ".join((text or "").split("\n\n")[0].split()).replace("|", "\\|")

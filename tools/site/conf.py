@@ -7,7 +7,7 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
 import rsoccer  # noqa: E402
-from tools.site import docstrings  # noqa: E402  (the path is set just above)
+from tools.site import api, docstrings  # noqa: E402  (the path is set just above)
 
 project = "rSoccer"
 author = "The rSoccer maintainers"
@@ -51,6 +51,7 @@ autodoc_default_options = {
     "ignore-module-all": True,  # each object stands once, in the module that defines it
     "show-inheritance": True,
 }
+autodoc_mock_imports = [*sorted(api.LIBRARIES.values()), "tensordict"]
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
 napoleon_numpy_docstring = False

@@ -16,7 +16,7 @@ _ARRAY: Final = re.compile(
 
 def connect(app: Any) -> None:  # noqa: ANN401  (Sphinx is no dependency of the checks)
     """Connect the functions below to Sphinx's events."""
-    for module in api.modules():
+    for module in api.loadable():
         importlib.import_module(module)  # with the compiled module, before the stub replaces it
     sys.modules[stub.NAME] = stub.load()
     from sphinx.pycode import ModuleAnalyzer

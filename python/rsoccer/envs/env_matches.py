@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,7 +15,12 @@ from rsoccer.task import Task
 
 
 class EnvMatches(Matches):
-    """Matches that `copy.deepcopy` and `pickle` can copy; a copy continues with the same future."""
+    """Matches that `copy.deepcopy` and `pickle` can copy.
+
+    A copy continues with the same future. Before the first reset there is nothing to continue: a
+    copy then begins with a random seed of its own, so that the copies of one environment play
+    different matches.
+    """
 
     def __init__(self, task: Task, worlds: int, seed: int, **settings: Any) -> None:  # noqa: ANN401
         """Prepare matches; `reset` begins them.
@@ -28,10 +34,34 @@ class EnvMatches(Matches):
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
 
+    @classmethod
+    def unseeded(cls, task: Task, worlds: int, **settings: Any) -> EnvMatches:  # noqa: ANN401
+        """Return matches with a random seed: two environments must not play the same match.
+
+        Args:
+            task: the task that is played.
+            worlds: number of matches, at least 1.
+            **settings: further arguments of `Matches`.
+        """
+        return cls(task, worlds, secrets.randbits(63), **settings)
+
     @property
     def begun(self) -> bool:
         """True if every match has begun an episode."""
         return self._all_begun
+
+    @property
+    def fresh(self) -> bool:
+        """True before the first reset of any match."""
+        return not self._begun.any()
+
+    def with_seed(self, seed: int) -> EnvMatches:
+        """Return new matches with the same arguments and another seed.
+
+        Args:
+            seed: seed of the first match, at least 0.
+        """
+        return EnvMatches(self.task, self.worlds, seed, **self._settings)
 
     def check_running(self) -> None:
         """Refuse a step that needs a reset first.
@@ -74,11 +104,25 @@ class EnvMatches(Matches):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return a constructor, the constructor's arguments and the complete state."""
-        return _resumed, (self.task, self.worlds, self._settings, self.state_dict())
+        state = None if self.fresh else self.state_dict()
+        return _resumed, (self.task, self.worlds, self._settings, state)
+
+
+class SeededCopies:
+    """Gymnasium environment whose copies have the seed of their matches in `np_random_seed`."""
+
+    _matches: EnvMatches
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        """Restore a copy; one that was never reset draws a random seed, as a new environment."""
+        self.__dict__.update(state)
+        if self._matches.fresh:
+            self.__dict__.update(_np_random=None, _np_random_seed=None)
+            self._matches = self._matches.with_seed(random_seed(self))
 
 
 class SingleLearner:
-    """Properties that both of Gymnasium's environments have."""
+    """Properties that environments with one learner have."""
 
     _matches: EnvMatches
 
@@ -93,10 +137,22 @@ class SingleLearner:
         return str(self._matches.agents[0])
 
 
+def random_seed(env: Any) -> int:  # noqa: ANN401  (gymnasium.Env or VectorEnv)
+    """Return the random seed that Gymnasium draws for an environment without a seed.
+
+    Args:
+        env: an environment of Gymnasium, single or vector; `np_random_seed` is the seed from now
+            on.
+    """
+    return int(env.np_random_seed or 0)
+
+
 def _resumed(
-    task: Task, worlds: int, settings: Mapping[str, Any], state: Mapping[str, Array]
+    task: Task, worlds: int, settings: Mapping[str, Any], state: Mapping[str, Array] | None
 ) -> EnvMatches:
-    """Matches that continue from a state."""
+    """Matches that continue from a state; without one, new matches with a random seed."""
+    if state is None:
+        return EnvMatches.unseeded(task, worlds, **settings)
     matches = EnvMatches(task, worlds, 0, **settings)
     matches.load_state_dict(state)
     return matches

@@ -7,8 +7,9 @@ import pettingzoo
 def register_ids(name: str, learners: int | None) -> None:
     """Register a task as `rsoccer/{name}`.
 
-    Gymnasium gets tasks with one learner, PettingZoo (1.27 and later) tasks with any number of
-    learners. Entry points are registered as text, so registration imports no environment.
+    Gymnasium and PettingZoo (1.27 and later) get tasks with any number of learners. With several,
+    `gymnasium.make` needs the option `learner`, and the rows of `gymnasium.make_vec` are robots.
+    Entry points are registered as text, so registration imports no environment.
 
     Args:
         name: name of the task, such as "VSS-v0".
@@ -16,12 +17,13 @@ def register_ids(name: str, learners: int | None) -> None:
             no defaults, register nothing.
     """
     env_id = f"rsoccer/{name}"
-    if learners == 1:
+    if learners:
+        robots = "rsoccer.envs.robots_vector:robots_vector_env"
         gymnasium.registry.pop(env_id, None)
         gymnasium.register(
             env_id,
             entry_point="rsoccer.envs.single:single_env",
-            vector_entry_point="rsoccer.envs.vector:vector_env",
+            vector_entry_point="rsoccer.envs.vector:vector_env" if learners == 1 else robots,
             kwargs={"task": name},
         )
     if learners and hasattr(pettingzoo, "register"):  # since 1.27

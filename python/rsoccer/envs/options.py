@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,54 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
 from rsoccer.envs import spaces
+from rsoccer.frame import team_of
+from rsoccer.lineup import DEFAULT_OPPONENT
 from rsoccer.task import LEARN, Task
+from rsoccer.view import SIDES
+
+
+def learner_controllers(
+    task: Task, learner: str | None, controllers: Controllers | None
+) -> dict[str, Controller]:
+    """Return a controller for each robot.
+
+    Args:
+        task: the task that is played.
+        learner: the only robot that learns; None for all robots that the task and the controllers
+            let learn.
+        controllers: controllers of the other robots, by robot, team or "all". `DEFAULT_OPPONENT`
+            replaces the task's other learners where a learner and no controller is given.
+
+    Raises:
+        TypeError: something that is not a controller.
+        ValueError: an unknown robot, or no robot that learns.
+    """
+    given = given_by_name(controllers)
+    if learner is not None:
+        if learner not in task.robots:
+            raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")
+        named = {"all", *SIDES, *task.robots}.intersection(given)
+        others = [name for name in task.agents if not {"all", team_of(name), name} & named]
+        given = {**given, **dict.fromkeys(others, DEFAULT_OPPONENT), learner: LEARN}
+    resolved = resolve(task, given)
+    require_learners([robot for robot, controller in resolved.items() if controller is LEARN])
+    return resolved
+
+
+def require_learners(learners: Sequence[str]) -> None:
+    """Refuse an environment without learners.
+
+    Args:
+        learners: names of the robots that learn.
+
+    Raises:
+        ValueError: there are none.
+    """
+    if not learners:
+        raise ValueError(
+            "controllers: expected at least one learner, got none; rsoccer.Matches runs "
+            "without learners"
+        )
 
 
 def single_learner_controllers(
@@ -23,24 +70,19 @@ def single_learner_controllers(
     Args:
         task: the task that is played.
         learner: the robot that learns; None if the task and the controllers leave one only.
-        controllers: controllers of the other robots, by robot, team or "all".
+        controllers: controllers of the other robots, as for `learner_controllers`.
 
     Raises:
         TypeError: something that is not a controller.
         ValueError: an unknown robot, or none or several robots that learn.
     """
-    given = given_by_name(controllers)
-    if learner is not None:
-        if learner not in task.robots:
-            raise ValueError(f"learner: expected one of {list(task.robots)}, got {learner!r}")
-        given[learner] = LEARN
-    resolved = resolve(task, given)
+    resolved = learner_controllers(task, learner, controllers)
     learners = [robot for robot, controller in resolved.items() if controller is LEARN]
     if len(learners) != 1:
         raise ValueError(
-            f"{task.name}: expected exactly one learner, got {learners or 'none'}: name the "
-            "learner and the other robots' controllers, as in "
-            f"learner={task.robots[0]!r}, controllers={{'all': 'ou'}}"
+            f"{task.name}: expected exactly one learner, got {learners}: name the learner and the "
+            f"other robots' controllers, as in learner={task.robots[0]!r}, "
+            "controllers={'all': 'ou'}"
         )
     return resolved
 

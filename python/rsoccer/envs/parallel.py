@@ -10,7 +10,6 @@
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Mapping
 from typing import Any
 
@@ -24,7 +23,7 @@ from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import agent_dicts, spaces
 from rsoccer.envs.env_matches import EnvMatches
-from rsoccer.envs.options import initial_rows, reset_options
+from rsoccer.envs.options import initial_rows, require_learners, reset_options
 from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
 from rsoccer.registry import resolve_task, with_max_steps
@@ -151,9 +150,10 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
     termination (the task's end, such as a goal) or by truncation (the time limit). `agents` is
     empty from then on, until the next `reset`.
 
-    Infos: one empty dictionary per agent. Trainers derive a fixed set of numbers from the infos of
-    a reset and expect all of them in every step, so metrics of an ended episode are in
-    `last_metrics` instead.
+    Infos: one dictionary per agent, empty except in the last step of an episode. Then each holds
+    the task's metrics, such as `goal_score`, and `steps`, as floats; and `TimeLimit.truncated`,
+    from which Stable-Baselines3 (through SuperSuit) concludes that the value of the last
+    observation is to be bootstrapped. `last_metrics` keeps the metrics.
 
     Seeding: `reset(seed=s)` begins the same episode in every environment of the same task, whatever
     was played before. Without a seed the random streams continue; those of a new environment begin
@@ -163,7 +163,8 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
     Rendering: `render_mode` is None, "rgb_array" (`render` returns an image) or "human" (`reset`
     and `step` draw into a window).
 
-    Copies by `copy.deepcopy` or `pickle` continue with the same future.
+    Copies by `copy.deepcopy` or `pickle` continue with the same future; copies of an environment
+    that was never reset begin with random seeds of their own.
 
     Attributes:
         agents: names of the agents that act in the next step; all or none.
@@ -197,17 +198,10 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         self._viewer = Viewer(render_mode, task)
         self.render_mode = render_mode
         self.last_metrics: dict[str, float] = {}
-        # A random seed: two environments without a seed must not play the same match.
-        self._matches = EnvMatches(
-            task, 1, secrets.randbits(63), controllers=controllers, autoreset="disabled"
-        )
+        self._matches = EnvMatches.unseeded(task, 1, controllers=controllers, autoreset="disabled")
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
-        if not self.possible_agents:
-            raise ValueError(
-                "controllers: expected at least one learner, got none; rsoccer.Matches runs "
-                "without learners"
-            )
+        require_learners(self.possible_agents)
         self.metadata = metadata(task) | {"is_parallelizable": True}
         # One space per agent: a seed for one agent's samples must not affect another's.
         agents = self.possible_agents
@@ -317,7 +311,8 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
 
         Returns:
             Five dictionaries by agent name: observations (o,), rewards (sums of the task's
-            terms), terminations, truncations, and empty infos.
+            terms), terminations, truncations, and infos; those of the last step of an episode
+            hold the metrics.
 
         Raises:
             ClosedEnvironmentError: the environment is closed.
@@ -335,9 +330,13 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             agent_dicts.check_actions(actions, self.agents, self.task)
             raise
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
+        infos = self._empty_infos()
         if terminated or truncated:
             self.agents = []
             self.last_metrics = self._matches.episode_info(outcome)
+            for info in infos.values():
+                info.update(self.last_metrics)
+                info["TimeLimit.truncated"] = truncated
         if self.render_mode == "human":
             self.render()
         return (
@@ -345,7 +344,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             dict(zip(self.possible_agents, outcome.rewards[0].tolist(), strict=True)),
             dict.fromkeys(self.possible_agents, terminated),
             dict.fromkeys(self.possible_agents, truncated),
-            self._empty_infos(),
+            infos,
         )
 
     def _empty_infos(self) -> Infos:

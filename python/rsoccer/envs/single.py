@@ -24,7 +24,7 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
 from rsoccer.envs import spaces
-from rsoccer.envs.env_matches import EnvMatches, SingleLearner
+from rsoccer.envs.env_matches import EnvMatches, SeededCopies, SingleLearner, random_seed
 from rsoccer.envs.options import (
     action_array,
     initial_rows,
@@ -58,7 +58,8 @@ def single_env(
         learner: the robot that learns, such as "blue_0"; needed for tasks with several learners.
             It takes precedence over `controllers`.
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
-            policy, its name or its file. The task's defaults apply elsewhere.
+            policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
+            further learners if `learner` is given.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         **options: options of a registered task, the fields of its class.
 
@@ -86,7 +87,7 @@ def single_env(
 single_env.metadata = {"render_modes": list(RENDER_MODES)}  # type: ignore[attr-defined]
 
 
-class SoccerEnv(ViewedMatch, SingleLearner, gymnasium.Env[Floats, Any]):
+class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, Any]):
     """One match of a task with one learner, as a Gymnasium Env.
 
     Spaces: observations are Box (o,) float32. Actions are Box (action,) float32 from -1 to 1;
@@ -106,7 +107,8 @@ class SoccerEnv(ViewedMatch, SingleLearner, gymnasium.Env[Floats, Any]):
     Rendering: `render_mode` is None, "rgb_array" (`render` returns an image) or "human" (`reset`
     and `step` draw into a window).
 
-    Copies by `copy.deepcopy` or `pickle` continue with the same future.
+    Copies by `copy.deepcopy` or `pickle` continue with the same future; copies of an environment
+    that was never reset begin with random seeds of their own.
 
     Attributes:
         observation_space: Box (o,) float32; `task.blocks` names the parts.
@@ -141,7 +143,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, gymnasium.Env[Floats, Any]):
         self._matches = EnvMatches(
             task,
             1,
-            self.np_random_seed,
+            random_seed(self),
             controllers=single_learner_controllers(task, learner, controllers),
             autoreset="disabled",
         )

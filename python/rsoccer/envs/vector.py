@@ -12,32 +12,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from typing import Any
 
-import numpy as np
-from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space
-from numpy.typing import NDArray
+from gymnasium.vector import AutoresetMode
 
-from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
-from rsoccer.envs.env_matches import EnvMatches, SingleLearner
-from rsoccer.envs.options import (
-    action_array,
-    initial_rows,
-    reset_options,
-    single_learner_controllers,
-)
-from rsoccer.envs.viewer import Image, Viewer, metadata
-from rsoccer.matches import Outcome
+from rsoccer.envs.env_matches import SingleLearner
+from rsoccer.envs.options import single_learner_controllers
+from rsoccer.envs.robots_vector import RobotsVectorEnv
 from rsoccer.registry import resolve_task
 from rsoccer.task import Task
-
-RENDER_MODES = ("rgb_array",)
-
-Infos = dict[str, Any]
 
 
 def vector_env(
@@ -62,7 +46,8 @@ def vector_env(
         learner: the robot that learns in every match, such as "blue_0"; needed for tasks with
             several learners. It takes precedence over `controllers`.
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
-            policy, its name or its file. The task's defaults apply elsewhere.
+            policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
+            further learners if `learner` is given.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its action and pays no reward), "same_step" (within
@@ -99,7 +84,7 @@ def vector_env(
     )
 
 
-class SoccerVectorEnv(SingleLearner, VectorEnv[Floats, Array, Array]):
+class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
     """n matches of a task with one learner each, as a Gymnasium VectorEnv.
 
     Spaces: observations are Box (n, o) float32. Actions are Box (n, action) float32 from -1 to 1;
@@ -121,7 +106,8 @@ class SoccerVectorEnv(SingleLearner, VectorEnv[Floats, Array, Array]):
 
     Rendering: `render_mode` is None or "rgb_array" (`render` returns an image of each match).
 
-    Copies by `copy.deepcopy` or `pickle` continue with the same future.
+    Copies by `copy.deepcopy` or `pickle` continue with the same future; copies of an environment
+    that was never reset begin with random seeds of their own.
 
     Attributes:
         num_envs: number of matches, n.
@@ -161,155 +147,11 @@ class SoccerVectorEnv(SingleLearner, VectorEnv[Floats, Array, Array]):
             ValueError: an unknown mode, robot or controller, a number out of range, or not
                 exactly one learner.
         """
-        self._viewer = Viewer(render_mode, task, RENDER_MODES)
-        self.render_mode = render_mode
-        self.autoreset_mode = _autoreset_mode(autoreset_mode)
-        self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
-        self._matches = EnvMatches(
+        super().__init__(
             task,
             num_envs,
-            int(self.np_random_seed or 0),  # drawn at random: there is no seed yet
-            threads=threads,
+            render_mode,
             controllers=single_learner_controllers(task, learner, controllers),
-            autoreset=self.autoreset_mode.name.lower(),
+            threads=threads,
+            autoreset_mode=autoreset_mode,
         )
-        self.num_envs = self._matches.worlds
-        self.single_observation_space = spaces.observation_space(task)
-        self.single_action_space = spaces.action_space(task)
-        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
-        self.action_space = batch_space(self.single_action_space, self.num_envs)
-
-    def reset(
-        self,
-        *,
-        seed: int | Sequence[int | None] | None = None,
-        options: Mapping[str, Any] | None = None,
-    ) -> tuple[Floats, Infos]:
-        """Begin episodes.
-
-        Args:
-            seed: match i is seeded with `seed + i`, or with `seed[i]`. The same seed gives the
-                same episodes, whatever was played before. None: random streams continue, of all
-                matches or of those with None.
-            options: `options["reset_mask"]` (n,) bool selects the matches to reset, all by
-                default. `options["frame"]` is an initial state (row,) for all of them, or (n, row)
-                with one for each of the n matches, in the layout of `Frame.rows`, in place of the
-                task's own. Other keys are ignored.
-
-        Returns:
-            Observations (n, o) float32 of all matches, and empty infos.
-
-        Raises:
-            ClosedEnvironmentError: the environment is closed.
-            RuntimeError: a reset of some matches while they are inconsistent after a failure.
-            TypeError: a seed or options of the wrong type. Nothing has changed.
-            ValueError: a negative seed, a wrong shape, a mask without a match, or an initial state
-                with bodies that overlap or are outside. Nothing has changed.
-        """
-        self._viewer.check_open("reset")
-        options = reset_options(options)
-        mask = _reset_mask(options, self.num_envs)
-        rows = initial_rows(options, self.task, mask)
-        observations = self._matches.reset(seed, mask, rows)
-        if isinstance(seed, int | np.integer):
-            super().reset(seed=int(seed))
-        elif seed is not None:
-            self._np_random_seed = -1  # Gymnasium's value for seeds that one number cannot express
-        return observations[:, 0], {}
-
-    def step(self, actions: Array) -> tuple[Floats, Doubles, Mask, Mask, Infos]:
-        """Advance all matches by one control step.
-
-        Args:
-            actions: (n, action) floats, clipped to [-1, 1], or (n,) indices for tasks with an
-                `action_table`.
-
-        Returns:
-            Observations (n, o) float32, rewards (n,) float64, terminations (n,), truncations (n,)
-            and infos, which hold metrics where episodes ended.
-
-        Raises:
-            ClosedEnvironmentError: the environment is closed.
-            RuntimeError: a match has not begun, or has ended and needs a reset ("disabled"), or the
-                matches are inconsistent after a failure.
-            TypeError: actions of the wrong type. Nothing has changed.
-            ValueError: actions with a wrong shape or value. Nothing has changed.
-        """
-        self._viewer.check_open("step")
-        if self.autoreset_mode is AutoresetMode.DISABLED:
-            self._matches.check_running()
-        vectors = action_array(self.task, actions, self.action_space)
-        steps = self._matches.play.steps + 1
-        outcome = self._matches.step(vectors[:, None])
-        return (
-            outcome.observations[:, 0],
-            outcome.rewards[:, 0].astype(np.float64),
-            outcome.terminated,
-            outcome.truncated,
-            self._infos(outcome, steps),
-        )
-
-    def render(self) -> tuple[Image, ...] | None:
-        """Render all matches.
-
-        Returns:
-            Images (height, width, 3) uint8, one per match; None without a render mode, which warns.
-
-        Raises:
-            ClosedEnvironmentError: the environment is closed.
-            RuntimeError: a match has not begun.
-        """
-        if self.render_mode is None:
-            self._viewer.render(self._matches)
-            return None
-        return tuple(self._viewer.image(self._matches, world) for world in range(self.num_envs))
-
-    def close_extras(self, **kwargs: Any) -> None:  # noqa: ANN401  (Gymnasium's own)
-        """Refuse later calls: `reset`, `step` and `render` raise `ClosedEnvironmentError`.
-
-        Args:
-            **kwargs: ignored.
-        """
-        self._viewer.close()
-
-    def _infos(self, outcome: Outcome, steps: NDArray[np.int64]) -> Infos:
-        """Metrics and steps of the matches that have ended, in Gymnasium's form."""
-        ended = outcome.ended
-        if not ended.any():
-            return {}
-        metrics = {name: value.astype(np.float64) for name, value in outcome.metrics.items()}
-        metrics["steps"] = steps.astype(np.float64)
-        infos = _with_masks({name: np.where(ended, metrics[name], 0.0) for name in metrics}, ended)
-        if self.autoreset_mode is not AutoresetMode.SAME_STEP:
-            return infos
-        last = np.full(self.num_envs, None, np.object_)
-        for world in np.flatnonzero(ended):
-            last[world] = outcome.final_observations[world, 0].copy()
-        return _with_masks({"final_obs": last, "final_info": infos}, ended)
-
-
-def _autoreset_mode(given: AutoresetMode | str) -> AutoresetMode:
-    """Autoreset mode by itself, its name ("next_step") or its value ("NextStep")."""
-    for mode in AutoresetMode:
-        if given in (mode, mode.name.lower(), mode.value):
-            return mode
-    valid = [mode.name.lower() for mode in AutoresetMode]
-    raise ValueError(f"autoreset_mode: expected one of {valid}, got {given!r}")
-
-
-def _reset_mask(options: Mapping[str, Any], n: int) -> Mask:
-    """Mask (n,) of the matches to reset; all without the option."""
-    given = options.get("reset_mask")
-    if given is None:
-        return np.ones(n, np.bool_)
-    if not isinstance(given, np.ndarray) or given.dtype != np.bool_ or given.shape != (n,):
-        got = f"{given.dtype} {given.shape}" if isinstance(given, np.ndarray) else repr(given)
-        raise ValueError(f"options['reset_mask']: expected a bool array ({n},), got {got}")
-    if not given.any():
-        raise ValueError("options['reset_mask']: expected at least one match to reset, got none")
-    return given
-
-
-def _with_masks(infos: Infos, mask: Mask) -> Infos:
-    """Infos, each with a copy of the mask under its name with an underscore."""
-    return infos | {f"_{name}": mask.copy() for name in infos}

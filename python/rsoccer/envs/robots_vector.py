@@ -1,0 +1,401 @@
+"""Many matches for Gymnasium in which every robot that learns is an environment of its own.
+
+>>> import rsoccer
+>>> envs = rsoccer.robots_vector_env("VSSSelfPlay-v0", matches=8, threads=2)
+>>> observations, infos = envs.reset(seed=0)
+>>> for _ in range(10):
+...     actions = envs.action_space.sample()
+...     observations, rewards, terminations, truncations, infos = envs.step(actions)
+>>> observations.shape[0]  # six robots in each of eight matches
+48
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+
+from rsoccer import checks
+from rsoccer.arrays import Array, Doubles, Floats, Mask
+from rsoccer.controllers import Controllers
+from rsoccer.envs import spaces
+from rsoccer.envs.env_matches import EnvMatches, SeededCopies, random_seed
+from rsoccer.envs.options import (
+    action_array,
+    initial_rows,
+    learner_controllers,
+    reset_options,
+)
+from rsoccer.envs.viewer import Image, Viewer, metadata
+from rsoccer.matches import Outcome
+from rsoccer.registry import resolve_task
+from rsoccer.task import LEARN, Task
+
+RENDER_MODES = ("rgb_array",)
+
+Infos = dict[str, Any]
+A = TypeVar("A", bound=Array)
+
+
+def robots_vector_env(
+    task: Task | str,
+    num_envs: int | None = None,
+    render_mode: str | None = None,
+    *,
+    matches: int | None = None,
+    learner: str | None = None,
+    controllers: Controllers | None = None,
+    threads: int = 1,
+    autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+    max_steps: int | None = None,
+    max_episode_steps: int | None = None,
+    **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
+) -> RobotsVectorEnv:
+    """Return a task as a native Gymnasium VectorEnv with a row for each robot that learns.
+
+    Args:
+        task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
+        num_envs: number of rows, a multiple of the number of robots that learn in a match; None
+            for that of `matches`.
+        render_mode: "rgb_array" for images of all matches from `render`, or None.
+        matches: number of matches, at least 1, in place of `num_envs`; 1 if neither is given.
+        learner: the only robot that learns, such as "blue_0"; None for all robots that the task
+            and `controllers` let learn.
+        controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
+            policy, its name or its file; `LEARN` makes a robot a row. The task's defaults apply
+            elsewhere, and "ou" in place of further learners if `learner` is given.
+        threads: threads for physics, at least 1. Results do not depend on their number.
+        autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
+            (the next step resets it, ignores its actions and pays no reward), "same_step" (within
+            the step that ends it) or "disabled" (it waits for `reset`).
+        max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
+        max_episode_steps: the same by Gymnasium's name, for `gymnasium.make_vec`; `max_steps`
+            takes precedence.
+        **options: options of a registered task, the fields of its class.
+
+    Returns:
+        Environments to `reset`. `RobotsVectorEnv` describes rows, spaces, infos and seeding.
+
+    Raises:
+        TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
+            object.
+        ValueError: an unknown task, robot, controller or mode, a value out of range, both
+            `num_envs` and `matches`, or no robot that learns.
+
+    Example:
+        >>> import rsoccer
+        >>> envs = rsoccer.robots_vector_env("VSSMulti-v0", 12, autoreset_mode="same_step")
+        >>> envs.robots
+        ('blue_0', 'blue_1', 'blue_2')
+        >>> envs.matches
+        4
+    """
+    time_limit = max_episode_steps if max_steps is None else max_steps
+    task = resolve_task(task, time_limit, options)
+    resolved = learner_controllers(task, learner, controllers)
+    return RobotsVectorEnv(
+        task,
+        _match_count(num_envs, matches, list(resolved.values()).count(LEARN)),
+        render_mode,
+        controllers=resolved,
+        threads=threads,
+        autoreset_mode=autoreset_mode,
+    )
+
+
+class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
+    """n matches of a task as a Gymnasium VectorEnv with a row for each robot that learns.
+
+    Rows: with k robots that learn in a match, row `i * k + j` is robot `robots[j]` of match i, and
+    `num_envs` is `n * k`. All robots of a match begin and end together.
+
+    Spaces: observations are Box (rows, o) float32. Actions are Box (rows, action) float32 from -1
+    to 1; values beyond are clipped. Tasks with an `action_table` have MultiDiscrete actions
+    (rows,).
+
+    Rewards are (rows,) float64, `terminations` (the task's end of an episode, such as a goal) and
+    `truncations` (the time limit) are (rows,) bool.
+
+    Infos: empty, except for steps in which episodes end. Then they hold an array (rows,) float64
+    for each metric of the task, such as `goal_score`, and for `steps`; each has a mask (rows,) bool
+    under the same name with an underscore, such as `_goal_score`. With "same_step" these arrays are
+    inside `final_info`, and `final_obs` (rows,) holds the last observations (o,) of the episodes
+    that ended, None elsewhere; both with masks.
+
+    Seeding: `reset(seed=s)` seeds match i with `s + i`. Match i then equals, bit for bit, a
+    `SoccerParallelEnv` with the seed `s + i`. Without a seed the random streams continue; those of
+    a new environment begin with a random seed. The sampling of the action space has a seed of its
+    own: `envs.action_space.seed(s)`.
+
+    Rendering: `render_mode` is None or "rgb_array" (`render` returns an image for each row, which
+    the rows of a match share).
+
+    Copies by `copy.deepcopy` or `pickle` continue with the same future; copies of an environment
+    that was never reset begin with random seeds of their own.
+
+    Attributes:
+        num_envs: number of rows.
+        observation_space: Box (rows, o) float32.
+        action_space: Box (rows, action) float32 from -1 to 1, or MultiDiscrete (rows,).
+        single_observation_space: Box (o,) float32 of one row; `task.blocks` names the parts.
+        single_action_space: Box (action,) float32 or Discrete, of one row.
+        autoreset_mode: the `AutoresetMode`, also in `metadata`.
+        render_mode: "rgb_array" or None.
+        metadata: `name`, `render_modes`, `render_fps` and `autoreset_mode`.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        matches: int = 1,
+        render_mode: str | None = None,
+        *,
+        controllers: Controllers | None = None,
+        threads: int = 1,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+    ) -> None:
+        """Prepare matches; `reset` begins them.
+
+        Args:
+            task: the task that is played.
+            matches: number of matches, n, at least 1.
+            render_mode: "rgb_array" or None.
+            controllers: policies of robots that do not learn, as for `robots_vector_env`.
+            threads: threads for physics, at least 1.
+            autoreset_mode: reset of a match that ended, as for `robots_vector_env`.
+
+        Raises:
+            TypeError: an argument of the wrong type.
+            ValueError: an unknown mode or controller, a number out of range, or no robot that
+                learns.
+        """
+        self._viewer = Viewer(render_mode, task, RENDER_MODES)
+        self.render_mode = render_mode
+        self.autoreset_mode = _autoreset_mode(autoreset_mode)
+        self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
+        self._matches = EnvMatches(
+            task,
+            matches,
+            random_seed(self),
+            threads=threads,
+            controllers=learner_controllers(task, None, controllers),
+            autoreset=self.autoreset_mode.name.lower(),
+        )
+        self.num_envs = self.matches * len(self.robots)
+        self.single_observation_space = spaces.observation_space(task)
+        self.single_action_space = spaces.action_space(task)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+
+    @property
+    def task(self) -> Task:
+        """Task that is played."""
+        return self._matches.task
+
+    @property
+    def matches(self) -> int:
+        """Number of matches, n."""
+        return self._matches.worlds
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of the robots that learn in a match, in the order of their rows."""
+        return self._matches.agents
+
+    def states(self) -> Floats:
+        """Return the global state of each row's match, for centralized critics.
+
+        Returns:
+            (rows, state) float32, as `Matches.states` returns it, repeated for the robots of a
+            match.
+        """
+        return self._rows(self._matches.states())
+
+    def final_states(self) -> Floats:
+        """Return the global states that belong to `final_obs`; equal to `states` elsewhere.
+
+        Returns:
+            (rows, state) float32, as `Matches.final_states` returns it, repeated for the robots of
+            a match.
+        """
+        return self._rows(self._matches.final_states())
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: Mapping[str, Any] | None = None,
+    ) -> tuple[Floats, Infos]:
+        """Begin episodes.
+
+        Args:
+            seed: match i is seeded with `seed + i`, or with `seed[i]`. The same seed gives the
+                same episodes, whatever was played before. None: random streams continue, of all
+                matches or of those with None.
+            options: `options["reset_mask"]` (rows,) bool selects the matches to reset, all by
+                default; it has to be equal for the robots of a match. `options["frame"]` is an
+                initial state (row,) for all of them, or (n, row) with one for each of the n
+                matches, in the layout of `Frame.rows`, in place of the task's own. Other keys are
+                ignored.
+
+        Returns:
+            Observations (rows, o) float32 of all matches, and empty infos.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: a reset of some matches while they are inconsistent after a failure.
+            TypeError: a seed or options of the wrong type. Nothing has changed.
+            ValueError: a negative seed, a wrong shape, a mask without a match or with a part of
+                one, or an initial state with bodies that overlap or are outside. Nothing has
+                changed.
+        """
+        self._viewer.check_open("reset")
+        options = reset_options(options)
+        mask = _reset_mask(options, self.matches, len(self.robots))
+        rows = initial_rows(options, self.task, mask)
+        observations = self._matches.reset(seed, mask, rows)
+        if isinstance(seed, int | np.integer):
+            super().reset(seed=int(seed))
+        elif seed is not None:
+            self._np_random_seed = -1  # Gymnasium's value for seeds that one number cannot express
+        return self._flat(observations), {}
+
+    def step(self, actions: Array) -> tuple[Floats, Doubles, Mask, Mask, Infos]:
+        """Advance all matches by one control step.
+
+        Args:
+            actions: (rows, action) floats, clipped to [-1, 1], or (rows,) indices for tasks with an
+                `action_table`.
+
+        Returns:
+            Observations (rows, o) float32, rewards (rows,) float64, terminations (rows,),
+            truncations (rows,) and infos, which hold metrics where episodes ended.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: a match has not begun, or has ended and needs a reset ("disabled"), or the
+                matches are inconsistent after a failure.
+            TypeError: actions of the wrong type. Nothing has changed.
+            ValueError: actions with a wrong shape or value. Nothing has changed.
+        """
+        self._viewer.check_open("step")
+        if self.autoreset_mode is AutoresetMode.DISABLED:
+            self._matches.check_running()
+        vectors = action_array(self.task, actions, self.action_space)
+        shape = (self.matches, len(self.robots), vectors.shape[-1])
+        outcome = self._matches.step(vectors.reshape(shape))
+        return (
+            self._flat(outcome.observations),
+            outcome.rewards.astype(np.float64).reshape(-1),
+            self._rows(outcome.terminated),
+            self._rows(outcome.truncated),
+            self._infos(outcome),
+        )
+
+    def render(self) -> tuple[Image, ...] | None:
+        """Render all matches.
+
+        Returns:
+            Images (height, width, 3) uint8, one per row; None without a render mode, which warns.
+
+        Raises:
+            ClosedEnvironmentError: the environment is closed.
+            RuntimeError: a match has not begun.
+        """
+        if self.render_mode is None:
+            self._viewer.render(self._matches)
+            return None
+        images = [self._viewer.image(self._matches, match) for match in range(self.matches)]
+        return tuple(image for image in images for _ in self.robots)
+
+    def close_extras(self, **kwargs: Any) -> None:  # noqa: ANN401  (Gymnasium's own)
+        """Refuse later calls: `reset`, `step` and `render` raise `ClosedEnvironmentError`.
+
+        Args:
+            **kwargs: ignored.
+        """
+        self._viewer.close()
+
+    def _infos(self, outcome: Outcome) -> Infos:
+        """Metrics and steps of the matches that have ended, in Gymnasium's form."""
+        episodes = outcome.episodes
+        if episodes is None:
+            return {}
+        mask = self._rows(outcome.ended)
+        infos: Infos = {}
+        metrics: dict[str, Array] = {**episodes.metrics, "steps": episodes.lengths}
+        for name, values in metrics.items():
+            every = np.zeros(self.matches)
+            every[episodes.worlds] = values
+            infos[name] = self._rows(every)
+        infos = _with_masks(infos, mask)
+        if self.autoreset_mode is not AutoresetMode.SAME_STEP:
+            return infos
+        last = np.full(self.num_envs, None, np.object_)
+        final = self._flat(outcome.final_observations)
+        for row in np.flatnonzero(mask):
+            last[row] = final[row].copy()
+        return _with_masks({"final_obs": last, "final_info": infos}, mask)
+
+    def _rows(self, values: A) -> A:
+        """Values (rows, ...) of values (n, ...)."""
+        repeats = len(self.robots)
+        return values if repeats == 1 else values.repeat(repeats, axis=0)  # type: ignore[return-value]
+
+    def _flat(self, values: Floats) -> Floats:
+        """Values (rows, ...) of values (n, robots, ...)."""
+        return values.reshape(self.num_envs, *values.shape[2:])
+
+
+def _match_count(num_envs: int | None, matches: int | None, learners: int) -> int:
+    """Number of matches that has these rows, or is given."""
+    if num_envs is None:
+        return 1 if matches is None else matches
+    if matches is not None:
+        raise ValueError(f"num_envs: expected it or matches, got {num_envs} and {matches}")
+    if checks.integer("num_envs", num_envs, 1) % learners:
+        raise ValueError(
+            f"num_envs: expected a multiple of the {learners} robots that learn in a match, got "
+            f"{num_envs}"
+        )
+    return num_envs // learners
+
+
+def _autoreset_mode(given: AutoresetMode | str) -> AutoresetMode:
+    """Autoreset mode by itself, its name ("next_step") or its value ("NextStep")."""
+    for mode in AutoresetMode:
+        if given in (mode, mode.name.lower(), mode.value):
+            return mode
+    valid = [mode.name.lower() for mode in AutoresetMode]
+    raise ValueError(f"autoreset_mode: expected one of {valid}, got {given!r}")
+
+
+def _reset_mask(options: Mapping[str, Any], n: int, robots: int) -> Mask:
+    """Mask (n,) of the matches to reset; all without the option."""
+    given = options.get("reset_mask")
+    if given is None:
+        return np.ones(n, np.bool_)
+    shape = (n * robots,)
+    if not isinstance(given, np.ndarray) or given.dtype != np.bool_ or given.shape != shape:
+        got = f"{given.dtype} {given.shape}" if isinstance(given, np.ndarray) else repr(given)
+        raise ValueError(f"options['reset_mask']: expected a bool array {shape}, got {got}")
+    if not given.any():
+        raise ValueError("options['reset_mask']: expected at least one match to reset, got none")
+    by_match: Mask = given.reshape(n, robots)
+    mask: Mask = by_match[:, 0]
+    if (by_match != mask[:, None]).any():
+        parts = np.flatnonzero((by_match != mask[:, None]).any(axis=1)).tolist()
+        raise ValueError(
+            f"options['reset_mask']: expected equal values for the {robots} robots of a match, got "
+            f"different ones in matches {parts}"
+        )
+    return mask
+
+
+def _with_masks(infos: Infos, mask: Mask) -> Infos:
+    """Infos, each with a copy of the mask under its name with an underscore."""
+    return infos | {f"_{name}": mask.copy() for name in infos}
