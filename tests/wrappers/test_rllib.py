@@ -20,6 +20,9 @@ single = pytest.importorskip("ray.rllib.env.single_agent_env_runner")
 
 gymnasium.register_envs(rsoccer)
 
+# Each of RLlib's runners registers the same id.
+pytestmark = pytest.mark.filterwarnings("ignore:.*Overriding environment rllib:UserWarning")
+
 MAX_CYCLES = 5
 
 
