@@ -293,14 +293,18 @@ def through_library(task: str, sizes: tuple[int, ...], ways: Mapping[str, Start]
 
 
 def trainer(task: str, worlds: int) -> Benchmark:
-    """Return the benchmark of rollouts and updates of the trainer, and of the example's PPO."""
+    """Return the benchmark of rollouts and updates of the trainer, and of the example's PPO.
+
+    Only with one learner do both play the same matches: in others the trainer has opponents.
+    """
     variants = [
         Variant("trainer", worlds, 2, partial(training, task, engine, worlds, 2), engine)
         for engine in ENGINES
     ]
     pairs = engine_pairs(variants)
-    alike = next(i for i, variant in enumerate(variants) if variant.engine == DEFAULT_ENGINE)
-    pairs.append((len(variants), alike))
-    start = partial(example, task, worlds, 2)
-    variants.append(Variant("examples/13_ppo.py", worlds, 2, start, DEFAULT_ENGINE))
+    if task == LEARNER_TASK:
+        alike = next(i for i, variant in enumerate(variants) if variant.engine == DEFAULT_ENGINE)
+        pairs.append((len(variants), alike))
+        start = partial(example, task, worlds, 2)
+        variants.append(Variant("examples/13_ppo.py", worlds, 2, start, DEFAULT_ENGINE))
     return Benchmark("training", task, tuple(variants), tuple(pairs))

@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from rsoccer import Matches
 
 HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 6, 4  # a decision is held for REPEAT steps
-GAMMA, LAMBDA, CLIP, ENTROPY = 0.91, 0.9, 0.2, 0.002
+GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL = 0.91, 0.9, 0.2, 0.002, 0.02
 
 
 def network(*sizes: int, gain: float) -> nn.Sequential:
@@ -84,23 +84,28 @@ class PPO:
         return [part.flatten(0, 2) for part in parts]
 
     def learn(self, samples: list[Tensor]) -> None:
-        """Update both networks."""
-        for chosen in [c for _ in range(EPOCHS) for c in _minibatches(len(samples[0]))]:
-            inputs, actions, log_probs, advantages, returns = (part[chosen] for part in samples)
-            advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
-            means = self.actor(inputs[:, : self.matches.observation_size])
-            ratio = (self.log_prob(means, actions) - log_probs).exp()
-            clipped = ratio.clamp(1 - CLIP, 1 + CLIP)
-            policy_loss = -torch.minimum(ratio * advantages, clipped * advantages).mean()
-            value_loss = (self.critic(inputs)[:, 0] - returns).square().mean()
-            self.optimiser.zero_grad()
-            (policy_loss + 0.5 * value_loss - ENTROPY * self.log_std.sum()).backward()
-            nn.utils.clip_grad_norm_(self.parameters, 0.5)
-            self.optimiser.step()
+        """Update both networks, until the policy has changed enough."""
+        for _ in range(EPOCHS):
+            order = torch.randperm(len(samples[0])).chunk(MINIBATCHES)
+            changes = [self.update([part[chosen] for part in samples]) for chosen in order]
+            if torch.stack(changes).mean() > TARGET_KL:
+                break
 
-
-def _minibatches(size: int) -> tuple[Tensor, ...]:
-    return torch.randperm(size).chunk(MINIBATCHES)
+    def update(self, samples: list[Tensor]) -> Tensor:
+        """Update both networks on a minibatch; return the KL divergence from the old policy."""
+        inputs, actions, log_probs, advantages, returns = samples
+        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+        means = self.actor(inputs[:, : self.matches.observation_size])
+        log_ratio = self.log_prob(means, actions) - log_probs
+        ratio = log_ratio.exp()
+        clipped = ratio.clamp(1 - CLIP, 1 + CLIP)
+        policy_loss = -torch.minimum(ratio * advantages, clipped * advantages).mean()
+        value_loss = (self.critic(inputs)[:, 0] - returns).square().mean()
+        self.optimiser.zero_grad()
+        (policy_loss + 0.5 * value_loss - ENTROPY * self.log_std.sum()).backward()
+        nn.utils.clip_grad_norm_(self.parameters, 0.5)
+        self.optimiser.step()
+        return (ratio - 1 - log_ratio).mean().detach()
 
 
 def main() -> None:

@@ -104,6 +104,18 @@ def test_ppo_makes_a_first_update_on_every_task(name: str, discrete: bool) -> No
     envs.close()
 
 
+def test_the_seed_of_an_algorithm_seeds_the_matches() -> None:
+    found = []
+    for seed in (3, 3, 4):
+        model = stable_baselines3.PPO(
+            "MlpPolicy", many(), n_steps=24, batch_size=36, n_epochs=1, seed=seed, device="cpu"
+        )
+        model.learn(72)
+        found.append(np.concatenate([part.detach().ravel() for part in model.policy.parameters()]))
+    np.testing.assert_array_equal(found[0], found[1])
+    assert (found[0] != found[2]).any()
+
+
 @pytest.mark.parametrize("algorithm", ["SAC", "TD3", "DQN", "A2C"])
 def test_other_algorithms_make_updates(algorithm: str) -> None:
     envs = many("VSSMulti-v0", 2, discrete=algorithm == "DQN")

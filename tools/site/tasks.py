@@ -133,6 +133,11 @@ def _environments(task: Task) -> str:
     calls = [f'`rsoccer.Matches("{task.name}")`', f'`rsoccer.parallel_env("{task.name}")`']
     if len(task.agents) == 1:
         calls.append(f'`gymnasium.make("rsoccer/{task.name}")`')
+    else:
+        calls += [
+            f'`gymnasium.make("rsoccer/{task.name}", learner="{task.agents[0]}")`',
+            f'`gymnasium.make_vec("rsoccer/{task.name}", {4 * len(task.agents)})`',
+        ]
     return "<br>".join(calls)
 
 
