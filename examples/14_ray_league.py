@@ -4,7 +4,7 @@
 
 On one machine it starts Ray itself; on a cluster run it on the head node, with a folder that all
 machines see. Started again with the same folder it continues from the newest checkpoint. It needs
-`pip install "ray[rllib]" torch`; `docs/scaling.md` explains the numbers.
+`pip install "ray[rllib]>=2.60" torch`; `docs/scaling.md` explains the numbers.
 """
 
 import argparse
@@ -22,6 +22,7 @@ from rsoccer.rllib import League, MatchesEnvRunner, SoccerMultiAgentEnv
 
 def configure(args: argparse.Namespace) -> AlgorithmConfig:
     """Return PPO with a league: blue learns, yellow is the same policy or a past self."""
+    batch = args.matches * args.horizon * max(args.runners, 1) // max(args.learners, 1)
     league = League(size=args.league, every=args.freeze_every)
     return (
         PPOConfig()
@@ -43,11 +44,8 @@ def configure(args: argparse.Namespace) -> AlgorithmConfig:
         .fault_tolerance(restart_failed_env_runners=True)
         .rl_module(model_config=DefaultModelConfig(fcnet_hiddens=[128, 128]))
         .training(
-            train_batch_size_per_learner=args.matches
-            * args.horizon
-            * max(args.runners, 1)
-            // max(args.learners, 1),
-            minibatch_size=4096,
+            train_batch_size_per_learner=batch,
+            minibatch_size=min(4096, batch),
             num_epochs=4,
             lr=3e-4,
             gamma=0.99,

@@ -5,7 +5,7 @@
 >>> env.rollout(100, break_when_any_done=False)["blue", "observation"].shape  # doctest: +SKIP
 torch.Size([64, 100, 3, 74])
 
-The module needs TorchRL 0.14: `pip install torchrl`.
+It needs TorchRL: `pip install "torchrl>=0.14"`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ try:
     from torchrl.envs import EnvBase
     from torchrl.envs.utils import MarlGroupMapType, check_marl_grouping
 except ImportError as error:
-    raise ImportError("rsoccer.torchrl needs TorchRL: pip install torchrl") from error
+    raise ImportError('rsoccer.torchrl needs TorchRL: pip install "torchrl>=0.14"') from error
 
 GroupMap = Mapping[str, Sequence[str]]
 """Names of the learners by group."""

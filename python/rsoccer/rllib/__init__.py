@@ -9,7 +9,7 @@
 ...     .multi_agent(policies={"shared"}, policy_mapping_fn=lambda *_, **__: "shared")
 ... )
 
-The package needs Ray 2.60 with RLlib and torch: `pip install "ray[rllib]" torch`.
+It needs RLlib and torch: `pip install "ray[rllib]>=2.60" torch`.
 """
 
 try:
@@ -17,7 +17,7 @@ try:
     import torch  # noqa: F401
 except ImportError as error:
     raise ImportError(
-        "rsoccer.rllib needs RLlib and torch: pip install 'ray[rllib]' torch"
+        'rsoccer.rllib needs RLlib and torch: pip install "ray[rllib]>=2.60" torch'
     ) from error
 
 from rsoccer.rllib.env import MetricsCallback, SoccerMultiAgentEnv
