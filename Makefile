@@ -21,7 +21,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries format docs site physics golden soak coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries format docs site physics golden soak agreement coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -84,9 +84,14 @@ physics: $(VENV)/built ## measure the physics and regenerate docs/physics.md wit
 golden: $(VENV)/tools ## renew the golden hashes of the physics after a raise of PHYSICS_VERSION
 	RSIM_RENEW_GOLDEN=1 $(CARGO) test --locked --test all golden::
 
-soak: $(VENV)/built ## run ten million ticks of random play and a million steps of crowds per task (many minutes)
-	RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
+soak: $(VENV)/built ## run ten million ticks of random play under each engine and a million steps of crowds per task (many minutes)
+	RSIM_TEST_ENGINE=rapier RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
+	RSIM_TEST_ENGINE=compact RSIM_SOAK_TICKS=10000000 $(CARGO) test --locked --release --test all soak:: -- --nocapture
 	RSOCCER_SOAK_STEPS=1000000 $(BIN)/python -m pytest tests/testing/test_pressure.py --numprocesses auto
+
+agreement: $(VENV)/built ## compare the contact engines over whole matches and a short training (half an hour)
+	$(BIN)/python -m benches.engine_agreement
+	$(BIN)/python -m tools.physics
 
 coverage: $(VENV)/built ## measure the line coverage of Python and Rust (some minutes)
 	$(BIN)/python -m tools.measure_coverage

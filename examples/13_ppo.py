@@ -11,7 +11,7 @@ from torch import Tensor, nn
 from rsoccer import Matches
 
 HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 6, 4  # a decision is held for REPEAT steps
-GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL = 0.91, 0.9, 0.2, 0.002, 0.02
+GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL = 0.91, 0.9, 0.2, 0.002, 0.03
 
 
 def network(*sizes: int, gain: float) -> nn.Sequential:
@@ -35,7 +35,7 @@ class PPO:
         self.critic = network(size + central * matches.state_size, 64, 64, 1, gain=1.0)
         self.log_std = nn.Parameter(torch.full((matches.action_size,), -0.5))
         self.parameters = [*self.actor.parameters(), *self.critic.parameters(), self.log_std]
-        self.optimiser = torch.optim.Adam(self.parameters, 2e-3, eps=1e-5, foreach=True)
+        self.optimiser = torch.optim.Adam(self.parameters, 1e-3, eps=1e-5, foreach=True)
 
     def log_prob(self, means: Tensor, actions: Tensor) -> Tensor:
         """Return the log density of the actions, without its constant."""

@@ -11,6 +11,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
+from rsoccer.replay import Replay, record_replay
 from tests.policies.networks import network_for
 
 
@@ -60,10 +61,11 @@ def test_the_module_runs_as_the_command() -> None:
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        ([], ["list", "train", "evaluate", "watch", "Robot soccer"]),
+        ([], ["list", "train", "evaluate", "watch", "play", "Robot soccer"]),
         (["train"], ["--samples", "decisions to learn from", "--resume"]),
         (["evaluate"], ["POLICY", "--opponents", "half of them as blue", "--json PATH"]),
-        (["watch"], ["POLICY", "--video PATH", "needs no display"]),
+        (["watch"], ["POLICY|REPLAY", "--video PATH", "needs no display", "--html", "--save"]),
+        (["play"], ["TASK", "--robot ROBOT", "--controllers", "keyboard or gamepad"]),
     ],
 )
 def test_help_describes_the_options(
@@ -103,6 +105,17 @@ def test_evaluate_prints_a_table_and_writes_results(
     zero, ou = json.loads(file.read_text())
     assert (zero["opponent"], ou["opponent"]) == ("zero", "ou")
     assert zero["wins"] + zero["draws"] + zero["losses"] == 4
+
+
+def test_evaluate_writes_the_last_match(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    page, saved = tmp_path / "match.html", tmp_path / "match.rsr"
+    options = ["--matches", "2", "--html", str(page), "--save", str(saved)]
+    assert cli.main(["evaluate", "fetch", "--task", "SSLGoToBall-v0", *options]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert printed[-2:] == [f"page: {page}", f"replay: {saved}"]
+    replay = Replay.load(saved)
+    assert (replay.task, replay.names, len(replay.episodes)) == ("SSLGoToBall-v0", ("FETCH", ""), 1)
+    assert page.read_text().startswith("<!doctype html>")
 
 
 def test_evaluate_checks_the_output_folder_before_it_plays(
@@ -211,9 +224,159 @@ def test_the_scoreboard_names_the_policies(player: str, shown: str) -> None:
     assert vars(commands)["_team_name"](player) == shown
 
 
+def test_watch_saves_a_replay_and_plays_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("pygame")
+    saved, page, video = (tmp_path / f"match.{kind}" for kind in ("rsr", "html", "gif"))
+    made = ["watch", "chase", "--seconds", "0.5", "--snapshots", "0.25", "--save", str(saved)]
+    assert cli.main(made) == 0
+    replay = Replay.load(saved)
+    assert (replay.seconds, replay.names, list(replay.snapshots)) == (
+        0.5,
+        ("CHASE", "OU"),
+        [0, 10, 20],
+    )
+    assert f"replay: {saved} (" in capsys.readouterr().out
+    played = ["watch", str(saved), "--video", str(video), "--html", str(page), "--width", "128"]
+    assert cli.main(played) == 0
+    printed = capsys.readouterr().out
+    assert printed.splitlines() == [f"page: {page}", f"video: {video}"]
+    assert video.stat().st_size > 1000
+    assert page.read_text() == replay.to_html()
+
+
+def test_watch_plays_a_replay_in_a_window(tmp_path: Path) -> None:
+    pytest.importorskip("pygame")
+    saved = record_replay(controllers={"all": "zero"}, seconds=0.3).save(tmp_path / "match.rsr")
+    done = run("watch", str(saved), "--speed", "10", "--width", "128", SDL_VIDEODRIVER="dummy")
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", "")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--html", "match.txt"], "html: expected a name ending in .html, got match.txt"),
+        (["--save", "match.html"], "save: expected a name ending in .rsr, got match.html"),
+        (["--save", "absent/match.rsr"], "save: expected a file in a folder that exists"),
+        (["--save", "match.rsr", "--snapshots", "0"], "snapshot_interval: expected a positive"),
+    ],
+)
+def test_watch_refuses_files_that_it_cannot_write(
+    options: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["watch", "chase", *options]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_watch_refuses_bad_replays_and_options_of_matches(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "match.rsr"
+    file.write_bytes(b"something else")
+    assert cli.main(["watch", str(file)]) == 2
+    assert "match.rsr is not a usable replay: magic" in capsys.readouterr().err
+    assert cli.main(["watch", str(file), "--opponent", "ou"]) == 2
+    assert "opponent: expected none for a replay, got ou" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])
 def test_watch_refuses_a_speed_that_is_not_positive(
     speed: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert cli.main(["watch", "--speed", speed]) == 2
     assert "speed" in capsys.readouterr().err
+
+
+# -- play -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("task", ["VSSSelfPlay-v0", "SSLSelfPlay-v0"])
+def test_play_opens_a_window_for_some_seconds(task: str) -> None:
+    pytest.importorskip("pygame")
+    arguments = ["play", task, "--robot", "yellow_1", "--controllers", "blue=zero", "yellow_0=zero"]
+    done = run(*arguments, "--seconds", "1.5", "--width", "128", SDL_VIDEODRIVER="dummy")
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_play_without_a_display_says_so() -> None:
+    pytest.importorskip("pygame")
+    hidden = dict.fromkeys(("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"), "")
+    done = run("play", "VSS-v0", "--seconds", "0.1", "--width", "128", **hidden)
+    assert done.returncode == 2
+    assert "no display to open a window on" in done.stderr
+
+
+def test_play_without_pygame_says_so(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    loaded = [name for name in sys.modules if name.startswith(("rsoccer.render", "rsoccer.human"))]
+    for name in loaded:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    assert cli.main(["play", "VSS-v0"]) == 2
+    assert "pip install 'rsoccer[render]'" in capsys.readouterr().err
+
+
+@pytest.fixture
+def played(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """Replace the session by a record of the task, the controllers and the robot."""
+    session = pytest.importorskip("rsoccer.human.session")
+    played: list[Any] = []
+
+    class Recorded:
+        def __init__(self, task: rsoccer.Task, *teams: Any, names: Any, **_: Any) -> None:  # noqa: ANN401
+            played.append((task.name, *teams, names))
+
+        def run(self, seconds: float) -> None:
+            played.append(seconds)
+
+    monkeypatch.setattr(session, "Session", Recorded)
+    return played
+
+
+def test_play_gives_the_policies_to_the_other_robots(played: list[Any]) -> None:
+    arguments = ["play", "VSSSelfPlay-v0", "--robot", "yellow_1", "--policy", "chase"]
+    arguments += ["--opponent", "ou", "--controllers", "blue_2=zero", "--seconds", "3"]
+    assert cli.main(arguments) == 0
+    (name, controllers, robot, names), seconds = played
+    assert (name, robot, seconds) == ("VSSSelfPlay-v0", "yellow_1", 3.0)
+    assert names == ("OU ZERO", "YOU")
+    assert controllers == {
+        **{f"yellow_{i}": "chase" for i in range(3)},
+        **{f"blue_{i}": "ou" for i in range(2)},
+        "blue_2": "zero",
+    }
+
+
+def test_play_begins_with_the_first_learner(played: list[Any]) -> None:
+    assert cli.main(["play", "SSLContestedPossession-v0", "--controllers", "yellow=zero"]) == 0
+    (_, controllers, robot, names), _ = played
+    assert robot == "blue_0"
+    assert names == ("YOU", "ZERO")
+    assert controllers == {"blue_0": "strike", "yellow_0": "zero"}
+
+
+@pytest.mark.parametrize("entry", ["blue_0", "blue_0=", "=zero"])
+def test_play_refuses_a_controller_without_a_name_or_policy(
+    entry: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("pygame")
+    assert cli.main(["play", "VSS-v0", "--controllers", entry]) == 2
+    assert f"controllers: expected NAME=POLICY, got {entry!r}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["--robot", "red_1"], "robot: expected one of"),
+        (["--controllers", "red=zero"], "controllers: expected a robot, a team or all"),
+        (["--speed", "0"], "speed: expected a positive number"),
+    ],
+)
+def test_play_refuses_wrong_options(
+    arguments: list[str], text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("pygame")
+    assert cli.main(["play", "VSS-v0", *arguments]) == 2
+    assert text in capsys.readouterr().err

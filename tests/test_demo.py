@@ -19,19 +19,19 @@ def test_the_demo_writes_policies_metrics_and_pictures(
     demo: Any = importlib.import_module("rsoccer.demo")
     monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
     register_all()
-    record_match = demo.record_match
+    record_replay = demo.record_replay
 
-    def record_short_match(*args: Any, **options: Any) -> Any:  # noqa: ANN401
-        return record_match(*args, **{**options, "seconds": 0.5})
+    def record_briefly(*args: Any, **options: Any) -> Any:  # noqa: ANN401
+        return record_replay(*args, **{**options, "seconds": 0.5})
 
     monkeypatch.setattr(demo, "TASK", NAME)
-    monkeypatch.setattr(demo, "record_match", record_short_match)
+    monkeypatch.setattr(demo, "record_replay", record_briefly)
     metrics = demo.demo(tmp_path, samples=1, matches=2)  # rounded up to one update
     printed = capsys.readouterr().out
     assert json.loads((tmp_path / "metrics.json").read_text()) == metrics
     assert [evaluation["matches"] for evaluation in metrics["evaluations"]] == [2] * 4
     assert list(metrics["seconds"]) == ["training", "evaluation", "pictures"]
     assert (tmp_path / "untrained.safetensors").is_file()
-    for name in ("policy.safetensors", "curve.png", "match.mp4"):
+    for name in ("policy.safetensors", "curve.png", "match.mp4", "match.html"):
         assert (tmp_path / name).stat().st_size > 1000
         assert str(tmp_path / name) in printed

@@ -212,7 +212,7 @@ def unknown_errors() -> Iterator[str]:
                 yield f"{path}: {name} under Raises is no exception"
 
 
-IMPORTED_ERRORS = {"ClosedEnvironmentError", "Interrupted", "TaskError"}
+IMPORTED_ERRORS = {"ClosedEnvironmentError", "Interrupted", "ReplayError", "TaskError"}
 """Exceptions of called functions, from modules that the caller need not import."""
 
 

@@ -68,7 +68,7 @@ def test_saved_matches_continue_exactly_and_only_with_their_engine(name: str) ->
 
 
 def test_the_default_is_the_reference() -> None:
-    assert SimConfig().engine == rsoccer.make_task("VSS-v0").config.engine == "rapier"
+    assert SimConfig().engine == rsoccer.make_task("VSS-v0").config.engine == "compact"
     assert SimConfig() != SimConfig(engine="compact")
     with pytest.raises(ValueError, match='engine must be "rapier" or "compact", got "box2d"'):
         SimConfig(engine="box2d")

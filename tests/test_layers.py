@@ -33,16 +33,18 @@ LAYERS = [
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate"},
     {"envs.vector"},
     {"__init__"},
-    {"render", "sb3", "testing", "torchrl", "train"},
-    {"rllib"},
+    {"render", "sb3", "testing", "torchrl"},
+    {"replay"},
+    {"train"},
+    {"human", "rllib"},
     {"commands", "demo"},
     {"cli"},
     {"__main__"},
 ]
 KNOWN = set().union(*LAYERS)
 
-# Environments import the renderer when they first render.
-LATE = {("envs.viewer", "render")}
+# Environments and matches import the renderer when they first render.
+LATE = {("envs.viewer", "render"), ("matches.loop", "render")}
 
 
 def module_of(path: Path) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 import rsoccer
 from rsoccer import Matches, make_task
 from rsoccer.controllers import Controllers
+from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, draw_image
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.pygame_import import pygame
@@ -15,7 +16,7 @@ from tools.paths import DOCS
 from tools.solvers import SOLVERS
 
 FOLDER: Final = DOCS / "tasks"
-WIDTH: Final = 420  # pixels
+WIDTH: Final = 640  # pixels
 SECONDS: Final = 1.5  # of play before the moment that is drawn
 
 CONTROLLERS: Final[dict[str, Controllers]] = {
@@ -51,11 +52,16 @@ def draw(name: str) -> Image:
     config = matches.task.config
     seconds = MOMENTS.get(name, SECONDS)
     steps = 0
+    effects = Effects(config)
+    events = effects.update(matches.frame.rows[0], 0.0)
     while steps < round(seconds / config.time_step) and not matches.done[0]:
         matches.step(no_actions)
         steps += 1
+        clock = steps * config.time_step
+        events = effects.update(matches.frame.rows[0], clock, matches.play.commands[0])
+    extras = (*task_overlay(matches), *events)
     row, clock = matches.frame.rows[0], steps * config.time_step
-    return draw_image(config, row, clock=clock, extras=task_overlay(matches), width=WIDTH)
+    return draw_image(config, row, clock=clock, extras=extras, width=WIDTH)
 
 
 def save(path: Path, image: Image) -> None:

@@ -589,8 +589,8 @@ class SimConfig:
         ball: Ball, or the name of its preset. None for the league's default.
         time_step: Length of a control step, s; a whole multiple of `tick`, 1 to 1000 ticks.
         tick: Length of a physics tick, s; above 0 and at most 0.005.
-        engine: Solver of contacts: "rapier" is the reference, "compact" is made for few bodies and
-            faster.
+        engine: Solver of contacts: "compact" is made for few bodies, "rapier" is the slower
+            reference.
 
     Raises:
         ValueError: A name is no preset or no engine, there are more robots than the league allows,
@@ -608,7 +608,7 @@ class SimConfig:
         ball: str | BallModel | None = None,
         time_step: float = 0.025,
         tick: float = 0.005,
-        engine: str = "rapier",
+        engine: str = "compact",
     ) -> SimConfig: ...
     @property
     def field(self) -> Field:

@@ -1,4 +1,4 @@
-"""Entry point of the command `rsoccer list | train | evaluate | watch`, and its errors."""
+"""Entry point of the command `rsoccer list | train | evaluate | watch | play`, and its errors."""
 
 from __future__ import annotations
 

@@ -5,25 +5,43 @@ from __future__ import annotations
 import json
 import math
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import Positional, arg, subcommand
 
 from rsoccer import policies, registry
+from rsoccer.controllers import Controller
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.files import write_atomically
-from rsoccer.lineup import lineup, opponents_of, task_for
+from rsoccer.frame import team_of
+from rsoccer.human.teams import team_controllers
+from rsoccer.lineup import DEFAULT_TASK, lineup, opponents_of, task_for
+from rsoccer.replay.evaluation import record_last_match
+from rsoccer.replay.recorder import record_replay
+from rsoccer.replay.replay import SUFFIX, Replay
 from rsoccer.task import Task
 from rsoccer.train import Args, train
+from rsoccer.view import SIDES
+
+if TYPE_CHECKING:
+    from rsoccer.render.image import Image
 
 _POLICY = arg(
     metavar="POLICY",
     help="a name that `rsoccer list` prints, or the path of a policy file, which plays as it was "
     "trained unless :mean or :sample follows",
 )
+_POLICY_OR_REPLAY = arg(
+    metavar="POLICY|REPLAY",
+    help="a name that `rsoccer list` prints, the path of a policy file, which plays as it was "
+    "trained unless :mean or :sample follows, or of a replay (.rsr)",
+)
 _DEFAULT_TASK = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
+_DEFAULT_PLAYER = "(default: the task's own, or a script where robots learn)"
+_FIRST_ROBOT = "(default: the first learner)"
 _DEFAULT_OPPONENT = "(default: the task's own, or ou where that team learns)"
 
 
@@ -75,20 +93,44 @@ class Evaluate:
     """threads of the simulator"""
     json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
     """file to write the results to as JSON, in addition to the table"""
+    html: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.html file to write: a page that plays the last match in a browser"""
+    save: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.rsr file to write: the last match as a replay, which `rsoccer watch` plays"""
 
     def run(self) -> None:
         """Play the matches, then print the table.
 
         Raises:
-            ValueError: the folder of the JSON file does not exist, or `evaluate` refuses an option.
+            ValueError: the folder of a file does not exist, or `evaluate` refuses an option.
         """
-        if self.json is not None and not self.json.parent.is_dir():
-            raise ValueError(f"json: expected a file in a folder that exists, got {self.json}")
+        _check_output("json", self.json)
+        _check_output("html", self.html, ".html")
+        _check_output("save", self.save, SUFFIX)
         evaluations = [self._against(opponent) for opponent in self.opponents or (None,)]
         _write(f"{evaluations[0].task}\n\n{table(evaluations)}")
         if self.json is not None:
             results = [evaluation.as_dict() for evaluation in evaluations]
             write_atomically(self.json, (json.dumps(results, indent=2) + "\n").encode())
+        if self.html is not None or self.save is not None:
+            self._write_last_match(self.opponents[-1] if self.opponents else None)
+
+    def _write_last_match(self, opponent: str | None) -> None:
+        """Record the last match against the last opponent."""
+        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
+        opponents = opponents_of(task) if opponent is None else [opponent]
+        replay = record_last_match(
+            self.policy,
+            opponent,
+            self.matches,
+            self.seed,
+            task=task,
+            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
+        )
+        if self.html is not None:
+            _write(f"page: {replay.save_html(self.html)}")
+        if self.save is not None:
+            _write(f"replay: {replay.save(self.save)}")
 
     def _against(self, opponent: str | None) -> Evaluation:
         """Evaluation against one opponent."""
@@ -105,10 +147,10 @@ class Evaluate:
 
 @dataclass(frozen=True)
 class Watch:
-    """Show a match in a window, or write it to a video file."""
+    """Show a match or a replay in a window, or write it to files: video, page, replay."""
 
-    policy: Annotated[str, Positional, _POLICY] = "chase"
-    """policy in the place of the learners"""
+    policy: Annotated[str, Positional, _POLICY_OR_REPLAY] = "chase"
+    """policy in the place of the learners, or a replay to play"""
     opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_OPPONENT)] = (
         None
     )
@@ -118,27 +160,75 @@ class Watch:
     seed: int = 0
     """random seed; each seed gives another match"""
     seconds: float = 60.0
-    """seconds of play; a new episode begins when one ends"""
+    """seconds of play; a new episode begins when one ends. A replay has its own duration"""
     speed: float = 1.0
     """speed of the window, above 0: 1 is real time, 2 is twice as fast"""
     width: int | None = None
     """width of the picture in pixels; by default one at which robots can be distinguished"""
     video: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
     """.mp4 or .gif file to write instead of opening a window; needs no display"""
+    html: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.html file to write instead: a page that plays the match in a browser"""
+    save: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.rsr file to write instead: a replay, which `rsoccer watch` plays again"""
+    snapshots: Annotated[
+        float | None, arg(metavar="SECONDS", help_behavior_hint="(default: none)")
+    ] = None
+    """seconds of play between the snapshots of the saved replay, from which it can be resumed"""
 
     def run(self) -> None:
-        """Show the match, or write the video file.
+        """Show the match, or write the files.
 
         Raises:
             ValueError: the speed is not positive and finite, or another option is refused.
         """
         if not 0.0 < self.speed < math.inf:
             raise ValueError(f"speed: expected a positive number, got {self.speed}")
-        from rsoccer.render.record import film_match
-        from rsoccer.render.video import write_video
+        _check_output("html", self.html, ".html")
+        _check_output("save", self.save, SUFFIX)
+        if self.policy.endswith(SUFFIX):
+            self._play_replay(self._load())
+        elif self.html or self.save:
+            self._play_replay(self._record())
+        else:
+            self._play_match()
 
-        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
-        opponents = opponents_of(task) if self.opponent is None else [self.opponent]
+    def _load(self) -> Replay:
+        """The replay that is named in the place of a policy."""
+        for name in ("opponent", "task", "snapshots"):
+            if getattr(self, name) is not None:
+                raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
+        return Replay.load(self.policy)
+
+    def _record(self) -> Replay:
+        """A new match as a replay."""
+        task, opponents = self._task_and_opponents()
+        return record_replay(
+            task,
+            lineup(task, self.policy, self.opponent),
+            self.seed,
+            self.seconds,
+            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
+            snapshot_interval=self.snapshots,
+        )
+
+    def _play_replay(self, replay: Replay) -> None:
+        """Write a replay to the files, or show it."""
+        if self.save is not None:
+            path = replay.save(self.save)
+            _write(f"replay: {path} ({path.stat().st_size / 1024 / replay.seconds:.1f} KiB/s)")
+        if self.html is not None:
+            _write(f"page: {replay.save_html(self.html)}")
+        if self.video is not None or not (self.html or self.save):
+            from rsoccer.replay.film import film_replay
+
+            self._show(replay.task, *film_replay(replay, self.width))
+
+    def _play_match(self) -> None:
+        """Show a new match while it is played."""
+        from rsoccer.render.record import film_match
+
+        task, opponents = self._task_and_opponents()
         images, fps = film_match(
             task,
             lineup(task, self.policy, self.opponent),
@@ -147,16 +237,102 @@ class Watch:
             names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
             width=self.width,
         )
+        self._show(task.name, images, fps)
+
+    def _task_and_opponents(self) -> tuple[Task, list[str]]:
+        """The task, and the policies of the other team."""
+        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
+        return task, opponents_of(task) if self.opponent is None else [self.opponent]
+
+    def _show(self, title: str, images: Iterator[Image], fps: float) -> None:
+        """Write images to the video file, or show them in a window."""
+        from rsoccer.render.video import write_video
+
         if self.video is not None:
             _write(f"video: {write_video(self.video, images, fps)}")
             return
         from rsoccer.render.window import Window
 
-        window = Window(task.name, fps * self.speed)
+        window = Window(title, fps * self.speed)
         for image in images:
             if not window.show(image):
                 break
         window.close()
+
+
+@dataclass(frozen=True)
+class Play:
+    """Drive a robot by keyboard or gamepad, against policies and with them."""
+
+    task: Annotated[str, Positional, arg(metavar="TASK")] = DEFAULT_TASK
+    """task to play"""
+    robot: Annotated[str | None, arg(metavar="ROBOT", help_behavior_hint=_FIRST_ROBOT)] = None
+    """robot to drive first, such as blue_0 or yellow_1"""
+    policy: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = None
+    """policy of the other learners in the driven robot's team"""
+    opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = (
+        None
+    )
+    """policy of the other team"""
+    controllers: Annotated[
+        tuple[str, ...], arg(metavar="NAME=POLICY", help_behavior_hint="(default: none)")
+    ] = ()
+    """policies of single robots, of "blue", "yellow" or "all", as in yellow_0=zero"""
+    seed: int = 0
+    """random seed; each seed gives another match"""
+    seconds: Annotated[float, arg(help_behavior_hint="(default: until the window is closed)")] = (
+        math.inf
+    )
+    """longest duration, in real time"""
+    speed: float = 1.0
+    """speed of play, above 0: 1 is real time, 2 is twice as fast"""
+    width: int | None = None
+    """width of the picture in pixels; by default one at which robots can be distinguished"""
+
+    def run(self) -> None:
+        """Open the window and play.
+
+        Raises:
+            ValueError: a controller without "=", or another option is refused.
+        """
+        from rsoccer.human.session import Session
+
+        task = registry.make_task(self.task)
+        robot = self.robot or next(iter(task.agents or task.robots))
+        controllers = self._controllers(task, robot)
+        session = Session(
+            task,
+            controllers,
+            robot,
+            seed=self.seed,
+            speed=self.speed,
+            width=self.width,
+            names=self._names(task, robot, controllers),
+        )
+        session.run(self.seconds)
+
+    def _controllers(self, task: Task, robot: str) -> dict[str, Controller]:
+        """Policies of all robots: the task's own, then the options, the most specific last."""
+        chosen = team_controllers(task, robot, self.policy, self.opponent)
+        # A team's name overrules the names above it, and a robot's name that of its team.
+        for entry in sorted(self.controllers, key=_rank):
+            name, equals, policy = entry.partition("=")
+            if not (name and equals and policy):
+                raise ValueError(f"controllers: expected NAME=POLICY, got {entry!r}")
+            robots = [r for r in task.robots if name in ("all", team_of(r), r)]
+            if not robots:
+                raise ValueError(
+                    f"controllers: expected a robot, a team or all of {task.name}, got {name!r}"
+                )
+            chosen |= dict.fromkeys(robots, policy)
+        return chosen
+
+    def _names(self, task: Task, robot: str, controllers: dict[str, Controller]) -> tuple[str, str]:
+        """Names of the teams on the score board: the person's, and the other's policies."""
+        others = [name for name in task.robots if team_of(name) != team_of(robot)]
+        policies = dict.fromkeys(_team_name(str(controllers[name])) for name in others)
+        rival = " ".join(policies)
+        return ("YOU", rival) if team_of(robot) == "blue" else (rival, "YOU")
 
 
 Command = (
@@ -164,7 +340,14 @@ Command = (
     | Annotated[Train, subcommand("train")]
     | Annotated[Evaluate, subcommand("evaluate")]
     | Annotated[Watch, subcommand("watch")]
+    | Annotated[Play, subcommand("play")]
 )
+
+
+def _rank(entry: str) -> int:
+    """Order of an option NAME=POLICY: all robots, a team, a robot."""
+    name = entry.partition("=")[0]
+    return 0 if name == "all" else 1 if name in SIDES else 2
 
 
 def _summary(task: Task) -> str:
@@ -184,6 +367,14 @@ def _team_name(player: str) -> str:
         return player.upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()
+
+
+def _check_output(option: str, path: Path | None, suffix: str = "") -> None:
+    """Refuse a file in a folder that does not exist, or with another suffix."""
+    if path is not None and not path.parent.is_dir():
+        raise ValueError(f"{option}: expected a file in a folder that exists, got {path}")
+    if path is not None and suffix and path.suffix != suffix:
+        raise ValueError(f"{option}: expected a name ending in {suffix}, got {path}")
 
 
 def _write(text: str) -> None:

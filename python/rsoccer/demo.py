@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from rsoccer.evaluate import Evaluation, evaluate, table
-from rsoccer.render.record import record_match
+from rsoccer.render.video import write_video
+from rsoccer.replay.film import film_replay
+from rsoccer.replay.recorder import record_replay
 from rsoccer.train import Args, train
 from rsoccer.train.learning_curve import plot_learning_curve
 
@@ -38,7 +40,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         seconds[name] = now - started - sum(seconds.values())
         sys.stdout.write(f"{text} ({seconds[name]:.0f} s)\n")
 
-    policy = train(Args(task=TASK, out=out, samples=samples, overwrite=True))
+    policy = train(Args(task=TASK, out=out, samples=samples, overwrite=True, match_page=False))
     stage("training", f"trained on {samples:,} decisions -> {policy}")
     untrained = out / "untrained.safetensors"
     opponents = ("zero", "uniform", "ou", str(untrained))
@@ -47,15 +49,13 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
     ]
     stage("evaluation", table(evaluations))
     curve = plot_learning_curve(out, out / "curve.png")
-    video = record_match(
-        out / "match.mp4",
-        task=TASK,
-        controllers={"blue": str(policy), "yellow": "ou"},
-        seed=1,
-        seconds=30.0,
-        names=("TRAINED", "OU"),
+    replay = record_replay(
+        TASK, {"blue": str(policy), "yellow": "ou"}, seed=1, seconds=30.0, names=("TRAINED", "OU")
     )
-    stage("pictures", f"watch {video}; learning curve in {curve}")
+    video = write_video(out / "match.mp4", *film_replay(replay))
+    page = replay.save_html(out / "match.html")
+    replay.save(out / "match.rsr")
+    stage("pictures", f"watch {video}, or {page} in a browser; learning curve in {curve}")
     metrics = _metrics(samples, evaluations, seconds)
     (out / "metrics.json").write_text(json.dumps(metrics, indent=2) + "\n")
     return metrics

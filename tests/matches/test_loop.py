@@ -221,3 +221,15 @@ def test_sizes_and_bounds_are_the_tasks() -> None:
     outcome_low, outcome_high = matches.observation_low, matches.observation_high
     shown = matches.reset()
     assert ((outcome_low <= shown) & (shown <= outcome_high)).all()
+
+
+def test_all_observers_have_reward_terms() -> None:
+    teams = {"blue_1": "chase", "yellow": "ou"}  # `ou` observes nothing
+    matches = begun(worlds=2, controllers=teams)
+    assert matches.observer_terms == {}
+    outcome = matches.step(zeros(matches))
+    assert matches.play.observers.tolist() == [0, 1, 2]
+    assert list(matches.observer_terms) == list(outcome.terms)
+    for name, term in matches.observer_terms.items():
+        assert same(np.ascontiguousarray(term[:, [0, 2]]), outcome.terms[name])
+    assert matches.observer_terms["energy"][:, 1].any()

@@ -16,7 +16,7 @@ from rsoccer.render.image import DEFAULT_WIDTHS, WIDTHS, _renderer, default_widt
 from rsoccer.render.overlay import area_shapes
 from rsoccer.render.pitch import is_table, wall_thickness
 from rsoccer.render.scoreboard import scene_bounds
-from rsoccer.render.shapes import Bounds, Color, Point, Pose
+from rsoccer.render.shapes import Bounds, Circle, Color, Point, Pose, Text
 
 SIZES = [320, 640, 1280]
 
@@ -141,6 +141,25 @@ def test_extras_are_drawn(config: SimConfig, row: Floats) -> None:
     inside, outside = (-0.62, -0.48), (0.62, -0.48)
     assert pixel(plain, config, inside) != pixel(with_extras, config, inside)
     assert pixel(plain, config, outside) == pixel(with_extras, config, outside)
+
+
+def test_an_overlay_is_above_robots(config: SimConfig, row: Floats) -> None:
+    x, y = Frame(row[None], config.n_blue, config.n_yellow).robots.position[0, 0].tolist()
+    over = Circle((x, y), 0.1, (1, 200, 3, 255))
+    renderer = Renderer(config)
+    assert close(pixel(renderer.draw(row, overlay=[over]), config, (x, y)), over.color)
+    assert not close(pixel(renderer.draw(row, extras=[over]), config, (x, y)), over.color)
+
+
+@pytest.mark.parametrize("align", [0.0, 0.5, 1.0])
+def test_a_text_is_aligned_at_its_point(config: SimConfig, row: Floats, align: float) -> None:
+    renderer = Renderer(config, 640)
+    plain = renderer.draw(row)
+    text = Text((0.0, 0.5), 0.05, "HHHH", (1, 200, 3, 255), align=align)
+    changed = (renderer.draw(row, overlay=[text]) != plain).any(axis=(0, 2))
+    columns = np.flatnonzero(changed)
+    share = (320 - columns[0]) / (columns[-1] - columns[0])
+    assert share == pytest.approx(align, abs=0.05)
 
 
 def ground_image(config: SimConfig, width: int | None) -> Image:

@@ -11,7 +11,8 @@ from rsoccer import Matches
 from rsoccer.arrays import Floats
 from rsoccer.registry import make_task
 from rsoccer.render import Image, Renderer, film_match, record_match
-from rsoccer.render.record import GOAL_PAUSE, MIN_WIDTH, _images
+from rsoccer.render.record import MIN_WIDTH, _images
+from rsoccer.render.scoreboard import GOAL_PAUSE
 from tests.policies.networks import network_for
 
 CHASE = {"all": "chase"}

@@ -5,7 +5,7 @@ import pytest
 
 from rsoccer._core import RobotModel
 from rsoccer.render import palette
-from rsoccer.render.robot import robot_outlines, robot_shapes
+from rsoccer.render.robot import label_shapes, robot_outlines, robot_shapes
 from rsoccer.render.shapes import Color, Point, Polygon, Pose, Shape, Text
 
 ORIGIN = Pose((0.0, 0.0), 1.0, 0.0)
@@ -120,3 +120,28 @@ def test_a_round_robot_without_a_flat_front_shows_its_heading() -> None:
     shapes = robot_shapes(blunt, ORIGIN, palette.BLUE, 0)
     arrows = [s for s in shapes if isinstance(s, Polygon) and s.color == palette.WHITE]
     assert [arrow.points[0] > (0.0, 0.0) for arrow in arrows] == [True]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=name)
+def test_without_a_number_an_arrow_shows_the_heading(model: RobotModel) -> None:
+    shapes = robot_shapes(model, ORIGIN, palette.BLUE, 0, has_number=False)
+    assert not any(isinstance(s, Text) for s in shapes)
+    arrow = shapes[-1]
+    assert isinstance(arrow, Polygon)
+    assert arrow.color == palette.WHITE
+    assert arrow.points[0] == max(arrow.points)
+    assert max(math.hypot(*p) for p in arrow.points) < 0.8 * robot_outlines(model).size / 2
+
+
+@pytest.mark.parametrize("number", [0, 10])
+def test_a_label_is_behind_its_robot_and_holds_its_number(number: int) -> None:
+    for angle in (0.0, 0.7, 2.0, 4.0):
+        pose = Pose((0.3, -0.2), math.cos(angle), math.sin(angle))
+        plate, text = label_shapes(ROUND, pose, palette.BLUE, number, 0.12)
+        assert isinstance(plate, Polygon)
+        assert isinstance(text, Text)
+        assert text.text == str(number)
+        x, y = text.center[0] - 0.3, text.center[1] + 0.2
+        assert x * pose.cos + y * pose.sin < -ROUND.radius
+        assert x * pose.sin - y * pose.cos == pytest.approx(0.0)
+        assert min(math.dist(p, pose.center) for p in plate.points) > ROUND.radius

@@ -10,13 +10,16 @@ from rsoccer._core import RobotModel
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.render import palette
+from rsoccer.render.ball import drawn_radius
 from rsoccer.render.overlay import target_shapes
 from rsoccer.render.robot import robot_shapes
 from rsoccer.render.scene import background_shapes, foreground_shapes
-from rsoccer.render.scoreboard import Board, score_shapes
+from rsoccer.render.scoreboard import Board, scene_bounds, score_shapes
 from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Pose, Shape, Text
 
 PLAIN = Board()
+LABELLED = ("ssl_a", "ssl_b")
+"""Fields on which a number would be too small on the robot itself."""
 MIRRORS = [(-1, 1), (1, -1), (-1, -1)]
 
 
@@ -82,13 +85,25 @@ def test_every_robot_is_drawn_with_its_number(any_config: SimConfig, any_row: Fl
     texts = [shape for shape in bodies(config, any_row) if isinstance(shape, Text)]
     assert [text.text for text in texts] == ["0", "1", "2", "0", "1", "2"]
     frame = Frame(any_row[None], config.n_blue, config.n_yellow)
+    reach = (3.5 if config.field.name in LABELLED else 0.25) * config.robot.bounding_radius
     for text, position in zip(texts, frame.robots.position[0], strict=True):
-        assert np.hypot(*(position - text.center)) < config.robot.bounding_radius / 4
+        assert np.hypot(*(position - text.center)) < reach
+
+
+def test_robots_too_small_for_a_number_have_a_label_behind_them(any_config: SimConfig) -> None:
+    frame = Frame.empty(1, 3, 3)
+    frame.robots.position[0, :, 0] = np.arange(6)
+    frame.robots.heading[0, :, 1] = 1.0
+    play = foreground_shapes(any_config, frame.rows[0], PLAIN)
+    plates = [s for s in play if isinstance(s, Polygon) and s.color == palette.LABEL]
+    assert len(plates) == (6 if any_config.field.name in LABELLED else 0)
+    for plate in plates:
+        assert all(y < -any_config.robot.bounding_radius for _, y in plate.points)
 
 
 def test_each_robot_is_drawn_as_its_own_model() -> None:
     names = ["ssl_generic", "vss_440rpm", "ssl_ubc", "ssl_erforce"]
-    config = SimConfig("ssl_b", 3, 1, robot=names)
+    config = SimConfig("ssl_challenge", 3, 1, robot=names)
     frame = Frame.empty(1, 3, 1)
     poses = [Pose((0.5 * i, 0.0), 1.0, 0.0) for i in range(4)]
     for i, pose in enumerate(poses):
@@ -96,7 +111,8 @@ def test_each_robot_is_drawn_as_its_own_model() -> None:
     play = foreground_shapes(config, frame.rows[0], PLAIN)
     teams = [(palette.BLUE, i) for i in range(3)] + [(palette.YELLOW, 0)]
     for name, pose, (color, number) in zip(names, poses, teams, strict=True):
-        expected = robot_shapes(RobotModel(name), pose, color, number)
+        has_number = name.startswith("ssl")
+        expected = robot_shapes(RobotModel(name), pose, color, number, has_number=has_number)
         assert set(expected) <= set(play), name
 
 
@@ -127,7 +143,7 @@ def test_a_ball_in_flight_is_drawn_larger(any_config: SimConfig, any_row: Floats
     flying = Frame(any_row[None].copy(), any_config.n_blue, any_config.n_yellow)
     flying.ball.height[0] = 0.4
     (low,), (high,) = radii(any_row), radii(flying.rows[0])
-    assert low == any_config.ball.radius < high
+    assert low == drawn_radius(any_config.ball, scene_bounds(any_config.field).width) < high
 
 
 def test_a_shadow_lies_under_the_robots_and_the_ball_above_them() -> None:

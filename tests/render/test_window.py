@@ -66,6 +66,24 @@ def test_the_user_closes_one_window_and_not_the_other(key: int | None) -> None:
     other.close()
 
 
+def test_a_listener_gets_the_events_of_its_own_window_and_of_none() -> None:
+    heard: list[int] = []
+    window = Window(fps=None, listener=lambda event: heard.append(event.type))
+    other = Window(fps=None)
+    window.show(RED)
+    other.show(RED)
+    pygame.event.clear()
+    heard.clear()
+    for target in (window, other):
+        pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_w, window=target._window))
+    pygame.event.post(pygame.Event(pygame.CONTROLLERDEVICEADDED))
+    window.show(RED)
+    assert heard.count(pygame.KEYDOWN) == 1
+    assert heard.count(pygame.CONTROLLERDEVICEADDED) == 1
+    window.close()
+    other.close()
+
+
 def test_quitting_closes_all_windows() -> None:
     windows = [Window(fps=None), Window(fps=None)]
     for window in windows:

@@ -6,7 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from rsoccer._core import BallModel, Field, RobotModel
+from benches.scenarios import ENGINES
+from rsoccer._core import BallModel, Field, RobotModel, SimConfig
 from tools.physics import cited
 from tools.physics.__main__ import PICTURES
 from tools.physics.check import EXACT, Check, Criterion, Tolerance, absolute, percent
@@ -14,7 +15,8 @@ from tools.physics.closed_form import StraightKick, Surface, bounce, floor
 from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, max_turn_rate
 from tools.physics.kicker import front_offset
 from tools.physics.page import PAGE, format_value, pages_equal, render_page
-from tools.physics.topics import MODULES, TOPICS, checks
+from tools.physics.scene import contact_engine, make_config
+from tools.physics.topics import MODULES, TOPICS, all_checks, checks, engines_of
 from tools.physics.tyre_friction import Motion, motion_after
 
 TEXT = PAGE.read_text()
@@ -32,9 +34,12 @@ TABULATED = {
 }
 
 
-@pytest.mark.parametrize("topic", TOPICS)
-def test_every_number_is_within_its_tolerance(topic: str) -> None:
-    found = checks(topic)
+MEASURED = [(topic, engine) for topic in TOPICS for engine in engines_of(topic)]
+
+
+@pytest.mark.parametrize(("topic", "engine"), MEASURED)
+def test_every_number_is_within_its_tolerance(topic: str, engine: str) -> None:
+    found = checks(topic, engine)
     assert len(found) >= 10
     assert not [str(check) for check in found if not check.passed]
 
@@ -49,6 +54,15 @@ def test_every_criterion_of_a_topic_is_measured(module: object) -> None:
     assert len({criterion.quantity for criterion in criteria}) == len(criteria), (
         "quantities identify criteria"
     )
+
+
+def test_scenes_have_the_contact_engine_of_their_measurement() -> None:
+    assert make_config("ssl_b", 1, 0) == SimConfig("ssl_b", 1, 0)
+    for engine in ENGINES:
+        with contact_engine(engine):
+            assert make_config("ssl_b", 1, 0) == SimConfig("ssl_b", 1, 0, engine=engine)
+    assert make_config("ssl_b", 1, 0).engine == SimConfig().engine
+    assert {engine for engine, _ in all_checks()} == set(ENGINES)
 
 
 def test_a_deviation_above_the_tolerance_fails() -> None:

@@ -11,7 +11,7 @@ import rsoccer
 from rsoccer._core import BALL_COLUMNS, build_info
 from rsoccer.registry import list_options
 from tools.paths import DOCS
-from tools.site import api, docstrings, meanings, solved, source, stub, task_docs, tasks
+from tools.site import api, docstrings, matches, meanings, solved, source, stub, task_docs, tasks
 from tools.solvers import SOLVERS
 
 TASKS = rsoccer.list_tasks()
@@ -32,6 +32,24 @@ def test_every_task_has_a_page_with_all_sections(name: str) -> None:
         assert f"\n## {title}\n" in page
     assert f"# {name}\n" in page
     assert f"]({name}.png)" in page
+
+
+def test_every_task_shows_a_match(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(matches, "SECONDS", 1.0)
+    matches.write(tmp_path)
+    written = sorted(tmp_path.iterdir())
+    assert [path.stem for path in written] == TASKS
+    for path in written:
+        assert 20_000 < path.stat().st_size < 400_000
+        assert f'src="../{matches.FOLDER}/{path.name}"' in tasks.page(path.stem)
+
+
+def test_a_match_is_played_by_the_solver_of_its_task() -> None:
+    replay = matches.record("SSLGoToBall-v0")
+    assert set(replay.controllers.values()) == {SOLVERS["SSLGoToBall-v0"]}
+    assert replay.names == ("FETCH", "")
+    assert replay.seconds == matches.SECONDS
+    assert {event.kind for event in replay.events} >= {"touch", "end"}
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -67,6 +67,7 @@ TINY = {
     "pool_size": 2,
     "pool_interval": 1,
     "progress": False,
+    "match_page": False,
 }
 """Settings of a run of six updates that takes about a second."""
 

@@ -38,6 +38,7 @@ def test_metrics_of_a_task_do_not_replace_columns_of_the_run(tmp_path: Path) -> 
         samples=2 * 3 * 4,
         threads=1,
         progress=False,
+        match_page=False,
         worlds=3,
         horizon=4,
         hidden_sizes=(8,),

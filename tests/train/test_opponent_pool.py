@@ -10,7 +10,8 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
-from rsoccer.train.opponent_pool import LATEST, OU, PAST, OpponentPool, kinds_of
+from rsoccer.train.opponent_pool import OpponentPool, kinds_of
+from rsoccer.train.pool_slots import LATEST, OU, PAST
 from rsoccer.train.timing import Clock
 
 TASK = make_task("VSSSelfPlay-v0")

@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 import torch
 
+from rsoccer.lineup import lineup
 from rsoccer.policies.network import Network
+from rsoccer.registry import make_task
+from rsoccer.replay import Replay, record_replay
 from rsoccer.train import Args, checkpoint, train
+from rsoccer.train import trainer as trainer_module
 from rsoccer.train.run_state import capture
 from rsoccer.train.stop_signal import Stopped, StopSignal
 from rsoccer.train.trainer import Trainer
@@ -54,6 +58,18 @@ def run_until(args: Args, checks: int) -> int:
     with pytest.raises(Stopped):
         trainer.run(StopAfter(checks), 0)
     return trainer.updates
+
+
+def test_a_run_ends_with_a_match_of_its_policy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(trainer_module, "MATCH_SECONDS", 2.0)
+    policy = train(tiny(tmp_path, match_page=True))
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert (replay.task, replay.seconds, replay.names) == (NAME, 2.0, ("TRAINED", "OU"))
+    assert (tmp_path / "match.html").read_text() == replay.to_html()
+    rows = record_replay(NAME, lineup(make_task(NAME), str(policy)), seconds=2.0).rows
+    np.testing.assert_allclose(replay.rows, rows, atol=0.06)
 
 
 def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> None:

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from tools.physics import ball_pictures, drive_pictures
-from tools.physics.page import PAGE, failed_checks, pages_equal, render_page
-from tools.physics.topics import TOPICS, checks
+from tools.physics.page import PAGE, describe, failed_checks, pages_equal, render_page
+from tools.physics.topics import all_checks
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,17 +32,17 @@ def main() -> None:
         action="store_true",
         help="change nothing; exit with status 1 if the page is stale",
     )
-    parser.add_argument("--list", action="store_true", help="print every check; change nothing")
+    parser.add_argument("--list", action="store_true", help="print every check under every engine")
     arguments = parser.parse_args()
     page = PAGE.read_text()
     if arguments.list:
-        print("\n".join(str(check) for topic in TOPICS for check in checks(topic)))
+        print("\n".join(describe(engine, check) for engine, check in all_checks()))
     elif not arguments.check:
         PAGE.write_text(render_page(page))
         ball_pictures.draw_all(PAGE.parent, PICTURES)
     elif not pages_equal(page, render_page(page)):
         sys.exit(f"{PAGE.name} is stale: run `make physics`")
-    if failures := [str(check) for check in failed_checks()]:
+    if failures := failed_checks():
         sys.exit("\n".join(["failed checks:", *failures]))
 
 

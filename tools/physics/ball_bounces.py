@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import BallModel
 from rsoccer.arrays import Array
 from tools.physics import closed_form
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, Ball
 from tools.physics.closed_form import Surface
-from tools.physics.scene import STEP, Scene, Trajectory, first_true
+from tools.physics.scene import STEP, Scene, Trajectory, first_true, make_config
 
 TOPIC = "ball_bounces"
 SPEEDS = np.array([0.5, 1.0, 2.0, 4.0, 8.0])  # m/s
@@ -73,7 +72,8 @@ def at_wall(name: str, towards: Array, along: Array, tick: float = 0.005) -> Tra
         along: Speeds along the wall, m/s, shape (worlds,).
         tick: Physics tick, s.
     """
-    scene = Scene(SimConfig("ssl_b", 0, 0, ball=frictionless_floor(name), tick=tick), len(towards))
+    config = make_config("ssl_b", 0, 0, ball=frictionless_floor(name), tick=tick)
+    scene = Scene(config, len(towards))
     scene.ball.position[:] = (-2.0, 3.1)
     scene.ball.velocity[:] = np.stack([along, towards], axis=-1)
     return scene.play(0.5)
@@ -98,7 +98,7 @@ def at_robot(name: str, degrees: float, velocities: Array) -> Trajectory:
 
     The start lies at `degrees` from the robot's heading.
     """
-    config = SimConfig("ssl_b", 1, 0, ball=frictionless_floor(name), time_step=0.005)
+    config = make_config("ssl_b", 1, 0, ball=frictionless_floor(name), time_step=0.005)
     scene = Scene(config, len(velocities))
     radians = np.radians(degrees)
     scene.ball.velocity[:] = velocities
@@ -134,7 +134,7 @@ def _slants(name: str, ball: Ball) -> Checks:
 
 def _front(name: str, ball: Ball) -> Checks:
     """Hit the middle of a robot's front; the robot recoils and turns during the impact only."""
-    config = SimConfig("ssl_b", 1, 0, ball=frictionless_floor(name))
+    config = make_config("ssl_b", 1, 0, ball=frictionless_floor(name))
     scene = Scene(config)
     velocity = np.array([-2.0, 2.0, 0.0])
     distance = GENERIC.front_distance + ball.radius
@@ -159,7 +159,7 @@ def _front(name: str, ball: Ball) -> Checks:
 
 def _rolling_spin(name: str, ball: Ball) -> Checks:
     """Roll straight at a wall: the contact point slips because the ball's front moves down."""
-    scene = Scene(SimConfig("ssl_b", 0, 0, ball=frictionless_floor(name)))
+    scene = Scene(make_config("ssl_b", 0, 0, ball=frictionless_floor(name)))
     scene.ball.position[:], scene.ball.velocity[:] = (0.0, 3.1), (0.0, 2.0)
     rolling = -2.0 / ball.radius
     scene.ball.spin[:, 0] = rolling
@@ -168,7 +168,7 @@ def _rolling_spin(name: str, ball: Ball) -> Checks:
 
 
 def _spin_decay(name: str, ball: Ball) -> Checks:
-    scene = Scene(SimConfig("ssl_b", 0, 0, ball=name))
+    scene = Scene(make_config("ssl_b", 0, 0, ball=name))
     scene.ball.spin[:, 2] = 40.0
     spin = scene.play(1.0).ball.spin[-1, 0, 2]
     yield SPIN_DECAY(f"`{name}`", ball.spin_deceleration, 40.0 - spin)

@@ -5,14 +5,13 @@ from math import radians, sin, sqrt
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import CROSSINGS, Field
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, Ball, G
 from tools.physics.closed_form import apex, rise_to
-from tools.physics.scene import TICK, Scene, Trajectory
+from tools.physics.scene import TICK, Scene, Trajectory, make_config
 
 TOPIC = "ball_flight"
 LONG = Field("ssl_b", length=60.0)
@@ -65,7 +64,7 @@ def checks() -> Checks:
 
 def chip(name: str, speed: float, seconds: float, degrees: float = 45.0) -> Trajectory:
     """Simulate a chip along x (m/s) on an empty field, one row per tick."""
-    scene = Scene(SimConfig(LONG, 0, 0, ball=name, time_step=TICK))
+    scene = Scene(make_config(LONG, 0, 0, ball=name, time_step=TICK))
     scene.ball.velocity[:, 0] = speed * np.cos(radians(degrees))
     scene.ball.vertical_velocity[:] = speed * sin(radians(degrees))
     return scene.play(seconds)
@@ -110,7 +109,7 @@ def _hops(name: str, ball: Ball) -> Checks:
 
 def _chips_at_a_robot(rises: Array) -> Trajectory:
     """Chip at a robot 1.2 m away, 3 m/s horizontally, one world per vertical speed (m/s)."""
-    scene = Scene(SimConfig("ssl_b", 1, 0), len(rises))
+    scene = Scene(make_config("ssl_b", 1, 0), len(rises))
     scene.robots.position[:, 0] = (1.2, 0.0)
     scene.face(0, 180.0)
     scene.ball.velocity[:, 0] = 3.0
@@ -133,7 +132,7 @@ def _over_a_robot() -> Checks:
 
 
 def _onto_a_robot() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 1, 0), 4)
+    scene = Scene(make_config("ssl_b", 1, 0), 4)
     scene.face(0, 30.0)
     scene.ball.position[:] = [[0.0, 0.01], [0.03, 0.01], [-0.4, 0.01], [0.0, 0.01]]
     scene.ball.velocity[:, 0] = [0.0, 0.0, 0.5, 0.2]
@@ -151,7 +150,7 @@ def _at_the_bar() -> Checks:
         (NO_GOALS, BAR_TOP + 0.005, 0.5),
     ):
         heights = np.linspace(lowest, highest, 15)
-        scene = Scene(SimConfig("ssl_b", 0, 0), len(heights))
+        scene = Scene(make_config("ssl_b", 0, 0), len(heights))
         scene.ball.position[:, 0], scene.ball.velocity[:, 0] = 3.0, 6.0
         scene.ball.vertical_velocity[:] = rise_to(heights, 0.25)
         ball = scene.play(0.5).ball
@@ -168,7 +167,7 @@ def _at_the_bar() -> Checks:
 
 def _off_the_table() -> Checks:
     for criterion, start, leave in ((OFF_TABLE, 0.2, 2), (ON_TABLE, 0.02, 0)):
-        scene = Scene(SimConfig("vss_3v3", 0, 0), 2)
+        scene = Scene(make_config("vss_3v3", 0, 0), 2)
         scene.ball.position[:] = [[0.5, 0.4], [0.5, -0.4]]
         scene.ball.velocity[:, 1] = [2.0, -2.0]
         scene.ball.height[:] = start

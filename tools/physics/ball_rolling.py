@@ -4,7 +4,6 @@ from math import sqrt
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import BallModel, Field
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
@@ -12,7 +11,7 @@ from tools.physics import closed_form
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, Ball
 from tools.physics.closed_form import StraightKick
-from tools.physics.scene import STEP, TICK, Scene, Trajectory
+from tools.physics.scene import STEP, TICK, Scene, Trajectory, make_config
 
 TOPIC = "ball_rolling"
 ENDLESS = Field("ssl_b", length=200.0, width=200.0)
@@ -70,7 +69,7 @@ def simulate_kicks(
     time_step: float = STEP,
 ) -> Trajectory:
     """Simulate straight kicks (m/s) along x without spin, one world per kick."""
-    config = SimConfig(ENDLESS, 0, 0, ball=name, tick=tick, time_step=time_step)
+    config = make_config(ENDLESS, 0, 0, ball=name, tick=tick, time_step=time_step)
     scene = Scene(config, len(kicks))
     scene.ball.velocity[:, 0] = kicks
     return scene.play(seconds)
@@ -116,7 +115,7 @@ def _speeds_after_distances(case: str, form: StraightKick, distance: Array, spee
 
 def _directions(name: str, ball: Ball) -> Checks:
     radians = np.radians(DIRECTIONS)
-    scene = Scene(SimConfig(ENDLESS, 0, 0, ball=name), len(DIRECTIONS))
+    scene = Scene(make_config(ENDLESS, 0, 0, ball=name), len(DIRECTIONS))
     scene.ball.velocity[:] = 4.0 * np.stack([np.cos(radians), np.sin(radians)], axis=-1)
     distance, speed = StraightKick(ball, 4.0).after(2.0)
     last = scene.play(2.0).ball
@@ -137,7 +136,7 @@ def _ticks(name: str, ball: Ball) -> Checks:
 
 def _spins(name: str, ball: Ball) -> Checks:
     case = f"`{name}`"
-    scene = Scene(SimConfig(ENDLESS, 0, 0, ball=name), 2)
+    scene = Scene(make_config(ENDLESS, 0, 0, ball=name), 2)
     scene.ball.velocity[:, 0] = 1.0
     scene.ball.spin[:, 1] = np.array([1.0, -4.0]) / BallModel(name).radius
     trajectory = scene.play(2.0)
@@ -161,7 +160,7 @@ def _grazes() -> Checks:
     start, kick = np.array([-2.0, 2.8, 0.0]), np.array([4.0, 1.2, 0.0])
     end, velocity = _grazed(BALLS["ssl_tigers"], start, kick, 3.3, 1.0)
     for tick in TICKS:
-        scene = Scene(SimConfig("ssl_b", 0, 0, tick=tick))
+        scene = Scene(make_config("ssl_b", 0, 0, tick=tick))
         scene.ball.position[:], scene.ball.velocity[:] = start[:2], kick[:2]
         ball = scene.play(1.0).ball
         case = f"{1000 * tick:g} ms"

@@ -4,13 +4,12 @@ from math import pi
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import Field
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import VSS_ROBOTS, VssRobot
-from tools.physics.scene import STEP, TICK, Scene, first_true
+from tools.physics.scene import STEP, TICK, Scene, first_true, make_config
 
 TOPIC = "differential_drive"
 WIDE = Field("vss_3v3", length=8.0, width=8.0)
@@ -69,7 +68,7 @@ def top_rim_speed(robot: VssRobot) -> float:
 
 def lone_robot(name: str, time_step: float = TICK) -> Scene:
     """Return a scene with one robot at rest on a wide table and the ball far away."""
-    scene = Scene(SimConfig(WIDE, 1, 0, robot=name, time_step=time_step))
+    scene = Scene(make_config(WIDE, 1, 0, robot=name, time_step=time_step))
     scene.ball.position[:] = (0.0, 3.0)
     return scene
 

@@ -4,14 +4,13 @@ from math import hypot, sqrt
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, SSL_SHARED, TURN_WITH_BALL, WITH_BALL
 from tools.physics.kicker import front_offset, with_ball
-from tools.physics.scene import STEP, TICK, Scene, Trajectory
+from tools.physics.scene import STEP, TICK, Scene, Trajectory, make_config
 
 TOPIC = "dribbler"
 BALL = BALLS["ssl_tigers"]
@@ -252,13 +251,13 @@ def _releasing() -> Checks:
 
 
 def _stealing() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 1, 1))
+    scene = Scene(make_config("ssl_b", 1, 1))
     scene.robots.position[:, 1] = (2 * front_offset(), 0.0)
     scene.face(1, 180.0)
     scene.ball.position[:] = (front_offset(), 0.0)
     scene.command(1, v_x=-0.3, dribbler=1.0)
     yield STEAL("nose to nose", 1.0, scene.play(1.5).robots.infrared[-1, 0, 1])
-    scene = Scene(SimConfig("ssl_b", 1, 1))
+    scene = Scene(make_config("ssl_b", 1, 1))
     scene.robots.position[:, 1] = (front_offset(), 0.16)
     scene.face(1, -90.0)
     scene.ball.position[:] = (front_offset(), 0.0)

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer.arrays import Array
 from tools.physics import differential_drive, omni_drive
 from tools.physics.ball_pictures import figure
 from tools.physics.cited import GENERIC, VSS_ROBOTS
 from tools.physics.kicker import front_offset
-from tools.physics.scene import TICK, Scene, Trajectory
+from tools.physics.scene import TICK, Scene, Trajectory, make_config
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +67,7 @@ def _values(trajectory: Trajectory, quantity: str) -> Array:
 
 def draw_dribble() -> Figure:
     """Draw a robot and its ball from above: a loop with the dribbler on, then off."""
-    scene = Scene(SimConfig("ssl_b", 1, 0, time_step=TICK))
+    scene = Scene(make_config("ssl_b", 1, 0, time_step=TICK))
     scene.ball.position[:] = (front_offset(), 0.0)
     scene.command(0, v_x=0.6, dribbler=1.0)
     match = scene.begin()

@@ -4,12 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute
-from tools.physics.scene import Scene, Trajectory
+from tools.physics.scene import Scene, Trajectory, make_config
 
 TOPIC = "fast_shots"
 SPEED = 10.0  # m/s: 50 mm a tick, more than the ball is wide
@@ -73,7 +72,7 @@ def _uniform(centre: Sequence[float], spread: Sequence[float], count: int = SHOT
 
 def _walls() -> Checks:
     for field, walls in FIELDS.items():
-        scene = Scene(SimConfig(field, 0, 0), SHOTS)
+        scene = Scene(make_config(field, 0, 0), SHOTS)
         half = scene.config.field.half_length, scene.config.field.half_width
         shots = _uniform([0] * 4, [0.8 * half[0], 0.8 * half[1], 2 * half[0], 2 * half[1]])
         _shoot(scene, shots[:, :2], shots[:, 2:])
@@ -83,7 +82,7 @@ def _walls() -> Checks:
 
 def _goal_sides() -> Checks:
     """Shoot at the side of the goal; only 0.1 s, since later a ball may enter around the post."""
-    scene = Scene(SimConfig("ssl_b", 0, 0), SHOTS // 2)
+    scene = Scene(make_config("ssl_b", 0, 0), SHOTS // 2)
     shots = _uniform([4.65, 0.9, 4.62, 0.0], [0.1, 0.3, 0.1, 0.0], SHOTS // 2)
     _shoot(scene, shots[:, :2], shots[:, 2:])
     x, y = np.moveaxis(scene.play(0.1).ball.position, -1, 0)
@@ -91,7 +90,7 @@ def _goal_sides() -> Checks:
 
 
 def _goal_backs() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 0, 0), SHOTS // 2)
+    scene = Scene(make_config("ssl_b", 0, 0), SHOTS // 2)
     shots = _uniform([3.4, 0.0, 4.7, 0.0], [1.0, 0.4, 0.0, 0.46], SHOTS // 2)
     _shoot(scene, shots[:, :2], shots[:, 2:])
     ball = scene.play(0.3).ball
@@ -103,7 +102,7 @@ def _goal_backs() -> Checks:
 def _robots() -> Checks:
     """Shoot at robots of any heading from 0.4 m; the ball could travel 0.5 m beyond them."""
     for field, half in (("vss_3v3", 0.0375), ("ssl_b", 0.0715)):
-        scene = Scene(SimConfig(field, 1, 0), SHOTS)
+        scene = Scene(make_config(field, 1, 0), SHOTS)
         shots = _uniform([-0.4, 0, 0, 0, 0], [0.1, 0.3, 0.0, 0.8 * half, 180.0])
         scene.face(0, shots[:, 4])
         _shoot(scene, shots[:, :2], shots[:, 2:4])
@@ -120,7 +119,7 @@ def _spinning() -> Checks:
     A ball beyond the robot counts as through if it is hardly deflected: few glance off a corner.
     """
     for field, half, spin in (("vss_3v3", 0.0375, 30.0), ("ssl_b", 0.0715, 26.2)):
-        scene = Scene(SimConfig(field, 1, 0), SHOTS)
+        scene = Scene(make_config(field, 1, 0), SHOTS)
         shots = _uniform([-0.4, 0, 0, 0, 0], [0.1, 0.3, 0.0, 0.8 * half, 180.0])
         scene.face(0, shots[:, 4])
         spins = np.where(np.arange(SHOTS) % 2, spin, -spin)
@@ -139,7 +138,7 @@ def _spinning() -> Checks:
 
 
 def _shoot_along_x(field: str, robots: int, start: Array, seconds: float) -> Trajectory:
-    scene = Scene(SimConfig(field, robots, 0), len(start))
+    scene = Scene(make_config(field, robots, 0), len(start))
     _shoot(scene, start, start + np.array([1.0, 0.0]))
     return scene.play(seconds)
 
@@ -164,7 +163,7 @@ def _near_walls() -> Checks:
 
 def _corners() -> Checks:
     """Shoot along a side wall; a corner without a 45-degree block would send the ball back."""
-    scene = Scene(SimConfig("vss_3v3", 0, 0), 4)
+    scene = Scene(make_config("vss_3v3", 0, 0), 4)
     signs = np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
     scene.ball.position[:] = signs * (0.4, 0.62)
     scene.ball.velocity[:, 0] = 2.0 * signs[:, 0]

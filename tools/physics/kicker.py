@@ -4,13 +4,12 @@ from math import radians, sin, sqrt
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, SSL_ROBOTS, G
-from tools.physics.scene import TICK, Scene
+from tools.physics.scene import TICK, Scene, make_config
 
 TOPIC = "kicker"
 BALL = BALLS["ssl_tigers"]
@@ -93,7 +92,7 @@ def with_ball(
     robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
 ) -> Scene:
     """Return a scene with one robot at the centre and the ball at its front."""
-    scene = Scene(SimConfig("ssl_b", 1, 0, robot=robot, time_step=time_step), worlds)
+    scene = Scene(make_config("ssl_b", 1, 0, robot=robot, time_step=time_step), worlds)
     name = robot if isinstance(robot, str) else robot.name
     scene.ball.position[:] = (front_offset(name), 0.0)
     return scene
@@ -194,7 +193,7 @@ def _two_kickers() -> Checks:
     the impulse of a single kick. Up to 90 degrees the speed is the bound, beyond it the impulse.
     """
     for degrees in ANGLES_APART:
-        scene = Scene(SimConfig("ssl_b", 2, 0, time_step=TICK))
+        scene = Scene(make_config("ssl_b", 2, 0, time_step=TICK))
         for index, turned in enumerate((degrees / 2, -degrees / 2)):
             x, y = np.cos(radians(turned)), sin(radians(turned))
             offset = 0.03 if turned < 0 else -0.03

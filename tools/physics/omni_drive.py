@@ -4,13 +4,12 @@ from math import hypot, sqrt
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import RobotModel
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import GENERIC, JERK, SSL_ROBOTS
-from tools.physics.scene import TICK, Scene, Trajectory, first_true
+from tools.physics.scene import TICK, Scene, Trajectory, first_true, make_config
 
 TOPIC = "omni_drive"
 DIRECTIONS = np.array([0.0, 30.0, 45.0, 90.0, 135.0, 180.0, 200.0, 270.0])  # degrees
@@ -66,7 +65,7 @@ def lone_robot(
     robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
 ) -> Scene:
     """Return a scene with one robot at rest at the centre and the ball far away."""
-    scene = Scene(SimConfig("ssl_a", 1, 0, robot=robot, time_step=time_step), worlds)
+    scene = Scene(make_config("ssl_a", 1, 0, robot=robot, time_step=time_step), worlds)
     scene.ball.position[:] = (0.0, 4.0)
     return scene
 

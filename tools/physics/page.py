@@ -2,16 +2,18 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
 from math import ceil, log10
 
+from benches.scenarios import ENGINES
+from tools import engine_agreement
 from tools.markdown import filled, table
 from tools.paths import DOCS
-from tools.physics import ball_rolling, parameters, presets
+from tools.physics import ball_rolling, parameters, presets, single_contacts
 from tools.physics.check import Check, Tolerance
 from tools.physics.cited import BALLS
-from tools.physics.topics import TOPICS, checks
+from tools.physics.topics import TOPICS, all_checks, checks, engines_of
 
 PAGE = DOCS / "physics.md"
 HEADER = (
@@ -64,12 +66,17 @@ def format_value(value: float, tolerance: Tolerance) -> str:
 
 
 def summary() -> str:
-    """Return a table of all topics: number of checks and largest share of a tolerance used."""
+    """Return a table of all topics: number of checks, largest share of a tolerance by engine."""
     rows = []
     for topic in TOPICS:
-        used = max(check.tolerance_used for check in checks(topic))
-        rows.append((topic, str(len(checks(topic))), f"{used:.0%}"))
-    return table(("topic", "checks", "largest share of a tolerance used"), rows)
+        used = {
+            engine: max(check.tolerance_used for check in checks(topic, engine))
+            for engine in engines_of(topic)
+        }
+        shares = (f"{used[engine]:.0%}" if engine in used else "" for engine in ENGINES)
+        rows.append((topic, str(len(checks(topic))), *shares))
+    columns = (f"largest share of a tolerance, `{engine}`" for engine in ENGINES)
+    return table(("topic", "checks", *columns), rows)
 
 
 def kick_table() -> str:
@@ -91,12 +98,28 @@ def kick_table() -> str:
     )
 
 
+def contact_table() -> str:
+    """Return a table of all quantities of single contacts under both engines."""
+    rows = []
+    for check in checks(single_contacts.TOPIC):
+        values = (f"{value:.4g} {check.unit}" for value in (check.expected, check.measured))
+        difference = check.measured / check.expected - 1
+        rows.append(
+            (check.case, check.quantity, *values, f"{difference:+.1%}".replace("-0.0", "+0.0"))
+        )
+    engines = (f"`{name}`" for name in (single_contacts.REFERENCE, single_contacts.COMPARED))
+    return table(("contact", "quantity", *engines, "difference"), rows)
+
+
 def _pair(check: Check) -> str:
     return f"{check.measured:.3g} ({check.expected:.3g})"
 
 
 PARTS: dict[str, Callable[[], str]] = {
     **{topic: partial(topic_table, topic) for topic in TOPICS},
+    single_contacts.TOPIC: contact_table,
+    "engine_play": engine_agreement.play_table,
+    "engine_policies": engine_agreement.policy_table,
     "summary": summary,
     "straight_kicks": kick_table,
     "fields": presets.field_table,
@@ -128,6 +151,11 @@ def _numbers_equal(old: str, new: str) -> bool:
     return old == new or (long and abs(float(old) - float(new)) < 1.5 * 10.0**-digits)
 
 
-def failed_checks() -> Iterable[Check]:
-    """Return the checks that fail."""
-    return (check for topic in TOPICS for check in checks(topic) if not check.passed)
+def failed_checks() -> list[str]:
+    """Return the checks that fail under any contact engine, each as a line."""
+    return [describe(engine, check) for engine, check in all_checks() if not check.passed]
+
+
+def describe(engine: str, check: Check) -> str:
+    """Return a check with its contact engine as a line of text."""
+    return f"{engine}: {check}"

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import BALL_PARAMETERS, ROBOT_PARAMETERS
 from rsoccer.arrays import Array
 from tools.markdown import table
@@ -11,7 +10,7 @@ from tools.physics.cited import BALLS, GENERIC, G
 from tools.physics.dribbler import turning_scene
 from tools.physics.kicker import with_ball
 from tools.physics.omni_drive import lone_robot, speeds
-from tools.physics.scene import TICK, Scene
+from tools.physics.scene import TICK, Scene, make_config
 
 TOPIC = "parameters"
 BALL = BALLS["ssl_tigers"]
@@ -84,7 +83,7 @@ def _ones() -> Checks:
 
 
 def _ball(name: str, worlds: int = 3) -> Scene:
-    scene = Scene(SimConfig("ssl_b", 0, 0, time_step=TICK), worlds)
+    scene = Scene(make_config("ssl_b", 0, 0, time_step=TICK), worlds)
     scene.vary_ball(name, FACTORS)
     return scene
 
@@ -171,7 +170,7 @@ def _mouth() -> Checks:
 
 def _heights() -> Checks:
     """Chip over a robot 0.6 m away; the tallest of the three is 0.21 m high."""
-    scene = Scene(SimConfig("ssl_b", 1, 0), 3)
+    scene = Scene(make_config("ssl_b", 1, 0), 3)
     scene.robots.position[:, 0] = (0.6, 0.0)
     scene.vary_robot(0, "height", FACTORS)
     scene.ball.velocity[:, 0] = 3.0

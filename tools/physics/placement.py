@@ -6,7 +6,7 @@ from rsoccer import Frame, SimConfig
 from rsoccer._core import BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS
 from rsoccer.arrays import Array, Floats
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
-from tools.physics.scene import STEP, Match, Scene
+from tools.physics.scene import STEP, Match, Scene, make_config
 
 TOPIC = "placement"
 PLACED = "placed state"
@@ -55,7 +55,10 @@ SHOTS = {  # line: start, velocity, position of the crossing
 
 def checks() -> Checks:
     """Yield all checks of placing and reading."""
-    for name, config in (("VSSS", SimConfig("vss_3v3", 3, 2)), ("SSL", SimConfig("ssl_b", 2, 4))):
+    for name, config in (
+        ("VSSS", make_config("vss_3v3", 3, 2)),
+        ("SSL", make_config("ssl_b", 2, 4)),
+    ):
         yield from _read_back(name, moving(config))
     yield from _crash()
     yield from _crossings()
@@ -108,7 +111,7 @@ def _read_back(name: str, scene: Scene) -> Checks:
 
 
 def _crash() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 1, 1))
+    scene = Scene(make_config("ssl_b", 1, 1))
     scene.robots.position[0, :, 0] = (-0.5, 0.5)
     scene.face(1, 180.0)
     scene.ball.position[:] = (0.0, -2.0)
@@ -120,7 +123,7 @@ def _crash() -> Checks:
 
 
 def _crossings() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 0, 0), len(SHOTS))
+    scene = Scene(make_config("ssl_b", 0, 0), len(SHOTS))
     scene.ball.position[:] = [start for start, _, _ in SHOTS.values()]
     scene.ball.velocity[:] = [velocity for _, velocity, _ in SHOTS.values()]
     ball = scene.play(0.3).ball
@@ -136,7 +139,7 @@ def _crossings() -> Checks:
 
 
 def _touches() -> Checks:
-    scene = Scene(SimConfig("ssl_b", 1, 1))
+    scene = Scene(make_config("ssl_b", 1, 1))
     scene.robots.position[0, :, 0] = (0.5, -0.5)
     scene.face(0, 180.0)
     scene.ball.position[:], scene.ball.velocity[:] = (0.2, 0.0), (3.0, 0.0)

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
-from tools.physics.scene import Scene, Trajectory
+from tools.physics.scene import Scene, Trajectory, make_config
 
 TOPIC = "pushing"
 TRACTION = 6.9 * GENERIC.mass  # N: a wheel on carpet, SSL-A-Team
@@ -75,7 +74,7 @@ def checks() -> Checks:
 
 def _front_to_front(blue: float, yellow: float, force: float = TRACTION) -> Scene:
     """Return two generic robots front to front; blue's wheels transmit at most `force` N."""
-    scene = Scene(SimConfig("ssl_a", 1, 1))
+    scene = Scene(make_config("ssl_a", 1, 1))
     scene.robots.position[0, :, 0] = (-0.0901, 0.0901)
     scene.face(1, 180.0)
     scene.ball.position[:] = (0.0, 3.0)
@@ -106,7 +105,7 @@ def _standing() -> Checks:
 
 def _vss() -> Checks:
     for name, robot in VSS_ROBOTS.items():
-        scene = Scene(SimConfig("vss_3v3", 1, 1, robot=name))
+        scene = Scene(make_config("vss_3v3", 1, 1, robot=name))
         scene.robots.position[0, :, 0] = (-0.2, 0.2)
         scene.face(1, 180.0)
         scene.ball.position[:] = (0.0, 0.6)
@@ -115,7 +114,7 @@ def _vss() -> Checks:
         blue, yellow = _final_x(scene.play(5.0))
         yield VSS_STALL(f"`{name}`", 0.0, 1000 * (blue + yellow) / 2)
         yield VSS_APART(f"`{name}`", 1000 * robot.side_length, 1000 * (yellow - blue))
-        scene = Scene(SimConfig("vss_3v3", 1, 0, robot=name))
+        scene = Scene(make_config("vss_3v3", 1, 0, robot=name))
         scene.robots.position[0, 0] = (0.4, -0.3)
         scene.command(0, left=46.0, right=46.0)
         robots = scene.play(5.0).robots
@@ -127,7 +126,7 @@ def _vss() -> Checks:
 def _squeezed() -> Checks:
     """Squeeze the ball between the round backs of two robots that drive at full speed."""
     ball = BALLS["ssl_tigers"]
-    scene = Scene(SimConfig("ssl_b", 1, 1))
+    scene = Scene(make_config("ssl_b", 1, 1))
     scene.robots.position[0, :, 0] = (-0.1125, 0.1125)
     scene.face(0, 180.0)
     for index in (0, 1):

@@ -2,17 +2,23 @@
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer.arrays import Array
-from tools.physics.check import EXACT, Checks, Criterion, absolute
+from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import GENERIC, SSL_SHARED, VSS_ROBOTS
-from tools.physics.scene import TICK, Scene, Trajectory
+from tools.physics.scene import TICK, Scene, Trajectory, make_config
 
 TOPIC = "robot_collisions"
 COLLISIONS = 300
 
 RESTITUTION = Criterion(
     TOPIC, "head-on collision: separation speed by closing speed", "", absolute(0.02)
+)
+OFF_CENTRE = Criterion(
+    TOPIC,
+    "two SSL robots, 30 degrees off the line of their centres: turn rates",
+    "rad/s",
+    percent(5),
+    "closed form, Coulomb friction",
 )
 TURNS = Criterion(TOPIC, "squares face to face: turn rate", "rad/s", absolute(0.01), "symmetry")
 LATERAL = Criterion(
@@ -36,6 +42,8 @@ def checks() -> Checks:
     """Yield all checks of collisions between robots."""
     for blue_speed, yellow_speed in ((1.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 3.0)):
         yield from _head_on(blue_speed, yellow_speed)
+    for speed in (1.0, 3.0):
+        yield from _off_centre(speed)
     for name in VSS_ROBOTS:
         for speed in (0.3, 0.6, 1.1):
             yield from _squares(name, speed)
@@ -44,7 +52,7 @@ def checks() -> Checks:
 
 
 def _head_on(blue_speed: float, yellow_speed: float) -> Checks:
-    scene = Scene(SimConfig("ssl_b", 1, 1, time_step=TICK))
+    scene = Scene(make_config("ssl_b", 1, 1, time_step=TICK))
     scene.ball.position[:] = (0.0, 2.0)
     scene.robots.position[0, :, 0] = (-0.2, 0.2)
     scene.robots.velocity[0, :, 0] = (blue_speed, -yellow_speed)
@@ -57,9 +65,23 @@ def _head_on(blue_speed: float, yellow_speed: float) -> Checks:
     yield RESTITUTION(case, SSL_SHARED["restitution"].value, separation)
 
 
+def _off_centre(speed: float) -> Checks:
+    """Hit a robot at rest off its centre: friction stops the slip and turns both equally."""
+    scene, radius = Scene(make_config("ssl_b", 1, 1, time_step=TICK)), GENERIC.radius
+    scene.ball.position[:] = (0.0, 2.0)
+    scene.robots.position[0, 1] = (np.sqrt(3) * radius + 0.02, radius)
+    scene.robots.velocity[0, 0, 0] = speed
+    scene.command(0, v_x=speed)
+    rates = abs(scene.play(0.1).robots.angular_velocity[:, 0]).max(axis=0)
+    # A sixth of a robot's mass stops the slip of half the speed, at one radius from both centres.
+    expected = speed / 2 / (3 * radius)
+    for robot, rate in zip(("the moving robot", "the robot at rest"), rates, strict=True):
+        yield OFF_CENTRE(f"{speed:g} m/s, {robot}", expected, rate)
+
+
 def _squares(name: str, speed: float) -> Checks:
     rim = speed / VSS_ROBOTS[name].wheel_radius
-    scene = Scene(SimConfig("vss_3v3", 1, 1, robot=name, time_step=TICK))
+    scene = Scene(make_config("vss_3v3", 1, 1, robot=name, time_step=TICK))
     scene.ball.position[:] = (0.0, 0.6)
     scene.robots.position[0, :, 0] = (-0.2, 0.2)
     scene.robots.velocity[0, :, 0] = (speed, -speed)
@@ -76,7 +98,7 @@ def _random_collisions(name: str) -> Checks:
     """Let one spinning robot run into another; all wheel commands are zero."""
     vss, rng = VSS_ROBOTS.get(name), np.random.default_rng(5)
     field, size = ("vss_3v3", vss.side_length) if vss else ("ssl_b", 2 * GENERIC.radius)
-    scene = Scene(SimConfig(field, 1, 1, robot=name, time_step=TICK), COLLISIONS)
+    scene = Scene(make_config(field, 1, 1, robot=name, time_step=TICK), COLLISIONS)
     scene.ball.position[:] = (0.0, 0.6)
     scene.robots.position[:, :, 0] = (-size, size)
     scene.robots.position[:, 0, 1] = rng.uniform(-0.6 * size, 0.6 * size, COLLISIONS)

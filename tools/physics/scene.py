@@ -1,14 +1,62 @@
 """Scenes to simulate: a start in one or more worlds, commands, and the resulting trajectory."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+
 import numpy as np
 
+from benches.scenarios import DEFAULT_ENGINE
 from rsoccer import Frame, SimConfig, Simulator
-from rsoccer._core import BALL_COLUMNS, BALL_PARAMETERS, ROBOT_COLUMNS, ROBOT_PARAMETERS
+from rsoccer._core import (
+    BALL_COLUMNS,
+    BALL_PARAMETERS,
+    ROBOT_COLUMNS,
+    ROBOT_PARAMETERS,
+    BallModel,
+    Field,
+    RobotModel,
+)
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import BallColumns, RobotColumns
 
 TICK = 0.005  # s
 STEP = 0.025  # s
+
+_engine: ContextVar[str] = ContextVar("engine", default=DEFAULT_ENGINE)
+
+
+@contextmanager
+def contact_engine(name: str) -> Iterator[None]:
+    """Let the configurations made in the `with` block have this contact engine."""
+    token = _engine.set(name)
+    try:
+        yield
+    finally:
+        _engine.reset(token)
+
+
+def make_config(
+    field: str | Field,
+    n_blue: int,
+    n_yellow: int,
+    *,
+    robot: str | RobotModel | None = None,
+    ball: str | BallModel | None = None,
+    time_step: float = STEP,
+    tick: float = TICK,
+) -> SimConfig:
+    """Return a configuration with the contact engine of `contact_engine`, or the default engine."""
+    return SimConfig(
+        field,
+        n_blue,
+        n_yellow,
+        robot=robot,
+        ball=ball,
+        time_step=time_step,
+        tick=tick,
+        engine=_engine.get(),
+    )
 
 
 class Trajectory:

@@ -2,11 +2,10 @@
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer.arrays import Array
 from tools.physics.check import EXACT, Checks, Criterion, absolute
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
-from tools.physics.scene import TICK, Scene, Trajectory
+from tools.physics.scene import TICK, Scene, Trajectory, make_config
 
 TOPIC = "squeezed_ball"
 BALL = BALLS["ssl_tigers"]
@@ -145,7 +144,7 @@ def _at_wall(name: str, speed: float, tick: float) -> Checks:
     field, wall, y = ("vss_3v3", 0.75, 0.4) if vss else ("ssl_b", 4.8, 1.2)
     ball = BALLS["vss_rsim" if vss else "ssl_tigers"]
     front, mass = (vss.side_length / 2, vss.mass) if vss else (GENERIC.front_distance, GENERIC.mass)
-    scene = Scene(SimConfig(field, 1, 0, robot=name, tick=tick, time_step=tick))
+    scene = Scene(make_config(field, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (wall - GAP - ball.radius, y)
     scene.robots.position[:, 0] = (wall - GAP - 2 * ball.radius - front - 0.02, y)
     scene.robots.velocity[:, 0, 0] = speed
@@ -166,7 +165,7 @@ def _at_wall(name: str, speed: float, tick: float) -> Checks:
 
 def _approach(speed: float, tick: float, worlds: int = 1) -> Scene:
     """Return two robots 0.6 m apart that drive at each other, with the ball in between."""
-    scene = Scene(SimConfig("ssl_b", 1, 1, tick=tick, time_step=tick), worlds)
+    scene = Scene(make_config("ssl_b", 1, 1, tick=tick, time_step=tick), worlds)
     for index, (x, degrees) in enumerate(zip((-0.3, 0.3), ROUND_SIDES, strict=True)):
         scene.robots.position[:, index, 0] = x
         _drive_along_x(scene, index, -np.sign(x) * speed, degrees)
@@ -206,7 +205,7 @@ def _random_collisions(speed: float) -> Checks:
 
 def _in_corner(robots: int) -> Checks:
     """Push a ball that falls into a corner with robots in line, one behind the other."""
-    scene = Scene(SimConfig("ssl_b", robots, 0, time_step=TICK))
+    scene = Scene(make_config("ssl_b", robots, 0, time_step=TICK))
     corner = np.array([4.8, 3.3]) - BALL.radius - GAP
     scene.ball.position[:], scene.ball.height[:] = corner, 0.05
     for index in range(robots):

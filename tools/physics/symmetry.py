@@ -8,7 +8,7 @@ from rsoccer import SimConfig
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
 from rsoccer.arrays import Floats
 from tools.physics.check import EXACT, Checks, Criterion, absolute
-from tools.physics.scene import Scene
+from tools.physics.scene import Scene, make_config
 
 TOPIC = "symmetry"
 UNIT = "m, m/s"
@@ -93,7 +93,7 @@ def difference(symmetry: Symmetry, scene: Scene, seconds: float) -> float:
 
 def _posed(field: str, poses: list[tuple[float, float, float]]) -> Scene:
     """Return robots at poses (m, m, degrees); the first half of them is blue."""
-    scene = Scene(SimConfig(field, len(poses) // 2, len(poses) // 2))
+    scene = Scene(make_config(field, len(poses) // 2, len(poses) // 2))
     for index, (x, y, degrees) in enumerate(poses):
         scene.robots.position[:, index] = (x, y)
         scene.face(index, degrees)

@@ -4,12 +4,11 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from rsoccer import SimConfig
 from rsoccer._core import Field
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import VSS_ROBOTS, VssRobot
 from tools.physics.differential_drive import WIDE, lone_robot, top_rim_speed
-from tools.physics.scene import TICK, Scene, first_true
+from tools.physics.scene import TICK, Scene, first_true, make_config
 from tools.physics.tyre_friction import Motion, motion_after, straightening_time
 
 TOPIC = "wheel_slip"
@@ -79,7 +78,7 @@ def checks() -> Checks:
 
 def _straight(name: str, spin: float, tick: float) -> float:
     """Return the time until the robot turns slower than SLOW, s; NaN if it never does."""
-    scene = Scene(SimConfig(WIDE, 1, 0, robot=name, tick=tick, time_step=tick))
+    scene = Scene(make_config(WIDE, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (0.0, 3.0)
     scene.robots.angular_velocity[:] = spin
     scene.command(0, left=1e3, right=1e3)
@@ -110,7 +109,7 @@ def _skids(name: str, robot: VssRobot) -> Checks:
 
 def _reversals(name: str, robot: VssRobot) -> Checks:
     """Command each wheel full forward or full back at random in each step."""
-    scene = Scene(SimConfig(ENDLESS, 1, 0, robot=name), REVERSAL_WORLDS)
+    scene = Scene(make_config(ENDLESS, 1, 0, robot=name), REVERSAL_WORLDS)
     scene.ball.position[:] = (0.0, 90.0)
     match, rng = scene.begin(), np.random.default_rng(3)
     max_tyre = max_centre = 0.0

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Final
 
 from tools.paths import ROOT
+from tools.site import matches
 from tools.site.api import RUST
 from tools.site.source import lay_out
 
@@ -33,6 +34,7 @@ def main() -> int:
     out: Path = args.out
     lay_out(PAGES, rust=not args.without_rust)
     status = build(PAGES, out)
+    matches.write(out / matches.FOLDER)
     if RUST.is_dir() and not args.without_rust:
         shutil.copytree(RUST, out / "rust", dirs_exist_ok=True)
     if status == 0:

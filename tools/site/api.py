@@ -3,7 +3,6 @@
 import ast
 import importlib
 import inspect
-import pkgutil
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -97,6 +96,7 @@ GROUPS: Final = (
         "Pictures and videos",
         (
             "rsoccer.render.image",
+            "rsoccer.render.picture",
             "rsoccer.render.record",
             "rsoccer.render.video",
             "rsoccer.render.window",
@@ -111,6 +111,19 @@ GROUPS: Final = (
             "rsoccer.rllib.runner",
             "rsoccer.rllib.league",
             "rsoccer.rllib.episodes",
+        ),
+    ),
+    Group(
+        "Replays",
+        (
+            "rsoccer.replay.replay",
+            "rsoccer.replay.recorder",
+            "rsoccer.replay.evaluation",
+            "rsoccer.replay.film",
+            "rsoccer.replay.events",
+            "rsoccer.replay.container",
+            "rsoccer.replay.quantized",
+            "rsoccer.replay.file_format",
         ),
     ),
     Group("Other interfaces", ("rsoccer.compat.robosim", "rsoccer.entities")),
@@ -139,11 +152,15 @@ PRIVATE: Final = (
     "rsoccer.envs.*",
     "rsoccer.evaluate.*",
     "rsoccer.files",
+    "rsoccer.human",
+    "rsoccer.human.*",
     "rsoccer.matches",
     "rsoccer.matches.*",
     "rsoccer.policies.*",
     "rsoccer.render",
     "rsoccer.render.*",
+    "rsoccer.replay",
+    "rsoccer.replay.*",
     "rsoccer.rllib",
     "rsoccer.tasks",
     "rsoccer.tasks.*",
@@ -196,8 +213,13 @@ def library_of(module: str) -> str | None:
 
 def found() -> list[str]:
     """Return the names of all modules that the package has."""
-    walked = pkgutil.walk_packages(rsoccer.__path__, "rsoccer.")
-    return sorted(module.name for module in walked)
+    # By its files: `pkgutil` finds nothing in a package that needs a library which is absent.
+    folder = Path(rsoccer.__file__).parent
+    names = {
+        ".".join(path.relative_to(folder.parent).with_suffix("").parts).removesuffix(".__init__")
+        for path in folder.rglob("*.py")
+    }
+    return sorted(names - {"rsoccer"} | {"rsoccer._core"})
 
 
 def index(rust: bool) -> str:

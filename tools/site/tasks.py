@@ -10,7 +10,7 @@ import rsoccer
 from rsoccer import Matches, Task
 from rsoccer.task import LEARN, Block
 from tools.markdown import table
-from tools.site import meanings, solved, task_docs
+from tools.site import matches, meanings, solved, task_docs
 from tools.site.meanings import ROBOT, Number, Part
 
 WEIGHTS: Final = "reward_weights"
@@ -68,6 +68,7 @@ def page(name: str) -> str:
         "## Options\n\n" + _options(task),
         "## Metrics\n\n" + _metrics(task),
         "## Solution\n\n" + _solution(name),
+        "## A match\n\n" + matches.shown(name),
     )
     return "\n\n".join(sections) + "\n"
 

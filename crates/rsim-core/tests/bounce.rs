@@ -2,9 +2,9 @@
 //! friction along the surface.
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
-use rsim_core::columns::ball_column;
+use rsim_core::columns::{ball_column, robot_column};
 use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots};
-use rsim_core::{BallModel, SimConfig};
+use rsim_core::{BallModel, Body, Drive, EngineKind, OmniDrive, RobotModel, SimConfig};
 
 /// A floor without friction, so that only the bounce changes the ball.
 fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
@@ -129,5 +129,52 @@ fn a_wall_takes_spin_from_a_rolling_ball_by_the_same_law() {
         let got = row[ball_column("spin_x")];
         assert!((got / expected - 1.0).abs() < 0.05, "{}: {got}, not {expected}", ball.name);
         assert_eq!(row[ball_column("z")], 0.0, "it stays on the floor");
+    }
+}
+
+/// A robot whose wheels do next to nothing.
+fn free_robot() -> RobotModel {
+    let model = RobotModel::SSL_GENERIC;
+    let Drive::Omni(drive) = &model.drive else { panic!("it has other wheels") };
+    let drive = OmniDrive {
+        max_acceleration: 1e-4,
+        max_deceleration: 1e-4,
+        max_angular_acceleration: 1e-4,
+        max_angular_deceleration: 1e-4,
+        max_traction: 1e-4,
+        ..*drive
+    };
+    RobotModel { drive: Drive::Omni(drive), ..model }
+}
+
+#[test]
+fn a_ball_turns_a_round_robot_by_its_friction_at_every_speed_and_tick() {
+    let (robot, ball) = (free_robot(), BallModel::SSL_TIGERS);
+    let Body::Round { radius, .. } = robot.body else { panic!("it is not round") };
+    let inertia = robot.mass * radius * radius / 2.0;
+    // rapier solves the contact in the whole tick, of which the ball touches the robot in a part.
+    let tolerance = if slippery(&ball, 0).engine == EngineKind::Rapier { 0.25 } else { 0.03 };
+    for speed in [1.0_f32, 3.0, 6.0, 10.0] {
+        for aside in [0.03_f32, 0.06, 0.09] {
+            // Against the back of the robot.
+            let sin = aside / (radius + ball.radius);
+            let (towards, along) = (speed * (1.0 - sin * sin).sqrt(), speed * sin);
+            let push =
+                (1.0 + ball.robot_restitution) * towards / (1.0 / ball.mass + 1.0 / robot.mass);
+            let turning = radius * radius / inertia;
+            let stop = along / (3.5 / ball.mass + 1.0 / robot.mass + turning);
+            let expected = (ball.robot_friction * push).min(stop) * radius / inertia;
+            for tick in [0.001, 0.005] {
+                let config = SimConfig { tick, ..slippery(&ball, 0) };
+                let config = SimConfig { blue: vec![robot.clone()], ..config };
+                let mut scene = Scene::at("hit", config, &[[0.0, 0.0, 0.0]], Driver::STILL);
+                scene.set_ball([-0.5, aside], [speed, 0.0]);
+                let row = scene.after(24);
+                let turned = robots(&row).next().expect("one")[robot_column("v_theta")];
+                let error = (turned.abs() / expected - 1.0).abs();
+                let label = format!("{speed} m/s, {aside} m aside, ticks of {tick} s");
+                assert!(error < tolerance, "{label}: {turned} rad/s, friction gives {expected}");
+            }
+        }
     }
 }

@@ -134,7 +134,9 @@ fn robots_commanded_to_stand_gained_energy_after_a_crash() {
 
 #[test]
 fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
-    // A robot without contact that is commanded to stand only slows down.
+    // A robot without contact that is commanded to stand only slows down. A corner that rubs on it and
+    // leaves slowly is a lasting contact, whose small load is compensated for one more tick; the load
+    // of a crash would give 0.03 m/s and 1 rad/s in a tick.
     let touched_opponent = robot_column("touched_opponent");
     for config in both_leagues() {
         check_crashes(&config, |scene, rows, label| {
@@ -145,11 +147,55 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
                 }
                 for (before, after) in robots(&pair[0]).zip(robots(&pair[1])) {
                     let [slow, fast] = [after, before].map(|robot| robot[4].hypot(robot[5]));
-                    assert!(slow <= fast + 1e-3, "{label}, tick {tick}: {fast} to {slow} m/s");
+                    assert!(slow <= fast + 1e-2, "{label}, tick {tick}: {fast} to {slow} m/s");
                     let [slow, fast] = [after, before].map(|robot| robot[6].abs());
-                    assert!(slow <= fast + 1e-2, "{label}, tick {tick}: {fast} to {slow} rad/s");
+                    assert!(slow <= fast + 0.2, "{label}, tick {tick}: {fast} to {slow} rad/s");
                 }
             }
         });
     }
+}
+
+/// Two discs that meet 30 degrees off the line of their centres: friction stops the slip, so both get
+/// the turn rate of closed form, the same for both.
+#[test]
+fn discs_that_meet_off_centre_turn_at_the_same_rate() {
+    let model = RobotModel::SSL_GENERIC;
+    let radius = model.bounding_radius();
+    for speed in [1.0, 3.0] {
+        let aside = radius;
+        let ahead = (3.0_f32.sqrt() * radius) + 0.02;
+        let poses = [[0.0, 0.0, 0.0], [ahead, aside, 0.0]];
+        let driver = Driver::Constant(vec![vec![speed, 0.0, 0.0, 0.0, 0.0, 0.0], vec![0.0; 6]]);
+        let mut scene = Scene::at("off_centre", scenes::ssl(1, 1), &poses, driver);
+        scene.set_ball([0.0, 2.0], [0.0, 0.0]);
+        scene.set_robot_column(0, "v_x", speed);
+        let rows = scene.every_tick(0.02 / speed + 0.03);
+        let expected = 0.5 * speed / (3.0 * radius);
+        for robot in 0..2 {
+            let rates = rows.iter().map(|row| robots(row).nth(robot).expect("two")[6].abs());
+            let rate = rates.fold(0.0, f32::max);
+            let error = (rate / expected - 1.0).abs();
+            assert!(error < 0.05, "{speed} m/s, robot {robot}: {rate} rad/s, not {expected}");
+        }
+    }
+}
+
+/// A corner that hits a face has its friction at the corner: the impulse along the face that moves the
+/// struck robot aside turns the other one about that lever.
+#[test]
+fn a_corner_that_hits_a_face_is_turned_by_friction_at_the_corner() {
+    let model = RobotModel::VSS_440RPM;
+    let (half, corner) = (model.front_distance(), model.bounding_radius());
+    let config = SimConfig { tick: 0.001, ..scenes::vss(1, 1) };
+    let poses = [[0.0, 0.0, 45.0], [corner + half + 0.01, 0.01, 0.0]];
+    let mut scene = Scene::at("corner", config, &poses, Driver::Constant(vec![vec![0.0; 2]; 2]));
+    scene.set_ball([0.0, 0.6], [0.0, 0.0]);
+    scene.set_robot_column(0, "v_x", 1.0);
+    let rows = scene.every_tick(0.05);
+    let struck = rows.iter().find(|row| robots(row).nth(1).expect("two")[4] > 0.1);
+    let all: Vec<&[f32]> = robots(struck.expect("they meet")).collect();
+    let expected = -model.mass * all[1][5] * corner / (model.mass * (2.0 * half).powi(2) / 6.0);
+    let error = (all[0][6] / expected - 1.0).abs();
+    assert!(error < 0.05, "{} rad/s, expected {expected}", all[0][6]);
 }

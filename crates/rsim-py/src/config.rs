@@ -20,9 +20,9 @@ impl SimConfig {
     #[new]
     #[pyo3(signature = (
         field = Named::Preset("vss_3v3".to_owned()), n_blue = 3, n_yellow = 3, *,
-        robot = None, ball = None, time_step = 0.025, tick = 0.005, engine = "rapier"
+        robot = None, ball = None, time_step = 0.025, tick = 0.005, engine = "compact"
     ), text_signature = "(field='vss_3v3', n_blue=3, n_yellow=3, *, robot=None, ball=None, \
-        time_step=0.025, tick=0.005, engine='rapier')")]
+        time_step=0.025, tick=0.005, engine='compact')")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's constructor")]
     fn new(
         field: Named<Field>,

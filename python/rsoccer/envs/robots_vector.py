@@ -320,6 +320,10 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         """
         self._viewer.close()
 
+    def _repr_png_(self) -> bytes | None:
+        """An image of the first match, for notebooks."""
+        return self._viewer.png(self._matches)
+
     def _infos(self, outcome: Outcome) -> Infos:
         """Metrics and steps of the matches that have ended, in Gymnasium's form."""
         episodes = outcome.episodes

@@ -14,6 +14,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
+    from rsoccer.render.effects import Effects
     from rsoccer.render.window import Window
 
 Image = NDArray[np.uint8]
@@ -45,6 +46,7 @@ class Viewer:
             raise ValueError(f"render_mode: expected one of {modes} or None, got {mode!r}")
         self._mode, self._modes, self._fps = mode, modes, frames_per_second(task)
         self._window: Window | None = None
+        self._effects: dict[int, Effects] = {}
         self.closed = False
 
     def render(self, matches: EnvMatches) -> Image | None:
@@ -93,16 +95,39 @@ class Viewer:
         self.check_open("render")
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
+        from rsoccer.render.effects import Effects
         from rsoccer.render.image import draw_image
         from rsoccer.render.overlay import task_overlay
 
+        config, row, clock = matches.task.config, matches.frame.rows[world], matches.clock(world)
+        effects = self._effects.setdefault(world, Effects(config))
+        events = effects.update(row, clock, matches.play.commands[world])
         return draw_image(
-            matches.task.config,
-            matches.frame.rows[world],
+            config,
+            row,
             score=matches.score(world),
-            clock=matches.clock(world),
-            extras=task_overlay(matches, world),
+            clock=clock,
+            extras=(*task_overlay(matches, world), *events),
         )
+
+    def png(self, matches: EnvMatches) -> bytes | None:
+        """Return an image of the first match for notebooks, whatever the render mode.
+
+        Args:
+            matches: all matches.
+
+        Returns:
+            Content of a PNG file; None without a match to show, and without pygame.
+        """
+        if self.closed or not matches.begun:
+            return None
+        try:
+            image = self.image(matches)
+        except ModuleNotFoundError:
+            return None
+        from rsoccer.render.picture import Picture
+
+        return Picture(image).to_png()
 
     def check_open(self, call: str) -> None:
         """Refuse a call after `close`.
@@ -153,6 +178,10 @@ class ViewedMatch:
         `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
         self._viewer.close()
+
+    def _repr_png_(self) -> bytes | None:
+        """An image of the match, for notebooks."""
+        return self._viewer.png(self._matches)
 
 
 def metadata(task: Task, modes: Sequence[str] = RENDER_MODES) -> dict[str, Any]:

@@ -77,7 +77,7 @@ def evaluate(
         check_policy_like("opponent", opponent)
     task = task_for(policy) if task is None else as_task(task)
     sides = SIDES if task.two_sided else (None,)
-    per_side = _matches_per_side(task, matches)
+    per_side = matches_per_side(task, matches)
     checks.integer("seed", seed, 0)
     checks.integer("worlds", worlds, 1)
     threads = _processors() if threads is None else checks.integer("threads", threads, 1)
@@ -87,11 +87,9 @@ def evaluate(
     own_policy = make_policy(policy, task)
     episodes = []
     for index, side in enumerate(sides):
-        words = np.random.SeedSequence((seed, index)).generate_state(1, np.uint64)
-        first_seed = int(words[0]) >> 1
         controllers = lineup(task, LEARN, opponent_policy, side)
         runner = EpisodeRunner(task, controllers, own_policy, worlds, threads)
-        episodes.append(runner.run(per_side, first_seed))
+        episodes.append(runner.run(per_side, first_seed(seed, index)))
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
     opponents = opponents_of(task) if opponent is None else [name_of(opponent)]
     names = (name_of(policy), " ".join(opponents) or "-")
@@ -129,8 +127,29 @@ def _by_side(scores: list[Doubles], rng: np.random.Generator) -> dict[str, Resul
     return {side: count_results([part], rng) for side, part in zip(SIDES, scores, strict=True)}
 
 
-def _matches_per_side(task: Task, matches: int) -> int:
-    """Number of matches for each side, so that their sum is `matches`."""
+def first_seed(seed: int, side: int) -> int:
+    """Return the seed of the first match that an evaluation plays from a side.
+
+    Args:
+        seed: seed of the evaluation.
+        side: index of the side: 0 for blue or the only one, 1 for yellow.
+    """
+    words = np.random.SeedSequence((seed, side)).generate_state(1, np.uint64)
+    return int(words[0]) >> 1
+
+
+def matches_per_side(task: Task, matches: int) -> int:
+    """Return the number of matches for each side, so that their sum is `matches`.
+
+    Args:
+        task: the task that is played.
+        matches: number of matches of the evaluation.
+
+    Raises:
+        ValueError: too few matches, an odd number in a two-sided task, or such a task without a
+            success metric.
+        TypeError: a number of another type.
+    """
     if task.two_sided and task.success is None:
         raise ValueError(f"task: {task.name} has two sides and must name its success, got None")
     if not task.two_sided:

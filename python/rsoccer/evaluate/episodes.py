@@ -84,7 +84,7 @@ class EpisodeRunner:
             autoreset="disabled",
         )
         observations = matches.reset()
-        learners = _LearnerPolicy(self.policy, matches, seed)
+        learners = LearnerPolicy(self.policy, matches, seed)
         scores, returns, steps = np.zeros(n), np.zeros(n), np.zeros(n)
         playing = ~matches.done
         while playing.any():
@@ -107,18 +107,31 @@ def _success(task: Task, outcome: Outcome) -> Floats:
     return outcome.metrics[task.success]
 
 
-class _LearnerPolicy:
+class LearnerPolicy:
     """A policy in the place of the learners: only learners receive rewards."""
 
     def __init__(self, policy: Policy, matches: Matches, seed: int) -> None:
-        """Control the learners of new matches; world i draws with the seed `seed + i`."""
+        """Control the learners of new matches.
+
+        Args:
+            policy: the policy.
+            matches: the matches, with at least one learner.
+            seed: world i draws with the seed `seed + i`.
+        """
         self._policy, self._matches = policy, matches
         self._shape = (matches.worlds, len(matches.agents), matches.action_size)
         self._rng = WorldRng.seeded(seed, matches.worlds).split(matches.agents[0])
         self._memory = policy.new_memory(self._shape, self._rng)
 
     def act(self, observations: Floats) -> Floats:
-        """Actions of the learners (n, agents, action) for their observations (n, agents, o)."""
+        """Return the actions of the learners.
+
+        Args:
+            observations: (n, agents, o) observations of the learners.
+
+        Returns:
+            (n, agents, action) actions.
+        """
         view = None
         if self._policy.observes != "nothing":
             view = self._matches.play.view.select(self._matches.assignment.learner_indices)

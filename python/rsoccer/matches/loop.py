@@ -137,8 +137,19 @@ class Matches:
         self._all_begun = False
         self._returns = np.zeros((worlds, len(self.agents)))
         self._final_rows: tuple[Indices, Floats] | None = None
+        self._observer_terms: Mapping[str, Floats] = {}
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
+
+    @property
+    def observer_terms(self) -> dict[str, Floats]:
+        """(n, observers) weighted reward terms of the last step by name, of all observing robots.
+
+        The robots are `play.observers`. To be read only, valid until the next step; empty before
+        the first one.
+        """
+        shape = (self.worlds, len(self.play.observers))
+        return {name: np.broadcast_to(t, shape) for name, t in self._observer_terms.items()}
 
     @property
     def frame(self) -> Frame:
@@ -297,6 +308,20 @@ class Matches:
             raise ValueError(f"actions: expected shape {shape} of integers, got {indices.shape}")
         return spaces.action_vectors(self.task, indices)
 
+    def _repr_png_(self) -> bytes | None:
+        """An image of the first world, for notebooks; None before a reset or without pygame."""
+        if not self._begun[0]:
+            return None
+        try:
+            from rsoccer.render import Picture, draw_image
+        except ModuleNotFoundError:
+            return None
+        from rsoccer.render.overlay import task_overlay
+
+        clock = float(self.play.steps[0]) * self.task.config.time_step
+        row, extras = self.frame.rows[0], task_overlay(self)
+        return Picture(draw_image(self.task.config, row, clock=clock, extras=extras)).to_png()
+
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
         self._final_rows = None
@@ -350,6 +375,7 @@ class Matches:
         task, play = self.task, self.play
         named, terminated = task.calculate_reward_and_done(play)
         terminated = result_checks.done(terminated, self.worlds)
+        self._observer_terms = named
         terms, rewards = self._sum_terms(named)
         truncated = np.greater(play.steps >= task.max_steps, terminated)  # late, not terminated
         metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rsoccer.render.image import Image, Renderer, draw_image
+    from rsoccer.render.picture import Picture
     from rsoccer.render.record import film_match, record_match
     from rsoccer.render.video import write_video
     from rsoccer.render.window import Window
 
 __all__ = [
     "Image",
+    "Picture",
     "Renderer",
     "Window",
     "draw_image",
@@ -26,6 +28,7 @@ __all__ = [
 
 _MODULES = {
     "Image": "image",
+    "Picture": "picture",
     "Renderer": "image",
     "Window": "window",
     "draw_image": "image",

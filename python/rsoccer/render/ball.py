@@ -1,4 +1,4 @@
-"""The ball seen from above: halo, shadow, ball and motion trail."""
+"""The ball seen from above: ring, shadow, ball and motion trail."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from rsoccer.render import palette
-from rsoccer.render.shapes import Circle, Line, Point, Polygon, Pose, Shape
+from rsoccer.render.shapes import Arc, Circle, Line, Point, Polygon, Pose, Shape
 
 if TYPE_CHECKING:
     from rsoccer._core import BallModel
@@ -14,29 +14,58 @@ if TYPE_CHECKING:
 SHADOW_OFFSET = 0.4
 """Offset of a shadow to the right and down, per height of the ball; light comes from the left."""
 SHADOW_BLUR = 1.0
-"""Growth of a shadow's blur, in radii of the ball, for each metre of height."""
+"""Growth of a shadow's blur, in drawn radii, for each metre of height."""
 STEM = 0.4
-"""Width of the line between a ball in flight and its shadow, in radii of the ball."""
+"""Width of the line between a ball in flight and its shadow, in drawn radii."""
 GROWTH = 1.3
 """Growth of a ball's drawn radius for each metre of height, as it nears the camera."""
 MAX_GROWTH = 2.5
 """Largest factor on a ball's drawn radius."""
-HALO = 0.0065
-"""Radius of the halo around the ball, as a fraction of the picture's width."""
-MIN_HALO = 1.5
-"""Smallest radius of a halo, in radii of the ball: below it the ball is large enough without."""
+MIN_RADIUS = 0.0042
+"""Smallest drawn radius of the ball, as a fraction of the picture's width: 5 of 1280 pixels."""
+OUTLINE = 0.2
+"""Width of the ball's dark outline, in drawn radii: it parts the ball from a robot beside it."""
+RING = 0.011
+"""Radius of the ring around an enlarged ball, as a fraction of the picture's width."""
+RING_WIDTH = 0.0019
+"""Width of the ring, as a fraction of the picture's width."""
 TRAIL_SPEED = 0.3
 """Ball speed above which the ball leaves a trail, m/s."""
 TRAIL_TIME = 0.12
 """Seconds of motion that a trail shows."""
 TRAIL_LENGTH = 20.0
-"""Longest trail, in radii of the ball: a shot must not draw a line over the whole field."""
+"""Longest trail, in drawn radii: a shot must not draw a line over the whole field."""
 TRAIL_LAYERS = 5
 """Wedges of a trail; each is longer than the last, so the trail fades out away from the ball."""
 
 
-def halo_shapes(model: BallModel, center: Point, picture_width: float) -> tuple[Shape, ...]:
-    """Return a halo on the floor around a ball too small to find in the picture.
+def drawn_radius(model: BallModel, picture_width: float) -> float:
+    """Return the radius at which the ball is drawn on the floor.
+
+    Args:
+        model: the ball.
+        picture_width: width of the part of the world that the picture shows, metres.
+
+    Returns:
+        The true radius, or `MIN_RADIUS` of the picture's width if that is more, metres.
+    """
+    return max(model.radius, MIN_RADIUS * picture_width)
+
+
+def ring_radius(picture_width: float) -> float:
+    """Return the radius of the ring around a small ball.
+
+    Args:
+        picture_width: width of the part of the world that the picture shows, metres.
+
+    Returns:
+        Metres.
+    """
+    return RING * picture_width
+
+
+def ring_shapes(model: BallModel, center: Point, picture_width: float) -> tuple[Shape, ...]:
+    """Return a ring with a light surface around a ball too small to find in the picture.
 
     Args:
         model: the ball.
@@ -44,19 +73,22 @@ def halo_shapes(model: BallModel, center: Point, picture_width: float) -> tuple[
         picture_width: width of the part of the world that the picture shows, metres.
 
     Returns:
-        One circle, or nothing where the ball is large enough.
+        Surface and ring, or nothing where the ball is drawn at its true size.
     """
-    radius = HALO * picture_width
-    if radius < MIN_HALO * model.radius:
+    if drawn_radius(model, picture_width) == model.radius:
         return ()
-    return (Circle(center, radius, palette.HALO, blur=0.3 * radius),)
+    radius = ring_radius(picture_width)
+    return (
+        Circle(center, radius, palette.HALO),
+        Arc(center, radius, 0.0, math.tau, RING_WIDTH * picture_width, palette.RING),
+    )
 
 
-def shadow_shapes(model: BallModel, center: Point, height: float = 0.0) -> tuple[Shape, ...]:
+def shadow_shapes(radius: float, center: Point, height: float = 0.0) -> tuple[Shape, ...]:
     """Return the shadow on the floor, and for a ball in flight a line up to the ball.
 
     Args:
-        model: the ball.
+        radius: drawn radius of the ball on the floor, metres.
         center: position of the ball, metres.
         height: height of the ball's lowest point above the floor, metres.
 
@@ -66,28 +98,29 @@ def shadow_shapes(model: BallModel, center: Point, height: float = 0.0) -> tuple
     x, y = center
     offset, growth = SHADOW_OFFSET * height, _growth(height)
     on_floor = (x + offset, y - offset)
-    blur = (0.3 + SHADOW_BLUR * height) * model.radius
-    shadow = Circle(on_floor, 1.15 * growth * model.radius, palette.SHADOW, blur=blur)
+    blur = (0.3 + SHADOW_BLUR * height) * radius
+    shadow = Circle(on_floor, 1.15 * growth * radius, palette.SHADOW, blur=blur)
     if not height:
         return (shadow,)
-    stem = Line(on_floor, center, STEM * model.radius, palette.fade(palette.SHADOW, 0.6))
+    stem = Line(on_floor, center, STEM * radius, palette.fade(palette.SHADOW, 0.6))
     return (shadow, stem)
 
 
-def ball_shapes(model: BallModel, center: Point, height: float = 0.0) -> tuple[Shape, ...]:
-    """Return the ball and a highlight: true to scale on the floor, larger in flight.
+def ball_shapes(radius: float, center: Point, height: float = 0.0) -> tuple[Shape, ...]:
+    """Return the ball with an outline and a highlight, larger in flight.
 
     Args:
-        model: the ball.
+        radius: drawn radius of the ball on the floor, metres.
         center: position of the ball, metres.
         height: height of the ball's lowest point above the floor, metres.
 
     Returns:
-        Two circles, the ball first.
+        Three circles: the outline, the ball and the highlight.
     """
-    radius = model.radius * _growth(height)
+    radius *= _growth(height)
     x, y = center
     return (
+        Circle(center, (1.0 + OUTLINE) * radius, palette.BALL_OUTLINE),
         Circle(center, radius, palette.ORANGE),
         Circle((x - 0.3 * radius, y + 0.35 * radius), 0.3 * radius, palette.HIGHLIGHT),
     )
@@ -98,11 +131,11 @@ def _growth(height: float) -> float:
     return min(1.0 + GROWTH * height, MAX_GROWTH)
 
 
-def trail_shapes(model: BallModel, center: Point, velocity: Point) -> tuple[Shape, ...]:
+def trail_shapes(radius: float, center: Point, velocity: Point) -> tuple[Shape, ...]:
     """Return the motion trail of a fast ball: wedges that taper off behind the ball.
 
     Args:
-        model: the ball.
+        radius: drawn radius of the ball on the floor, metres.
         center: position of the ball, metres.
         velocity: velocity of the ball, m/s.
 
@@ -112,7 +145,6 @@ def trail_shapes(model: BallModel, center: Point, velocity: Point) -> tuple[Shap
     speed = math.hypot(*velocity)
     if speed < TRAIL_SPEED:
         return ()
-    radius = model.radius
     length = min(TRAIL_TIME * speed, TRAIL_LENGTH * radius)
     pose = Pose(center, velocity[0] / speed, velocity[1] / speed)
     return tuple(

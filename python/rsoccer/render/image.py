@@ -28,12 +28,12 @@ WIDTHS = (64, 4096)
 """Smallest and largest width of an image, pixels."""
 DEFAULT_WIDTHS = (640, 1280)
 """Smallest and largest default width of an image, pixels."""
-ROBOT_PIXELS = 18
-"""Pixels across the smallest robot that make its number readable."""
+ROBOT_PIXELS = 22
+"""Pixels across the smallest robot at which its number, heading and dribbler are distinct."""
 
 
 def default_width(config: SimConfig, min_width: int = DEFAULT_WIDTHS[0]) -> int:
-    """Compute the width at which the robots' numbers are readable.
+    """Compute the width at which the robots are large enough to read.
 
     Args:
         config: the configuration: its field and robots.
@@ -102,6 +102,7 @@ class Renderer:
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         caption: str = "",
         extras: Sequence[Shape] = (),
+        overlay: Sequence[Shape] = (),
     ) -> Image:
         """Draw one world.
 
@@ -112,6 +113,7 @@ class Renderer:
             names: names of blue and of yellow on the score board.
             caption: large text across the field; none if empty.
             extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
+            overlay: further shapes above all others.
 
         Returns:
             A new image (height, width, 3), uint8.
@@ -122,6 +124,7 @@ class Renderer:
         board = Board(score, clock, names, caption)
         canvas = self._background.copy()
         self._rasterizer.draw(canvas, foreground_shapes(self.config, row, board, extras))
+        self._rasterizer.draw(canvas, overlay)
         return _pixels(canvas)
 
 

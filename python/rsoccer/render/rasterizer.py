@@ -118,8 +118,8 @@ class Rasterizer:
         )
         ((x, y),) = self._camera.project((text.center,))
         half_width, half_height = (side / 2 / SUPERSAMPLING for side in glyphs.get_size())
-        corner = (x - half_width, y - half_height)
-        area = _pixel_bounds((corner, (x + half_width, y + half_height)), 0)
+        corner = (x - 2 * text.align * half_width, y - half_height)
+        area = _pixel_bounds((corner, (corner[0] + 2 * half_width, y + half_height)), 0)
         size = (area.width * SUPERSAMPLING, area.height * SUPERSAMPLING)
         layer = pygame.Surface(size, pygame.SRCALPHA)
         offset = [round((a - b) * SUPERSAMPLING) for a, b in zip(corner, area.topleft, strict=True)]

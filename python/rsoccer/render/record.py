@@ -12,13 +12,13 @@ from rsoccer.controllers import Controllers, given_by_name
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.lineup import task_for
 from rsoccer.matches import Matches
+from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
+from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import write_video
 from rsoccer.task import Task
 
-GOAL_PAUSE = 0.8
-"""Seconds of still picture at a goal, before the next episode begins."""
 MIN_WIDTH = 720
 """Default width of a video, pixels; a large field has a wider one."""
 
@@ -106,12 +106,14 @@ def _images(
     time_step = matches.task.config.time_step
     actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
     blue = yellow = 0
+    effects = Effects(matches.task.config)
     matches.reset()
     row = matches.frame.rows[0]
     yield renderer.draw(row, names=names, extras=task_overlay(matches))
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
             matches.reset()
+            effects.clear()
         matches.step(actions)
         crossed = matches.frame.ball.crossed[0]
         blue, yellow = blue + int(crossed == GOAL_RIGHT), yellow + int(crossed == GOAL_LEFT)
@@ -122,7 +124,10 @@ def _images(
             clock=step * time_step,
             names=names,
             caption="goal" if scored else "",
-            extras=task_overlay(matches),
+            extras=(
+                *task_overlay(matches),
+                *effects.update(matches.frame.rows[0], step * time_step, matches.play.commands[0]),
+            ),
         )
         for _ in range(math.ceil(GOAL_PAUSE / time_step) if scored else 1):
             yield image

@@ -13,9 +13,15 @@ import numpy as np
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame, RobotColumns
 from rsoccer.render import palette
-from rsoccer.render.ball import ball_shapes, halo_shapes, shadow_shapes, trail_shapes
+from rsoccer.render.ball import (
+    ball_shapes,
+    drawn_radius,
+    ring_shapes,
+    shadow_shapes,
+    trail_shapes,
+)
 from rsoccer.render.pitch import pitch_shapes
-from rsoccer.render.robot import robot_shapes
+from rsoccer.render.robot import label_shapes, robot_outlines, robot_shapes
 from rsoccer.render.scoreboard import (
     Board,
     board_shapes,
@@ -27,6 +33,11 @@ from rsoccer.render.shapes import Color, Polygon, Pose, Shape, rectangle
 
 if TYPE_CHECKING:
     from rsoccer._core import RobotModel, SimConfig
+
+NUMBER_HEIGHT = 0.0098
+"""Height of numbers on labels, as a fraction of the picture's width: 12 of 1280 pixels."""
+LABELLED_BELOW = 0.0095
+"""Height of the number on a robot below which the robot has a label, in the same fraction."""
 
 
 def background_shapes(config: SimConfig) -> tuple[Shape, ...]:
@@ -65,33 +76,65 @@ def foreground_shapes(
     ball, velocity = _pair(frame.ball.position[0]), _pair(frame.ball.velocity[0])
     height = float(frame.ball.height[0])
     blue, yellow = config.robots[: config.n_blue], config.robots[config.n_blue :]
+    picture_width = scene_bounds(config.field).width
+    radius = drawn_radius(config.ball, picture_width)
+    teams = (
+        (blue, frame.blue, palette.BLUE),
+        (yellow, frame.yellow, palette.YELLOW),
+    )
+    robots = tuple(shape for team in teams for shape in _team_shapes(*team, picture_width))
+    labels = tuple(shape for team in teams for shape in _team_labels(*team, picture_width))
     return (
         *extras,
-        *halo_shapes(config.ball, ball, scene_bounds(config.field).width),
-        *trail_shapes(config.ball, ball, velocity),
-        *shadow_shapes(config.ball, ball, height),
-        *_team_shapes(blue, frame.blue, palette.BLUE),
-        *_team_shapes(yellow, frame.yellow, palette.YELLOW),
-        *ball_shapes(config.ball, ball, height),
+        *labels,
+        *trail_shapes(radius, ball, velocity),
+        *ring_shapes(config.ball, ball, picture_width),
+        *shadow_shapes(radius, ball, height),
+        *robots,
+        *ball_shapes(radius, ball, height),
         *score_shapes(config.field, board),
         *caption_shapes(config.field, board.caption),
     )
 
 
-def _team_shapes(
-    models: Sequence[RobotModel], robots: RobotColumns, color: Color
+def _team_labels(
+    models: Sequence[RobotModel], robots: RobotColumns, color: Color, picture_width: float
 ) -> tuple[Shape, ...]:
-    """All robots of a team in world 0."""
-    states = zip(models, robots.position[0], robots.heading[0], robots.infrared[0], strict=True)
+    """Labels of the robots of a team in world 0 that are too small for a readable number."""
     return tuple(
         shape
-        for number, (model, position, (cos, sin), infrared) in enumerate(states)
+        for number, (model, pose) in enumerate(zip(models, _poses(robots), strict=True))
+        if not _has_number(model, picture_width)
+        for shape in label_shapes(model, pose, color, number, NUMBER_HEIGHT * picture_width)
+    )
+
+
+def _has_number(model: RobotModel, picture_width: float) -> bool:
+    """Whether a robot is large enough in the picture for a readable number on it."""
+    return robot_outlines(model).number_height >= LABELLED_BELOW * picture_width
+
+
+def _poses(robots: RobotColumns) -> list[Pose]:
+    """Poses of a team in world 0."""
+    states = zip(robots.position[0], robots.heading[0], strict=True)
+    return [Pose(_pair(position), *_pair(heading)) for position, heading in states]
+
+
+def _team_shapes(
+    models: Sequence[RobotModel], robots: RobotColumns, color: Color, picture_width: float
+) -> tuple[Shape, ...]:
+    """All robots of a team in world 0."""
+    states = zip(models, _poses(robots), robots.infrared[0], strict=True)
+    return tuple(
+        shape
+        for number, (model, pose, infrared) in enumerate(states)
         for shape in robot_shapes(
             model,
-            Pose(_pair(position), float(cos), float(sin)),
+            pose,
             color,
             number,
             has_ball=bool(infrared > 0),
+            has_number=_has_number(model, picture_width),
         )
     )
 

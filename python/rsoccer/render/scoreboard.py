@@ -31,6 +31,8 @@ class Board:
     caption: str = ""
 
 
+GOAL_PAUSE = 0.8
+"""Seconds of still picture at a goal, before the next episode begins."""
 WIDTH = 0.6
 """Width of the board, as a fraction of the picture's width."""
 HEIGHT = 0.056

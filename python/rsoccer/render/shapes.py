@@ -94,7 +94,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Upright text centred on a point.
+    """Upright text, centred on a point unless `align` moves it.
 
     Attributes:
         center: centre of the text, metres.
@@ -102,6 +102,7 @@ class Text:
         text: the text, one line.
         color: the colour.
         max_width: width beyond which the text is shrunk, metres.
+        align: share of the text to the left of the point: 0.5 centres it, 0 begins there.
     """
 
     center: Point
@@ -109,6 +110,7 @@ class Text:
     text: str
     color: Color
     max_width: float = math.inf
+    align: float = 0.5
 
 
 Shape: TypeAlias = Polygon | Circle | Arc | Line | Text

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import weakref
+from collections.abc import Callable
 
 from rsoccer.render.image import Image
 from rsoccer.render.pygame_import import pygame
@@ -26,17 +27,24 @@ class Window:
         closed: the window has been closed, by the user or by `close`.
     """
 
-    def __init__(self, title: str = "rSoccer", fps: float | None = 40.0) -> None:
+    def __init__(
+        self,
+        title: str = "rSoccer",
+        fps: float | None = 40.0,
+        listener: Callable[[pygame.Event], object] | None = None,
+    ) -> None:
         """Prepare a window without opening it.
 
         Args:
             title: text of the title bar.
             fps: largest number of images per second; None never waits.
+            listener: called with each event of this window, and with events of no window.
         """
         self.title = title
         self.fps = fps
         self.closed = False
         self._window: pygame.Window | None = None
+        self._listener = listener
         self._clock = pygame.time.Clock()
 
     def show(self, image: Image) -> bool:
@@ -77,11 +85,13 @@ class Window:
             self._window = None
 
     def handle_event(self, event: pygame.Event) -> None:
-        """Close the window if an event asks for it.
+        """Pass an event on to the listener, and close the window if the event asks for it.
 
         Args:
             event: an event of any window.
         """
+        if self._listener is not None and getattr(event, "window", None) in (None, self._window):
+            self._listener(event)
         if event.type == pygame.QUIT:
             self.close()
         escaped = event.type == pygame.KEYDOWN and event.key == pygame.K_ESCAPE

@@ -87,8 +87,8 @@ class Vss(Soccer):
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
     field: str | Field = "vss_3v3"
     """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
-    engine: str = "rapier"
-    """Contact solver: "rapier" (the reference) or "compact" (faster)."""
+    engine: str = "compact"
+    """Contact solver: "compact" or "rapier" (the reference, slower)."""
 
     action_size = 2
     """Left and right wheel."""

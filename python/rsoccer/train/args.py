@@ -21,6 +21,7 @@ CHANGEABLE_ON_RESUME = (
     "samples",
     "checkpoint_interval",
     "progress",
+    "match_page",
 )
 """Fields that may change when a run resumes. Of these only `samples` affects the updates: the
 learning rate falls towards the end that it sets."""
@@ -56,6 +57,8 @@ class Args:
     """seconds between checkpoints, above 0; a crash loses the updates after the last one"""
     progress: bool = True
     """show a progress bar"""
+    match_page: bool = True
+    """write a match of the trained policy to `out` at the end, as match.html and match.rsr"""
 
     solo_fraction: float = 0.4
     """first part of the samples, 0 to 1, with one learner per match; all others follow `ou`.

@@ -16,8 +16,10 @@ import numpy as np
 import torch
 
 from rsoccer.files import write_atomically
+from rsoccer.lineup import lineup, opponents_of
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
+from rsoccer.replay.recorder import record_replay
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
@@ -32,6 +34,10 @@ from rsoccer.train.timing import Clock
 
 POLICY_FILE = "policy.safetensors"
 """Name of the policy in a run's folder."""
+MATCH = "match"
+"""Name, without a suffix, of the files of a match in a run's folder."""
+MATCH_SECONDS = 30.0
+"""Duration of that match, s."""
 UNTRAINED_FILE = "untrained.safetensors"
 """Name of the policy from before the first update in a run's folder."""
 
@@ -218,7 +224,19 @@ def run(args: Args) -> Path:
                 f"{args.out}; continue with --resume\n"
             )
             raise Interrupted(stop.exit_status) from None
+    if args.match_page:
+        _write_match(trainer)
     return args.out / POLICY_FILE
+
+
+def _write_match(trainer: Trainer) -> None:
+    """Play a match of the trained policy, and write its replay and its page."""
+    args, task = trainer.args, trainer.task
+    names = ("TRAINED", " ".join(opponents_of(task)).upper())
+    controllers = lineup(task, trainer.network())
+    replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
+    replay.save(args.out / f"{MATCH}.rsr")
+    replay.save_html(args.out / f"{MATCH}.html")
 
 
 def _open_run(args: Args) -> Checkpoint | None:

@@ -51,6 +51,8 @@ pub(crate) struct Engine {
     /// Contacts of the last tick, or of the last part of it.
     contacts: Contacts,
     sub_steps: usize,
+    /// Length of a tick, s.
+    tick: f32,
     /// Whether ticks without contacts go without the solver.
     contact_free_enabled: bool,
     /// Number of ticks without contacts.
@@ -123,6 +125,7 @@ impl Engine {
             },
             contacts: Contacts::default(),
             sub_steps: SUB_STEPS,
+            tick: config.tick,
             contact_free_enabled: true,
             contact_free_ticks: 0,
             is_contact_free: false,
@@ -194,11 +197,6 @@ impl Engine {
         self.bodies.ball_was_jammed()
     }
 
-    /// Whether contacts of the ball follow outlines that rotate within a tick.
-    pub(crate) fn follows_outlines(&self) -> bool {
-        matches!(self.solver, Solver::Compact(_))
-    }
-
     /// Advances all bodies by a tick, or by the part of it that `rules` names.
     pub(crate) fn step(
         &mut self,
@@ -212,8 +210,7 @@ impl Engine {
             && !self.bodies.ball_was_jammed();
         self.bodies.ball_mass =
             rules.squeezed.map_or(rules.params.ball.mass, |squeezed| squeezed.mass);
-        let sub_steps =
-            SubSteps { time: rules.time / self.sub_steps as f32, count: self.sub_steps };
+        let sub_steps = self.sub_steps(rules.time);
         let Self { bodies, solver, contacts, .. } = self;
         let Scratch { rapier, compact, near, contact_free, undisturbed, .. } = scratch;
         let is_free = match solver {
@@ -249,6 +246,18 @@ impl Engine {
         }
         self.is_contact_free = self.contacts.len() == 0;
         Ok(())
+    }
+
+    /// Sub-steps of a tick, or of a part of it of length `time` (s). The compact solver finds contacts
+    /// anew in each sub-step, so that a part of a tick needs no shorter ones.
+    fn sub_steps(&self, time: f32) -> SubSteps {
+        let parts = (self.tick / time).round();
+        let count = match self.solver {
+            Solver::Rapier(_) => self.sub_steps as f32,
+            Solver::Compact(_) => (self.sub_steps as f32 / parts).ceil(),
+        };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small number
+        SubSteps { time: time / count, count: count as usize }
     }
 
     /// Contacts of the ball with an impulse in the last tick.

@@ -15,9 +15,9 @@ use crate::models::robot::RobotModel;
 #[serde(rename_all = "lowercase")]
 pub enum EngineKind {
     /// rapier2d, the reference.
-    #[default]
     Rapier,
     /// The solver of this crate, made for a dozen bodies.
+    #[default]
     Compact,
 }
 

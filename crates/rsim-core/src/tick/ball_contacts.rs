@@ -76,8 +76,8 @@ fn contact_body(
         Partner::Robot(index) => {
             let motion = state.engine.motion(robot(index));
             let ball = state.engine.motion(BALL).position;
-            let point = ball - contact.normal * model.radius;
             let body = &params.robots[index];
+            let point = motion.position + contact.arm;
             let mut other = body.contact_body(&motion, point, model.robot_surface());
             if let Some((surface, down)) = running_dribbler(state, params, index, &motion, ball) {
                 other.surface = surface;

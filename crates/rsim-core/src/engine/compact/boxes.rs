@@ -123,9 +123,9 @@ impl Rectangle<'_> {
             }
             let point = ends[0] + (ends[1] - ends[0]) * share;
             let separation = point.dot(normal) - self.half[face.axis];
-            let position = self.body.position + point - normal * (0.5 * separation);
+            let on_self = point + tangent * shift - normal * separation;
             let feature = tag | axes | end << 3 | POINT;
-            manifold.push(Point { position, separation, feature });
+            manifold.push(Point { arms: [on_self, point - center], separation, feature });
         }
         (!manifold.points().is_empty()).then_some(manifold)
     }
@@ -197,7 +197,7 @@ mod tests {
             compared += 1;
             with_two += usize::from(found.points().len() == 2);
             for point in found.points().iter().filter(|point| point.separation < -1e-5) {
-                let on_first = point.position + found.normal * (0.5 * -point.separation);
+                let on_first = a.position + point.arms[0];
                 let near = parry.points.iter().any(|(at, _)| (*at - on_first).length() < 1e-3);
                 assert!(near, "{draw}: {point:?}, parry has {:?}", parry.points);
             }

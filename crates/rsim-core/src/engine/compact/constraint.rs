@@ -13,8 +13,8 @@ use crate::math::Vector;
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ConstraintPoint {
-    /// On the field, m.
-    pub(super) position: Vector,
+    /// From both bodies' centres to the point, m.
+    pub(super) arms: [Vector; 2],
     feature: u32,
     /// Along the normal, N s.
     pub(super) impulse: f32,
@@ -27,7 +27,7 @@ pub(super) struct ConstraintPoint {
     mass: f32,
 }
 
-/// Friction of a contact: its points lie on one face, so that their friction has one lever.
+/// Friction of a contact: the points that touch lie on one face, so that their friction has one lever.
 #[derive(Debug, Clone, Copy, Default)]
 struct Friction {
     coefficient: f32,
@@ -90,11 +90,11 @@ impl Constraint {
         let found = manifold.points();
         let mut points = [ConstraintPoint::default(); 2];
         for (point, found) in points.iter_mut().zip(found) {
-            let arms = [found.position - a.position, found.position - b.position];
+            let arms = found.arms;
             let levers = arms.map(|arm| arm.perp_dot(normal));
             let response = response(levers, levers);
             *point = ConstraintPoint {
-                position: found.position,
+                arms,
                 feature: found.feature,
                 impulse: impulses.normal_of(found.feature),
                 separation: found.separation,
@@ -106,8 +106,9 @@ impl Constraint {
         let count = found.len();
         let coupling = if count == 2 { response(points[0].levers, points[1].levers) } else { 0.0 };
         let friction = if friction > 0.0 {
-            let middle = found[0].position.midpoint(found[count - 1].position);
-            let levers = [a, b].map(|body| (middle - body.position).dot(normal));
+            // Of an edge at an angle to the face only one end touches.
+            let nearest = found.iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
+            let levers = nearest.map_or([0.0; 2], |point| point.arms.map(|arm| arm.dot(normal)));
             let mass = 1.0 / response(levers, levers);
             Friction { coefficient: friction, impulse: impulses.tangent, levers, mass }
         } else {

@@ -28,7 +28,7 @@ pub(super) fn meet_ball(
     } else {
         approached(met, outline, ball.body).touch(center, radius, time)?
     };
-    Some(Manifold::of_point(touch.normal, center - touch.normal * radius, touch.distance))
+    Some(manifold_of(&touch, met, radius))
 }
 
 fn approached(met: &SolverBody, outline: Outline, disc: &SolverBody) -> Approached {
@@ -68,8 +68,7 @@ pub(super) fn discs(a: Disc, b: Disc, window: Window) -> Option<Manifold> {
         let normal = at.normalize();
         (normal, (apart.dot(normal) - radii).max(0.0))
     };
-    let position = a.body.position + normal * (a.radius + 0.5 * separation);
-    Some(Manifold::of_point(normal, position, separation))
+    Some(Manifold::of_point(normal, [normal * a.radius, -normal * b.radius], separation))
 }
 
 /// Contact of another outline with a disc, as [`discs`].
@@ -85,8 +84,14 @@ pub(super) fn outline_and_disc(
             let touch = Touch::of(&a.placed(outline).nearest(center), center, b.radius);
             (touch.distance <= window.reach).then_some(touch)
         })?;
-    let position = center - touch.normal * (b.radius + 0.5 * touch.distance);
-    Some(Manifold::of_point(touch.normal, position, touch.distance))
+    Some(manifold_of(&touch, a, b.radius))
+}
+
+/// The manifold of a disc of `radius` that touches `met`.
+fn manifold_of(touch: &Touch, met: &SolverBody, radius: f32) -> Manifold {
+    let on_disc = -touch.normal * radius;
+    let arms = [touch.center + on_disc - met.position, on_disc];
+    Manifold::of_point(touch.normal, arms, touch.distance)
 }
 
 #[cfg(test)]

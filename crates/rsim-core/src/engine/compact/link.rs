@@ -43,8 +43,8 @@ pub(super) struct Link {
 pub(super) struct Total {
     /// Normals weighted by impulse, N s.
     pub(super) normal: Vector,
-    /// Points weighted by impulse, N s m.
-    pub(super) point: Vector,
+    /// From both bodies' centres to the points, weighted by impulse, N s m.
+    pub(super) arms: [Vector; 2],
     /// N s.
     pub(super) impulse: f32,
 }
@@ -140,7 +140,9 @@ impl Link {
         self.impulses = constraint.impulses();
         for point in constraint.points() {
             self.total.normal += constraint.normal * point.impulse;
-            self.total.point += point.position * point.impulse;
+            for (total, arm) in self.total.arms.iter_mut().zip(point.arms) {
+                *total += arm * point.impulse;
+            }
             self.total.impulse += point.impulse;
         }
     }

@@ -21,8 +21,8 @@ pub(super) struct Manifold {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Point {
-    /// On the field, m.
-    pub(super) position: Vector,
+    /// From both bodies' centres to the point when they touch, m.
+    pub(super) arms: [Vector; 2],
     /// Now, along the normal, m; negative for overlapping outlines.
     pub(super) separation: f32,
     /// Identifies the point from one sub-step to the next.
@@ -35,9 +35,9 @@ impl Manifold {
         Self { normal, points: [Point::default(); 2], count: 0 }
     }
 
-    pub(super) fn of_point(normal: Vector, position: Vector, separation: f32) -> Self {
+    pub(super) fn of_point(normal: Vector, arms: [Vector; 2], separation: f32) -> Self {
         let mut manifold = Self::empty(normal);
-        manifold.push(Point { position, separation, feature: 1 });
+        manifold.push(Point { arms, separation, feature: 1 });
         manifold
     }
 
@@ -51,7 +51,8 @@ impl Manifold {
     }
 
     /// The manifold with first and second exchanged.
-    pub(super) fn reversed(self) -> Self {
+    pub(super) fn reversed(mut self) -> Self {
+        self.points.iter_mut().for_each(|point| point.arms.reverse());
         Self { normal: -self.normal, ..self }
     }
 }

@@ -94,7 +94,7 @@ impl CompactSolver {
         bodies.move_freely(SubSteps { time, count });
         scratch.write(bodies);
         self.store(&scratch.links, bodies.ball_mass, time);
-        report(&scratch.links, contacts);
+        report(&scratch.links, &scratch.bodies, contacts);
         meets
     }
 }

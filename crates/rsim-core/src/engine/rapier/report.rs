@@ -19,7 +19,16 @@ impl RapierSolver {
             let (other, sign) =
                 if pair.collider1 == ball { (pair.collider2, -1.0) } else { (pair.collider1, 1.0) };
             let with = partner(self.colliders[other].user_data)?;
-            Some(BallContact { with, normal: normal * sign, impulse })
+            let anchor = pair.manifolds().iter().find_map(|manifold| {
+                let contact = manifold.data.solver_contacts.first()?;
+                Some(if sign > 0.0 { contact.anchor1 } else { contact.anchor2 })
+            });
+            let arm = match with {
+                // In the frame of the robot since the hook set it.
+                Partner::Robot(_) => self.colliders[other].position().rotation * anchor?,
+                Partner::Wall(_) => Vector::ZERO,
+            };
+            Some(BallContact { with, normal: normal * sign, impulse, arm })
         }));
         contacts.robots.extend(self.narrow_phase.contact_pairs().filter_map(|pair| {
             let labels = [pair.collider1, pair.collider2].map(|of| self.colliders[of].user_data);

@@ -1,0 +1,1 @@
+"""Matches in which a person drives a robot by keyboard or gamepad."""

@@ -1,0 +1,329 @@
+"""The driver: controls of a person as actions of one robot, in any task of either league."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from rsoccer._core import Simulator
+from rsoccer.arrays import Floats, Mask
+from rsoccer.controllers import Controller, Controllers, resolve
+from rsoccer.frame import team_of
+from rsoccer.human.controls import Controls
+from rsoccer.policies import make_policy
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.rng import WorldRng
+from rsoccer.simulator_interface import SimulatorLike
+from rsoccer.task import Learn, Task
+
+FRAMES: Final = ("field", "robot")
+"""Axes of the deflections of an SSL robot: those of the picture, or those of the robot."""
+WHEEL_TURN: Final = 0.3
+"""Wheel speed of a full turn of a differential robot, as a fraction of the top speed."""
+TURN: Final = 0.5
+"""Action of a full turn of an omnidirectional robot: 5 rad/s in the tasks of the package."""
+SLOW: Final = 0.4
+"""Factor on speeds while they are reduced."""
+CHIP_ANGLE: Final = math.pi / 4
+"""Angle of a chip above the floor, radians."""
+
+
+class Driver:
+    """A person's controls as actions of the driven robot.
+
+    Attributes:
+        task: the task that is played.
+        robot: name of the driven robot.
+        frame: "field" or "robot", the axes of the deflections of an SSL robot.
+        controls: current controls.
+    """
+
+    def __init__(self, task: Task, robot: str | None = None) -> None:
+        """Begin with a robot and controls at rest.
+
+        Args:
+            task: the task that is played.
+            robot: name of the robot; by default the first learner.
+
+        Raises:
+            ValueError: no such robot, or a task with other actions than those of VSSS and SSL.
+        """
+        columns = tuple(task.config.command_columns)
+        self._is_differential = columns == ("left", "right") and task.action_size == 2
+        if not self._is_differential and ("dribbler" not in columns or task.action_size != 5):
+            raise ValueError(
+                "task: expected one with the actions of VSSS (2 numbers) or SSL (5 numbers), "
+                f"got {task.name} with {task.action_size}"
+            )
+        self.task = task
+        self.frame = FRAMES[0]
+        self.controls = Controls()
+        self.robot = ""
+        self.choose(next(iter(task.agents or task.robots)) if robot is None else robot)
+
+    @property
+    def has_kicker(self) -> bool:
+        """True where the robots are omnidirectional, with kicker and dribbler."""
+        return not self._is_differential
+
+    @property
+    def index(self) -> int:
+        """Index of the driven robot in the order of a state row."""
+        return list(self.task.robots).index(self.robot)
+
+    def choose(self, robot: str) -> None:
+        """Drive another robot.
+
+        Args:
+            robot: its name.
+
+        Raises:
+            ValueError: no such robot.
+        """
+        if robot not in self.task.robots:
+            raise ValueError(f"robot: expected one of {list(self.task.robots)}, got {robot!r}")
+        self.robot = robot
+
+    def choose_next(self) -> None:
+        """Drive the next robot in the order of a state row; the first follows the last."""
+        self.robot = self.task.robots[(self.index + 1) % len(self.task.robots)]
+
+    def choose_number(self, number: int) -> None:
+        """Drive the robot of the same team with a number, if there is one.
+
+        Args:
+            number: number of the robot in its team.
+        """
+        robot = f"{team_of(self.robot)}_{number}"
+        if robot in self.task.robots:
+            self.robot = robot
+
+    def change_frame(self) -> None:
+        """Exchange the axes of the deflections of an SSL robot."""
+        self.frame = FRAMES[1 - FRAMES.index(self.frame)]
+
+    def action(self, heading: Sequence[float]) -> Floats:
+        """Return the action of the driven robot for the current controls.
+
+        In a discrete task the action is the row of the `action_table` that is nearest to it.
+
+        Args:
+            heading: cosine and sine of the robot's heading in the view of its team, which
+                attacks +x.
+
+        Returns:
+            (action,) in [-1, 1].
+        """
+        table = self.task.action_table
+        if self._is_differential:
+            action = self._wheels(1.0 if table is not None else WHEEL_TURN)
+        else:
+            action = self._motion(heading)
+        if table is None:
+            return action
+        if self.has_kicker and self.controls.kick:
+            action[4] = -1.0  # a table's kick has the dribbler off
+            action[:3] = 0.0
+        nearest = ((table - action) ** 2).sum(axis=1).argmin()
+        chosen: Floats = table[nearest].astype(np.float32)
+        return chosen
+
+    def _wheels(self, turn_share: float) -> Floats:
+        """Wheel speeds; too fast a wheel slows both, so that the curve stays the same."""
+        controls = self.controls
+        turn = turn_share * max(-1.0, min(1.0, controls.turn - controls.right))
+        wheels = self._speed * np.array([controls.up - turn, controls.up + turn], np.float32)
+        limited: Floats = wheels / np.float32(max(1.0, float(np.abs(wheels).max())))
+        return limited
+
+    @property
+    def _speed(self) -> float:
+        """Factor on speeds; the table of a discrete task has no reduced ones."""
+        return SLOW if self.controls.slow and self.task.action_table is None else 1.0
+
+    def _motion(self, heading: Sequence[float]) -> Floats:
+        """Velocity, turn rate, kick and dribbler of an omnidirectional robot."""
+        controls = self.controls
+        x, y = self._velocity(heading)
+        # A diagonal of two keys is no faster than one key.
+        speed = self._speed / max(1.0, math.hypot(x, y))
+        return np.array(
+            [
+                speed * x,
+                speed * y,
+                self._speed * TURN * controls.turn,
+                controls.kick or -1.0,
+                1.0 if controls.dribble else -1.0,
+            ],
+            np.float32,
+        )
+
+    def _velocity(self, heading: Sequence[float]) -> tuple[float, float]:
+        """Velocity in the axes of the task's actions."""
+        cos, sin = heading
+        in_robot_axes = getattr(self.task, "velocity_frame", "field") == "robot"
+        if self.frame == "robot":
+            forward, left = self.controls.up, -self.controls.right
+            if in_robot_axes:
+                return forward, left
+            return cos * forward - sin * left, sin * forward + cos * left
+        sign = 1.0 if team_of(self.robot) == "blue" else -1.0  # yellow's view is rotated
+        x, y = sign * self.controls.right, sign * self.controls.up
+        if in_robot_axes:
+            return cos * x + sin * y, cos * y - sin * x
+        return x, y
+
+
+class HumanPolicy(Policy):
+    """A policy in which the driver acts for one of its robots.
+
+    The other robots, and all of them while the driver has a robot elsewhere, follow the policy
+    beneath. It plays a single match.
+    """
+
+    def __init__(self, policy: Policy, robots: Sequence[str], driver: Driver) -> None:
+        """Put a driver over a policy.
+
+        Args:
+            policy: policy of the robots that are not driven.
+            robots: names of the robots of the policy, in the order of a state row.
+            driver: the driver.
+        """
+        super().__init__()
+        self._policy = policy
+        self._robots = list(robots)
+        self._driver = driver
+        needs_view = policy.observes == "nothing"
+        self.observes: Observes = "view" if needs_view else policy.observes
+
+    def check_fits(self, task: Task, observation_size: int) -> None:
+        """Check that the policy beneath can play a task.
+
+        Args:
+            task: the task to be played.
+            observation_size: numbers in one robot's observation.
+        """
+        self._policy.check_fits(task, observation_size)
+
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+        """Return the memory of the policy beneath.
+
+        Args:
+            shape: (n, robots, action).
+            rng: (n,) random streams of the worlds.
+
+        Returns:
+            New arrays, each (n, ...).
+        """
+        return self._policy.new_memory(shape, rng)
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        """Return the actions of the policy beneath, with the driven robot's replaced.
+
+        Args:
+            inputs: view and observations of the robots.
+            rng: (n,) random streams of the worlds.
+            memory: arrays of the policy beneath; updated in place.
+
+        Returns:
+            (n, robots, action) in [-1, 1].
+        """
+        actions = self._policy.act(inputs, rng, memory)
+        if self._driver.robot not in self._robots:
+            return actions
+        slot = self._robots.index(self._driver.robot)
+        headings = inputs.required_view("the driver").ego.heading
+        driven = np.array(actions, np.float32)
+        for world in range(len(driven)):
+            driven[world, slot] = self._driver.action(headings[world, slot].tolist())
+        return driven
+
+
+def human_controllers(driver: Driver, controllers: Controllers) -> dict[str, Controller]:
+    """Return controllers with the driver over each policy.
+
+    Args:
+        driver: the driver.
+        controllers: policies by robot, team or "all", as `Matches` takes them.
+
+    Returns:
+        A `HumanPolicy` by robot; robots that shared a policy share one.
+
+    Raises:
+        TypeError: something that is not a controller.
+        ValueError: an unknown robot, a robot without a policy, or a policy that does not fit.
+    """
+    task = driver.task
+    policies: dict[str, str | Policy] = {}
+    for robot, controller in resolve(task, controllers).items():
+        if isinstance(controller, Learn):
+            raise ValueError(
+                f"controllers: expected a policy for every robot, got none for {robot}"
+            )
+        policies[robot] = controller
+    robots_of: dict[str | int, list[str]] = {}
+    for robot, policy in policies.items():
+        robots_of.setdefault(policy if isinstance(policy, str) else id(policy), []).append(robot)
+    human: dict[str, Controller] = {}
+    for robots in robots_of.values():
+        driven = HumanPolicy(make_policy(policies[robots[0]], task), robots, driver)
+        human |= dict.fromkeys(robots, driven)
+    return human
+
+
+class ChipSimulator:
+    """A simulator of one match in which the driver's kicks may be chips.
+
+    The actions of the tasks have no chip, so it enters here, as a command.
+    """
+
+    def __init__(self, driver: Driver, simulator: SimulatorLike | None = None) -> None:
+        """Put the driver over a simulator.
+
+        Args:
+            driver: the driver.
+            simulator: the simulator; by default a new one for one match of the task.
+        """
+        self._driver = driver
+        self._simulator = Simulator(driver.task.config) if simulator is None else simulator
+
+    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        """Start new matches, as the simulator does.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) initial state rows.
+            out: (n, row) output.
+        """
+        self._simulator.place(worlds, rows, out)
+
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
+        """Move balls, as the simulator does.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            balls: (k, ball column) new ball states.
+            out: (n, row) output.
+        """
+        self._simulator.reposition_balls(worlds, balls, out)
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+        """Advance by one control step, with the driven robot's kick as a chip where it is one.
+
+        Args:
+            commands: (n, robots, command) commands in SI units.
+            out: (n, row) output.
+            active: (n,) bool, worlds to advance; all if None.
+        """
+        driver = self._driver
+        if driver.has_kicker and driver.controls.chip:
+            columns = list(driver.task.config.command_columns)
+            along, upward = columns.index("kick_v_x"), columns.index("kick_v_z")
+            commands = commands.copy()
+            speed = commands[:, driver.index, along].copy()
+            commands[:, driver.index, along] = speed * math.cos(CHIP_ANGLE)
+            commands[:, driver.index, upward] = speed * math.sin(CHIP_ANGLE)
+        self._simulator.step(commands, out, active)

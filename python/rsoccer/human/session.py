@@ -1,0 +1,244 @@
+"""A session: a match in a window, in which a person drives one robot at a time."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from rsoccer.controllers import Controllers
+from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, team_of
+from rsoccer.human import screen
+from rsoccer.human.controls import Controls
+from rsoccer.human.devices import Devices
+from rsoccer.human.driver import ChipSimulator, Driver, human_controllers
+from rsoccer.matches import Matches
+from rsoccer.render.effects import Effects
+from rsoccer.render.image import Image, Renderer, default_width
+from rsoccer.render.overlay import task_overlay
+from rsoccer.render.record import GOAL_PAUSE, MIN_WIDTH
+from rsoccer.render.shapes import Shape
+from rsoccer.render.window import Window
+from rsoccer.task import Task
+
+SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0)
+"""Speeds that the keys choose from; 1 is real time."""
+
+
+class Session:
+    """A match with a person; `run` plays it in a window.
+
+    Attributes:
+        driver: the person's robot and controls.
+        devices: keyboard and gamepad.
+        matches: the match.
+        score: goals of blue and of yellow since the session began.
+        clock: seconds of play since the session began.
+        speed: 1 is real time, 2 is twice as fast.
+        paused: the match waits.
+        shows_help: the panel with the keys is shown, and the match waits for any input.
+        window: the window.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        controllers: Controllers,
+        robot: str | None = None,
+        *,
+        seed: int = 0,
+        speed: float = 1.0,
+        width: int | None = None,
+        names: tuple[str, str] = ("BLUE", "YELLOW"),
+        devices: Devices | None = None,
+    ) -> None:
+        """Begin the first episode; the window opens with the first image.
+
+        Args:
+            task: the task that is played.
+            controllers: policies as `Matches` takes them, for all robots; the driven robot
+                follows its own again once the person drives another.
+            robot: name of the robot to drive first; by default the first learner.
+            seed: seed of starts and policies.
+            speed: speed of play, above 0: 1 is real time.
+            width: width of the picture, 64 to 4096 pixels; by default 720, or more on a large
+                field.
+            names: names of blue and of yellow on the score board.
+            devices: keyboard and gamepad; by default those of this machine.
+
+        Raises:
+            ValueError: a speed that is not positive, an unknown robot, a robot without a policy,
+                or a task of neither league.
+        """
+        if not 0.0 < speed < math.inf:
+            raise ValueError(f"speed: expected a positive number, got {speed}")
+        self.driver = Driver(task, robot)
+        self.devices = Devices() if devices is None else devices
+        self.matches = Matches(
+            task,
+            seed=seed,
+            controllers=human_controllers(self.driver, controllers),
+            autoreset="disabled",
+            simulator=ChipSimulator(self.driver),
+        )
+        self.score = (0, 0)
+        self.clock = 0.0
+        self.speed = speed
+        self.paused = False
+        self.shows_help = True
+        config = task.config
+        self.window = Window(task.name, listener=self.devices.handle_event)
+        self._renderer = Renderer(
+            config, default_width(config, MIN_WIDTH) if width is None else width
+        )
+        self._effects = Effects(config)
+        self._events: tuple[Shape, ...] = ()
+        self._names = names
+        self._caption = ""
+        self._caption_left = 0.0  # seconds until the caption ends
+        self._debt = 0.0  # steps that are due
+        self.reset()
+
+    def run(self, seconds: float = math.inf) -> None:
+        """Play until the window is closed.
+
+        Args:
+            seconds: longest duration, seconds of the wall clock, counted in images.
+
+        Raises:
+            RuntimeError: there is no display.
+        """
+        time_step = self.matches.task.config.time_step
+        shown = 0.0
+        while shown < seconds and self.window.show(self.image()):
+            # Slow motion shows each step once; a faster match has several steps for an image.
+            fraction = min(1.0, self.speed)
+            self.window.fps = fraction / time_step
+            shown += time_step / fraction
+            self.advance(time_step / fraction)
+        self.window.close()
+
+    def reset(self) -> None:
+        """Begin a new episode; the score stays."""
+        self.matches.reset()
+        self._effects.clear()
+        self._events = ()
+        self._caption = ""
+        self._debt = 0.0
+
+    def advance(self, seconds: float) -> None:
+        """Read the devices, and play as many steps as are due.
+
+        Args:
+            seconds: time since the last call.
+        """
+        commands = self.devices.take_commands()
+        controls = self.driver.controls = self.devices.controls()
+        if commands != ["help"] and (commands or controls != Controls()):
+            self.shows_help = False
+        for command in commands:
+            self._obey(command)
+        if self._caption:
+            self._caption_left -= seconds
+            if self._caption_left <= 0.0:
+                self.reset()
+            return
+        if self.paused or self.shows_help:
+            return
+        self._debt += self.speed * seconds / self.matches.task.config.time_step
+        while self._debt >= 1.0 - 1e-6 and not self._caption:
+            self._debt -= 1.0
+            self.step()
+
+    def step(self) -> None:
+        """Play one control step; the end of an episode is shown for a moment."""
+        matches = self.matches
+        config = matches.task.config
+        outcome = matches.step(np.zeros((1, 0, matches.action_size), np.float32))
+        self.clock += config.time_step
+        self._events = self._effects.update(
+            matches.frame.rows[0], self.clock, matches.play.commands[0]
+        )
+        if not outcome.ended[0]:
+            return
+        crossed = matches.frame.ball.crossed[0]
+        goals = int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
+        self.score = self.score[0] + goals[0], self.score[1] + goals[1]
+        self._caption = "goal" if any(goals) else "time" if outcome.truncated[0] else "end"
+        self._caption_left = GOAL_PAUSE
+
+    def image(self) -> Image:
+        """Return the current picture.
+
+        Returns:
+            (height, width, 3) uint8.
+        """
+        config = self.matches.task.config
+        driver = self.driver
+        robots = self.matches.frame.robots
+        x, y = robots.position[0, driver.index].tolist()
+        lines = screen.OMNI_HELP if driver.has_kicker else screen.DIFFERENTIAL_HELP
+        return self._renderer.draw(
+            self.matches.frame.rows[0],
+            score=self.score,
+            clock=self.clock,
+            names=self._names,
+            caption=self._caption,
+            extras=(
+                *task_overlay(self.matches),
+                *self._events,
+                *screen.selection_shapes(config.field, config.robots[driver.index], (x, y)),
+            ),
+            overlay=(
+                *screen.status_shapes(config.field, self._left_status(), self._right_status()),
+                *(screen.help_shapes(config.field, lines) if self.shows_help else ()),
+            ),
+        )
+
+    def _left_status(self) -> list[str]:
+        """The driven robot and the state of its switches."""
+        driver = self.driver
+        name = f"{team_of(driver.robot)} {driver.robot.rpartition('_')[2]}".upper()
+        if not driver.has_kicker:
+            return [name]
+        dribbler = "on" if driver.controls.dribble else "off"
+        return [f"{name}, {driver.frame} axes", f"dribbler {dribbler}"]
+
+    def _right_status(self) -> list[str]:
+        """Pause and speed, and the key of the help."""
+        return ["PAUSED" if self.paused else f"speed {self.speed:g}", "H: help"]
+
+    def _obey(self, command: str) -> None:
+        """Execute a command of the keyboard or the gamepad."""
+        if command.startswith("robot_"):
+            self.driver.choose_number(int(command.removeprefix("robot_")))
+        elif command in ("faster", "slower"):
+            self._change_speed(faster=command == "faster")
+        else:
+            actions = {
+                "next_robot": self.driver.choose_next,
+                "pause": self._toggle_pause,
+                "step": self._step_once,
+                "reset": self.reset,
+                "frame": self.driver.change_frame,
+                "help": self._toggle_help,
+            }
+            actions[command]()
+
+    def _change_speed(self, *, faster: bool) -> None:
+        """Take the next speed of the list above or below the current one."""
+        if faster:
+            self.speed = next((s for s in SPEEDS if s > self.speed), self.speed)
+        else:
+            self.speed = next((s for s in reversed(SPEEDS) if s < self.speed), self.speed)
+
+    def _toggle_pause(self) -> None:
+        self.paused = not self.paused
+
+    def _toggle_help(self) -> None:
+        self.shows_help = not self.shows_help
+
+    def _step_once(self) -> None:
+        if self.paused and not self._caption:
+            self.step()

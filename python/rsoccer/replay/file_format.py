@@ -1,0 +1,170 @@
+"""Replay files: what `rsoccer.replay.container` holds for a replay.
+
+Keys of the header:
+
+| key | content |
+| --- | --- |
+| `package`, `physics` | versions of the package (text) and of its physics (number) |
+| `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
+| `config` | the configuration, JSON of `SimConfig.to_json` |
+| `columns` | names of the stored columns: `ball`, `robot`, `command` |
+| `steps` | steps of the columns of the sections `rows` and `commands`, and of each reward term |
+| `frames`, `observers` | number of frames, names of the robots that are paid |
+| `episodes` | for each start, stop, end and metrics |
+| `events` | for each frame, kind, robot and detail |
+| `marker_sets`, `markers` | sets of markers; pairs of a frame and the set from there on |
+| `snapshots` | for each its frame, and name, type and shape of its arrays |
+
+Sections: `rows`, `commands` and `term:<name>` hold columns as `rsoccer.replay.quantized` writes
+them; `snapshot:<frame>` holds the arrays of a snapshot one after the other, exact to the last bit.
+The state row of such a frame is taken from there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+
+import numpy as np
+
+from rsoccer._core import SimConfig
+from rsoccer.arrays import Doubles, Floats
+from rsoccer.frame import robot_names
+from rsoccer.replay import container, header_values, marker_sets, quantized, snapshot_arrays
+from rsoccer.replay.container import ReplayError
+from rsoccer.replay.header_values import get
+from rsoccer.replay.replay import Replay
+
+# -- Writing -----------------------------------------------------------------------------------
+
+
+def to_bytes(replay: Replay, snapshots: bool = True) -> bytes:
+    """Return the content of a replay's file.
+
+    Args:
+        replay: the replay.
+        snapshots: whether to include its snapshots.
+
+    Returns:
+        The bytes; equal replays give equal bytes.
+
+    Raises:
+        ReplayError: numbers that are not finite, or a snapshot with objects.
+    """
+    config, kept = replay.config, replay.snapshots if snapshots else {}
+    row_steps = quantized.row_steps(config.n_robots)
+    command_steps = [quantized.STEPS[name] for name in config.command_columns] * config.n_robots
+    term_steps = {name: quantized.term_step(term) for name, term in replay.terms.items()}
+    commands = replay.commands.reshape(len(replay), -1)
+    sections = {
+        "rows": quantized.encode("rows", quantized.stored_rows(replay.rows), row_steps),
+        "commands": quantized.encode("commands", commands, command_steps),
+    }
+    for name, term in replay.terms.items():
+        sections[f"term:{name}"] = quantized.encode(f"term {name!r}", term, term_steps[name])
+    header = {
+        "package": replay.package,
+        "physics": replay.physics,
+        "task": replay.task,
+        "options": replay.options,
+        "controllers": dict(replay.controllers),
+        "names": list(replay.names),
+        "config": config.to_json(),
+        "columns": _columns(config),
+        "steps": {"rows": row_steps, "commands": command_steps, "terms": term_steps},
+        "frames": len(replay),
+        "observers": list(replay.observers),
+        "episodes": [asdict(episode) for episode in replay.episodes],
+        "events": [list(event) for event in replay.events],
+        **marker_sets.written(replay.markers),
+        "snapshots": snapshot_arrays.described(kept),
+    }
+    return container.pack(header, sections | snapshot_arrays.written(kept))
+
+
+def _columns(config: SimConfig) -> dict[str, list[str]]:
+    """Names of the stored columns."""
+    return {
+        "ball": list(quantized.BALL_STORED),
+        "robot": list(quantized.ROBOT_STORED),
+        "command": list(config.command_columns),
+    }
+
+
+# -- Reading -----------------------------------------------------------------------------------
+
+
+def from_bytes(content: bytes) -> Replay:
+    """Return the replay with this content.
+
+    Args:
+        content: bytes from `to_bytes`.
+
+    Returns:
+        The replay.
+
+    Raises:
+        ReplayError: no replay, another version, an incomplete file or wrong bytes.
+    """
+    header, sections = container.unpack(content)
+    config = header_values.config(get(header, "config", str))
+    if header.get("columns") != _columns(config):
+        raise ReplayError("columns: expected those of this package, got others")
+    frames = get(header, "frames", int)
+    episodes = header_values.episodes(get(header, "episodes", list), frames)
+    steps = get(header, "steps", dict)
+    observers = header_values.texts("observers", header.get("observers"))
+    stored = _section(
+        sections, "rows", frames, steps.get("rows"), len(quantized.row_steps(config.n_robots))
+    )
+    shape = (config.n_robots, len(config.command_columns))
+    commands = _section(sections, "commands", frames, steps.get("commands"), math.prod(shape))
+    rows = quantized.rows_of(stored, config.n_blue, config.n_yellow)
+    snapshots = snapshot_arrays.read(get(header, "snapshots", list), sections, frames)
+    for frame, arrays in snapshots.items():
+        snapshot_arrays.restore_row(rows, frame, arrays)
+    robots = robot_names(config.n_blue, config.n_yellow)
+    events = get(header, "events", list)
+    return Replay(
+        task=get(header, "task", str),
+        options=header_values.options(header.get("options")),
+        controllers=header_values.controllers(get(header, "controllers", dict)),
+        names=header_values.team_names(header.get("names")),
+        config=config,
+        rows=rows,
+        commands=commands.reshape(frames, *shape).astype(np.float32),
+        observers=observers,
+        terms=_terms(steps.get("terms"), sections, frames, len(observers)),
+        markers=marker_sets.read(header, frames),
+        episodes=episodes,
+        events=tuple(header_values.event(entry, frames, robots) for entry in events),
+        snapshots=snapshots,
+        package=get(header, "package", str),
+        physics=get(header, "physics", int),
+    )
+
+
+def _section(
+    sections: Mapping[str, bytes], name: str, frames: int, steps: object, columns: int
+) -> Doubles:
+    """Columns (frames, columns) of a section."""
+    checked = header_values.steps(name, steps)
+    if len(checked) != columns:
+        raise ReplayError(f"{name}: expected {columns} columns, got {len(checked)}")
+    if name not in sections:
+        raise ReplayError(f"sections: expected {name!r:.80}, got none of that name")
+    return quantized.decode(name, sections[name], frames, checked)
+
+
+def _terms(
+    steps: object, sections: Mapping[str, bytes], frames: int, observers: int
+) -> dict[str, Floats]:
+    """Reward terms (frames, observers) by name."""
+    if not isinstance(steps, dict):
+        raise ReplayError(f"steps of terms: expected an object, got {type(steps).__name__}")
+    terms = {}
+    for name, step in steps.items():
+        values = _section(sections, f"term:{name}", frames, [step] * observers, observers)
+        terms[name] = values.astype(np.float32)
+    return terms

@@ -1,0 +1,52 @@
+"""Images of a replay, for windows and videos."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from rsoccer.render.image import Image, Renderer, default_width
+from rsoccer.render.overlay import marker_shapes
+from rsoccer.render.record import MIN_WIDTH
+from rsoccer.render.scoreboard import GOAL_PAUSE
+
+if TYPE_CHECKING:
+    from rsoccer.replay.replay import Replay
+
+
+def film_replay(replay: Replay, width: int | None = None) -> tuple[Iterator[Image], float]:
+    """Return the images of a replay, those that `film_match` drew for the same match.
+
+    Args:
+        replay: the replay.
+        width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
+
+    Returns:
+        An iterator over images (height, width, 3), and their rate in images per second.
+
+    Raises:
+        ValueError: the width is out of range.
+    """
+    width = default_width(replay.config, MIN_WIDTH) if width is None else width
+    return _images(replay, Renderer(replay.config, width)), 1.0 / replay.config.time_step
+
+
+def _images(replay: Replay, renderer: Renderer) -> Iterator[Image]:
+    """An image for the first state and each control step, and a pause at each goal."""
+    goals = {event.frame for event in replay.events if event.kind == "goal"}
+    pause = math.ceil(GOAL_PAUSE / replay.config.time_step)
+    for frame, row in enumerate(replay.rows):
+        if frame and replay.starts[frame]:
+            continue
+        blue, yellow = replay.score[frame].tolist()
+        image = renderer.draw(
+            row,
+            score=(blue, yellow),
+            clock=float(replay.clock[frame]),
+            names=replay.names,
+            caption="goal" if frame in goals else "",
+            extras=marker_shapes(replay.config.field, replay.markers[frame]),
+        )
+        for _ in range(pause if frame in goals else 1):
+            yield image

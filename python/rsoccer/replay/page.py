@@ -1,0 +1,172 @@
+"""The page of a replay: one HTML file that plays the match in a browser, without a network.
+
+The files of the folder `web` are its parts. The page contains the replay file itself, without
+snapshots, and the shapes of the field and of the robots from `rsoccer.render`.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+import re
+from collections.abc import Iterable
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING, Any, Final
+
+from rsoccer.render import palette
+from rsoccer.render.ball import GROWTH, MAX_GROWTH, SHADOW_OFFSET
+from rsoccer.render.pitch import arena_bounds, pitch_shapes
+from rsoccer.render.robot import robot_outlines
+from rsoccer.render.scoreboard import GOAL_PAUSE
+from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Shape
+
+if TYPE_CHECKING:
+    from rsoccer._core import RobotModel, SimConfig
+    from rsoccer.replay.replay import Replay
+
+SCRIPTS: Final = ("reader.js", "field.js", "charts.js", "player.js")
+"""Scripts of the page, in their order."""
+FRAME_HEIGHT: Final = 620
+"""Height of the page in a notebook, pixels."""
+_COLORS: Final = (
+    *("BLUE", "YELLOW", "ORANGE", "WHITE", "INK", "WALL", "WALL_EDGE", "TABLE", "CARPET", "BOARD"),
+    *("SHADOW", "TYRE", "HIGHLIGHT", "HALO", "TRAIL", "DRIBBLER", "DRIBBLER_LIT"),
+    *("CAPTION_BAND", "PENDING", "DONE"),
+)
+_PART: Final = re.compile(r"\{\{(\w+)\}\}")
+_DIGITS: Final = 5  # of coordinates, hundredths of a millimetre
+
+
+def to_html(replay: Replay) -> str:
+    """Return the page of a replay.
+
+    Args:
+        replay: the replay.
+
+    Returns:
+        HTML that needs no other file.
+
+    Raises:
+        ReplayError: the replay has numbers that are not finite.
+    """
+    content = base64.b64encode(replay.to_bytes(snapshots=False)).decode()
+    parts = {
+        "title": html.escape(f"{replay.task}: {' - '.join(filter(None, replay.names))}"),
+        "colors": "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS),
+        "style": _web("style.css"),
+        "script": "\n".join(map(_web, SCRIPTS)),
+        "scene": json.dumps(scene(replay.config), separators=(",", ":")).replace("<", "\\u003c"),
+        "replay": content,
+    }
+    return _PART.sub(lambda match: parts[match[1]], _web("page.html"))
+
+
+def to_frame(replay: Replay) -> str:
+    """Return the page of a replay in an `iframe`, for notebooks.
+
+    Args:
+        replay: the replay.
+
+    Returns:
+        One HTML element.
+
+    Raises:
+        ReplayError: the replay has numbers that are not finite.
+    """
+    return (
+        f'<iframe title="Replay" width="100%" height="{FRAME_HEIGHT}" style="border:0" '
+        f'srcdoc="{html.escape(to_html(replay))}"></iframe>'
+    )
+
+
+def scene(config: SimConfig) -> dict[str, Any]:
+    """Return all that the page draws and that the replay file does not hold.
+
+    Args:
+        config: the configuration.
+
+    Returns:
+        Values for JSON: bounds, shapes of the field, outlines and colours of the robots, the ball.
+    """
+    bounds = arena_bounds(config.field)
+    outlines = {model.to_json(): _outlines(model) for model in config.robots}
+    models = list(outlines)
+    return {
+        "bounds": _flat([(bounds.left, bounds.bottom), (bounds.right, bounds.top)]),
+        "field": [_shape(shape) for shape in pitch_shapes(config.field)],
+        "lineWidth": config.field.line_width,
+        "outlines": list(outlines.values()),
+        "robots": [models.index(model.to_json()) for model in config.robots],
+        "nBlue": config.n_blue,
+        "ball": {
+            "radius": config.ball.radius,
+            "growth": GROWTH,
+            "maxGrowth": MAX_GROWTH,
+            "shadowOffset": SHADOW_OFFSET,
+        },
+        "timeStep": config.time_step,
+        "goalPause": GOAL_PAUSE,
+        "colors": {_name(color): _css(color) for color in _COLORS},
+    }
+
+
+def _outlines(model: RobotModel) -> dict[str, Any]:
+    """Outlines of a robot, and the colours of its hull by team."""
+    outlines = robot_outlines(model)
+    hulls = {
+        team: _css(palette.mix(color, palette.INK, outlines.shade))
+        for team, color in (("blue", palette.BLUE), ("yellow", palette.YELLOW))
+    }
+    return {
+        "size": outlines.size,
+        "hull": _flat(outlines.hull),
+        "cover": _flat(outlines.cover),
+        "wheels": [_flat(wheel) for wheel in outlines.wheels],
+        "arrow": _flat(outlines.arrow),
+        "dribbler": _flat(outlines.dribbler),
+        "numberX": outlines.number_x,
+        "numberHeight": outlines.number_height,
+        "hullColors": hulls,
+    }
+
+
+def _shape(shape: Shape) -> list[Any]:
+    """A shape as a list: its kind, its colour, its numbers."""
+    if isinstance(shape, Polygon):
+        return ["polygon", _css(shape.color), shape.blur, _flat(shape.points)]
+    if isinstance(shape, Circle):
+        return ["circle", _css(shape.color), *_flat([shape.center]), shape.radius]
+    if isinstance(shape, Arc):
+        return [
+            "arc",
+            _css(shape.color),
+            *_flat([shape.center]),
+            *(shape.radius, shape.start, shape.end, shape.width),
+        ]
+    if isinstance(shape, Line):
+        return ["line", _css(shape.color), *_flat([shape.start, shape.end]), shape.width]
+    raise TypeError(f"shape: expected one without text, got {shape}")
+
+
+def _flat(points: Iterable[Point]) -> list[float]:
+    """Coordinates of points, one after the other, rounded."""
+    return [round(v, _DIGITS) for point in points for v in point]
+
+
+def _css(color: Color | str) -> str:
+    """A colour, or the colour of a name of the palette, as CSS."""
+    red, green, blue, alpha = getattr(palette, color) if isinstance(color, str) else color
+    return f"rgba({red},{green},{blue},{round(alpha / 255, 3)})"
+
+
+def _name(color: str) -> str:
+    """Name of a colour on the page."""
+    return color.lower().replace("_", "-")
+
+
+@cache
+def _web(name: str) -> str:
+    """Text of a part of the page."""
+    return (resources.files("rsoccer.replay") / "web" / name).read_text(encoding="utf-8")

@@ -1,0 +1,151 @@
+"""Matches that continue from a snapshot of a replay, and what is kept to make them again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from rsoccer import registry
+from rsoccer._core import BallModel, Field, RobotModel, build_info
+from rsoccer.controllers import Controller, Controllers
+from rsoccer.matches import Matches
+from rsoccer.policies.base import Policy
+from rsoccer.replay.container import ReplayError
+from rsoccer.task import LEARN, Learn, Task
+
+if TYPE_CHECKING:
+    from rsoccer.replay.replay import Replay
+
+# A task's own checks of its options may meet values of any type.
+_REFUSALS: Final = (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError)
+LEARNER: Final = "LEARN"
+"""Name of a learner among the controllers of a replay."""
+_MODELS: Final[dict[str, type[Field | BallModel | RobotModel]]] = {
+    "Field": Field,
+    "BallModel": BallModel,
+    "RobotModel": RobotModel,
+}
+
+
+def resume(
+    replay: Replay, frame: int, task: Task | None, controllers: Controllers | None
+) -> Matches:
+    """Continue a match from a frame with a snapshot.
+
+    Args:
+        replay: the replay.
+        frame: index of the frame.
+        task: the task; None to make it from the replay.
+        controllers: controllers; None for those of the replay.
+
+    Returns:
+        Matches of one world at that frame.
+
+    Raises:
+        ReplayError: no snapshot at that frame, another version of the physics, or a task or
+            controllers that do not fit or have to be given.
+    """
+    if frame not in replay.snapshots:
+        held = sorted(replay.snapshots) or "none"
+        raise ReplayError(f"frame: expected one with a snapshot ({held}), got {frame}")
+    physics = int(build_info()["physics"])
+    if replay.physics != physics:
+        raise ReplayError(
+            f"physics: expected version {physics}, got {replay.physics} of package "
+            f"{replay.package}: the match would go on otherwise"
+        )
+    try:
+        task = _task(replay) if task is None else task
+        if task.config != replay.config:
+            raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
+        given = _named(replay.controllers) if controllers is None else controllers
+        matches = Matches(task, controllers=given, autoreset="disabled")
+        matches.load_state_dict(replay.snapshots[frame])
+    except ReplayError:
+        raise
+    except _REFUSALS as error:
+        raise ReplayError(f"resume: {error}") from error
+    return matches
+
+
+def _task(replay: Replay) -> Task:
+    """The task of a replay, made from its name and options."""
+    if replay.options is None:
+        raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
+    options = {name: _decoded(value) for name, value in replay.options.items()}
+    return registry.make_task(replay.task, **options)
+
+
+def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
+    """Controllers of a replay."""
+    unknown = [robot for robot, name in controllers.items() if name is None]
+    if unknown:
+        raise ReplayError(f"controllers: expected policies for {unknown}: they have no name")
+    return {robot: LEARN if name == LEARNER else str(name) for robot, name in controllers.items()}
+
+
+def described_controllers(controllers: Mapping[str, Controller]) -> dict[str, str | None]:
+    """Return the names of controllers by robot.
+
+    Args:
+        controllers: controllers by robot.
+
+    Returns:
+        A name, `LEARNER`, or None for a policy that is an object.
+    """
+    return {
+        robot: LEARNER
+        if isinstance(controller, Learn)
+        else None
+        if isinstance(controller, Policy)
+        else controller
+        for robot, controller in controllers.items()
+    }
+
+
+def described_options(task: Task) -> dict[str, Any] | None:
+    """Return the options of a task that differ from its defaults, as values for JSON.
+
+    Args:
+        task: the task.
+
+    Returns:
+        Options by name; None if the task is not registered or an option is an object.
+    """
+    if task.name not in registry.list_tasks():
+        return None
+    try:
+        default = registry.make_task(task.name)
+        if type(default) is not type(task):
+            return None
+        names = registry.list_options(type(task))
+        values = {name: (getattr(task, name), getattr(default, name)) for name in names}
+        return {name: _encoded(value) for name, (value, usual) in values.items() if value != usual}
+    except (AttributeError, TypeError, ValueError):
+        return None
+
+
+def _encoded(value: object) -> Any:  # noqa: ANN401  (JSON)
+    """A value for JSON; TypeError for another kind of object."""
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if isinstance(value, tuple | list):
+        return [_encoded(part) for part in value]
+    if isinstance(value, Mapping) and all(isinstance(key, str) for key in value):
+        return {"mapping": {key: _encoded(part) for key, part in value.items()}}
+    if isinstance(value, Field | BallModel | RobotModel):
+        return {"model": type(value).__name__, "json": value.to_json()}
+    raise TypeError(f"options: expected plain values, got {value!r}")
+
+
+def _decoded(value: Any) -> Any:  # noqa: ANN401  (JSON)
+    """A value from `_encoded`; lists become tuples."""
+    if isinstance(value, list):
+        return tuple(_decoded(part) for part in value)
+    if not isinstance(value, dict):
+        return value
+    if set(value) == {"mapping"} and isinstance(value["mapping"], dict):
+        return {key: _decoded(part) for key, part in value["mapping"].items()}
+    if set(value) == {"model", "json"} and value["model"] in _MODELS:
+        return _MODELS[value["model"]].from_json(value["json"])
+    raise ReplayError(f"options: expected a mapping or a model, got {value!s:.80}")

@@ -1,0 +1,60 @@
+"""Pictures of environments and matches in notebooks, without a notebook."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pygame")
+
+import rsoccer
+from rsoccer.render import Picture
+
+MAKERS: list[Callable[[], Any]] = [
+    lambda: rsoccer.single_env("VSS-v0"),
+    lambda: rsoccer.single_env("SSLGoToBall-v0", render_mode="rgb_array"),
+    lambda: rsoccer.parallel_env("VSSSelfPlay-v0"),
+    lambda: rsoccer.vector_env("VSS-v0", 2),
+    lambda: rsoccer.Matches("VSSSelfPlay-v0", 3),
+]
+
+
+@pytest.mark.parametrize("make", MAKERS, ids=["single", "SSL", "parallel", "vector", "Matches"])
+def test_a_notebook_shows_the_match(make: Callable[[], Any]) -> None:
+    shown = make()
+    assert shown._repr_png_() is None  # nothing to show before the reset
+    shown.reset(seed=1)
+    first = shown._repr_png_()
+    assert first.startswith(b"\x89PNG")
+    shown.reset(seed=2)
+    assert shown._repr_png_() != first
+
+
+def test_a_closed_environment_shows_nothing() -> None:
+    env = rsoccer.single_env("VSS-v0")
+    env.reset()
+    env.close()
+    assert env._repr_png_() is None
+
+
+def test_the_picture_is_the_rendered_image() -> None:
+    env = rsoccer.single_env("VSS-v0", render_mode="rgb_array")
+    env.reset(seed=0)
+    image = env.render()
+    assert type(image) is np.ndarray
+    assert env._repr_png_() == Picture(image).to_png()
+
+
+def test_without_pygame_the_text_remains() -> None:
+    code = (
+        "import sys; sys.modules['pygame'] = None\n"
+        "import rsoccer\n"
+        "for shown in (rsoccer.single_env('VSS-v0'), rsoccer.Matches('VSS-v0')):\n"
+        "    shown.reset()\n"
+        "    assert shown._repr_png_() is None\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -1,0 +1,232 @@
+"""The page of a replay in a real browser: it draws, plays and scrubs without an error."""
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rsoccer import make_task
+from rsoccer.frame import Frame
+from rsoccer.lineup import lineup
+from rsoccer.replay import Replay, record_replay
+from rsoccer.replay.page import to_frame, to_html
+from tests.replay.browser import show
+from tests.replay.conftest import ssl, vss
+
+
+@cache
+def eleven() -> Replay:
+    """SSL robots, eleven a side."""
+    task = make_task("SSLSelfPlay-v0", field="ssl_a", n_blue=11, n_yellow=11)
+    return record_replay(task, lineup(task, "zero", "ou"), seconds=1.0)
+
+
+LOOK = """
+  const pixels = () => {
+    const {width, height} = player.view.canvas;
+    const data = player.view.context.getImageData(0, 0, width, height).data;
+    const near = (i, color) => color.every((c, k) => Math.abs(data[i + k] - c) < 12);
+    const count = (color) => {
+      let sum = 0;
+      for (let i = 0; i < data.length; i += 4) sum += near(i, color);
+      return sum;
+    };
+    return [[47, 111, 228], [242, 194, 48], [255, 112, 32]].map(count);  // teams and ball
+  };
+"""
+
+
+@pytest.mark.parametrize("recorded", [vss, eleven], ids=["VSSS", "SSL 11 v 11"])
+def test_the_page_draws_and_plays(recorded: Callable[[], Replay], tmp_path: Path) -> None:
+    replay = recorded()
+    script = f"""{LOOK}
+      const started = player.playing;
+      player.seek(0);
+      await wait(400);
+      const time = player.time;
+      player.pause();
+      player.draw();
+      const colors = pixels();
+      return {{started, time, colors, robots: player.robots, drawn: player.drawn,
+        message: document.getElementById("message").hidden}};
+    """
+    shown = show(to_html(replay), script, tmp_path)
+    assert shown.console == []
+    found = shown.result
+    assert found["started"]
+    assert found["message"]
+    assert 0 < found["time"] < len(replay) - 1
+    assert found["drawn"] > 5
+    assert found["robots"] == list(replay.robots)
+    assert all(count > 20 for count in found["colors"])
+
+
+@pytest.mark.parametrize("recorded", [vss, ssl], ids=["VSSS", "SSL"])
+def test_the_page_reads_what_python_reads(recorded: Callable[[], Replay], tmp_path: Path) -> None:
+    replay = Replay.from_bytes(recorded().to_bytes(snapshots=False))
+    frames = list(range(0, len(replay), 37))
+    script = f"""
+      const {{replay, scene}} = player;
+      const all = (count, read) => Array.from({{length: count}}, (_, i) => read(i));
+      return {frames}.map((f) => ({{
+        ball: ["x", "y", "z"].map((name) => replay.ball(name, f)),
+        robots: all(replay.robotCount, (i) => ["x", "y"].map((name) => replay.robot(i, name, f))),
+        headings: all(replay.robotCount, (i) => replay.robot(i, "heading", f)),
+        commands: all(replay.robotCount, (i) =>
+          replay.commandColumns.map((_, column) => replay.command(i, column, f))),
+        rewards: replay.header.observers.map((_, i) => replay.termNames.reduce(
+          (sum, name) => sum + replay.term(name, i, f), 0)),
+        clock: replay.clock(f, scene.timeStep), score: replay.score(f),
+      }}));
+    """
+    shown = show(to_html(replay), script, tmp_path)
+    assert shown.console == []
+    frame = Frame(replay.rows, replay.config.n_blue, replay.config.n_yellow)
+    for index, found in zip(frames, shown.result, strict=True):
+        position, height = frame.ball.position[index], frame.ball.height[index]
+        assert found["ball"] == pytest.approx([*position, height], abs=1e-6)
+        np.testing.assert_allclose(found["robots"], frame.robots.position[index], atol=1e-6)
+        angles = np.array(found["headings"])
+        heading = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+        np.testing.assert_allclose(heading, frame.robots.heading[index], atol=1e-5)
+        np.testing.assert_allclose(found["commands"], replay.commands[index], atol=1e-5)
+        np.testing.assert_allclose(found["rewards"], replay.rewards[index], atol=1e-5)
+        assert found["clock"] == pytest.approx(replay.clock[index])
+        assert [found["score"]["blue"], found["score"]["yellow"]] == replay.score[index].tolist()
+
+
+def test_keys_move_through_time(tmp_path: Path) -> None:
+    script = """
+      const seen = [];
+      const after = (name, more) => { key(name, more); seen.push(player.time); };
+      player.pause();
+      player.seek(10);
+      after("ArrowRight"); after("ArrowLeft"); after("ArrowRight", {shiftKey: true});
+      after("End"); after("ArrowRight"); after("Home"); after("ArrowLeft");
+      after("n"); after("p");
+      key("+"); key("+"); const fast = player.speed;
+      for (let i = 0; i < 9; i++) key("-");
+      const slow = player.speed;
+      key(" "); const playing = player.playing; key(" ");
+      const zooms = [1, 2, 3].map(() => { key("z"); return player.view.camera.zoom; });
+      key("t");
+      const {trails} = player.view;
+      return {seen, fast, slow, playing, paused: !player.playing, zooms, trails};
+    """
+    shown = show(to_html(vss()), script, tmp_path)
+    assert shown.console == []
+    last, goal = len(vss()) - 1, next(e.frame for e in vss().events if e.kind == "goal")
+    assert shown.result == {
+        "seen": [11, 10, 50, last, last, 0, 0, goal, 0],
+        "fast": 4,
+        "slow": 0.1,
+        "playing": True,
+        "paused": True,
+        "zooms": [2, 4, 1],
+        "trails": False,
+    }
+
+
+def test_the_pointer_scrubs_and_shows_a_robot(tmp_path: Path) -> None:
+    script = """
+      player.pause();
+      const canvas = document.getElementById("timeline");
+      canvas.setPointerCapture = () => {};
+      canvas.hasPointerCapture = () => true;
+      pointer("timeline", "pointerdown", 0.5, 0.5);
+      const middle = player.time;
+      pointer("timeline", "pointermove", 2, 0.5);
+      const end = player.time;
+      pointer("timeline", "pointerup", 1, 0.5);
+      player.seek(30);
+      player.draw();
+      const robot = player.replay;
+      const [x, y] = player.view.camera.toScreen(robot.robot(4, "x", 30), robot.robot(4, "y", 30));
+      const {width, height} = player.view.canvas;
+      pointer("field", "pointermove", x / width, y / height);
+      player.draw();
+      const tip = document.getElementById("tip").textContent;
+      pointer("field", "pointerdown", x / width, y / height);
+      player.draw();
+      const selected = document.getElementById("robot").value;
+      pointer("field", "pointerleave", 0, 0);
+      player.draw();
+      document.querySelector("#events button").click();
+      const jumped = player.time;
+      return {middle, end, tip, selected, hidden: document.getElementById("tip").hidden, jumped};
+    """
+    shown = show(to_html(vss()), script, tmp_path)
+    assert shown.console == []
+    found, last = shown.result, len(vss()) - 1
+    assert found["middle"] == pytest.approx(last / 2, abs=1)
+    assert found["end"] == last
+    assert found["tip"].startswith("yellow_1")
+    for word in ("speed: ", "left: ", "reward: "):
+        assert word in found["tip"]
+    assert (found["selected"], found["hidden"]) == ("4", True)
+    assert found["jumped"] == next(e.frame for e in vss().events if e.kind != "touch")
+
+
+def test_a_goal_holds_the_picture_and_counts(tmp_path: Path) -> None:
+    goal = next(event for event in vss().events if event.kind == "goal")
+    script = f"""
+      const text = (id) => document.getElementById(id).textContent;
+      const GOAL = {goal.frame};
+      player.seek(GOAL - 2);
+      player.play();
+      while (player.time < GOAL) await wait(10);
+      player.draw();
+      const at = {{time: player.time, caption: text("caption"), blue: text("goals-blue")}};
+      while (player.time < GOAL + 1) await wait(10);
+      player.draw();
+      return {{at, after: player.time > GOAL, caption: text("caption"),
+        sum: text("reward-sum")}};
+    """
+    shown = show(to_html(vss()), script, tmp_path)
+    assert shown.console == []
+    assert shown.result["at"] == {"time": goal.frame, "caption": "GOAL", "blue": "1"}
+    assert shown.result["after"]
+    assert shown.result["caption"] == ""
+
+
+def test_light_and_dark(tmp_path: Path) -> None:
+    script = """
+      const color = () => getComputedStyle(document.body).backgroundColor;
+      const first = color();
+      key("d");
+      const second = color();
+      key("d");
+      return [first, second, color()];
+    """
+    first, second, third = show(to_html(vss()), script, tmp_path).result
+    assert first == third != second
+    assert {first, second} == {"rgb(244, 246, 248)", "rgb(14, 17, 22)"}
+
+
+@pytest.mark.parametrize("recorded", [vss, eleven], ids=["VSSS", "SSL 11 v 11"])
+def test_a_narrow_screen_turns_the_field_upright(
+    recorded: Callable[[], Replay], tmp_path: Path
+) -> None:
+    frame = to_frame(recorded()).replace('width="100%"', 'width="380"')
+    script = """
+      const inner = document.querySelector("iframe").contentWindow;
+      const found = await inner.rsoccerPlayer;
+      found.draw();
+      const wide = inner.document.scrollingElement.scrollWidth;
+      return {wide, inside: inner.innerWidth, upright: found.view.camera.upright,
+        playing: found.playing};
+    """
+    loaded = "rsoccerPlayer = new Promise((done) => { onload = done })"
+    page = f"<!doctype html><body><script>{loaded}</script>{frame}</body>"
+    shown = show(page, script, tmp_path)
+    assert shown.console == []
+    assert shown.result == {"wide": 380, "inside": 380, "upright": True, "playing": False}
+
+
+def test_a_damaged_replay_is_reported_on_the_page(tmp_path: Path) -> None:
+    html = to_html(vss()).replace('id="replay">iVJT', 'id="replay">AAAA')
+    script = 'return "played";'
+    shown = show(html, script, tmp_path)
+    assert shown.result == "Error: this is no replay file"

@@ -1,0 +1,131 @@
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import LEARN, Field, Matches, RobotModel
+from rsoccer.controllers import Controller
+from rsoccer.policies.vss.chase import Chase
+from rsoccer.replay import Recorder, Replay, ReplayError, record_replay
+from rsoccer.replay.resume import described_options
+from rsoccer.task import Task
+from rsoccer.tasks import VssSelfPlay
+from tests.helpers import same, zeros
+from tests.replay.conftest import vss
+
+
+@dataclass(frozen=True)
+class Unregistered(VssSelfPlay):
+    pass
+
+
+def test_a_resumed_match_goes_on_exactly_as_it_did() -> None:
+    recorded = vss()
+    read = Replay.from_bytes(recorded.to_bytes())
+    for frame in read.snapshots:
+        episode = next(e for e in recorded.episodes if e.start <= frame < e.stop)
+        matches = read.resume(frame)
+        assert same(matches.frame.rows[0], recorded.rows[frame])
+        for later in range(frame + 1, episode.stop):
+            matches.step(zeros(matches))
+            assert same(matches.frame.rows[0], recorded.rows[later])
+        assert matches.done[0] == bool(episode.end)
+
+
+def test_a_frame_without_a_snapshot_is_refused() -> None:
+    held = ", ".join(map(str, vss().snapshots))
+    with pytest.raises(ReplayError, match=rf"expected one with a snapshot \(\[{held}\]\), got 1$"):
+        vss().resume(1)
+    with pytest.raises(ReplayError, match=r"a snapshot \(none\)"):
+        replace(vss(), snapshots={}).resume(0)
+
+
+def test_another_version_of_the_physics_is_refused() -> None:
+    with pytest.raises(ReplayError, match=r"physics: expected version \d+, got 1"):
+        replace(vss(), physics=1).resume(0)
+
+
+def test_learners_are_driven_by_the_caller() -> None:
+    matches = Matches("VSS-v0", autoreset="disabled")
+    recorder = Recorder(matches, snapshot_interval=0.1)
+    matches.reset()
+    recorder.begin()
+    actions = np.full((1, 1, 2), 0.5, np.float32)
+    for _ in range(10):
+        recorder.add(matches.step(actions))
+    replay = Replay.from_bytes(recorder.replay().to_bytes())
+    assert replay.controllers["blue_0"] == "LEARN"
+    resumed = replay.resume(4)
+    for _ in range(6):
+        resumed.step(actions)
+    assert same(resumed.frame.rows[0], recorder.replay().rows[10])
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        rsoccer.make_task("VSS-v0", max_steps=77, opponent="chase"),
+        rsoccer.make_task("VSSSelfPlay-v0", reward_weights={"goal": 3.0}),
+        rsoccer.make_task("VSSSelfPlay-v0", robot=RobotModel("vss_440rpm", mass=0.2)),
+        rsoccer.make_task("SSLSelfPlay-v0", field=Field("ssl_b", width=5.0), n_blue=2),
+    ],
+    ids=["numbers", "weights", "robot", "field"],
+)
+def test_options_of_the_task_are_kept(task: Task) -> None:
+    controllers = {robot: "zero" for robot in task.robots}
+    replay = record_replay(task, controllers, seconds=0.1, snapshot_interval=1.0)
+    resumed = Replay.from_bytes(replay.to_bytes()).resume(0)
+    assert resumed.task == task
+    assert resumed.task.config == task.config
+
+
+def test_default_options_are_not_written() -> None:
+    assert described_options(rsoccer.make_task("VSS-v0")) == {}
+    assert described_options(rsoccer.make_task("VSS-v0", max_steps=5)) == {"max_steps": 5}
+    assert described_options(Unregistered()) is None
+
+
+def test_a_task_that_is_not_registered_has_to_be_given() -> None:
+    task = Unregistered()
+    replay = record_replay(task, {"all": "zero"}, seconds=0.1, snapshot_interval=1.0)
+    replay = Replay.from_bytes(replay.to_bytes())
+    with pytest.raises(ReplayError, match=r"task: expected .* as an argument"):
+        replay.resume(0)
+    assert replay.resume(0, task=task).task is task
+    with pytest.raises(ReplayError, match=r"task: expected .* config, got another"):
+        replay.resume(0, task=rsoccer.make_task("VSSSelfPlay-v0", n_blue=2))
+
+
+def test_a_policy_without_a_name_has_to_be_given() -> None:
+    task = rsoccer.make_task("VSSSelfPlay-v0")
+    controllers: dict[str, Controller] = {"blue": Chase(task), "yellow": "zero"}
+    replay = record_replay(task, controllers, seconds=0.1, snapshot_interval=1.0)
+    assert replay.controllers["blue_0"] is None
+    with pytest.raises(ReplayError, match=r"controllers: expected policies for \['blue_0'"):
+        replay.resume(0)
+    assert not replay.resume(0, controllers=controllers).agents
+    with pytest.raises(ReplayError, match="resume: state"):
+        replay.resume(0, controllers={"blue": LEARN, "yellow": "ou"})
+    with pytest.raises(ReplayError, match=r"resume: .*unknown"):
+        replay.resume(0, controllers={"blue": "unknown", "yellow": "zero"})
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"unknown": 1},
+        {"max_steps": -5},
+        {"max_steps": "many"},
+        {"reward_weights": 5},
+        {"reward_weights": {"mapping": {"goal": None}}},
+        {"field": {"model": "Field", "json": "{"}},
+        {"field": {"model": "Field", "json": 5}},
+        {"robot": {}},
+        {"n_blue": 10**30},
+    ],
+    ids=str,
+)
+def test_wrong_options_are_refused(options: dict[str, object]) -> None:
+    with pytest.raises(ReplayError, match=r"resume|options"):
+        replace(vss(), options=options).resume(0)
