@@ -261,6 +261,20 @@ def through_libraries(sizes: tuple[int, ...]) -> Iterator[Benchmark]:
     yield through_library(TEAM_TASK, sizes, rows)
     for task in (LEARNER_TASK, SINGLE_TASK):
         yield through_library(task, sizes, rows | loop)
+    tensors: dict[str, Start] = {"TorchRL SoccerEnv": libraries.torchrl}
+    yield through_library(
+        MATCH_TASK,
+        sizes,
+        tensors | {"TorchRL PettingZooWrapper": libraries.torchrl_pettingzoo},
+    )
+    yield through_library(
+        LEARNER_TASK, sizes, tensors | {"TorchRL GymWrapper": libraries.torchrl_vector}
+    )
+    runners: dict[str, Start] = {
+        "RLlib MatchesEnvRunner": partial(libraries.rllib, stock=False),
+        "RLlib MultiAgentEnvRunner": partial(libraries.rllib, stock=True),
+    }
+    yield through_library(MATCH_TASK, sizes, runners)
     yield through_library(TEAM_TASK, sizes, {"SuperSuit concat_vec_envs_v1": libraries.supersuit})
 
 

@@ -34,7 +34,7 @@ def test_examples_run_and_print(name: str, tmp_path: Path) -> None:
 
 
 def test_every_example_is_tested() -> None:
-    # 04 trains for a minute, and tests/train covers its parts. 10 needs the dependencies of
-    # tests/wrappers.
-    tested_elsewhere = {"04_self_play.py", "10_stable_baselines3.py"}
+    # 04 trains for a minute, and tests/train covers its parts. 10 and 14 need the dependencies
+    # of tests/wrappers.
+    tested_elsewhere = {"04_self_play.py", "10_stable_baselines3.py", "14_ray_league.py"}
     assert {path.name for path in EXAMPLES.glob("*.py")} == {*QUICK, *tested_elsewhere}

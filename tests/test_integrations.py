@@ -13,7 +13,17 @@ import pytest
             "rsoccer.sb3",
             "stable_baselines3.common.vec_env",
             'rsoccer.sb3 needs Stable-Baselines3: pip install "stable-baselines3>=2.4"',
-        )
+        ),
+        (
+            "rsoccer.torchrl",
+            "torchrl.envs",
+            'rsoccer.torchrl needs TorchRL: pip install "torchrl>=0.14"',
+        ),
+        (
+            "rsoccer.rllib",
+            "ray.rllib",
+            'rsoccer.rllib needs RLlib and torch: pip install "ray[rllib]>=2.60" torch',
+        ),
     ],
 )
 def test_a_missing_library_is_named_with_its_command(

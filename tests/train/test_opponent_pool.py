@@ -10,7 +10,8 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.registry import make_task
 from rsoccer.rng import WorldRng
-from rsoccer.train.opponent_pool import LATEST, OU, PAST, OpponentPool, kinds_of
+from rsoccer.train.opponent_pool import OpponentPool, kinds_of
+from rsoccer.train.pool_slots import LATEST, OU, PAST
 from rsoccer.train.timing import Clock
 
 TASK = make_task("VSSSelfPlay-v0")
@@ -152,8 +153,8 @@ def test_a_full_pool_stays_spread_over_the_run() -> None:
     pool = new_pool(past=0, size=6)
     for update in range(0, 1000, 10):
         pool.freeze(constant(0.0), update)
-        assert len(pool.past) == len(pool.frozen_at) <= 6
-    updates = sorted(pool.frozen_at)
+        assert len(pool.past) == len(pool.slots.frozen_at) <= 6
+    updates = sorted(pool.slots.frozen_at)
     assert updates[0] == 0 and updates[-1] == 990
     assert np.diff(updates).max() < 600, updates
 
@@ -162,14 +163,14 @@ def test_a_pool_of_one_keeps_the_newest() -> None:
     pool = new_pool(past=0, size=1)
     for update in range(3):
         pool.freeze(constant(0.0), update)
-    assert pool.frozen_at == [2]
+    assert pool.slots.frozen_at == [2]
 
 
 def test_the_state_of_a_pool_can_be_restored() -> None:
     pool, other = new_pool(past=3), new_pool(past=0)
     metadata = constant(0.0).metadata
     other.load_state_dict(pool.state_dict(), metadata)
-    assert other.frozen_at == pool.frozen_at == [0, 1, 2]
+    assert other.slots.frozen_at == pool.slots.frozen_at == [0, 1, 2]
     for saved, restored in zip(pool.past, other.past, strict=True):
         assert {k: v.tobytes() for k, v in saved.arrays().items()} == {
             k: v.tobytes() for k, v in restored.arrays().items()

@@ -20,6 +20,9 @@ single = pytest.importorskip("ray.rllib.env.single_agent_env_runner")
 
 gymnasium.register_envs(rsoccer)
 
+# Each of RLlib's runners registers the same id.
+pytestmark = pytest.mark.filterwarnings("ignore:.*Overriding environment rllib:UserWarning")
+
 MAX_CYCLES = 5
 
 
@@ -31,6 +34,13 @@ def short_match() -> SoccerParallelEnv:
 def wrapped(_: object = None) -> Any:  # noqa: ANN401  (types only where it is installed)
     """The same in RLlib's wrapper."""
     return wrappers.ParallelPettingZooEnv(short_match())
+
+
+def whole(_: object = None) -> Any:  # noqa: ANN401
+    """The same as this package's environment for RLlib."""
+    from rsoccer.rllib import SoccerMultiAgentEnv
+
+    return SoccerMultiAgentEnv({"task": "VSSSelfPlay-v0", "max_steps": MAX_CYCLES})
 
 
 def test_a_match_is_wrapped_and_ends_for_all_at_once() -> None:
@@ -60,10 +70,16 @@ def test_every_task_is_wrapped(name: str) -> None:
     assert set(observations) == set(env.possible_agents)
 
 
-def test_its_runner_plays_a_match_with_one_policy_for_all() -> None:
+@pytest.mark.parametrize(("create", "terminated"), [(wrapped, True), (whole, False)])
+def test_its_runner_plays_a_match_with_one_policy_for_all(create: Any, terminated: bool) -> None:  # noqa: ANN401
+    """RLlib takes an end of all agents for a termination, and then bootstraps no value.
+
+    Its wrapper reports each agent's time limit, so that every episode is terminated.
+    `SoccerMultiAgentEnv` reports only the common end.
+    """
     config = (
         ppo.PPOConfig()
-        .environment(wrapped)
+        .environment(create)
         .env_runners(num_env_runners=0)
         .multi_agent(policies={"shared"}, policy_mapping_fn=lambda *_, **__: "shared")
     )
@@ -72,8 +88,9 @@ def test_its_runner_plays_a_match_with_one_policy_for_all() -> None:
     runner.stop()
     assert [len(episode) for episode in episodes] == [MAX_CYCLES] * 2
     for episode in episodes:
-        # Ray 2.60 sets `is_terminated` for every common end, so it is not compared.
-        assert episode.is_truncated
+        assert (episode.is_terminated, episode.is_truncated) == (terminated, True)
+        for robot in episode.agent_episodes.values():
+            assert (robot.is_terminated, robot.is_truncated) == (terminated, True)
         assert sorted(episode.agent_episodes) == sorted(short_match().possible_agents)
         assert {len(robot) for robot in episode.agent_episodes.values()} == {MAX_CYCLES}
 

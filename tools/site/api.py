@@ -3,7 +3,6 @@
 import ast
 import importlib
 import inspect
-import pkgutil
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -103,7 +102,17 @@ GROUPS: Final = (
             "rsoccer.render.window",
         ),
     ),
-    Group("Libraries", ("rsoccer.sb3",)),
+    Group(
+        "Libraries",
+        (
+            "rsoccer.sb3",
+            "rsoccer.torchrl",
+            "rsoccer.rllib.env",
+            "rsoccer.rllib.runner",
+            "rsoccer.rllib.league",
+            "rsoccer.rllib.episodes",
+        ),
+    ),
     Group(
         "Replays",
         (
@@ -121,7 +130,11 @@ GROUPS: Final = (
 )
 """Every public module, once."""
 
-LIBRARIES: Final = {"rsoccer.sb3": "stable_baselines3"}
+LIBRARIES: Final = {
+    "rsoccer.rllib": "ray",
+    "rsoccer.sb3": "stable_baselines3",
+    "rsoccer.torchrl": "torchrl",
+}
 """Library that an integration needs, by the beginning of the names of its modules.
 
 Sphinx does without these libraries.
@@ -148,6 +161,7 @@ PRIVATE: Final = (
     "rsoccer.render.*",
     "rsoccer.replay",
     "rsoccer.replay.*",
+    "rsoccer.rllib",
     "rsoccer.tasks",
     "rsoccer.tasks.*",
     "rsoccer.testing",
@@ -199,8 +213,13 @@ def library_of(module: str) -> str | None:
 
 def found() -> list[str]:
     """Return the names of all modules that the package has."""
-    walked = pkgutil.walk_packages(rsoccer.__path__, "rsoccer.")
-    return sorted(module.name for module in walked)
+    # By its files: `pkgutil` finds nothing in a package that needs a library which is absent.
+    folder = Path(rsoccer.__file__).parent
+    names = {
+        ".".join(path.relative_to(folder.parent).with_suffix("").parts).removesuffix(".__init__")
+        for path in folder.rglob("*.py")
+    }
+    return sorted(names - {"rsoccer"} | {"rsoccer._core"})
 
 
 def index(rust: bool) -> str:

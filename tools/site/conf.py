@@ -51,7 +51,7 @@ autodoc_default_options = {
     "ignore-module-all": True,  # each object stands once, in the module that defines it
     "show-inheritance": True,
 }
-autodoc_mock_imports = sorted(api.LIBRARIES.values())
+autodoc_mock_imports = [*sorted(api.LIBRARIES.values()), "tensordict"]
 autodoc_typehints_format = "short"
 autodoc_preserve_defaults = True
 napoleon_numpy_docstring = False

@@ -18,10 +18,8 @@ from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.train.checkpoint import add_prefix, select_prefix
+from rsoccer.train.pool_slots import LATEST, OU, PAST, PoolSlots, choose_opponents
 from rsoccer.train.timing import Clock
-
-OU, LATEST, PAST = 0, 1, 2
-"""Codes of opponents; past policy `k` of the pool has code `PAST + k`."""
 
 KINDS = ("ou", "latest", "past")
 """Names of the kinds of opponents by code; all past policies are one kind."""
@@ -33,7 +31,7 @@ class OpponentPool(Policy):
     Attributes:
         latest: the current policy, which the trainer sets after every update; None at first.
         past: frozen past policies.
-        frozen_at: number of updates after which each past policy was frozen.
+        slots: ages of the past policies.
         opponents: (n,) code of each world's opponent in the last step.
     """
 
@@ -58,11 +56,11 @@ class OpponentPool(Policy):
         """
         self.latest: Network | None = None
         self.past: list[Network] = []
-        self.frozen_at: list[int] = []
+        self.slots = PoolSlots(size)
         self.opponents = np.zeros(0, np.int64)
         self._clock = clock
         self._ou = make_policy("ou", task)
-        self._fractions, self._size, self._action_repeat = fractions, size, action_repeat
+        self._fractions, self._action_repeat = fractions, action_repeat
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> dict[str, Array]:
         """Draw opponents for new episodes, and return their memory, arrays (n, ...)."""
@@ -106,33 +104,19 @@ class OpponentPool(Policy):
             network: the policy to add.
             update: number of updates that the policy was trained for.
         """
-        if len(self.past) < self._size:
-            self.past.append(network)
-            self.frozen_at.append(update)
-            return
-        slot = self._most_crowded()
-        self.past[slot], self.frozen_at[slot] = network, update
-
-    def _most_crowded(self) -> int:
-        """Slot whose removal leaves the smallest gap between the ages of its neighbours."""
-        order = np.argsort(self.frozen_at)
-        if len(order) < 3:
-            return int(order[0])
-        updates = np.array(self.frozen_at)[order]
-        return int(order[1 + np.argmin(updates[2:] - updates[:-2])])
+        slot = self.slots.take(update)
+        self.past[slot : slot + 1] = [network]  # appends where the pool is not full
 
     def _draw(self, rng: WorldRng) -> Array:
         """Code of an opponent for each world (n,); `LATEST` for past ones in an empty pool."""
         uniform = rng.uniform(0.0, 1.0)
         slot = rng.integers(max(len(self.past), 1))
-        past = PAST + slot if self.past else np.full(len(rng), LATEST)
-        is_ou = uniform < self._fractions["ou"]
-        is_ou_or_latest = uniform < self._fractions["ou"] + self._fractions["latest"]
-        return np.where(is_ou, OU, np.where(is_ou_or_latest, LATEST, past))
+        opponents = choose_opponents(uniform, slot, self._fractions)
+        return opponents if self.past else np.minimum(opponents, LATEST)
 
     def state_dict(self) -> dict[str, Array]:
         """Return the arrays of the past policies by name; the trainer saves the current one."""
-        arrays: dict[str, Array] = {"frozen_at": np.array(self.frozen_at, np.int64)}
+        arrays: dict[str, Array] = {"frozen_at": np.array(self.slots.frozen_at, np.int64)}
         for slot, network in enumerate(self.past):
             arrays |= add_prefix(str(slot), network.arrays())
         return arrays
@@ -144,10 +128,10 @@ class OpponentPool(Policy):
             arrays: arrays from `state_dict`.
             metadata: metadata of the networks, the same for all.
         """
-        self.frozen_at = arrays["frozen_at"].tolist()
+        self.slots.frozen_at = arrays["frozen_at"].tolist()
         self.past = [
             Network(select_prefix(str(slot), arrays), metadata)
-            for slot in range(len(self.frozen_at))
+            for slot in range(len(self.slots.frozen_at))
         ]
 
     def _networks(self) -> Iterator[tuple[int, Network]]:

@@ -1,0 +1,165 @@
+"""One match as RLlib's `MultiAgentEnv`, and a callback that reports the metrics of its task."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+from gymnasium.spaces import Dict, Space
+from ray.rllib.callbacks.callbacks import RLlibCallback
+from ray.rllib.env.multi_agent_env import MultiAgentEnv
+
+from rsoccer.arrays import Array, Floats
+from rsoccer.matches import Matches
+
+METRICS: Final = "task_metrics"
+"""Key of the metrics under `env_runners` in the results of `train`."""
+
+WINDOW: Final = 100
+"""Episodes over which `MetricsCallback` averages."""
+
+ByAgent = dict[str, Any]
+Spaces = dict[str, Space[Any]]
+
+
+class SoccerMultiAgentEnv(MultiAgentEnv):
+    """One match with a dictionary entry for each learner.
+
+    A match ends for all robots at once, so only `"__all__"` is True in `terminateds` (the task's
+    end, such as a goal) or in `truncateds` (the time limit). RLlib bootstraps the value at a time
+    limit only then: an environment that reports each agent too, as `ParallelPettingZooEnv` does,
+    gets every end recorded as terminated.
+
+    Infos: empty, except for the last step. Then each agent's info holds the metrics of the task,
+    such as `goal_score`, and `steps`, as numbers; `MetricsCallback` reports them.
+
+    `MatchesEnvRunner` steps many matches faster, with the same `env_config`.
+
+    Attributes:
+        matches: the match, a batch of one.
+        possible_agents: names of the learners; all of them play at all times.
+        agents: the same.
+        observation_spaces: Box (o,) float32 by agent.
+        action_spaces: Box (action,) float32 from -1 to 1 by agent, or Discrete.
+        observation_space: Dict of the spaces of all agents.
+        action_space: Dict of the spaces of all agents.
+    """
+
+    def __init__(self, config: Mapping[str, Any]) -> None:
+        """Prepare a match; `reset` begins it.
+
+        Args:
+            config: RLlib's `env_config`: `task`, a task or the name of a registered one; optional
+                `controllers`, `threads` and `max_steps` as for `Matches`; other keys are options
+                of the task. `frozen` is for `MatchesEnvRunner`, and ignored here.
+
+        Raises:
+            TypeError: an option of the wrong type or unknown.
+            ValueError: no task, or a value that `Matches` refuses.
+        """
+        super().__init__()
+        seed = int(np.random.default_rng().integers(2**62))
+        self.matches = new_matches(config, 1, seed, "disabled")
+        self.possible_agents = list(self.matches.agents)
+        self.agents = list(self.possible_agents)
+        self.observation_spaces, self.action_spaces = spaces_by_agent(self.matches)
+        self.observation_space = Dict(self.observation_spaces)
+        self.action_space = Dict(self.action_spaces)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[ByAgent, ByAgent]:
+        """Begin an episode.
+
+        Args:
+            seed: seed of the match, as for `Matches.reset`; None continues the random streams.
+            options: ignored.
+
+        Returns:
+            Observations (o,) by agent, and empty infos.
+        """
+        return self._by_agent(self.matches.reset(seed)), {}
+
+    def step(
+        self, action_dict: Mapping[str, Array]
+    ) -> tuple[ByAgent, ByAgent, ByAgent, ByAgent, ByAgent]:
+        """Advance the match by one control step.
+
+        Args:
+            action_dict: an action (action,) from -1 to 1, or an index of the `action_table`, by
+                agent.
+
+        Returns:
+            Observations, rewards, `terminateds`, `truncateds` and infos by agent; the ends have
+            `"__all__"` only.
+        """
+        actions = np.stack([np.asarray(action_dict[agent]) for agent in self.agents])
+        outcome = self.matches.step(actions[None])
+        infos: ByAgent = {}
+        if (episodes := outcome.episodes) is not None:
+            info = {name: float(values[0]) for name, values in episodes.metrics.items()}
+            info["steps"] = float(episodes.lengths[0])
+            infos = {agent: dict(info) for agent in self.agents}
+        return (
+            self._by_agent(outcome.final_observations),
+            dict(zip(self.agents, outcome.rewards[0].tolist(), strict=True)),
+            {"__all__": bool(outcome.terminated[0])},
+            {"__all__": bool(outcome.truncated[0])},
+            infos,
+        )
+
+    def _by_agent(self, observations: Floats) -> ByAgent:
+        """Observations of the match by agent."""
+        return dict(zip(self.agents, observations[0], strict=True))
+
+
+class MetricsCallback(RLlibCallback):
+    """Callback that reports metrics of ended matches, for RLlib's own runner.
+
+    `result["env_runners"]["task_metrics"]["goal_score"]` then is the mean over the last 100
+    matches. `MatchesEnvRunner` reports them without it.
+    """
+
+    def on_episode_end(self, *, episode: Any, metrics_logger: Any, **kwargs: Any) -> None:  # noqa: ANN401
+        """Log the metrics of an episode.
+
+        Args:
+            episode: the episode that ended.
+            metrics_logger: the runner's logger.
+            **kwargs: ignored.
+        """
+        robot = next(iter(episode.agent_episodes.values()))
+        for name, value in robot.get_infos(-1).items():
+            metrics_logger.log_value((METRICS, name), value, window=WINDOW)
+
+
+def spaces_by_agent(matches: Matches) -> tuple[Spaces, Spaces]:
+    """Return the observation and action spaces of the learners, by name.
+
+    Args:
+        matches: the matches.
+    """
+    observation_space: Space[Any] = matches.observation_space
+    action_space: Space[Any] = matches.action_space
+    agents = matches.agents
+    return dict.fromkeys(agents, observation_space), dict.fromkeys(agents, action_space)
+
+
+def new_matches(config: Mapping[str, Any], worlds: int, seed: int, autoreset: str) -> Matches:
+    """Return the matches that an `env_config` describes.
+
+    Args:
+        config: as for `SoccerMultiAgentEnv`.
+        worlds: number of matches, at least 1.
+        seed: seed of the first match, at least 0.
+        autoreset: as for `Matches`.
+
+    Raises:
+        TypeError: an option of the wrong type or unknown.
+        ValueError: no task, or a value that `Matches` refuses.
+    """
+    options = {name: value for name, value in config.items() if name not in ("task", "frozen")}
+    if "task" not in config:
+        raise ValueError(f"env_config: expected a 'task', got {sorted(options)}")
+    return Matches(config["task"], worlds, seed, autoreset=autoreset, **options)
