@@ -56,14 +56,13 @@ def test_every_interface_knows_the_old_names(name: str) -> None:
     original, task = ALIASES[name].task, rsoccer.make_task(name)
     assert begun(task, worlds=1).agents == task.agents == rsoccer.Matches(name).agents
     assert rsoccer.parallel_env(name, max_cycles=3).possible_agents == list(task.agents)
-    assert (f"rsoccer/{name}" in gymnasium.registry) == (len(task.agents) == 1)
-    if len(task.agents) == 1:
-        envs: list[Any] = [
-            gymnasium.make(f"rsoccer/{name}", max_steps=3).unwrapped,
-            gymnasium.make_vec(f"rsoccer/{name}", 2, max_steps=3).unwrapped,
-        ]
-        for env in envs:
-            assert env.task == rsoccer.make_task(name, max_steps=3)
+    learner = {"learner": task.agents[0]} if len(task.agents) > 1 else {}
+    envs: list[Any] = [
+        gymnasium.make(f"rsoccer/{name}", max_steps=3, **learner).unwrapped,
+        gymnasium.make_vec(f"rsoccer/{name}", 2 * len(task.agents), max_steps=3).unwrapped,
+    ]
+    for env in envs:
+        assert env.task == rsoccer.make_task(name, max_steps=3)
     if hasattr(pettingzoo, "make"):
         assert pettingzoo.make("parallel", f"rsoccer/{name}").metadata["name"] == original
         assert pettingzoo.make("aec", f"rsoccer/{name}").possible_agents == list(task.agents)
