@@ -4,7 +4,7 @@
 
 use rsim_core::columns::{ball_column, robot_column};
 use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots};
-use rsim_core::{BallModel, Body, Drive, EngineKind, OmniDrive, RobotModel, SimConfig};
+use rsim_core::{BallModel, Body, Drive, OmniDrive, RobotModel, SimConfig};
 
 /// A floor without friction, so that only the bounce changes the ball.
 fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
@@ -152,8 +152,6 @@ fn a_ball_turns_a_round_robot_by_its_friction_at_every_speed_and_tick() {
     let (robot, ball) = (free_robot(), BallModel::SSL_TIGERS);
     let Body::Round { radius, .. } = robot.body else { panic!("it is not round") };
     let inertia = robot.mass * radius * radius / 2.0;
-    // rapier solves the contact in the whole tick, of which the ball touches the robot in a part.
-    let tolerance = if slippery(&ball, 0).engine == EngineKind::Rapier { 0.25 } else { 0.03 };
     for speed in [1.0_f32, 3.0, 6.0, 10.0] {
         for aside in [0.03_f32, 0.06, 0.09] {
             // Against the back of the robot.
@@ -173,7 +171,7 @@ fn a_ball_turns_a_round_robot_by_its_friction_at_every_speed_and_tick() {
                 let turned = robots(&row).next().expect("one")[robot_column("v_theta")];
                 let error = (turned.abs() / expected - 1.0).abs();
                 let label = format!("{speed} m/s, {aside} m aside, ticks of {tick} s");
-                assert!(error < tolerance, "{label}: {turned} rad/s, friction gives {expected}");
+                assert!(error < 0.03, "{label}: {turned} rad/s, friction gives {expected}");
             }
         }
     }

@@ -58,8 +58,10 @@ impl PhysicsHooks for BallRules<'_> {
             };
             *manifold.normal = touch.normal * sign;
             for contact in manifold.solver_contacts.iter_mut() {
-                let on_ball = center - touch.normal * radius;
+                // Both along the normal from where they will touch: the lever of the impulse is between
+                // them, and the ball may move far along the surface before it touches.
                 let on_other = touch.center - touch.normal * radius;
+                let on_ball = on_other + touch.normal * touch.distance;
                 contact.dist = touch.distance;
                 (contact.anchor1, contact.anchor2) =
                     if sign > 0.0 { (on_other, on_ball) } else { (on_ball, on_other) };
