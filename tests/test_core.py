@@ -3,6 +3,7 @@
 import copy
 import pickle
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -282,8 +283,9 @@ def test_wrong_threads_and_arrays_are_refused_by_name() -> None:
 
 def test_other_threads_run_during_a_step() -> None:
     """A counter in Python continues during one long step: the step releases the GIL."""
-    simulator = Simulator(CONFIG, 3000)
-    rows, commands = rows_of(simulator), no_commands(3000) + 30
+    worlds = 30_000  # for a step of some tenths of a second
+    simulator = Simulator(CONFIG, worlds)
+    rows, commands = rows_of(simulator), no_commands(worlds) + 30
     counts, stop = [0], threading.Event()
 
     def count() -> None:
@@ -292,6 +294,8 @@ def test_other_threads_run_during_a_step() -> None:
 
     counter = threading.Thread(target=count)
     counter.start()
+    while counts[0] == 0:
+        time.sleep(0.001)
     before = counts[0]
     simulator.step(commands, rows)
     during = counts[0] - before

@@ -56,7 +56,7 @@ def test_every_interface_knows_the_old_names(name: str) -> None:
     original, task = ALIASES[name].task, rsoccer.make_task(name)
     assert begun(task, worlds=1).agents == task.agents == rsoccer.Matches(name).agents
     assert rsoccer.parallel_env(name, max_cycles=3).possible_agents == list(task.agents)
-    learner = {"learner": task.agents[0]} if len(task.agents) > 1 else {}
+    learner: dict[str, Any] = {"learner": task.agents[0]} if len(task.agents) > 1 else {}
     envs: list[Any] = [
         gymnasium.make(f"rsoccer/{name}", max_steps=3, **learner).unwrapped,
         gymnasium.make_vec(f"rsoccer/{name}", 2 * len(task.agents), max_steps=3).unwrapped,
