@@ -23,8 +23,8 @@ pub(crate) struct BlockWheels {
     omni: Option<Mounted<omni::Wheels>>,
     /// Commanded by the wheels' speeds.
     each_omni: Option<Mounted<omni::Wheels>>,
-    /// Length of the tick, s.
-    tick: f32,
+    /// Inverse of the tick, 1/s.
+    ticks_per_second: f32,
 }
 
 /// Wheels of one kind, and the lanes of the robots that have them.
@@ -62,7 +62,7 @@ impl BlockWheels {
             }),
             omni: mounted(models, omni_of, |all| omni::Wheels::of(&all, tick)),
             each_omni: mounted(models, each_omni_of, |all| omni::Wheels::of(&all, tick)),
-            tick,
+            ticks_per_second: 1.0 / tick,
         }
     }
 }
@@ -222,7 +222,7 @@ impl DriveState {
         self.change = effect.change.rotated_by(motion.heading);
         self.expected_velocity = motion.velocity + velocity;
         self.expected_spin = motion.spin + effect.spin;
-        let per_second = Lanes::splat(1.0 / wheels.tick);
+        let per_second = Lanes::splat(wheels.ticks_per_second);
         BlockAcceleration { linear: velocity * per_second, angular: effect.spin * per_second }
     }
 

@@ -36,13 +36,17 @@ impl Outline {
         }
     }
 
-    /// Distance from the origin to the farthest point that moves in a rotation, m; 0 for a disc.
-    pub(crate) fn turning_radius(&self) -> f32 {
+    /// Distance from the origin to the farthest point, m.
+    pub(crate) fn bounding_radius(&self) -> f32 {
         match *self {
             Self::Box { half } => half.length(),
-            Self::CutDisc { radius, .. } => radius,
-            Self::Disc { .. } => 0.0,
+            Self::CutDisc { radius, .. } | Self::Disc { radius } => radius,
         }
+    }
+
+    /// Distance from the origin to the farthest point that moves in a rotation, m; 0 for a disc.
+    pub(crate) fn turning_radius(&self) -> f32 {
+        if let Self::Disc { .. } = self { 0.0 } else { self.bounding_radius() }
     }
 
     /// The point nearest to `point`, in the outline's own frame.

@@ -77,7 +77,7 @@ impl Link {
         }
         // Friction of the ball is resolved elsewhere.
         let friction = if is_ball { 0.0 } else { met_friction.midpoint(of(second)) };
-        let radii = outlines.map(|outline| radius(&outline));
+        let radii = outlines.map(|outline| outline.bounding_radius());
         let (impulses, total) = (Impulses::default(), Total::default());
         let key = key(pair);
         Some(Self { key, first, second, with, outlines, radii, friction, impulses, total })
@@ -145,14 +145,6 @@ impl Link {
             }
             self.total.impulse += point.impulse;
         }
-    }
-}
-
-/// Distance of an outline's farthest point, m.
-fn radius(outline: &Outline) -> f32 {
-    match *outline {
-        Outline::Box { half } => half.length(),
-        Outline::CutDisc { radius, .. } | Outline::Disc { radius } => radius,
     }
 }
 
