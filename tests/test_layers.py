@@ -27,7 +27,7 @@ LAYERS = [
     {"lineup"},
     {"matches.match_state", "matches.paused"},
     {"matches.loop"},
-    {"matches"},
+    {"matches", "matches.policy_match"},
     {"envs.env_matches", "envs.options"},
     {"envs.viewer"},
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate"},

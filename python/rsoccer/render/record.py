@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from rsoccer.controllers import Controllers, given_by_name
+from rsoccer.controllers import Controllers
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
-from rsoccer.lineup import task_for
 from rsoccer.matches import Matches
+from rsoccer.matches.policy_match import policy_match
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
@@ -86,14 +86,7 @@ def film_match(
     Raises:
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    if not (math.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"seconds: expected a positive number, got {seconds}")
-    task = task_for(*given_by_name(controllers).values()) if task is None else task
-    matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
-    if matches.agents:
-        raise ValueError(
-            f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
-        )
+    matches = policy_match(task, controllers, seed, seconds)
     config = matches.task.config
     width = default_width(config, MIN_WIDTH) if width is None else width
     return _images(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step

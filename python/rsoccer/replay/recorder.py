@@ -10,10 +10,10 @@ import numpy as np
 from rsoccer import checks
 from rsoccer._core import build_info
 from rsoccer.arrays import Array, Floats
-from rsoccer.controllers import Controllers, given_by_name, resolve
-from rsoccer.lineup import task_for
+from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
+from rsoccer.matches.policy_match import policy_match
 from rsoccer.replay.events import Event, step_events
 from rsoccer.replay.replay import Episode, Replay
 from rsoccer.replay.resume import described_controllers, described_options
@@ -224,14 +224,7 @@ def record_replay(
     Raises:
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    if not (math.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"seconds: expected a positive number, got {seconds}")
-    task = task_for(*given_by_name(controllers).values()) if task is None else task
-    matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
-    if matches.agents:
-        raise ValueError(
-            f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
-        )
+    matches = policy_match(task, controllers, seed, seconds)
     recorder = Recorder(
         matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval
     )

@@ -1,0 +1,39 @@
+"""A match between policies: the one that videos and replays show for the same arguments."""
+
+from __future__ import annotations
+
+import math
+
+from rsoccer.controllers import Controllers, given_by_name
+from rsoccer.lineup import task_for
+from rsoccer.matches.loop import Matches
+from rsoccer.task import Task
+
+
+def policy_match(
+    task: Task | str | None, controllers: Controllers | None, seed: int, seconds: float
+) -> Matches:
+    """Prepare one match in which policies control all robots; `reset` begins it.
+
+    Args:
+        task: the task or its id; None for the task of the first trained policy among
+            `controllers`, or VSSSelfPlay-v0.
+        controllers: policies as `Matches` takes them, for all robots.
+        seed: seed of starts and policies.
+        seconds: duration of play that is asked for, above 0; checked only.
+
+    Returns:
+        Matches of one world. `autoreset` is "disabled".
+
+    Raises:
+        ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
+    """
+    if not (math.isfinite(seconds) and seconds > 0):
+        raise ValueError(f"seconds: expected a positive number, got {seconds}")
+    task = task_for(*given_by_name(controllers).values()) if task is None else task
+    matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
+    if matches.agents:
+        raise ValueError(
+            f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
+        )
+    return matches
