@@ -22,6 +22,7 @@ METHODS = (
     "metrics",
     "new_memory",
     "get_initial_positions_frame",
+    "start_episode",
 )
 
 
@@ -56,6 +57,9 @@ class FailingTask(Crowd):
         frame = super().get_initial_positions_frame(rng)
         self.failure.raise_in("get_initial_positions_frame")
         return frame
+
+    def start_episode(self, play: Play) -> None:
+        self.failure.raise_in("start_episode")
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         self.failure.raise_in("get_commands")

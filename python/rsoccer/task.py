@@ -112,6 +112,16 @@ class Task(ABC):
             One frame of n worlds.
         """
 
+    def start_episode(self, play: Play) -> None:  # noqa: B027  (no task needs to override it)
+        """Fit the memory of new episodes to their initial state. Default: leave it as it is.
+
+        Called once for each episode, before its first observation.
+
+        Args:
+            play: state of n worlds with the memory of `new_memory`, which may be changed in place.
+                Draws from `play.rng` are allowed.
+        """
+
     @abstractmethod
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to robot commands.

@@ -109,14 +109,13 @@ def test_a_reset_that_fails_before_placing_changes_nothing(method: str) -> None:
         expect_same_future(matches, failing_matches()[0])
 
 
-def test_a_reset_that_fails_after_placing_is_an_inconsistency() -> None:
+@pytest.mark.parametrize("method", ["frame_to_observations", "start_episode"])
+def test_a_reset_that_fails_after_placing_is_an_inconsistency(method: str) -> None:
     matches, failure = failing_matches()
-    failure.method = "frame_to_observations"
+    failure.method = method
     with pytest.raises(InjectedError):
         matches.reset(mask=np.array([True, False, False, False]))
-    with pytest.raises(
-        RuntimeError, match="reset failed with InjectedError: frame_to_observations"
-    ):
+    with pytest.raises(RuntimeError, match=f"reset failed with InjectedError: {method}"):
         matches.step(zeros(matches))
     assert same(matches.reset(4), failing_matches()[0].reset(4))
 

@@ -135,3 +135,45 @@ def test_other_scenarios_are_refused() -> None:
 def test_a_scene_refuses_unknown_robots() -> None:
     with pytest.raises(AssertionError, match="no such robots"):
         scene(TASK, ball=(0.0, 0.0), yellow_9=(0.0, 1.0))
+
+
+@pytest.mark.parametrize("scenario", ["paper", "official"])
+def test_a_random_start_is_before_every_gate_in_turn(scenario: str) -> None:
+    task = SslDribbling(scenario=scenario, random_start=True)
+    worlds, gates = 600, len(task.course.gates)
+    matches = Matches(task, worlds, seed=3, autoreset="disabled")
+    matches.reset()
+    passed = matches.play.memory["passed"]
+    assert set(passed.tolist()) == set(range(gates))
+    x, y, _ = task.course.start
+    at_start = (matches.frame.blue.position[:, 0] == np.array([x, y], np.float32)).all(axis=1)
+    assert 0.4 < at_start.mean() < 0.6
+    assert (passed[at_start] == 0).all()
+    low, high, direction = task.course.table[passed[~at_start]].T
+    ball = matches.frame.ball.position[~at_start]
+    along, across = ball[:, 1 - task.course.crosses], ball[:, task.course.crosses]
+    assert ((low < along) & (along < high)).all()
+    assert (direction * (across - np.float32(task.course.line)) < 0.0).all()
+    assert (matches.frame.blue.infrared[:, 0] > 0.5).all()
+    assert not matches.step(np.zeros((worlds, 1, 5), np.float32)).ended.any()
+
+
+def test_the_next_crossing_after_a_random_start_counts() -> None:
+    task = SslDribbling(random_start=True)
+    matches = Matches(task, 1, autoreset="disabled")
+    matches.reset(rows=rolling(-1.25, 1.0).rows)  # the second gate is ahead, upwards
+    assert matches.play.memory["passed"][0] == 1
+    gates = [matches.step(np.array([[STAND]], np.float32)).metrics["gates"][0] for _ in range(12)]
+    assert gates[-1] == 2.0
+
+
+def test_a_start_before_no_gate_counts_no_crossing() -> None:
+    task = SslDribbling(random_start=True)
+    matches = Matches(task, 1, autoreset="disabled")
+    matches.reset(rows=initial_frame(TASK).rows)
+    assert matches.play.memory["passed"][0] == 0
+
+
+def test_random_starts_are_refused_unless_true_or_false() -> None:
+    with pytest.raises(TypeError, match="random_start"):
+        SslDribbling(random_start="yes")  # type: ignore[arg-type]

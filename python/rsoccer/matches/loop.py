@@ -448,6 +448,7 @@ class Matches:
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""
         part.start(self.play.frame.rows[worlds])
+        self.task.start_episode(part)
         self._observations[worlds] = self.task.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False

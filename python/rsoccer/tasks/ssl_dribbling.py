@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer import rewards
+from rsoccer import checks, rewards
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.markers import Gate, Marker
@@ -16,6 +16,15 @@ from rsoccer.tasks.courses import COURSES, Course
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 from rsoccer.vectors import rotate_into_body
 
+RANDOM_START_FRACTION: Final = 0.5
+"""Fraction of the episodes that start before a random gate with the option `random_start`."""
+NEAR_GATE: Final = 0.25
+"""Least distance from a gate to the robot in a random initial state, m."""
+FAR_GATE: Final = 0.45
+"""Greatest distance from a gate to the robot in a random initial state, m."""
+MAX_START_TURN: Final = 0.5
+"""Greatest difference between a random initial heading and the course's, rad."""
+
 
 @dataclass(frozen=True)
 class SslDribbling(Ssl):
@@ -23,7 +32,8 @@ class SslDribbling(Ssl):
 
     Goal of the task: cross all gates of the course in order, each in its direction.
 
-    Initial state: fixed by the course, with the ball in the mouth of blue_0.
+    Initial state: fixed by the course, with the ball in the mouth of blue_0. With `random_start`,
+    half of the episodes start before a gate drawn at random, with the crossings before it made.
 
     The observation has one block more than `Soccer`, "gate" (4,), limit 3: offset from the robot to
     the middle of the next gate, ahead and left, in half field lengths; direction of the crossing,
@@ -54,6 +64,8 @@ class SslDribbling(Ssl):
     """Control steps of 25 ms until truncation, at least 1; 4800 are 120 s."""
     scenario: str = "paper"
     """Course: "paper" (seven crossings) or "official" (six)."""
+    random_start: bool = False
+    """True: start before a random gate in half of the episodes, as training needs all gates."""
 
     success = "gates"
     """Metric that measures the success of an episode."""
@@ -79,6 +91,7 @@ class SslDribbling(Ssl):
         """Validate the options."""
         if self.scenario not in COURSES:
             raise ValueError(f"scenario: expected one of {list(COURSES)}, got {self.scenario!r}")
+        checks.boolean("random_start", self.random_start)
         super().__post_init__()
 
     @property
@@ -110,8 +123,19 @@ class SslDribbling(Ssl):
         frame.blue.position[:] = [x, y]
         frame.blue.heading[:] = [np.cos(heading), np.sin(heading)]
         frame.yellow.position[:] = self.course.opponents
+        if self.random_start:
+            self._place_before_gates(frame, rng)
         frame.ball.position[:] = ball_at_mouth(frame, 0, self.mouth_offset)
         return frame
+
+    def start_episode(self, play: Play) -> None:
+        """Draw the crossings made, in `random_start`, from those that lead to the gate ahead."""
+        if not self.random_start:
+            return
+        ahead = self._gates_ahead(play.frame.ball.position)  # (n, gates)
+        rank = np.floor(play.rng.uniform(0.0, 1.0) * ahead.sum(axis=1))  # 0 is the first of them
+        chosen = ahead & (np.cumsum(ahead, axis=1) == rank[:, None] + 1.0)
+        play.memory["passed"][:] = chosen.argmax(axis=1)  # 0 where no gate is ahead
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block "gate" (n, observers, 4)."""
@@ -164,6 +188,31 @@ class SslDribbling(Ssl):
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `gates`, (n,) the number of crossings."""
         return {"gates": play.memory["passed"].astype(np.float32)}
+
+    def _place_before_gates(self, frame: Frame, rng: WorldRng) -> None:
+        """Move blue_0 before a random gate, about as it faces at the start, in half of the worlds.
+
+        The draws cover a strip from `NEAR_GATE` to `FAR_GATE` before the gate, which is clear of
+        the posts.
+        """
+        course = self.course
+        moved = rng.uniform(0.0, 1.0) < RANDOM_START_FRACTION
+        gate = course.table[rng.integers(len(course.gates))]
+        distance = rng.uniform(NEAR_GATE, FAR_GATE)
+        turn = course.start[2] + rng.uniform(-MAX_START_TURN, MAX_START_TURN)
+        position = self._gate_middle(gate)
+        position[:, course.crosses] -= gate[:, 2] * distance
+        frame.blue.position[moved, 0] = position[moved]
+        frame.blue.heading[moved, 0] = np.stack([np.cos(turn), np.sin(turn)], axis=-1)[moved]
+
+    def _gates_ahead(self, ball: Floats) -> Mask:
+        """(n, gates) gates that balls at (n, 2) can cross in their direction on a straight line."""
+        low, high, direction = self.course.table.T
+        along, across = ball[:, 1 - self.course.crosses], ball[:, self.course.crosses]
+        between = (low < along[:, None]) & (along[:, None] < high)
+        before = direction * (across[:, None] - np.float32(self.course.line)) < 0.0
+        ahead: Mask = np.logical_and(between, before)
+        return ahead
 
     def _marker(self, low: float, high: float, direction: float, done: bool) -> Gate:
         """Marker of a gate. Towards +x the left post has the greater y, towards +y the lesser x."""
