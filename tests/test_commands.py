@@ -148,6 +148,28 @@ def test_train_passes_its_options_on(
     assert "there/policy.safetensors" in capsys.readouterr().out
 
 
+def test_train_takes_options_of_the_task(monkeypatch: pytest.MonkeyPatch) -> None:
+    received: list[Any] = []
+    monkeypatch.setattr(commands, "train", received.append)
+    words = ["n_blue=2", "opponent=scripted:0.5", "reward_weights={'goal': 3}", "discrete=False"]
+    assert cli.main(["train", "--task-options", *words, "--final-action-std", "0.1"]) == 0
+    assert received[0].task_options == {
+        "n_blue": 2,
+        "opponent": "scripted:0.5",
+        "reward_weights": {"goal": 3},
+        "discrete": False,
+    }
+    assert received[0].final_action_std == 0.1
+    assert cli.main(["train"]) == 0
+    assert received[1].task_options == {}
+
+
+def test_train_refuses_an_option_without_a_value(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        cli.main(["train", "--task-options", "n_blue"])
+    assert "expected NAME=VALUE" in capsys.readouterr().err
+
+
 # -- watch ------------------------------------------------------------------------------------
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import math
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import Positional, arg, subcommand
+from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer import policies, registry
 from rsoccer.controllers import Controller
@@ -45,6 +47,29 @@ _FIRST_ROBOT = "(default: the first learner)"
 _DEFAULT_OPPONENT = "(default: the task's own, or ou where that team learns)"
 
 
+def _parse_options(words: list[str]) -> dict[str, Any]:
+    """Options given as NAME=VALUE; values as `rsoccer list` prints them, or text without quotes."""
+    options: dict[str, Any] = {}
+    for word in words:
+        name, separator, value = word.partition("=")
+        if not name or not separator:
+            raise ValueError(f"task_options: expected NAME=VALUE, got {word!r}")
+        try:
+            options[name] = ast.literal_eval(value)
+        except (SyntaxError, ValueError):
+            options[name] = value
+    return options
+
+
+_TASK_OPTIONS = PrimitiveConstructorSpec[Mapping[str, Any]](
+    nargs="*",
+    metavar="[NAME=VALUE [NAME=VALUE ...]]",
+    instance_from_str=_parse_options,
+    is_instance=lambda value: isinstance(value, Mapping),
+    str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
+)
+
+
 @dataclass(frozen=True)
 class List:
     """Print the tasks with their options, and the policies."""
@@ -67,6 +92,10 @@ class List:
 @dataclass(frozen=True)
 class Train(Args):
     """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
+
+    task_options: Annotated[Mapping[str, Any], _TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task (`rsoccer list` prints them), such as reward_weights=paper or
+    opponent=chase"""
 
     def run(self) -> None:
         """Train, and print the path of the policy file."""

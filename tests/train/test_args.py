@@ -32,6 +32,11 @@ INVALID: list[tuple[str, Any]] = [
     ("hidden_sizes", (64, 0)),
     ("latest_fraction", 0.9),
     ("pool_size", 0),
+    ("final_action_std", 0.0),
+    ("final_action_std", float("inf")),
+    ("task_options", {"robot": object()}),
+    ("task_options", {"ball_speed": float("nan")}),
+    ("task_options", ["n_blue"]),
 ]
 
 
@@ -47,7 +52,13 @@ def test_resume_and_overwrite_exclude_each_other() -> None:
 
 
 def test_settings_make_a_round_trip_through_json() -> None:
-    args = Args(out=Path("somewhere"), hidden_sizes=(32, 16))
+    args = Args(
+        out=Path("somewhere"),
+        hidden_sizes=(32, 16),
+        task_options={"n_blue": 2, "reward_weights": {"goal": 5.0}},
+        final_action_std=0.1,
+        masked_observations=("shot",),
+    )
     saved = json.loads(json.dumps(args.to_json()))
     assert args.differences(saved) == []
     assert Args(**saved) == args
@@ -60,6 +71,17 @@ def test_differences_are_the_fields_that_change_the_run() -> None:
         "seed was 1, now 2",
         f"worlds was {Args().worlds}, now 8",
     ]
+
+
+def test_the_task_is_created_with_its_options() -> None:
+    task = Args("VSS-v0", task_options={"n_blue": 2, "opponent": "chase"}).make_task()
+    assert task.n_blue == 2
+    assert task.default_controllers()["yellow_0"] == "chase"
+
+
+def test_a_wrong_task_option_is_refused_with_the_valid_ones() -> None:
+    with pytest.raises(ValueError, match=r"task_options: VSS-v0: .*'weights'.*'reward_weights'"):
+        Args("VSS-v0", task_options={"weights": "paper"}).make_task()
 
 
 def test_reading_the_settings_needs_no_torch() -> None:

@@ -18,6 +18,7 @@ All numbers are finite. The metadata are text:
 | --- | --- | --- |
 | `format` | `rsoccer-policy-2` | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
+| `task_options` | JSON object; optional | options of `make_task` that the training set |
 | `observation_size` | o | numbers in an observation |
 | `action_size` | a | numbers in an action |
 | `activation` | `tanh` | activation after each layer but the last |

@@ -25,8 +25,9 @@ def train(args: Args) -> Path:
         Path of the policy file, in the folder `args.out`.
 
     Raises:
-        ValueError: a folder that cannot be written or that holds a run already, an unknown task,
-            or a checkpoint that is missing, damaged or of a run with other settings.
+        ValueError: an unknown task, options or masked observations that it does not have, a folder
+            that cannot be written or that holds a run already, or a checkpoint that is missing,
+            damaged or of a run with other settings.
         Interrupted: Ctrl-C or SIGTERM ended the run, after a checkpoint was saved.
     """
     from rsoccer.train.trainer import run

@@ -6,10 +6,15 @@ This module does not import torch, because the command line builds its help from
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from rsoccer.registry import make_task
+from rsoccer.task import Task
 
 SETTINGS_FILE = "args.json"
 """File in a run's folder with its settings, written when the run starts and when it resumes."""
@@ -24,7 +29,8 @@ CHANGEABLE_ON_RESUME = (
     "match_page",
 )
 """Fields that may change when a run resumes. Of these only `samples` affects the updates: the
-learning rate falls towards the end that it sets."""
+learning rate, and the spread of actions if it has a final value, change towards the end that it
+sets."""
 
 
 # The docstrings of the fields are the help of `rsoccer train`, which keeps their line breaks.
@@ -33,14 +39,17 @@ class Args:
     """Settings of one training run. A sample is one decision of one learning robot.
 
     Raises:
-        ValueError: a value outside its range, fractions of opponents whose sum is not 1, or
-            `resume` together with `overwrite`.
+        ValueError: a value outside its range, fractions of opponents whose sum is not 1, options
+            of the task that are not JSON values, or `resume` together with `overwrite`.
     """
 
     task: str = "VSSSelfPlay-v0"
     """registered task to train on (`rsoccer list` prints the names)"""
     out: Path = Path("out/train")
     """folder for the policy, the checkpoint and the logs"""
+    task_options: Mapping[str, Any] = field(default_factory=dict)
+    """options of the task, JSON values by name (`rsoccer list` prints them), such as
+    reward_weights=paper or opponent=chase"""
     samples: int = 10_000_000
     """decisions to learn from, over all learning robots; at least 1, rounded up to full updates"""
     seed: int = 0
@@ -83,6 +92,9 @@ class Args:
     """widths of the hidden layers of the policy and of the value network, at least 1 each"""
     action_std: float = 0.6
     """initial standard deviation of the actions, above 0; 1 is full speed"""
+    final_action_std: float | None = None
+    """standard deviation of the actions at the end of the run, above 0; None learns it instead.
+    It changes geometrically from `action_std`, and `entropy_coef` has no effect"""
     learning_rate: float = 2e-3
     """initial step size of Adam, above 0; it falls to a tenth by the end of the run"""
     n_epochs: int = 6
@@ -100,6 +112,17 @@ class Args:
     max_grad_norm: float = 0.5
     """largest norm of a gradient, above 0; longer gradients are shortened to it"""
 
+    normalise_observations: bool = True
+    """scale observations by their running mean and standard deviation; off for ablations"""
+    normalise_rewards: bool = True
+    """divide rewards by the running standard deviation of discounted returns; off for ablations"""
+    bootstrap_time_limits: bool = True
+    """count the value of the last observation where an episode is truncated.
+    Off treats time limits and random truncations as ends of the task; for ablations"""
+    masked_observations: tuple[str, ...] = ()
+    """blocks of the observation that policy and value network read as 0; for ablations.
+    Numbers of a block by their last index: opponents:2,3 are the headings of opponents"""
+
     latest_fraction: float = 0.5
     """share of matches, 0 to 1, against the current policy (tasks where both teams learn)"""
     past_fraction: float = 0.35
@@ -115,6 +138,8 @@ class Args:
         """Convert paths and sizes, and check every value."""
         object.__setattr__(self, "out", Path(self.out))
         object.__setattr__(self, "hidden_sizes", tuple(self.hidden_sizes))
+        object.__setattr__(self, "masked_observations", tuple(self.masked_observations))
+        object.__setattr__(self, "task_options", _as_json(self.task_options))
         for name in _COUNTS:
             _expect(self, name, getattr(self, name) >= 1, "at least 1")
         for name in _POSITIVE:
@@ -126,6 +151,9 @@ class Args:
             value = getattr(self, name)
             _expect(self, name, math.isfinite(value) and value >= 0, "finite and at least 0")
         _expect(self, "seed", self.seed >= 0, "at least 0")
+        std = self.final_action_std
+        valid = std is None or (math.isfinite(std) and std > 0)
+        _expect(self, "final_action_std", valid, "None, or finite and above 0")
         self._check_hidden_sizes()
         self._check_combinations()
 
@@ -145,12 +173,24 @@ class Args:
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
 
+    def make_task(self) -> Task:
+        """Return a new task with its options.
+
+        Raises:
+            ValueError: an unknown task, or options that it refuses.
+        """
+        try:
+            return make_task(self.task, **self.task_options)
+        except TypeError as error:
+            raise ValueError(f"task_options: {error}") from error
+
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON values by field name; `Args(**values)` restores them."""
         return {
             **dataclasses.asdict(self),
             "out": str(self.out),
             "hidden_sizes": list(self.hidden_sizes),
+            "masked_observations": list(self.masked_observations),
         }
 
     def differences(self, saved: dict[str, Any]) -> list[str]:
@@ -184,6 +224,16 @@ _FRACTIONS = (
     *("solo_fraction", "random_truncation", "gamma", "gae_lambda"),
     *("latest_fraction", "past_fraction", "ou_fraction"),
 )
+
+
+def _as_json(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Copy of the task's options as `json.loads` returns them."""
+    try:
+        return dict(json.loads(json.dumps(dict(options), allow_nan=False)))
+    except (TypeError, ValueError) as error:
+        raise ValueError(
+            f"task_options must be JSON values by name, got {options!r}: {error}"
+        ) from error
 
 
 def _expect(args: Args, name: str, valid: bool, expected: str) -> None:

@@ -62,7 +62,8 @@ def _title(folder: Path) -> str:
     settings = folder / SETTINGS_FILE
     if not settings.is_file():
         return "Learning to play"
-    task = make_task(json.loads(settings.read_text())["task"])
+    saved = json.loads(settings.read_text())
+    task = make_task(saved["task"], **saved.get("task_options", {}))
     return f"Learning to play {task.name}, {task.n_blue} v {task.n_yellow}"
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -12,6 +14,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task
+from rsoccer.train.args import Args
 
 OBSERVATION_CLIP = 10.0
 """Bound of a normalised observation, in standard deviations."""
@@ -24,8 +27,13 @@ class ActorCritic(nn.Module):
         observation_size: o, the numbers in an observation.
         actor: network from normalised observations (..., o) to mean actions (..., action).
         critic: network from normalised observations (..., o) to values (..., 1).
-        log_std: (action,) logarithm of the standard deviation, independent of the observation.
+        log_std: (action,) logarithm of the standard deviation, independent of the observation;
+            a parameter if it is learned, else a buffer.
+        mask: (o,) 1 for numbers of the observation that the networks read, 0 for others.
     """
+
+    log_std: Tensor
+    mask: Tensor
 
     def __init__(
         self,
@@ -34,6 +42,9 @@ class ActorCritic(nn.Module):
         hidden_sizes: tuple[int, ...],
         action_std: float,
         generator: torch.Generator,
+        *,
+        learn_action_std: bool = True,
+        mask: Floats | None = None,
     ) -> None:
         """Draw orthogonal weights; a small last layer keeps the first mean actions near zero.
 
@@ -43,12 +54,34 @@ class ActorCritic(nn.Module):
             hidden_sizes: widths of the hidden layers.
             action_std: initial standard deviation of the actions.
             generator: draws the weights.
+            learn_action_std: the optimiser changes the standard deviation.
+            mask: (o,) 1 for numbers of the observation that the networks read, 0 for others,
+                which have weights of 0 in the first layers; None for all.
         """
         super().__init__()
         self.observation_size = observation_size
         self.actor = _mlp([observation_size, *hidden_sizes, action_size], 0.01, generator)
         self.critic = _mlp([observation_size, *hidden_sizes, 1], 1.0, generator)
-        self.log_std = nn.Parameter(torch.full((action_size,), math.log(action_std)))
+        log_std = torch.full((action_size,), math.log(action_std))
+        if learn_action_std:
+            self.log_std = nn.Parameter(log_std)
+        else:
+            self.register_buffer("log_std", log_std)
+        mask = np.ones(observation_size, np.float32) if mask is None else mask
+        self.register_buffer("mask", torch.tensor(mask), persistent=False)
+        with torch.no_grad():
+            # Inputs of 0 have gradients of 0, so these weights stay 0, also in the exported policy.
+            for network in (self.actor, self.critic):
+                next(network.parameters()).mul_(self.mask)
+
+    @torch.no_grad()
+    def set_action_std(self, action_std: float) -> None:
+        """Set the standard deviation of all components of the action.
+
+        Args:
+            action_std: standard deviation, above 0.
+        """
+        self.log_std.fill_(math.log(action_std))
 
     def value(self, observations: Tensor) -> Tensor:
         """Return the expected discounted return, in scaled rewards, (...).
@@ -74,15 +107,12 @@ class ActorCritic(nn.Module):
         """Return the entropy of the Gaussian, a scalar, the same for every observation."""
         return (self.log_std + 0.5 * math.log(2 * math.pi * math.e)).sum()
 
-    def export(
-        self, task: Task, task_name: str, action_repeat: int, mean: Floats, std: Floats
-    ) -> Network:
+    def export(self, task: Task, args: Args, mean: Floats, std: Floats) -> Network:
         """Return a copy of the current policy that plays in NumPy as it plays in training.
 
         Args:
             task: the task it is trained on.
-            task_name: name of the task for `make_task`.
-            action_repeat: control steps per decision.
+            args: settings of the run; the policy file names task, options and action repeat.
             mean: (o,) mean of the observations.
             std: (o,) standard deviation of the observations.
         """
@@ -94,14 +124,16 @@ class ActorCritic(nn.Module):
             arrays[f"layers.{index}.bias"] = layer.bias.detach().numpy().copy()
         metadata = {
             "format": FORMAT,
-            "task": task_name,
+            "task": args.task,
             "layout": task.layout,
             "observation_size": str(linear[0].in_features),
             "action_size": str(linear[-1].out_features),
             "activation": "tanh",
             "clip": f"{OBSERVATION_CLIP:g}",
-            "action_repeat": str(action_repeat),
+            "action_repeat": str(args.action_repeat),
         }
+        if args.task_options:
+            metadata["task_options"] = json.dumps(args.task_options, sort_keys=True)
         return Network(arrays, metadata)
 
 

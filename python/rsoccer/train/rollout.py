@@ -166,8 +166,9 @@ class RolloutCollector:
             check_stop()
             observations.append(self.observations)
             transitions.append(self._play_decision())
-        size = self._model.observation_size
-        self.obs_rms.update(np.concatenate(observations).reshape(-1, size))
+        if self._args.normalise_observations:
+            size = self._model.observation_size
+            self.obs_rms.update(np.concatenate(observations).reshape(-1, size))
         return self._make_batch(*(torch.stack(parts) for parts in zip(*transitions, strict=True)))
 
     @torch.no_grad()
@@ -191,18 +192,19 @@ class RolloutCollector:
             if ended.any():
                 self.observations = self.matches.reset(mask=ended)
         agents = self.discounted_returns.shape[1]
+        final = transition.terminated if self._args.bootstrap_time_limits else ended
         return (
             observations,
             actions,
             log_probs,
             torch.tensor(transition.rewards.reshape(-1)),
             self._normalise(transition.observations),
-            torch.tensor(np.repeat(transition.terminated, agents)),
+            torch.tensor(np.repeat(final, agents)),
             torch.tensor(np.repeat(ended, agents)),
         )
 
     def _draw_truncations(self) -> Mask:
-        """Mask (n,) of random truncations, which are bootstrapped like time limits."""
+        """Mask (n,) of random truncations, which are treated like time limits."""
         uniform = torch.rand(len(self.discounted_returns), generator=self._generator)
         return (uniform < self._args.random_truncation).numpy()
 
@@ -211,7 +213,8 @@ class RolloutCollector:
         self.discounted_returns = (
             self.discounted_returns * np.float32(self.gamma) + transition.rewards
         )
-        self.return_rms.update(self.discounted_returns.reshape(-1, 1))
+        if self._args.normalise_rewards:
+            self.return_rms.update(self.discounted_returns.reshape(-1, 1))
         ended = transition.ended
         opponents = np.zeros(len(ended), int)
         if self._pool is not None:
@@ -253,4 +256,6 @@ class RolloutCollector:
         """Normalised observations (worlds x agents, o) of observations (n, agents, o)."""
         mean, std = self.obs_rms.as_float32()
         flat = observations.reshape(-1, observations.shape[-1])
-        return torch.tensor(np.clip((flat - mean) / std, -OBSERVATION_CLIP, OBSERVATION_CLIP))
+        clipped = np.clip((flat - mean) / std, -OBSERVATION_CLIP, OBSERVATION_CLIP)
+        normalised = torch.tensor(clipped)
+        return normalised * self._model.mask if self._args.masked_observations else normalised

@@ -18,7 +18,6 @@ import torch
 from rsoccer.files import write_atomically
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.policies.network import Network
-from rsoccer.registry import make_task
 from rsoccer.replay.recorder import record_replay
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
@@ -26,6 +25,7 @@ from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
 from rsoccer.train.log import Logger, Row
 from rsoccer.train.networks import ActorCritic
+from rsoccer.train.observation_mask import observation_mask
 from rsoccer.train.ppo import PPO
 from rsoccer.train.rollout import Batch, RolloutCollector
 from rsoccer.train.run_state import capture, restore
@@ -72,14 +72,21 @@ class Trainer:
         words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
         torch_seed, self._first_seed, self._self_play_seed = words.tolist()
         self.args, self.clock = args, Clock()
-        self.task = make_task(args.task)
+        self.task = args.make_task()
         self.generator = torch.Generator().manual_seed(torch_seed)
         self.curriculum = Curriculum(args, self.task, self.clock)
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.self_play
         matches = create(self._first_seed)
         sizes = (matches.observation_size, self.task.action_size)
-        self.model = ActorCritic(*sizes, args.hidden_sizes, args.action_std, self.generator)
+        self.model = ActorCritic(
+            *sizes,
+            args.hidden_sizes,
+            args.action_std,
+            self.generator,
+            learn_action_std=args.final_action_std is None,
+            mask=observation_mask(self.task, args.masked_observations),
+        )
         self.collector = RolloutCollector(args, self.model, self.generator, self.clock)
         self.collector.enter(matches, None if self.is_solo else self.pool)
         self.ppo = PPO(args, self.model, self.generator)
@@ -118,6 +125,9 @@ class Trainer:
         with self.clock.measure("learning"):
             self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
         self.updates += 1
+        if self.args.final_action_std is not None:
+            ratio = self.args.final_action_std / self.args.action_std
+            self.model.set_action_std(self.args.action_std * ratio**progress)
         self._update_pool()
 
     def _update_pool(self) -> None:
@@ -130,9 +140,8 @@ class Trainer:
 
     def network(self) -> Network:
         """Return the current policy in NumPy."""
-        name, action_repeat = self.args.task, self.args.action_repeat
         mean, std = self.collector.obs_rms.as_float32()
-        return self.model.export(self.task, name, action_repeat, mean, std)
+        return self.model.export(self.task, self.args, mean, std)
 
     def save(self, saved: Checkpoint) -> None:
         """Write a checkpoint and the current policy to the run's folder.
@@ -206,10 +215,11 @@ def run(args: Args) -> Path:
         Path of the policy file.
 
     Raises:
+        ValueError: a task, an option of it, or a folder that cannot be used; see `train`.
         Interrupted: a signal ended the run after it was saved.
     """
+    trainer, log_size = Trainer(args), 0  # refuses the task or its options before a file changes
     saved = _open_run(args)
-    trainer, log_size = Trainer(args), 0
     if saved is None:
         trainer.network().save(args.out / UNTRAINED_FILE)
     else:
