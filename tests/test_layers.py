@@ -15,7 +15,7 @@ ROOT = Path(rsoccer.__file__).parent
 LAYERS = [
     {"_core"},
     {"arrays", "files", "markers", "matches.consistency"},
-    {"frame", "vectors"},
+    {"frame", "reflection", "vectors"},
     {"rng", "global_state", "view", "entities"},
     {"checks", "play"},
     {"task", "matches.outcome", "matches.result_checks", "simulator_interface", "compat"},

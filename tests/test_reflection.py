@@ -4,7 +4,7 @@ This symmetry also holds for tasks in which one team learns. `test_symmetry.py` 
 half a turn and swaps the teams, for tasks in which both may learn.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -13,8 +13,9 @@ import rsoccer
 from rsoccer import LEARN, Frame, Matches
 from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Array, Floats, Mask
-from rsoccer.task import Task
-from rsoccer.tasks import SslDribbling
+from rsoccer.global_state import StateEncoder
+from rsoccer.task import Play, Task
+from rsoccer.tasks import SslDribbling, VssSelfPlay
 from rsoccer.tasks.courses import PAPER, Course
 from tests.helpers import same
 from tests.parallel_matches import TASKS
@@ -107,9 +108,45 @@ def test_the_reflected_match_is_the_same(name: str) -> None:
     here, there = (np.concatenate(each) for each in observed)
     action = task.blocks["action"].columns
     assert same(reflected_actions(here[:, action]) + 0, there[:, action] + 0)
+    if task.is_symmetric:
+        reflection = task.observation_reflection
+        assert same(reflection.apply(here) + 0, there + 0)
+        assert same(reflection.apply(reflection.apply(here)), here)
+        assert task.action_reflection is not None
+        assert same(task.action_reflection.apply(actions), reflected_actions(actions))
     found = np.delete(signs(here, there), action)
     assert found.all(), "some numbers are neither kept nor negated"
     assert {-1, 1} == set(found.tolist())
+
+
+def test_all_tasks_but_the_slalom_are_symmetric() -> None:
+    asymmetric = [name for name in TASKS if not rsoccer.make_task(name).is_symmetric]
+    assert asymmetric == ["SSLDribbling-v0"]
+
+
+def test_a_task_with_an_unknown_block_is_not_symmetric() -> None:
+    @dataclass(frozen=True)
+    class Noted(VssSelfPlay):
+        def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+            blocks = super().frame_to_observations(play)
+            return {**blocks, "note": np.ones_like(blocks["action"])}
+
+    assert VssSelfPlay().is_symmetric
+    assert not Noted().is_symmetric
+
+
+def test_the_reflected_state_is_the_state_of_the_reflected_match() -> None:
+    for name in ("VSSSelfPlay-v0", "SSLSelfPlay-v0"):
+        task = rsoccer.make_task(name)
+        encoder = StateEncoder(task.config)
+        matches = Matches(task, 4, seed=1, controllers={"all": "uniform"})
+        matches.reset()
+        for _ in range(10):
+            matches.step(np.zeros((4, 0, task.action_size), np.float32))
+        states = encoder.encode(matches.frame.rows)
+        expected = encoder.encode(reflected(matches.frame).rows)
+        assert same(encoder.reflection.apply(states) + 0, expected + 0)
+        assert not same(states, expected)
 
 
 def test_an_asymmetric_task_would_be_found() -> None:

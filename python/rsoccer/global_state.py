@@ -6,6 +6,7 @@ import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
 from rsoccer.arrays import Floats
+from rsoccer.reflection import Reflection
 
 LIMIT = 5.0
 """Largest magnitude of a number in a state, such as a ball at five times a robot's top speed."""
@@ -47,12 +48,19 @@ class StateEncoder:
         columns = [*BALL_COLUMNS, *ROBOT_COLUMNS * config.n_robots]
         encoded = [(index, name) for index, name in enumerate(columns) if name in scales]
         self._columns = np.array([index for index, _ in encoded])
+        negated = {"y", "v_y", "sin", "v_theta"}
+        self._signs = [-1 if name in negated else 1 for _, name in encoded]
         self._factors = np.array([1.0 / scales[name] for _, name in encoded], np.float32)
 
     @property
     def size(self) -> int:
         """Number of columns in a state."""
         return len(self._columns)
+
+    @property
+    def reflection(self) -> Reflection:
+        """Reflection of states, (state,), with left and right swapped."""
+        return Reflection.of(self._signs)
 
     def encode(self, rows: Floats) -> Floats:
         """Encode rows as states.

@@ -21,6 +21,7 @@ from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame, robot_names, team_of
 from rsoccer.markers import Marker
 from rsoccer.play import Play
+from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.view import SIDES, Viewpoint
 
@@ -224,6 +225,45 @@ class Task(ABC):
         A block is clipped to [-bound, bound]. The bound of other blocks is `DEFAULT_LIMIT`.
         """
         return {}
+
+    def block_reflections(self) -> dict[str, Reflection]:
+        """Return how observation blocks change with left and right swapped.
+
+        Returns:
+            Reflection of the last axis by the name of the block. Default: none.
+        """
+        return {}
+
+    @property
+    def action_reflection(self) -> Reflection | None:
+        """Reflection (action_size,) of actions; None, the default, if it is not known."""
+        return None
+
+    @property
+    def is_symmetric(self) -> bool:
+        """True if the task is the same with left and right swapped.
+
+        That is, from reflected states, reflected actions lead to reflected observations and equal
+        rewards. By default it is True if the reflections of actions and of all blocks are known. A
+        task whose rules tell left from right returns False.
+        """
+        return self.action_reflection is not None and set(self.blocks) <= set(
+            self.block_reflections()
+        )
+
+    @cached_property
+    def observation_reflection(self) -> Reflection:
+        """Reflection of the flat observation, (observation_size,), of a symmetric task.
+
+        Raises:
+            KeyError: a block without a reflection.
+        """
+        reflections = self.block_reflections()
+        return Reflection.join(
+            reflections[name]
+            for name, block in self.blocks.items()
+            for _ in range(math.prod(block.shape[:-1]))
+        )
 
     @property
     def n_blue(self) -> int:

@@ -47,6 +47,7 @@ GROUPS: Final = (
             "rsoccer.play",
             "rsoccer.frame",
             "rsoccer.arrays",
+            "rsoccer.reflection",
             "rsoccer.vectors",
             "rsoccer.view",
             "rsoccer.rng",

@@ -9,6 +9,7 @@ import numpy as np
 
 from rsoccer._core import EgoFeatures
 from rsoccer.arrays import Floats
+from rsoccer.reflection import Reflection
 from rsoccer.task import Play, Task
 from rsoccer.view import slot_counts
 
@@ -25,6 +26,18 @@ OBSERVATION_LIMITS: Final = {
     "body_positions": 3.0,
 }
 """Bounds of the observation blocks, in their units; a struck ball is faster than a robot."""
+
+
+ROBOT_SIGNS: Final = (1, -1, 1, -1, 1, -1, -1)
+"""Signs of a reflected robot: position, heading, velocity, turn rate."""
+REFLECTIONS: Final = {
+    "ball_polar": Reflection.of([1, 1, -1]),
+    "goal_polar": Reflection.of([1, 1, -1]),
+    "shot": Reflection.of([1, -1, 1, 1]),
+    "body_velocities": Reflection.of([1, -1]),
+    "body_positions": Reflection.of([1, -1]),
+}
+"""Reflection of the last axis of the blocks that are the same in both leagues."""
 
 
 class Soccer(Task):
@@ -100,6 +113,15 @@ class Soccer(Task):
     def observation_limits(self) -> dict[str, float]:
         """Return a copy of `OBSERVATION_LIMITS`."""
         return dict(OBSERVATION_LIMITS)
+
+    def block_reflections(self) -> dict[str, Reflection]:
+        """Return the reflections of the blocks of the class's table."""
+        has_mouth = self.config.robot.has_mouth  # then heights and break beams are observed, too
+        robot = Reflection.of([*ROBOT_SIGNS, 1] if has_mouth else ROBOT_SIGNS)
+        ball = Reflection.of([1, -1, 1, 1, -1, 1] if has_mouth else [1, -1, 1, -1])
+        own = {"action": self.action_reflection} if self.action_reflection is not None else {}
+        robots = dict.fromkeys(("ego", "teammates", "opponents"), robot)
+        return {"ball": ball, **robots, **REFLECTIONS, **own}
 
     @property
     def action_table(self) -> Floats | None:

@@ -12,6 +12,7 @@ from rsoccer import checks
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator, Steering
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import options
@@ -119,6 +120,11 @@ class Ssl(Soccer):
         return SimConfig(
             self.field, n_blue, n_yellow, robot=self.robot, ball=self.ball, engine=self.engine
         )
+
+    @property
+    def action_reflection(self) -> Reflection:
+        """Reflection of actions, (5,): velocity to the left and turn rate change sign."""
+        return Reflection.of([1, -1, -1, 1, 1])
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""

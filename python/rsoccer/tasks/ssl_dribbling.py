@@ -104,6 +104,11 @@ class SslDribbling(Ssl):
         """Number of crossings of the course."""
         return float(len(self.course.gates))
 
+    @property
+    def is_symmetric(self) -> bool:
+        """False: each gate has its direction, so the reflected course is another one."""
+        return False
+
     def team_sizes(self) -> tuple[int, int]:
         """Return one dribbling robot and the number of robots that form the gates."""
         return 1, len(self.course.opponents)

@@ -12,6 +12,7 @@ from rsoccer import checks, rewards, spawn
 from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import options
@@ -148,6 +149,11 @@ class Vss(Soccer):
         return SimConfig(
             self.field, self.n_blue, self.n_yellow, robot=self.robot, engine=self.engine
         )
+
+    @property
+    def action_reflection(self) -> Reflection:
+        """Reflection of actions, (2,): the wheels are exchanged."""
+        return Reflection.of([1, 1], order=[1, 0])
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Draw random positions and headings, and a rolling ball where `ball_speed` is above 0."""

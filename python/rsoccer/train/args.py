@@ -101,6 +101,9 @@ class Args:
     """passes over each batch, at least 1; more learn faster until the policy changes too much"""
     n_minibatches: int = 4
     """minibatches per epoch, at least 1"""
+    mirror_augmentation: bool = False
+    """learn from each sample a second time, with left and right swapped; doubles the learning time.
+    The task must be symmetric, as all are but SSLDribbling-v0"""
     clip_range: float = 0.2
     """clip range of PPO, above 0: largest change of an action's probability ratio in an update"""
     target_kl: float = 0.02

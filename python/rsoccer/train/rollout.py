@@ -14,6 +14,7 @@ from torch import Tensor
 
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.matches import Matches
+from rsoccer.task import Task
 from rsoccer.train.args import Args
 from rsoccer.train.gae import compute_gae
 from rsoccer.train.log import EpisodeStats, Row
@@ -122,19 +123,26 @@ class RolloutCollector:
     """
 
     def __init__(
-        self, args: Args, model: ActorCritic, generator: torch.Generator, clock: Clock
+        self,
+        args: Args,
+        task: Task,
+        model: ActorCritic,
+        generator: torch.Generator,
+        clock: Clock,
     ) -> None:
         """Create a collector; `enter` gives it matches.
 
         Args:
             args: settings of the run.
+            task: the task to train on.
             model: the policy that acts, and the value network.
             generator: draws actions and truncations.
             clock: measures the time of acting, of the matches and of the value network.
         """
         self._args, self._model, self._generator, self._clock = args, model, generator, clock
         self.gamma = args.gamma**args.action_repeat
-        self.obs_rms = RunningMeanStd(model.observation_size)
+        reflection = task.observation_reflection if args.mirror_augmentation else None
+        self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
         self.episode_stats = EpisodeStats(KINDS)
         self.reward_means: Row = {}

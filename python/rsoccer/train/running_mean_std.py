@@ -8,25 +8,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Floats
+from rsoccer.reflection import Reflection
 
 
 class RunningMeanStd:
     """Mean and variance of each column over all batches so far, in double precision.
 
+    With a reflection the statistics are those of the rows and of the reflected rows, so that
+    normalised rows can be reflected.
+
     Attributes:
         count: number of rows so far.
-        mean: (size,) mean of each column.
-        variance: (size,) variance of each column.
+        mean: (size,) mean of each column, without reflected rows.
+        variance: (size,) variance of each column, without reflected rows.
     """
 
-    def __init__(self, size: int, min_std: float = 1e-2) -> None:
+    def __init__(
+        self, size: int, min_std: float = 1e-2, reflection: Reflection | None = None
+    ) -> None:
         """Start with mean 0 and variance 1, which the first batch replaces.
 
         Args:
             size: number of columns.
             min_std: smallest value of `std`, so that dividing a constant column by it is safe.
+            reflection: reflection of a row; None for none.
         """
-        self._min_std = min_std
+        self._min_std, self._reflection = min_std, reflection
         self.count = 0
         self.mean = np.zeros(size)
         self.variance = np.ones(size)
@@ -52,12 +59,25 @@ class RunningMeanStd:
     @property
     def std(self) -> NDArray[np.float64]:
         """(size,) standard deviation, at least `min_std`."""
-        std: NDArray[np.float64] = np.maximum(np.sqrt(self.variance), self._min_std)
+        variance = self.variance
+        if self._reflection is not None:
+            # Half of the rows deviate by `offset` from the mean of all, the others by -`offset`.
+            offset = 0.5 * (self.mean - self._reflected(self.mean))
+            variance = 0.5 * (variance + variance[self._reflection.order]) + offset**2
+        std: NDArray[np.float64] = np.maximum(np.sqrt(variance), self._min_std)
         return std
+
+    def _reflected(self, row: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Reflected row (size,); the row itself without a reflection."""
+        if self._reflection is None:
+            return row
+        reflected: NDArray[np.float64] = row[self._reflection.order] * self._reflection.signs
+        return reflected
 
     def as_float32(self) -> tuple[Floats, Floats]:
         """Return mean and standard deviation as float32 (size,), as a policy file stores them."""
-        return self.mean.astype(np.float32), self.std.astype(np.float32)
+        mean = 0.5 * (self.mean + self._reflected(self.mean))
+        return mean.astype(np.float32), self.std.astype(np.float32)
 
     def state_dict(self) -> dict[str, NDArray[Any]]:
         """Return copies of count (1,), mean (size,) and variance (size,) by name."""

@@ -24,6 +24,7 @@ from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
 from rsoccer.train.log import Logger, Row
+from rsoccer.train.mirror import check_symmetric, with_reflections
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.observation_mask import observation_mask
 from rsoccer.train.ppo import PPO
@@ -73,6 +74,8 @@ class Trainer:
         torch_seed, self._first_seed, self._self_play_seed = words.tolist()
         self.args, self.clock = args, Clock()
         self.task = args.make_task()
+        if args.mirror_augmentation:
+            check_symmetric(self.task)
         self.generator = torch.Generator().manual_seed(torch_seed)
         self.curriculum = Curriculum(args, self.task, self.clock)
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
@@ -87,7 +90,7 @@ class Trainer:
             learn_action_std=args.final_action_std is None,
             mask=observation_mask(self.task, args.masked_observations),
         )
-        self.collector = RolloutCollector(args, self.model, self.generator, self.clock)
+        self.collector = RolloutCollector(args, self.task, self.model, self.generator, self.clock)
         self.collector.enter(matches, None if self.is_solo else self.pool)
         self.ppo = PPO(args, self.model, self.generator)
         self.update_stats: Row = {}
@@ -123,6 +126,8 @@ class Trainer:
         progress = min(self.samples / self.args.samples, 1.0)
         learning_rate = self.args.learning_rate * (1.0 - 0.9 * progress)
         with self.clock.measure("learning"):
+            if self.args.mirror_augmentation:
+                batch = with_reflections(batch, self.task, self.model)
             self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
         self.updates += 1
         if self.args.final_action_std is not None:

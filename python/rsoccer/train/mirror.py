@@ -1,0 +1,57 @@
+"""Symmetry augmentation: each sample of a rollout is learned from a second time, reflected.
+
+Data augmentation as in MARLadona (ICRA 2025) and in Mittal et al., "Symmetry Considerations for
+Learning Task Symmetric Robot Policies" (2024): a reflected sample has the advantage and the return
+of its original. Its log density is that of the policy before the update for the reflected
+observation, so an update starts at a probability ratio of 1 for every sample.
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from rsoccer.reflection import Reflection
+from rsoccer.task import Task
+from rsoccer.train.networks import ActorCritic
+from rsoccer.train.rollout import Batch
+
+
+def check_symmetric(task: Task) -> None:
+    """Refuse a task that is another one with left and right swapped.
+
+    Args:
+        task: the task to train on.
+
+    Raises:
+        ValueError: a task that is not symmetric.
+    """
+    if not task.is_symmetric:
+        raise ValueError(
+            f"mirror_augmentation must be False, as {task.name} is not symmetric, got True"
+        )
+
+
+@torch.no_grad()
+def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
+    """Return a batch of twice the size: the samples, then the same samples reflected.
+
+    Args:
+        batch: samples of one rollout. Their observations are normalised by statistics that the
+            reflection does not change.
+        task: the task, which is symmetric.
+        model: the networks before the update.
+    """
+    assert task.action_reflection is not None, "a symmetric task"
+    observations = _reflect(batch.observations, task.observation_reflection) * model.mask
+    actions = _reflect(batch.actions, task.action_reflection)
+    log_probs = model.log_prob(model.actor(observations), actions)
+    reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
+    pairs = zip(vars(batch).values(), vars(reflected).values(), strict=True)
+    return Batch(*(torch.cat(pair) for pair in pairs))
+
+
+def _reflect(vectors: Tensor, reflection: Reflection) -> Tensor:
+    """Reflected vectors (..., k)."""
+    order = torch.as_tensor(reflection.order, device=vectors.device)
+    return vectors[..., order] * torch.as_tensor(reflection.signs, device=vectors.device)
