@@ -34,6 +34,7 @@ INVALID: list[tuple[str, Any]] = [
     ("pool_size", 0),
     ("final_action_std", 0.0),
     ("final_action_std", float("inf")),
+    ("initial_action", (0.0, 1.5)),
     ("task_options", {"robot": object()}),
     ("task_options", {"ball_speed": float("nan")}),
     ("task_options", ["n_blue"]),

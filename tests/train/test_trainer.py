@@ -153,6 +153,26 @@ def test_a_run_starts_solo_and_continues_with_self_play(tmp_path: Path) -> None:
     assert set(scores[:3]) == {"nan"}, "solo learners meet the ou policy only"
 
 
+def test_the_partners_of_a_solo_learner_follow_the_chosen_policy(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path, solo_partners="chase"))
+    assignment = trainer.collector.matches.assignment
+    assert [type(group.policy).__name__ for group in assignment.groups] == ["Chase"]
+    assert [len(group.robots) for group in assignment.groups] == [5]
+
+
+def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path, initial_action=(0.5, -0.25)))
+    observations = trainer.collector.observations
+    actions = trainer.network().mean_actions(observations)
+    assert np.abs(actions - np.array([0.5, -0.25], np.float32)).max() < 0.1
+
+
+def test_an_initial_action_of_another_size_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"initial_action must have 2 numbers.*got 3"):
+        train(tiny(tmp_path / "run", initial_action=(0.0, 0.0, 0.0)))
+    assert not (tmp_path / "run" / "args.json").exists()
+
+
 def test_training_raises_the_reward(tmp_path: Path) -> None:
     args = tiny(
         tmp_path,

@@ -70,8 +70,10 @@ class Args:
     """write a match of the trained policy to `out` at the end, as match.html and match.rsr"""
 
     solo_fraction: float = 0.4
-    """first part of the samples, 0 to 1, with one learner per match; all others follow `ou`.
+    """first part of the samples, 0 to 1, with one learner per match; others follow `solo_partners`.
     Its rewards then follow from its own actions; 0 lets all learners play from the start"""
+    solo_partners: str = "ou"
+    """policy of all other robots in that first part: a name, or the path of a policy file"""
     worlds: int = 256
     """matches played at once, at least 1; more give steadier gradients, slower first progress"""
     horizon: int = 16
@@ -95,6 +97,9 @@ class Args:
     final_action_std: float | None = None
     """standard deviation of the actions at the end of the run, above 0; None learns it instead.
     It changes geometrically from `action_std`, and `entropy_coef` has no effect"""
+    initial_action: tuple[float, ...] = ()
+    """mean action at the start, one number from -1 to 1 per component of the action; empty is 0.
+    In SSL a kick of -1 keeps the ball until kicking is learned"""
     learning_rate: float = 2e-3
     """initial step size of Adam, above 0; it falls to a tenth by the end of the run"""
     n_epochs: int = 6
@@ -141,6 +146,7 @@ class Args:
         """Convert paths and sizes, and check every value."""
         object.__setattr__(self, "out", Path(self.out))
         object.__setattr__(self, "hidden_sizes", tuple(self.hidden_sizes))
+        object.__setattr__(self, "initial_action", tuple(self.initial_action))
         object.__setattr__(self, "masked_observations", tuple(self.masked_observations))
         object.__setattr__(self, "task_options", _as_json(self.task_options))
         for name in _COUNTS:
@@ -157,6 +163,8 @@ class Args:
         std = self.final_action_std
         valid = std is None or (math.isfinite(std) and std > 0)
         _expect(self, "final_action_std", valid, "None, or finite and above 0")
+        valid = all(-1 <= number <= 1 for number in self.initial_action)
+        _expect(self, "initial_action", valid, "numbers from -1 to 1")
         self._check_hidden_sizes()
         self._check_combinations()
 
@@ -193,6 +201,7 @@ class Args:
             **dataclasses.asdict(self),
             "out": str(self.out),
             "hidden_sizes": list(self.hidden_sizes),
+            "initial_action": list(self.initial_action),
             "masked_observations": list(self.masked_observations),
         }
 

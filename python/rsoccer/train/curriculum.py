@@ -1,8 +1,9 @@
 """Curriculum of a run: first one learner per match, then whole teams.
 
 Among teammates that learn too, a robot's reward depends as much on their actions as on its own, so
-learning is slow. A run therefore starts with one learner per match; all other robots
-follow the `ou` policy. All learners then start from the policy that this first part has learned.
+learning is slow. A run therefore starts with one learner per match; all other robots follow
+`solo_partners`, `ou` by default. All learners then start from the policy that this first part has
+learned.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ class Curriculum:
         Args:
             seed: seed of the first world; the others follow.
         """
-        controllers: Controllers = {"all": "ou", self.learners[0]: LEARN}
+        controllers: Controllers = {"all": self._args.solo_partners, self.learners[0]: LEARN}
         return self._create(controllers, self._args.worlds * len(self.learners), seed)
 
     def self_play(self, seed: int) -> Matches:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import torch
@@ -73,6 +74,24 @@ class ActorCritic(nn.Module):
             # Inputs of 0 have gradients of 0, so these weights stay 0, also in the exported policy.
             for network in (self.actor, self.critic):
                 next(network.parameters()).mul_(self.mask)
+
+    @torch.no_grad()
+    def set_mean_action(self, action: Sequence[float]) -> None:
+        """Set the biases of the policy's last layer, which are the mean action before training.
+
+        Args:
+            action: one number per component of the action.
+
+        Raises:
+            ValueError: another number of components.
+        """
+        bias = self.actor[-1].bias
+        if len(action) != len(bias):
+            raise ValueError(
+                f"initial_action must have {len(bias)} numbers, one per component of the action, "
+                f"got {len(action)}"
+            )
+        bias.copy_(torch.tensor(action))
 
     @torch.no_grad()
     def set_action_std(self, action_std: float) -> None:

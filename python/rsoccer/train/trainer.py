@@ -90,6 +90,8 @@ class Trainer:
             learn_action_std=args.final_action_std is None,
             mask=observation_mask(self.task, args.masked_observations),
         )
+        if args.initial_action:
+            self.model.set_mean_action(args.initial_action)
         self.collector = RolloutCollector(args, self.task, self.model, self.generator, self.clock)
         self.collector.enter(matches, None if self.is_solo else self.pool)
         self.ppo = PPO(args, self.model, self.generator)
