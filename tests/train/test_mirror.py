@@ -42,7 +42,7 @@ def test_a_batch_holds_each_sample_and_its_reflection(tmp_path: Path) -> None:
     both = with_reflections(batch, trainer.task, trainer.model)
     size = len(batch)
     assert len(both) == 2 * size
-    for name, part in vars(batch).items():
+    for name, part in batch.parts().items():
         assert torch.equal(getattr(both, name)[:size], part)
     assert torch.equal(both.actions[size:], batch.actions.flip(-1)), "the wheels are not swapped"
     assert torch.equal(both.advantages[size:], batch.advantages)

@@ -92,6 +92,9 @@ class Args:
 
     hidden_sizes: tuple[int, ...] = (64, 64)
     """widths of the hidden layers of the policy and of the value network, at least 1 each"""
+    central_critic: bool = False
+    """let the value network read the state of the whole match, as in MAPPO, and the observation.
+    The policy still acts on the observation of its robot alone"""
     action_std: float = 0.6
     """initial standard deviation of the actions, above 0; 1 is full speed"""
     final_action_std: float | None = None

@@ -11,6 +11,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
+from rsoccer.global_state import StateEncoder
 from rsoccer.reflection import Reflection
 from rsoccer.task import Task
 from rsoccer.train.networks import ActorCritic
@@ -47,8 +48,12 @@ def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
     actions = _reflect(batch.actions, task.action_reflection)
     log_probs = model.log_prob(model.actor(observations), actions)
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
-    pairs = zip(vars(batch).values(), vars(reflected).values(), strict=True)
-    return Batch(*(torch.cat(pair) for pair in pairs))
+    if batch.central_inputs is not None:
+        states = batch.central_inputs[:, : -task.observation_size]
+        reflection = StateEncoder(task.config).reflection
+        reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
+    others = reflected.parts()
+    return Batch(**{name: torch.cat([part, others[name]]) for name, part in batch.parts().items()})
 
 
 def _reflect(vectors: Tensor, reflection: Reflection) -> Tensor:

@@ -27,7 +27,8 @@ class ActorCritic(nn.Module):
     Attributes:
         observation_size: o, the numbers in an observation.
         actor: network from normalised observations (..., o) to mean actions (..., action).
-        critic: network from normalised observations (..., o) to values (..., 1).
+        critic: network from its inputs (..., s + o), normalised states and observations, to values
+            (..., 1); s is 0 unless the critic is central.
         log_std: (action,) logarithm of the standard deviation, independent of the observation;
             a parameter if it is learned, else a buffer.
         mask: (o,) 1 for numbers of the observation that the networks read, 0 for others.
@@ -44,6 +45,7 @@ class ActorCritic(nn.Module):
         action_std: float,
         generator: torch.Generator,
         *,
+        state_size: int = 0,
         learn_action_std: bool = True,
         mask: Floats | None = None,
     ) -> None:
@@ -55,6 +57,7 @@ class ActorCritic(nn.Module):
             hidden_sizes: widths of the hidden layers.
             action_std: initial standard deviation of the actions.
             generator: draws the weights.
+            state_size: numbers in a global state that the critic reads before the observation.
             learn_action_std: the optimiser changes the standard deviation.
             mask: (o,) 1 for numbers of the observation that the networks read, 0 for others,
                 which have weights of 0 in the first layers; None for all.
@@ -62,7 +65,7 @@ class ActorCritic(nn.Module):
         super().__init__()
         self.observation_size = observation_size
         self.actor = _mlp([observation_size, *hidden_sizes, action_size], 0.01, generator)
-        self.critic = _mlp([observation_size, *hidden_sizes, 1], 1.0, generator)
+        self.critic = _mlp([state_size + observation_size, *hidden_sizes, 1], 1.0, generator)
         log_std = torch.full((action_size,), math.log(action_std))
         if learn_action_std:
             self.log_std = nn.Parameter(log_std)
@@ -73,7 +76,7 @@ class ActorCritic(nn.Module):
         with torch.no_grad():
             # Inputs of 0 have gradients of 0, so these weights stay 0, also in the exported policy.
             for network in (self.actor, self.critic):
-                next(network.parameters()).mul_(self.mask)
+                next(network.parameters())[:, -observation_size:].mul_(self.mask)
 
     @torch.no_grad()
     def set_mean_action(self, action: Sequence[float]) -> None:
@@ -102,13 +105,13 @@ class ActorCritic(nn.Module):
         """
         self.log_std.fill_(math.log(action_std))
 
-    def value(self, observations: Tensor) -> Tensor:
+    def value(self, inputs: Tensor) -> Tensor:
         """Return the expected discounted return, in scaled rewards, (...).
 
         Args:
-            observations: (..., o) normalised observations.
+            inputs: (..., s + o) normalised states and observations; without a central critic s = 0.
         """
-        values: Tensor = self.critic(observations)
+        values: Tensor = self.critic(inputs)
         return values.squeeze(-1)
 
     def log_prob(self, mean: Tensor, actions: Tensor) -> Tensor:

@@ -85,7 +85,9 @@ class PPO:
         ratio = log_ratio.exp()
         clipped_ratio = ratio.clamp(1 - args.clip_range, 1 + args.clip_range)
         policy_loss = -torch.minimum(ratio * advantages, clipped_ratio * advantages).mean()
-        value_loss = (self._model.value(observations) - minibatch.returns).square().mean()
+        value_loss = (
+            (self._model.value(minibatch.critic_inputs) - minibatch.returns).square().mean()
+        )
         loss = policy_loss + args.value_coef * value_loss
         loss = loss - args.entropy_coef * self._model.entropy()
         with torch.no_grad():

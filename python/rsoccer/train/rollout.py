@@ -16,6 +16,7 @@ from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.task import Task
 from rsoccer.train.args import Args
+from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.gae import compute_gae
 from rsoccer.train.log import EpisodeStats, Row
 from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
@@ -40,9 +41,13 @@ class Transition:
     """(n,) the episode terminated or reached the time limit."""
     metrics: dict[str, Array]
     """(n,) metrics of the task by name, valid where the episode ended."""
+    states: Floats | None = None
+    """(n, s) next global states, the last ones of the episode where it ended; None if not asked."""
 
 
-def repeat_action(matches: Matches, actions: Floats, action_repeat: int) -> Transition:
+def repeat_action(
+    matches: Matches, actions: Floats, action_repeat: int, *, with_states: bool = False
+) -> Transition:
     """Hold actions for some control steps, in each world until its episode ends.
 
     A world whose episode ends waits for the next decision, so no reward of one episode counts for
@@ -52,6 +57,7 @@ def repeat_action(matches: Matches, actions: Floats, action_repeat: int) -> Tran
         matches: matches without automatic resets.
         actions: (n, agents, action) actions in [-1, 1].
         action_repeat: control steps, at least 1.
+        with_states: return the global states, too.
 
     Returns:
         The transition from before the first step to after the last.
@@ -64,6 +70,7 @@ def repeat_action(matches: Matches, actions: Floats, action_repeat: int) -> Tran
         outcome.terminated,
         outcome.ended,
         outcome.metrics,
+        matches.states() if with_states else None,
     )
     for _ in range(action_repeat - 1):
         playing = ~result.ended
@@ -72,6 +79,8 @@ def repeat_action(matches: Matches, actions: Floats, action_repeat: int) -> Tran
         for name, term in outcome.terms.items():
             result.terms[name] += float((term * playing[:, None]).mean())
         result.observations[playing] = outcome.observations[playing]
+        if result.states is not None:
+            result.states[playing] = matches.states()[playing]
         result.terminated |= outcome.terminated & playing
         result.ended |= outcome.ended & playing
         for name, values in outcome.metrics.items():
@@ -93,6 +102,13 @@ class Batch:
     """(size,) advantages from GAE, in scaled rewards."""
     returns: Tensor
     """(size,) targets of the value network: advantages + values."""
+    central_inputs: Tensor | None = None
+    """(size, s + o) inputs of a central critic; None if the critic reads the observations."""
+
+    @property
+    def critic_inputs(self) -> Tensor:
+        """Inputs of the value network."""
+        return self.observations if self.central_inputs is None else self.central_inputs
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -104,7 +120,11 @@ class Batch:
         Args:
             indices: (k,) indices of the samples.
         """
-        return Batch(*(part[indices] for part in vars(self).values()))
+        return Batch(**{name: part[indices] for name, part in self.parts().items()})
+
+    def parts(self) -> dict[str, Tensor]:
+        """Return the tensors by name, without those that are None."""
+        return {name: part for name, part in vars(self).items() if part is not None}
 
 
 class RolloutCollector:
@@ -115,6 +135,8 @@ class RolloutCollector:
         observations: (n, agents, o) current observations, not normalised.
         discounted_returns: (n, agents) discounted sums of past rewards; their standard deviation
             scales the rewards.
+        states: (n, s) current global states; None without a central critic.
+        central: inputs of a central critic; None if the critic reads the observations.
         obs_rms: running mean and standard deviation of the observations.
         return_rms: running standard deviation of `discounted_returns`.
         gamma: discount factor per decision.
@@ -143,6 +165,10 @@ class RolloutCollector:
         self.gamma = args.gamma**args.action_repeat
         reflection = task.observation_reflection if args.mirror_augmentation else None
         self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
+        self.central: CentralInputs | None = None
+        self.states: Floats | None = None
+        if args.central_critic:
+            self.central = CentralInputs(task, symmetric=args.mirror_augmentation)
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
         self.episode_stats = EpisodeStats(KINDS)
         self.reward_means: Row = {}
@@ -157,6 +183,7 @@ class RolloutCollector:
         self.matches, self._pool = matches, pool
         self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
         self.observations = matches.reset()
+        self._update_states()
 
     def collect(self, check_stop: Callable[[], None]) -> Batch:
         """Play `horizon` decisions in every world.
@@ -169,14 +196,19 @@ class RolloutCollector:
         """
         transitions: list[tuple[Tensor, ...]] = []
         observations: list[Floats] = []
+        states: list[Floats] = []
         self.reward_means = {}
         for _ in range(self._args.horizon):
             check_stop()
             observations.append(self.observations)
+            if self.states is not None:
+                states.append(self.states)
             transitions.append(self._play_decision())
         if self._args.normalise_observations:
             size = self._model.observation_size
             self.obs_rms.update(np.concatenate(observations).reshape(-1, size))
+            if self.central is not None:
+                self.central.update(states)
         return self._make_batch(*(torch.stack(parts) for parts in zip(*transitions, strict=True)))
 
     @torch.no_grad()
@@ -188,10 +220,14 @@ class RolloutCollector:
             noise = torch.randn(mean.shape, generator=self._generator)
             actions = mean + noise * self._model.log_std.exp()
             log_probs = self._model.log_prob(mean, actions)
+            inputs = self._critic_inputs(observations, self.states)
         with self._clock.measure("matches"):
             shape = (*self.discounted_returns.shape, actions.shape[-1])
             transition = repeat_action(
-                self.matches, actions.numpy().reshape(shape), self._args.action_repeat
+                self.matches,
+                actions.numpy().reshape(shape),
+                self._args.action_repeat,
+                with_states=self.central is not None,
             )
             self._record(transition)
             ended = transition.ended | self._draw_truncations()
@@ -199,6 +235,7 @@ class RolloutCollector:
             self.observations = transition.observations
             if ended.any():
                 self.observations = self.matches.reset(mask=ended)
+            self._update_states()
         agents = self.discounted_returns.shape[1]
         final = transition.terminated if self._args.bootstrap_time_limits else ended
         return (
@@ -206,9 +243,10 @@ class RolloutCollector:
             actions,
             log_probs,
             torch.tensor(transition.rewards.reshape(-1)),
-            self._normalise(transition.observations),
+            self._critic_inputs(self._normalise(transition.observations), transition.states),
             torch.tensor(np.repeat(final, agents)),
             torch.tensor(np.repeat(ended, agents)),
+            *([] if self.central is None else [inputs]),
         )
 
     def _draw_truncations(self) -> Mask:
@@ -239,14 +277,16 @@ class RolloutCollector:
         actions: Tensor,
         log_probs: Tensor,
         rewards: Tensor,
-        next_observations: Tensor,
+        next_inputs: Tensor,
         terminated: Tensor,
         ended: Tensor,
+        central_inputs: Tensor | None = None,
     ) -> Batch:
         """Batch of the decisions of a rollout, each tensor (horizon, worlds x agents, ...)."""
         with self._clock.measure("learning"), torch.no_grad():
-            values = self._model.value(observations)
-            next_values = self._model.value(next_observations)
+            inputs = observations if central_inputs is None else central_inputs
+            values = self._model.value(inputs)
+            next_values = self._model.value(next_inputs)
             scaled_rewards = rewards / float(self.return_rms.std[0])
             advantages = compute_gae(
                 scaled_rewards,
@@ -257,8 +297,20 @@ class RolloutCollector:
                 self.gamma,
                 self._args.gae_lambda,
             )
-            batch = (observations, actions, log_probs, advantages, advantages + values)
+            batch = [observations, actions, log_probs, advantages, advantages + values]
+            batch += [] if central_inputs is None else [central_inputs]
             return Batch(*(part.flatten(0, 1) for part in batch))
+
+    def _update_states(self) -> None:
+        """Read the current global states, if a central critic needs them."""
+        if self.central is not None:
+            self.states = self.matches.states()
+
+    def _critic_inputs(self, observations: Tensor, states: Floats | None) -> Tensor:
+        """Inputs of the value network (worlds x agents, s + o) of normalised observations."""
+        if self.central is None or states is None:
+            return observations
+        return self.central.join(states, observations)
 
     def _normalise(self, observations: Floats) -> Tensor:
         """Normalised observations (worlds x agents, o) of observations (n, agents, o)."""

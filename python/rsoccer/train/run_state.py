@@ -27,12 +27,16 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
         "observations": collector.observations.copy(),
         "generator": trainer.generator.get_state().numpy().copy(),
     }
+    if collector.states is not None:
+        run["states"] = collector.states.copy()
+    central = {} if collector.central is None else collector.central.rms.state_dict()
     model = {name: part.numpy().copy() for name, part in trainer.model.state_dict().items()}
     arrays = {
         **add_prefix("run", run),
         **add_prefix("model", model),
         **add_prefix("adam", _capture_optimiser(trainer.ppo.optimiser)),
         **add_prefix("obs_rms", collector.obs_rms.state_dict()),
+        **add_prefix("state_rms", central),
         **add_prefix("return_rms", collector.return_rms.state_dict()),
         **add_prefix("worlds", collector.matches.state_dict()),
         **add_prefix("pool", {} if trainer.pool is None else trainer.pool.state_dict()),
@@ -77,6 +81,9 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
     collector.matches.load_state_dict(select_prefix("worlds", arrays))
     run = select_prefix("run", arrays)
+    if collector.central is not None:
+        collector.central.rms.load_state_dict(select_prefix("state_rms", arrays))
+        collector.states = run["states"].copy()
     collector.discounted_returns = run["discounted_returns"].copy()
     collector.observations = run["observations"].copy()
     trainer.generator.set_state(torch.tensor(run["generator"]))

@@ -87,6 +87,7 @@ class Trainer:
             args.hidden_sizes,
             args.action_std,
             self.generator,
+            state_size=matches.state_size if args.central_critic else 0,
             learn_action_std=args.final_action_std is None,
             mask=observation_mask(self.task, args.masked_observations),
         )
