@@ -97,8 +97,8 @@ class Task(ABC):
             n: number of worlds.
 
         Returns:
-            Arrays (n, ...) by name. `Play.memory` holds copies of them, which
-            `calculate_reward_and_done` updates in place; a reset renews them. Default: none.
+            Arrays (n, ...) by name. `Play.memory` holds copies of them, which `restart_play` and
+            `calculate_reward_and_done` update in place; a reset renews them. Default: none.
         """
         return {}
 
@@ -182,6 +182,22 @@ class Task(ABC):
             (k,) indices of worlds, each at most once, in any order; and (k, ball column) the new
             balls with the columns of `frame.ball.data`, of which position, velocity and spin are
             used. None for no world, which is the default.
+        """
+        return None
+
+    def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
+        """Choose matches that continue from another state after a step, as a referee restarts play.
+
+        It is called after `reposition_ball`, before `play.steps` counts the step. The episode
+        continues: clock, policies and memory are kept. Where play restarts, `last_frame` is set
+        equal to `frame`, so the jump is not rewarded.
+
+        Args:
+            play: state of n worlds after the step; its memory may be updated in place.
+
+        Returns:
+            (k,) indices of worlds, each at most once, in any order; and (k, row) their new states,
+            as for a start of an episode. None for no world, which is the default.
         """
         return None
 

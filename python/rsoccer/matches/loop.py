@@ -352,6 +352,7 @@ class Matches:
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
         self._reposition_balls(active)
+        self._restart_play(active)
         play.steps += 1
 
     def _reposition_balls(self, active: Mask | None) -> None:
@@ -367,6 +368,20 @@ class Matches:
         if active is not None:
             balls, mask = balls[active[mask]], mask & active
         self._simulator.reposition_balls(mask, balls, out=play.frame.rows)
+        play.last_frame.rows[mask] = play.frame.rows[mask]
+        play.expire_views()
+
+    def _restart_play(self, active: Mask | None) -> None:
+        """Place matches as the task demands, and set the last frame equal to the frame there."""
+        play = self.play
+        restarted = self.task.restart_play(play)
+        if restarted is None:
+            return
+        row_size = self.task.config.row_size
+        mask, rows = result_checks.restarted(restarted, self.worlds, row_size)
+        if active is not None:
+            rows, mask = rows[active[mask]], mask & active
+        self._simulator.place(mask, rows, out=play.frame.rows)
         play.last_frame.rows[mask] = play.frame.rows[mask]
         play.expire_views()
 

@@ -1,4 +1,4 @@
-"""Events of a recorded match: goals, outs, kicks, touches and ends of episodes."""
+"""Events of a recorded match: goals, outs, free balls, kicks, touches and ends of episodes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
 
-KINDS: Final = ("goal", "out", "kick", "touch", "end")
+KINDS: Final = ("goal", "out", "free_ball", "kick", "touch", "end")
 """Kinds of events."""
 KICK_GAIN: Final = 0.4
 """Least gain of the ball's speed in a step that counts as a kick, m/s."""

@@ -7,15 +7,17 @@ from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rsoccer import checks, rewards, spawn
 from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import options
+from rsoccer.tasks.free_ball import FreeBalls
 from rsoccer.tasks.soccer import Soccer
 from rsoccer.view import SIDES
 
@@ -61,7 +63,15 @@ class Vss(Soccer):
 
     Termination: a goal of either team. Truncation: after `max_steps`.
 
-    Metric: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0.
+    Free ball, with the option `free_ball`: a ball that stays within 0.1 m of a place for 10 s is
+    placed at the mark of its quarter of the field, (0.375, 0.4) m from the centre, and (0.55, 0.6)
+    m on a field of at least 2.2 m. The robot of each team nearest to the ball stands beside it
+    along x, on its own side, at a distance of 0.2 m, or 0.3 m on that field. Other robots leave the
+    quarter, to the nearest free place, and all bodies are at rest. The move is not rewarded. Goal
+    kicks and penalties, which the league has in goal areas, are free balls too.
+
+    Metrics: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0; with the option
+    `free_ball` also `free_balls`, their number in the episode.
 
     Source: rules of the IEEE VSSS league for field, robots and ball; the idea of the task is from
     Martins et al., "rSoccer: A Framework for Studying Reinforcement Learning in Small and Very
@@ -90,6 +100,8 @@ class Vss(Soccer):
     """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
     engine: str = "compact"
     """Contact solver: "compact" or "rapier" (the reference, slower)."""
+    free_ball: bool = False
+    """True: a ball that is stuck for 10 s leads to a free ball at the mark of its quarter."""
 
     action_size = 2
     """Left and right wheel."""
@@ -137,6 +149,9 @@ class Vss(Soccer):
         options.drive(self.config, "differential", "with a differential drive")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
+        checks.boolean("free_ball", self.free_ball)
+        if self.free_ball:
+            FreeBalls(self.config)  # raises for a field without space around the marks
 
     @property
     def two_sided(self) -> bool:
@@ -162,6 +177,19 @@ class Vss(Soccer):
         spawn.set_rolling_spin(frame.ball, self.config.ball)
         return frame
 
+    @cached_property
+    def free_balls(self) -> FreeBalls:
+        """Rule of the option `free_ball`."""
+        return FreeBalls(self.config)
+
+    def new_memory(self, n: int) -> dict[str, Array]:
+        """Create the memory of stuck balls with the option `free_ball`, else none."""
+        return self.free_balls.new_memory(n) if self.free_ball else {}
+
+    def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
+        """Choose states for worlds with a free ball."""
+        return self.free_balls.restart(play) if self.free_ball else None
+
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to wheel speeds (n, robots, 2), rad/s."""
         return actions * np.float32(self.config.robot.max_wheel_speed)
@@ -178,5 +206,8 @@ class Vss(Soccer):
         return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `goal_score`, (n,): 1 if blue scored, -1 if yellow scored, else 0."""
-        return {"goal_score": rewards.goal_score(play.frame.ball)}
+        """Compute `goal_score` (n,), and `free_balls` (n,) with the option `free_ball`."""
+        metrics = {"goal_score": rewards.goal_score(play.frame.ball)}
+        if self.free_ball:
+            metrics["free_balls"] = play.memory["free_balls"].astype(np.float32)
+        return metrics

@@ -494,7 +494,7 @@ function eventText(kind, robot, detail) {
   if (kind === "goal") return `Goal for ${detail}${by}`;
   if (kind === "out") return `Out over the ${detail.replace(/_/g, " ")}${by}`;
   if (kind === "end") return `End of the episode, ${detail}`;
-  return `${capital(kind)}${by}`;
+  return `${capital(kind.replace(/_/g, " "))}${by}`;
 }
 
 /** Read the replay in the page, and play it unless the page is part of another. */
