@@ -20,7 +20,7 @@ def one_line(text: str) -> str:
     return text
 
 
-@pytest.mark.parametrize("arguments", [[], ["fly"], ["evaluate"], ["watch", "--seed", "one"]])
+@pytest.mark.parametrize("arguments", [[], ["fly"], ["watch", "--seed", "one"]])
 def test_arguments_that_cannot_be_parsed_exit_with_2(
     arguments: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -66,7 +66,6 @@ def test_a_damaged_policy_file_is_reported_in_one_line(
     [
         ("torch", ["train", "--samples", "1"], "rsoccer[train]"),
         ("pygame", ["watch", "--video", "never.mp4"], "rsoccer[render]"),
-        ("safetensors", ["evaluate", "{policy}"], "rsoccer[cli]"),
         ("tyro", ["list"], "rsoccer[cli]"),
     ],
 )

@@ -11,6 +11,7 @@ import pytest
 
 import rsoccer
 from rsoccer import cli, commands
+from rsoccer.policies import trained
 from rsoccer.replay import Replay, record_replay
 from tests.policies.networks import network_for
 
@@ -35,6 +36,16 @@ def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str
     printed = capsys.readouterr().out
     for name in [*rsoccer.list_tasks(), "max_steps=1200", "opponent='ou'", "chase", "scripted:0.5"]:
         assert name in printed
+
+
+def test_list_shows_the_scores_of_trained_policies(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["list"]) == 0
+    printed = capsys.readouterr().out
+    assert "free_ball=False" in printed
+    for name, path in trained.list_trained().items():
+        score = trained.list_scores(path)[0]
+        assert f"{name}: {score.metric} {score.score:.3f} ({score.low:.3f} to " in printed
+    assert trained.list_trained()
 
 
 def test_list_and_help_import_no_heavy_package() -> None:
@@ -63,8 +74,27 @@ def test_the_module_runs_as_the_command() -> None:
     [
         ([], ["list", "train", "evaluate", "watch", "play", "Robot soccer"]),
         (["train"], ["--samples", "decisions to learn from", "--resume"]),
-        (["evaluate"], ["POLICY", "--opponents", "half of them as blue", "--json PATH"]),
-        (["watch"], ["POLICY|REPLAY", "--video PATH", "needs no display", "--html", "--save"]),
+        (
+            ["evaluate"],
+            [
+                "POLICY|TASK",
+                "--policy POLICY",
+                "--opponents",
+                "half of them as blue",
+                "--json PATH",
+            ],
+        ),
+        (
+            ["watch"],
+            [
+                "POLICY|TASK|REPLAY",
+                "--policy POLICY",
+                "--video PATH",
+                "needs no display",
+                "--html",
+                "--save",
+            ],
+        ),
         (["play"], ["TASK", "--robot ROBOT", "--controllers", "keyboard or gamepad"]),
     ],
 )
@@ -211,6 +241,73 @@ def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
     assert changed == {"blue_0": "strike", "yellow_0": "zero"}
     assert task == "VSSSelfPlay-v0"
     assert set(controllers.values()) == {"scripted", "ou"}
+
+
+@pytest.mark.parametrize(
+    ("words", "task", "policy"),
+    [
+        (["VSSSelfPlay-v0", "--policy", "best"], "VSSSelfPlay-v0", "best"),
+        (["VSS-v0", "--policy", "best:mean"], "VSS-v0", "best:mean"),
+        (["best", "--task", "VSSMulti-v0"], "VSSMulti-v0", "best"),
+        (["--policy", "chase", "--task", "VSS-v0"], "VSS-v0", "chase"),
+        (["--policy", "chase"], "VSSSelfPlay-v0", "chase"),
+        (["best"], "VSSSelfPlay-v0", "best"),
+        (["VSS-v0"], "VSS-v0", "best"),
+        (["--task", "VSS-v0"], "VSS-v0", "best"),
+        ([], "VSSSelfPlay-v0", "best"),
+    ],
+)
+def test_watch_takes_a_task_and_a_policy_in_either_form(
+    words: list[str], task: str, policy: str, filmed: list[Any]
+) -> None:
+    assert cli.main(["watch", *words, "--video", "never.mp4"]) == 0
+    ((played, controllers, names),) = filmed
+    assert (played, controllers["blue_0"]) == (task, policy)
+    assert names[0] == policy.upper()
+
+
+def test_a_task_without_a_trained_policy_is_played_by_a_script(
+    filmed: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(trained, "FOLDER", tmp_path)
+    for task in ("VSSMulti-v0", "SSLStaticDefenders-v0"):
+        assert cli.main(["watch", task, "--video", "never.mp4"]) == 0
+    assert [controllers["blue_0"] for _, controllers, _ in filmed] == ["scripted", "strike"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["VSS-v0", "--task", "VSSMulti-v0"], "task: expected one task, got VSS-v0 and VSSMulti"),
+        (["chase", "--policy", "ou"], "policy: expected a task before --policy ou, got chase"),
+        (["VSS-v7"], "unknown task 'VSS-v7': expected one of"),
+        (["VSS-v0", "--policy", "VSS-v0"], "unknown policy 'VSS-v0'"),
+    ],
+)
+@pytest.mark.parametrize("command", ["watch", "evaluate"])
+def test_contradictions_are_refused(
+    command: str, words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main([command, *words]) == 2
+    assert message in " ".join(capsys.readouterr().err.split())
+
+
+def test_evaluate_needs_a_policy_or_a_task(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["evaluate"]) == 2
+    assert "policy: expected a policy or a task, got none" in capsys.readouterr().err
+
+
+def test_evaluate_takes_a_task_and_a_policy_in_either_form(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    rows = []
+    for words in (["best", "--task", "VSS-v0"], ["VSS-v0", "--policy", "best"], ["VSS-v0"]):
+        assert cli.main(["evaluate", *words, "--matches", "2"]) == 0
+        task, _, _, row = capsys.readouterr().out.splitlines()
+        assert task == "VSS-v0"
+        rows.append(row)
+    assert len(set(rows)) == 1
+    assert rows[0].split()[:3] == ["best", "ou", "2"]
 
 
 def test_watch_and_evaluate_play_the_task_that_the_file_names(

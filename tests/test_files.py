@@ -1,10 +1,14 @@
-"""Atomic writing of files."""
+"""Atomic writing of files, and reading of safetensors files."""
 
+import json
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+from safetensors.numpy import save
 
-from rsoccer.files import write_atomically
+from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
 
 
 def test_a_file_is_replaced_in_one_step(tmp_path: Path) -> None:
@@ -34,3 +38,67 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(
 def test_the_error_names_a_missing_folder(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="nowhere"):
         write_atomically(tmp_path / "nowhere" / "file", b"")
+
+
+def test_safetensors_are_read_as_the_library_writes_them() -> None:
+    rng = np.random.default_rng(0)
+    shapes = {"scalar": (), "empty": (0, 3), "vector": (5,), "cube": (2, 3, 4)}
+    arrays = {name: rng.normal(size=shape).astype(np.float32) for name, shape in shapes.items()}
+    for content in (save(arrays, metadata={"k": "ü"}), safetensors_bytes(arrays, {"k": "ü"})):
+        found, metadata = read_safetensors(content)
+        assert metadata == {"k": "ü"}
+        assert {name: array.shape for name, array in found.items()} == shapes
+        for name, array in arrays.items():
+            np.testing.assert_array_equal(found[name], array)
+            assert found[name].flags.writeable
+    assert read_safetensors(save({}))[0] == {}
+
+
+def file_of(header: Any, data: bytes = bytes(8)) -> bytes:  # noqa: ANN401  (JSON)
+    text = header if isinstance(header, bytes) else json.dumps(header).encode()
+    return len(text).to_bytes(8, "little") + text + data
+
+
+def entry(dtype: object = "F32", shape: object = (2,), data_offsets: object = (0, 8)) -> Any:  # noqa: ANN401
+    return {"dtype": dtype, "shape": shape, "data_offsets": data_offsets}
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\x05",
+        bytes(7),
+        (2**63).to_bytes(8, "little") + bytes(50),
+        file_of(b"\xff\xfe"),
+        file_of(b"["),
+        file_of(b"[" * 100_000),
+        file_of([]),
+        file_of(5),
+        file_of({"a": 5}),
+        file_of({"a": {"dtype": "F32"}}),
+        file_of({"a": entry(), "__metadata__": {"k": 5}}),
+        file_of({"a": entry(), "__metadata__": []}),
+        file_of({"a": entry(shape=[3])}),
+        file_of({"a": entry(shape=[-1, -2])}),
+        file_of({"a": entry(shape=[2.0])}),
+        file_of({"a": entry(shape="2")}),
+        file_of({"a": entry(shape=None)}),
+        file_of({"a": entry(data_offsets=[0, 9])}),
+        file_of({"a": entry(data_offsets=[0, 4], shape=[1])}),
+        file_of({"a": entry(data_offsets=[4, 8], shape=[1])}),
+        file_of({"a": entry(data_offsets=[8, 0])}),
+        file_of({"a": entry(data_offsets=["0", "8"])}),
+        file_of({"a": entry(data_offsets=[0, 4, 8])}),
+        file_of({"a": entry(), "b": entry()}),
+        file_of({"a": entry(), "b": entry(data_offsets=[8, 16])}),
+    ],
+)
+def test_bytes_that_are_no_safetensors_are_refused(content: bytes) -> None:
+    with pytest.raises(ValueError, match="truncated or not safetensors"):
+        read_safetensors(content)
+
+
+def test_a_refused_type_is_named() -> None:
+    with pytest.raises(ValueError, match="array 'a' should be float32, got BF16"):
+        read_safetensors(file_of({"a": entry("BF16", (4,))}))

@@ -16,6 +16,8 @@ import pettingzoo
 
 import rsoccer
 from rsoccer import policies
+from rsoccer.policies import trained
+from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
 from tools.library_speed import libraries
 from tools.markdown import filled, table
@@ -93,20 +95,36 @@ def policy_names() -> str:
     skilled = " or ".join(f"`{name}:0.5`" for name in policies.list_policies_with_skill())
     return (
         f"{names}, or the path of a policy file. A skill from 0 to 1 may follow, as in {skilled}. "
-        "A policy file samples actions as in training; `policy.safetensors:mean` plays the mean "
-        "action."
+        "`best` is the [trained policy](docs/policies.md#trained-policies) of the task. It and "
+        "policy files sample actions as in training; `best:mean` plays the mean action."
     )
 
 
 def policy_table() -> str:
     """Return the table of the shipped policies and the robots that they drive."""
-    rows = []
+    rows = [(f"`{trained.BEST}`", "by task", "The trained policy of the task, see below.")]
     for name in policies.list_policies():
+        if name == trained.BEST:
+            continue
         fits = {task[:3]: made for task in rsoccer.list_tasks() if (made := _made(name, task))}
         leagues = " and ".join({"SSL": "SSL", "VSS": "VSSS"}[league] for league in fits)
         summary = (next(iter(fits.values())).__doc__ or "").split("\n")[0]
         rows.append((f"`{name}`", leagues, summary))
     return table(("policy", "robots", "behaviour"), rows)
+
+
+def trained_table() -> str:
+    """Return the table of the trained policies in the package and of their scores."""
+    rows = []
+    for name, path in trained.list_trained().items():
+        training = json.loads(read_file(path)[1]["training"])
+        made = f"{training['samples'] / 1e6:.1f} million"
+        for score in trained.list_scores(path):
+            interval = f"{score.low:.3f} to {score.high:.3f}"
+            cells = (f"`{score.opponent}`", f"`{score.metric}`", f"{score.score:.3f}", interval)
+            rows.append((f"`{name}`", made, *cells, str(score.matches)))
+    header = ("task", "decisions", "opponent", "metric", "mean", "95% interval", "matches")
+    return table(header, rows)
 
 
 def _made(name: str, task: str) -> policies.Policy | None:
@@ -200,6 +218,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "old_names": old_names,
     "policies": policy_names,
     "policy_table": policy_table,
+    "trained_table": trained_table,
     "speed": speed,
     "speed_feature": feature,
     "speed_summary": summary,

@@ -14,7 +14,7 @@ EXTRAS = {
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "pygame": "render",
-    "safetensors": "cli",
+    "safetensors": "train",
     "tensorboard": "train",
     "torch": "train",
     "tqdm": "train",

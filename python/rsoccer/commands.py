@@ -16,11 +16,13 @@ from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer import policies, registry
 from rsoccer.controllers import Controller
-from rsoccer.evaluate import Evaluation, evaluate, table
+from rsoccer.evaluate import evaluate, table
 from rsoccer.files import write_atomically
 from rsoccer.frame import team_of
-from rsoccer.human.teams import team_controllers
+from rsoccer.human.teams import SCRIPTS, team_controllers
 from rsoccer.lineup import DEFAULT_TASK, lineup, opponents_of, task_for
+from rsoccer.policies import trained
+from rsoccer.policies.policy_file import Score
 from rsoccer.replay.evaluation import record_last_match
 from rsoccer.replay.recorder import record_replay
 from rsoccer.replay.replay import SUFFIX, Replay
@@ -31,15 +33,18 @@ from rsoccer.view import SIDES
 if TYPE_CHECKING:
     from rsoccer.render.image import Image
 
-_POLICY = arg(
-    metavar="POLICY",
-    help="a name that `rsoccer list` prints, or the path of a policy file, which plays as it was "
-    "trained unless :mean or :sample follows",
+_SUBJECT_HELP = (
+    "a policy: a name that `rsoccer list` prints, or the path of a policy file, which plays as it "
+    "was trained unless :mean or :sample follows; or a task, whose policy --policy names"
 )
-_POLICY_OR_REPLAY = arg(
-    metavar="POLICY|REPLAY",
-    help="a name that `rsoccer list` prints, the path of a policy file, which plays as it was "
-    "trained unless :mean or :sample follows, or of a replay (.rsr)",
+_SUBJECT = arg(metavar="POLICY|TASK", help=_SUBJECT_HELP, help_behavior_hint="")
+_SUBJECT_OR_REPLAY = arg(
+    metavar="POLICY|TASK|REPLAY",
+    help=f"{_SUBJECT_HELP}; or a replay (.rsr)",
+    help_behavior_hint="(default: best in VSSSelfPlay-v0)",
+)
+_POLICY = arg(
+    metavar="POLICY", help_behavior_hint="(default: best, or a script where there is none)"
 )
 _DEFAULT_TASK = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
 _DEFAULT_PLAYER = "(default: the task's own, or a script where robots learn)"
@@ -84,8 +89,12 @@ class List:
             values = [f"{option}={value!r}" for option, value in options.items()]
             _write(f"{name}: {', '.join([task_name, *values])}")
         _write(f"policies: {', '.join(policies.list_policies())}, or the path of a policy file")
+        _write("best is the trained policy of the task; its mean scores, with 95% intervals:")
+        for name, path in trained.list_trained().items():
+            scores = [_score_text(score) for score in trained.list_scores(path)]
+            _write("\n".join(f"    {name}: {score}" for score in scores or ["not measured"]))
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
-        _write("a file plays as it was trained; :mean or :sample may follow its name")
+        _write("best and files play as they were trained; :mean or :sample may follow the name")
         _write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
 
 
@@ -106,8 +115,10 @@ class Train(Args):
 class Evaluate:
     """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
-    policy: Annotated[str, Positional, _POLICY]
-    """policy in the place of the learners"""
+    subject: Annotated[str | None, Positional, _SUBJECT] = None
+    """policy in the place of the learners, or the task"""
+    policy: Annotated[str | None, _POLICY] = None
+    """policy in the place of the learners, after a task"""
     opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=_DEFAULT_OPPONENT)] = ()
     """policies of the other team, names or paths; one row of the table for each"""
     matches: int = 200
@@ -131,55 +142,60 @@ class Evaluate:
         """Play the matches, then print the table.
 
         Raises:
-            ValueError: the folder of a file does not exist, or `evaluate` refuses an option.
+            ValueError: neither a policy nor a task, the folder of a file does not exist, or
+                `evaluate` refuses an option.
         """
         _check_output("json", self.json)
         _check_output("html", self.html, ".html")
         _check_output("save", self.save, SUFFIX)
-        evaluations = [self._against(opponent) for opponent in self.opponents or (None,)]
+        if (self.subject, self.policy, self.task) == (None, None, None):
+            raise ValueError("policy: expected a policy or a task, got none")
+        policy, task = _policy_and_task(self.subject, self.policy, self.task)
+        evaluations = [
+            evaluate(
+                policy,
+                opponent,
+                self.matches,
+                self.seed,
+                task=task,
+                worlds=self.worlds,
+                threads=self.threads,
+            )
+            for opponent in self.opponents or (None,)
+        ]
         _write(f"{evaluations[0].task}\n\n{table(evaluations)}")
         if self.json is not None:
             results = [evaluation.as_dict() for evaluation in evaluations]
             write_atomically(self.json, (json.dumps(results, indent=2) + "\n").encode())
         if self.html is not None or self.save is not None:
-            self._write_last_match(self.opponents[-1] if self.opponents else None)
+            self._write_last_match(policy, task)
 
-    def _write_last_match(self, opponent: str | None) -> None:
+    def _write_last_match(self, policy: str, task: Task) -> None:
         """Record the last match against the last opponent."""
-        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
+        opponent = self.opponents[-1] if self.opponents else None
         opponents = opponents_of(task) if opponent is None else [opponent]
         replay = record_last_match(
-            self.policy,
+            policy,
             opponent,
             self.matches,
             self.seed,
             task=task,
-            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
+            names=(_team_name(policy), " ".join(map(_team_name, opponents))),
         )
         if self.html is not None:
             _write(f"page: {replay.save_html(self.html)}")
         if self.save is not None:
             _write(f"replay: {replay.save(self.save)}")
 
-    def _against(self, opponent: str | None) -> Evaluation:
-        """Evaluation against one opponent."""
-        return evaluate(
-            self.policy,
-            opponent,
-            self.matches,
-            self.seed,
-            task=self.task,
-            worlds=self.worlds,
-            threads=self.threads,
-        )
-
 
 @dataclass(frozen=True)
 class Watch:
     """Show a match or a replay in a window, or write it to files: video, page, replay."""
 
-    policy: Annotated[str, Positional, _POLICY_OR_REPLAY] = "chase"
-    """policy in the place of the learners, or a replay to play"""
+    subject: Annotated[str | None, Positional, _SUBJECT_OR_REPLAY] = None
+    """policy in the place of the learners, the task, or a replay to play"""
+    policy: Annotated[str | None, _POLICY] = None
+    """policy in the place of the learners, after a task"""
     opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_OPPONENT)] = (
         None
     )
@@ -215,29 +231,29 @@ class Watch:
             raise ValueError(f"speed: expected a positive number, got {self.speed}")
         _check_output("html", self.html, ".html")
         _check_output("save", self.save, SUFFIX)
-        if self.policy.endswith(SUFFIX):
-            self._play_replay(self._load())
+        if self.subject is not None and self.subject.endswith(SUFFIX):
+            self._play_replay(self._load(self.subject))
         elif self.html or self.save:
             self._play_replay(self._record())
         else:
             self._play_match()
 
-    def _load(self) -> Replay:
+    def _load(self, path: str) -> Replay:
         """The replay that is named in the place of a policy."""
-        for name in ("opponent", "task", "snapshots"):
+        for name in ("policy", "opponent", "task", "snapshots"):
             if getattr(self, name) is not None:
                 raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
-        return Replay.load(self.policy)
+        return Replay.load(path)
 
     def _record(self) -> Replay:
         """A new match as a replay."""
-        task, opponents = self._task_and_opponents()
+        task, controllers, names = self._match()
         return record_replay(
             task,
-            lineup(task, self.policy, self.opponent),
+            controllers,
             self.seed,
             self.seconds,
-            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
+            names=names,
             snapshot_interval=self.snapshots,
         )
 
@@ -257,21 +273,18 @@ class Watch:
         """Show a new match while it is played."""
         from rsoccer.render.record import film_match
 
-        task, opponents = self._task_and_opponents()
+        task, controllers, names = self._match()
         images, fps = film_match(
-            task,
-            lineup(task, self.policy, self.opponent),
-            self.seed,
-            self.seconds,
-            names=(_team_name(self.policy), " ".join(map(_team_name, opponents))),
-            width=self.width,
+            task, controllers, self.seed, self.seconds, names=names, width=self.width
         )
         self._show(task.name, images, fps)
 
-    def _task_and_opponents(self) -> tuple[Task, list[str]]:
-        """The task, and the policies of the other team."""
-        task = task_for(self.policy) if self.task is None else registry.make_task(self.task)
-        return task, opponents_of(task) if self.opponent is None else [self.opponent]
+    def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
+        """The task, the controllers, and the names of the teams."""
+        policy, task = _policy_and_task(self.subject, self.policy, self.task)
+        opponents = opponents_of(task) if self.opponent is None else [self.opponent]
+        names = (_team_name(policy), " ".join(map(_team_name, opponents)))
+        return task, lineup(task, policy, self.opponent), names
 
     def _show(self, title: str, images: Iterator[Image], fps: float) -> None:
         """Write images to the video file, or show them in a window."""
@@ -371,6 +384,45 @@ Command = (
     | Annotated[Watch, subcommand("watch")]
     | Annotated[Play, subcommand("play")]
 )
+
+
+def _policy_and_task(subject: str | None, policy: str | None, task: str | None) -> tuple[str, Task]:
+    """The policy and the task of a command, whose first word names either.
+
+    Raises:
+        ValueError: two policies, two tasks, or an unknown task.
+    """
+    if subject is not None and registry.is_task_name(subject) and not Path(subject).exists():
+        if task is not None:
+            raise ValueError(f"task: expected one task, got {subject} and {task}")
+        task = subject
+    elif subject is not None:
+        if policy is not None:
+            raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
+        policy = subject
+    if task is not None:
+        made = registry.make_task(task)
+    else:
+        made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
+    return policy or _default_policy(made), made
+
+
+def _default_policy(task: Task) -> str:
+    """The trained policy of a task, or a script that plays in the place of one."""
+    try:
+        trained.load_best(task)
+    except ValueError:
+        return SCRIPTS[task.config.robots[0].drive]
+    return trained.BEST
+
+
+def _score_text(score: Score) -> str:
+    """A score in one line."""
+    opponent = "" if score.opponent == "-" else f" against {score.opponent}"
+    return (
+        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}, "
+        f"{score.matches} matches"
+    )
 
 
 def _rank(entry: str) -> int:

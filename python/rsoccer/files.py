@@ -1,14 +1,19 @@
-"""Atomic writing of files, and safetensors files with reproducible bytes."""
+"""Atomic writing of files; safetensors files: writing with reproducible bytes, and reading."""
 
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
+import numpy as np
 from numpy.typing import NDArray
+
+LENGTH_BYTES: Final = 8
+"""Bytes of the length of the header, with which a safetensors file begins."""
 
 
 def write_atomically(path: Path, content: bytes) -> None:
@@ -55,7 +60,71 @@ def safetensors_bytes(arrays: Mapping[str, NDArray[Any]], metadata: Mapping[str,
     from safetensors.numpy import save
 
     content = save(dict(arrays), metadata=dict(metadata))
-    end = 8 + int.from_bytes(content[:8], "little")  # 8 bytes of length, header in JSON, data
-    header = json.dumps(json.loads(content[8:end]), sort_keys=True, separators=(",", ":")).encode()
-    header += b" " * (-len(header) % 8)  # keeps the data aligned
-    return len(header).to_bytes(8, "little") + header + content[end:]
+    end = LENGTH_BYTES + int.from_bytes(content[:LENGTH_BYTES], "little")
+    header = json.loads(content[LENGTH_BYTES:end])
+    sorted_header = json.dumps(header, sort_keys=True, separators=(",", ":")).encode()
+    sorted_header += b" " * (-len(sorted_header) % 8)  # keeps the data aligned
+    return len(sorted_header).to_bytes(LENGTH_BYTES, "little") + sorted_header + content[end:]
+
+
+def read_safetensors(content: bytes) -> tuple[dict[str, NDArray[np.float32]], dict[str, str]]:
+    """Read a safetensors file of float32 arrays, without the library of that name.
+
+    A file is the length of its header, the header in JSON, and the numbers of the arrays, one array
+    after the other. The header has the type, shape and place of each array by name, and the
+    metadata under "__metadata__".
+
+    Args:
+        content: the bytes of the file.
+
+    Returns:
+        Copies of the arrays by name, and the metadata by key.
+
+    Raises:
+        ValueError: bytes of another format, a truncated file, or an array of another type.
+    """
+    end = LENGTH_BYTES + int.from_bytes(content[:LENGTH_BYTES], "little")
+    if len(content) < max(end, LENGTH_BYTES):
+        raise ValueError("truncated or not safetensors (its header is longer than the file)")
+    try:
+        header = json.loads(content[LENGTH_BYTES:end].decode())
+        metadata = header.pop("__metadata__", {})
+        places = {name: tuple(entry["data_offsets"]) for name, entry in header.items()}
+        valid = all(type(text) is str for text in metadata.values())
+        if not valid or not _are_consecutive(list(places.values()), len(content) - end):
+            raise ValueError("places of arrays or metadata")
+        data = memoryview(content)[end:]
+        arrays = {
+            name: _array(name, entry, data[slice(*places[name])]) for name, entry in header.items()
+        }
+    except _WrongType as error:
+        raise ValueError(str(error)) from None
+    except (AttributeError, KeyError, RecursionError, TypeError, ValueError) as error:
+        raise ValueError(f"truncated or not safetensors ({error})") from error
+    return arrays, metadata
+
+
+class _WrongType(ValueError):
+    """An array that is not float32."""
+
+
+def _array(name: str, entry: Mapping[str, Any], data: memoryview) -> NDArray[np.float32]:
+    """Copy of an array from its entry in the header and its bytes."""
+    if entry["dtype"] != "F32":
+        raise _WrongType(f"array {name!r} should be float32, got {entry['dtype']}")
+    shape = entry["shape"]
+    if not all(type(size) is int and size >= 0 for size in shape):
+        raise ValueError(f"shape {shape} of {name!r}")
+    if math.prod(shape) * 4 != len(data):
+        raise ValueError(f"{len(data)} bytes for shape {shape} of {name!r}")
+    return np.frombuffer(data, "<f4").reshape(shape).astype(np.float32)
+
+
+def _are_consecutive(places: list[tuple[Any, ...]], length: int) -> bool:
+    """Whether places (begin, end) follow each other without gaps from 0 to a length."""
+    last = 0
+    for begin, end in sorted(places):
+        if (type(begin), type(end)) != (int, int) or begin != last or end < begin:
+            return False
+        last = end
+    return last == length

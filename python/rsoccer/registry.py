@@ -108,6 +108,15 @@ def list_aliases() -> dict[str, Alias]:
     return dict(sorted(_ALIASES.items()))
 
 
+def is_task_name(name: str) -> bool:
+    """Return whether a text has the form of a task's name, registered or not.
+
+    Args:
+        name: the text.
+    """
+    return _NAME.fullmatch(name) is not None
+
+
 def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task has its own options)
     """Create a task by name.
 

@@ -11,6 +11,9 @@ class SimulatorLike(Protocol):
     def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
         """Start new matches in some worlds.
 
+        `Matches` calls this method for new episodes, and where `Task.restart_play` places all
+        bodies within an episode.
+
         Args:
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial state rows.

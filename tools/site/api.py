@@ -63,6 +63,7 @@ GROUPS: Final = (
         (
             "rsoccer.tasks.soccer",
             "rsoccer.tasks.vss",
+            "rsoccer.tasks.free_ball",
             "rsoccer.tasks.vss_single",
             "rsoccer.tasks.vss_multi",
             "rsoccer.tasks.vss_self_play",
@@ -86,6 +87,7 @@ GROUPS: Final = (
             "rsoccer.policies.base",
             "rsoccer.policies.network",
             "rsoccer.policies.policy_file",
+            "rsoccer.policies.trained",
         ),
     ),
     Group("Training", ("rsoccer.train", "rsoccer.train.args")),

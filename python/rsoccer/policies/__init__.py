@@ -1,9 +1,10 @@
 """Policies, and their construction from names and files.
 
-`zero`, `uniform` and `ou` ignore the game, the other names are scripts:
+`zero`, `uniform` and `ou` ignore the game, `best` is trained, the other names are scripts:
 
 | name | league | behaviour |
 | --- | --- | --- |
+| `best` | any | the trained policy of the task, where the package has one |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -25,6 +26,7 @@ from typing import TYPE_CHECKING, Final
 
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.noise import OrnsteinUhlenbeck, Uniform, Zero
+from rsoccer.policies.policy_file import SUFFIX
 from rsoccer.policies.ssl.fetch import Fetch
 from rsoccer.policies.ssl.hold import Hold, Receive
 from rsoccer.policies.ssl.passer import Passer
@@ -43,9 +45,8 @@ __all__ += ["PolicyLike", "check_policy_like", "make_policy", "name_of", "traine
 PolicyLike = str | os.PathLike[str] | Policy
 """A policy, its name (`zero`, `ou`, ...), or the path of its file."""
 
-FILE_SUFFIX: Final = ".safetensors"
-
 _MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
+    "best": lambda task: _make_best(task, None),
     "chase": Chase,
     "fetch": Fetch,
     "hold": Hold,
@@ -94,7 +95,8 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
 
     Args:
         policy: a policy, which is returned as it is; a name; or the path of a policy file.
-            "scripted:0.5" sets a skill. "policy.safetensors:mean" and ":sample" choose how a
+            "best" is the trained policy of the task, see `rsoccer.policies.trained`.
+            "scripted:0.5" sets a skill. "policy.safetensors:mean" and "best:sample" choose how a
             network acts; the default is as in training.
         task: the task that is played.
 
@@ -113,17 +115,19 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
     """
     if not isinstance(policy, Policy):
         text = _text(policy)
-        name, colon, skill = text.partition(":")
+        name, colon, detail = text.partition(":")
         if name not in _MAKERS:
             policy = _load(text)
         else:
-            policy = _with_skill(name, skill, task) if colon else _MAKERS[name](task)
+            policy = _with_detail(name, detail, task) if colon else _MAKERS[name](task)
     policy.check_fits(task, task.observation_size)
     return policy
 
 
 def trained_on(policy: PolicyLike) -> str | None:
-    """Return the name of the task that a policy was trained on; None for scripts and noise.
+    """Return the name of the task that a policy was trained on.
+
+    It is None for scripts and noise, and for `best`, which has a policy for each of several tasks.
 
     Args:
         policy: a policy, its name, or the path of its file.
@@ -149,6 +153,18 @@ def _text(policy: str | os.PathLike[str]) -> str:
     return os.fspath(policy)
 
 
+def _with_detail(name: str, detail: str, task: Task) -> Policy:
+    """A policy from its name and the text of its skill, or of its mode."""
+    return _make_best(task, detail) if name == "best" else _with_skill(name, detail, task)
+
+
+def _make_best(task: Task, mode: str | None) -> Network:
+    """The trained policy of a task."""
+    from rsoccer.policies.trained import load_best
+
+    return load_best(task, mode)
+
+
 def _with_skill(name: str, skill: str, task: Task) -> Policy:
     """A policy from its name and the text of its skill."""
     if name not in _MAKERS_WITH_SKILL:
@@ -166,7 +182,7 @@ def _with_skill(name: str, skill: str, task: Task) -> Policy:
 def _load(text: str) -> Network:
     """A trained policy from its path, which a mode may follow."""
     path, mode = _split_mode(text)
-    if not (path.endswith(FILE_SUFFIX) or os.path.exists(path)):
+    if not (path.endswith(SUFFIX) or os.path.exists(path)):
         raise ValueError(
             f"unknown policy {text!r}: expected one of {list_policies()} or "
             "the path of a policy file"
@@ -181,7 +197,7 @@ def _split_mode(text: str) -> tuple[str, str | None]:
     from rsoccer.policies.network import MODES
 
     path, colon, mode = text.rpartition(":")
-    if not colon or os.path.exists(text) or text.endswith(FILE_SUFFIX):
+    if not colon or os.path.exists(text) or text.endswith(SUFFIX):
         return text, None
-    known = mode in MODES or path.endswith(FILE_SUFFIX)
+    known = mode in MODES or path.endswith(SUFFIX)
     return (path, mode) if known else (text, None)

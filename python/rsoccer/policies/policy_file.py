@@ -25,6 +25,11 @@ All numbers are finite. The metadata are text:
 | `clip` | above 0, default 10 | bound of a normalised observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
+| `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
+| `scores` | JSON list; optional | results: objects with the fields of `Score` |
+
+`training` says how the policy was made: the command, the decisions that it learned from, the seed,
+and the versions of the package and of its physics in which the scores were measured.
 
 The mean action for an observation x is
 
@@ -38,14 +43,16 @@ With `action_std` an action is drawn as `action + action_std * N(0, 1)`. Then it
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from rsoccer.arrays import Array, Floats
-from rsoccer.files import safetensors_bytes, write_atomically
+from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
 
 FORMAT: Final = "rsoccer-policy-2"
 """Version of the format. A new number makes older readers refuse the file."""
@@ -53,7 +60,28 @@ FORMAT: Final = "rsoccer-policy-2"
 MAX_ACTION_REPEAT: Final = 1_000_000
 """Upper bound of `action_repeat`, control steps: some seven hours of play."""
 
-INSTALL_HINT: Final = "policy files need safetensors: pip install 'rsoccer[cli]'"
+SUFFIX: Final = ".safetensors"
+"""End of the names of policy files."""
+
+INSTALL_HINT: Final = "writing policy files needs safetensors: pip install 'rsoccer[train]'"
+
+
+@dataclass(frozen=True)
+class Score:
+    """Mean score of a policy over some matches, as `rsoccer.evaluate` measured it."""
+
+    opponent: str
+    """policies of the other team; "-" if there is none"""
+    metric: str
+    """metric of the task whose mean is the score"""
+    matches: int
+    """number of matches, half of them for each team in two-sided tasks"""
+    score: float
+    """mean"""
+    low: float
+    """lower bound of the 95% interval"""
+    high: float
+    """upper bound of the 95% interval"""
 
 
 def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
@@ -185,6 +213,46 @@ def _read_array(arrays: Mapping[str, Array], name: str, shape: tuple[int | None,
     return array.copy()
 
 
+def read_scores(metadata: Mapping[str, str]) -> list[Score]:
+    """Read what a policy scores.
+
+    Args:
+        metadata: text by key.
+
+    Returns:
+        The scores in the order of the file; none if it names none.
+
+    Raises:
+        ValueError: other values than a JSON list of objects with the fields of `Score`.
+    """
+    text = metadata.get("scores", "[]")
+    try:
+        scores = [Score(**entry) for entry in json.loads(text)]
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"metadata 'scores' should be a list of scores, got {text!r}") from error
+    for score in scores:
+        _check_score(score)
+    return scores
+
+
+def _check_score(score: Score) -> None:
+    """Refuse a score with fields of other types, and numbers that are not finite."""
+    texts, numbers = (score.opponent, score.metric), (score.score, score.low, score.high)
+    valid = all(type(text) is str for text in texts) and type(score.matches) is int
+    valid = valid and all(type(number) in (int, float) for number in numbers)
+    if not (valid and np.isfinite(numbers).all()):
+        raise ValueError(f"metadata 'scores' should have texts and numbers, got {score}")
+
+
+def scores_text(scores: list[Score]) -> str:
+    """Return the value of the metadata `scores`.
+
+    Args:
+        scores: what a policy scores.
+    """
+    return json.dumps([asdict(score) for score in scores])
+
+
 def write_file(path: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:
     """Write a policy file atomically; equal content gives equal bytes.
 
@@ -196,20 +264,17 @@ def write_file(path: Path, arrays: Mapping[str, Array], metadata: Mapping[str, s
     Raises:
         ImportError: safetensors is not installed.
     """
-    _safetensors()
-    write_atomically(path, safetensors_bytes(arrays, metadata))
-
-
-def _safetensors() -> Any:  # noqa: ANN401  (an optional module has no type)
     try:
-        import safetensors
+        content = safetensors_bytes(arrays, metadata)
     except ImportError as error:
-        raise ImportError(INSTALL_HINT) from error
-    return safetensors
+        raise ImportError(INSTALL_HINT, name=error.name) from error
+    write_atomically(path, content)
 
 
 def read_file(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
     """Read a policy file without checking its content.
+
+    It needs NumPy alone, so that policies play wherever the package does.
 
     Args:
         path: the file.
@@ -219,19 +284,8 @@ def read_file(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
 
     Raises:
         FileNotFoundError: no such file.
-        ImportError: safetensors is not installed.
         ValueError: not a safetensors file, a truncated one, or arrays that are not float32.
     """
-    safetensors = _safetensors()
     if path.is_dir():
         raise ValueError("it is a folder")
-    try:
-        with safetensors.safe_open(path, framework="numpy") as file:
-            for name in file.keys():  # noqa: SIM118  (the handle is no mapping)
-                kind = file.get_slice(name).get_dtype()
-                if kind != "F32":  # NumPy would fail on types that it does not have
-                    raise ValueError(f"array {name!r} should be float32, got {kind}")
-            arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
-            return arrays, dict(file.metadata() or {})
-    except safetensors.SafetensorError as error:
-        raise ValueError(f"truncated or not safetensors ({error})") from error
+    return read_safetensors(path.read_bytes())

@@ -1,0 +1,79 @@
+"""Trained policies in the package: `best` plays the one of the task.
+
+The files of this folder are policy files (`rsoccer.policies.policy_file`), one for each task that
+has one, `<task>.safetensors`. Their metadata say how they were made and what they score.
+`tools.ship_policy` writes them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Final
+
+from rsoccer.policies import policy_file
+from rsoccer.policies.network import MODES, Network
+from rsoccer.policies.policy_file import Score
+from rsoccer.task import Task
+
+BEST: Final = "best"
+"""Name of the trained policy of the task that is played."""
+CLONED: Final = "VSS-v0"
+"""Task whose policy also plays tasks without a file of their own that have its observations.
+
+Each robot is then a clone of its single learner: `VSSMulti-v0`, `VSSSelfPlay-v0` and tasks derived
+from them.
+"""
+FOLDER = Path(__file__).parent
+"""Folder of the files."""
+
+
+def list_trained() -> dict[str, Path]:
+    """Return the files by the task that they were made for, in alphabetical order."""
+    return {path.stem: path for path in sorted(FOLDER.glob(f"*{policy_file.SUFFIX}"))}
+
+
+def load_best(task: Task, mode: str | None = None) -> Network:
+    """Load the trained policy of a task.
+
+    Args:
+        task: the task that is played.
+        mode: "sample" or "mean"; None is as in training.
+
+    Returns:
+        The network of the task's own file, or of `CLONED` where its observations are equal.
+
+    Raises:
+        ValueError: no policy for this task, one that does not fit its options, or an unknown mode.
+    """
+    if mode not in (None, *MODES):
+        raise ValueError(f"{BEST}: expected one of {MODES} after the colon, got {mode!r}")
+    files = list_trained()
+    if task.name in files:
+        network = Network.load(files[task.name], mode)
+        try:
+            network.check_fits(task, task.observation_size)
+        except ValueError as error:
+            raise ValueError(f"{BEST}: {error}") from error
+        return network
+    names = list(files)
+    if CLONED in files:
+        network = Network.load(files[CLONED], mode)
+        if network.metadata.get("layout") == task.layout:
+            return network
+        names[names.index(CLONED)] += " (and tasks with its observations)"
+    raise ValueError(
+        f"{BEST}: expected a task with a trained policy, got {task.name}; "
+        f"there are policies for {', '.join(names) or 'no task'}"
+    )
+
+
+def list_scores(path: Path) -> list[Score]:
+    """Return the scores in the metadata of a policy file.
+
+    Args:
+        path: the file.
+
+    Raises:
+        ValueError: the file is not a policy file, or its scores are not as documented.
+    """
+    return policy_file.read_scores(policy_file.read_file(path)[1])

@@ -1,0 +1,170 @@
+"""Trained policies: their resolution by the name `best`, and the files in the package."""
+
+import json
+import math
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches, policies
+from rsoccer.policies import trained
+from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import Score, read_scores, scores_text
+from rsoccer.tasks import VssSelfPlay
+from tests.policies.networks import network_for
+
+MAX_SIZE = 100 * 1024
+SHIPPED = trained.list_trained()
+
+
+def save(folder: Path, task_name: str, **metadata: str) -> Path:
+    task = rsoccer.make_task(task_name)
+    network = network_for(task)
+    network.metadata |= {"layout": task.layout, **metadata}
+    network.save(folder / f"{task_name}.safetensors")
+    return folder / f"{task_name}.safetensors"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Replace the files of the package by one for VSS-v0."""
+    monkeypatch.setattr(trained, "FOLDER", tmp_path)
+    save(tmp_path, "VSS-v0")
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", ["VSS-v0", "VSSMulti-v0", "VSSSelfPlay-v0"])
+def test_vsss_tasks_without_a_file_have_clones_of_one_learner(name: str, folder: Path) -> None:
+    policy = policies.make_policy("best", rsoccer.make_task(name))
+    assert isinstance(policy, Network)
+    assert (policy.task_name, policy.mode) == ("VSS-v0", "sample")
+    save(folder, name, clip="5")
+    own = policies.make_policy("best", rsoccer.make_task(name))
+    assert isinstance(own, Network)
+    assert (own.task_name, float(own.clip)) == (name, 5.0)
+
+
+def test_a_derived_task_has_clones_if_its_observations_are_equal(folder: Path) -> None:
+    @dataclass(frozen=True)
+    class Derived(VssSelfPlay):
+        name = "Derived-v0"
+
+    assert isinstance(policies.make_policy("best", Derived()), Network)
+    with pytest.raises(ValueError, match="best: expected a task with a trained policy, got Der"):
+        policies.make_policy("best", Derived(n_blue=5))
+
+
+def test_the_mode_may_follow(folder: Path) -> None:
+    task = rsoccer.make_task("VSS-v0")
+    for mode in ("mean", "sample"):
+        policy = policies.make_policy(f"best:{mode}", task)
+        assert isinstance(policy, Network)
+        assert policy.mode == mode
+    with pytest.raises(ValueError, match=r"best: expected one of \('sample', 'mean'\).*'0.5'"):
+        policies.make_policy("best:0.5", task)
+
+
+def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
+    save(folder, "SSLGoToBall-v0")
+    message = (
+        r"best: expected a task with a trained policy, got SSLDribbling-v0; there are policies "
+        r"for SSLGoToBall-v0, VSS-v0 \(and tasks with its observations\)"
+    )
+    with pytest.raises(ValueError, match=message):
+        policies.make_policy("best", rsoccer.make_task("SSLDribbling-v0"))
+    with pytest.raises(ValueError, match="best: a network trained on 'VSS-v0' has observation_s"):
+        policies.make_policy("best", rsoccer.make_task("VSS-v0", n_yellow=5))
+    for path in folder.iterdir():
+        path.unlink()
+    with pytest.raises(ValueError, match="there are policies for no task"):
+        policies.make_policy("best", rsoccer.make_task("VSS-v0"))
+
+
+def test_best_plays_wherever_a_policy_is_named(folder: Path) -> None:
+    by_name = Matches("VSSSelfPlay-v0", 2, controllers={"yellow": "best"})
+    by_file = Matches(
+        "VSSSelfPlay-v0", 2, controllers={"yellow": str(folder / "VSS-v0.safetensors")}
+    )
+    for matches in (by_name, by_file):
+        matches.reset()
+        for _ in range(5):
+            matches.step(np.zeros((2, 3, 2), np.float32))
+    assert np.array_equal(by_name.frame.rows, by_file.frame.rows)
+    assert by_name.play.actions[:, 3:].any()
+    Matches("VSS-v0", teammates="best", opponent="best:mean").reset()
+    found = rsoccer.evaluate("best", "best:mean", 2, task="VSSMulti-v0", worlds=2)
+    assert (found.policy, found.opponent, found.task) == ("best", "best:mean", "VSSMulti-v0")
+    assert rsoccer.evaluate("best", matches=2, worlds=2).task == "VSSSelfPlay-v0"
+    assert policies.trained_on("best") is None
+    assert policies.trained_on("best:mean") is None
+
+
+def test_numpy_suffices(folder: Path) -> None:
+    """An opponent in someone's training should need no package that only files need."""
+    code = (
+        "import sys\n"
+        "for name in ('safetensors', 'torch', 'tyro'): sys.modules[name] = None\n"
+        "from pathlib import Path\n"
+        "import rsoccer\n"
+        "from rsoccer.policies import trained\n"
+        f"trained.FOLDER = Path({str(folder)!r})\n"
+        "rsoccer.Matches('VSSSelfPlay-v0', controllers={'yellow': 'best'}).reset()\n"
+        "network = trained.load_best(rsoccer.make_task('VSS-v0'))\n"
+        "try: network.save(Path('never.safetensors'))\n"
+        "except ImportError as error: print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "writing policy files needs safetensors: pip install 'rsoccer[train]'" in done.stdout
+
+
+def test_scores_are_kept_in_the_metadata(folder: Path) -> None:
+    score = Score("ou", "goal_score", 200, 0.5, 0.4, 0.6)
+    path = save(folder, "VSS-v0", scores=scores_text([score]))
+    assert trained.list_scores(path) == [score]
+    assert trained.list_scores(save(folder, "VSSMulti-v0")) == []
+    wrong = ["[1]", "{}1", '[{"opponent": "ou"}]', scores_text([score]).replace("0.5", "NaN")]
+    for text in [*wrong, scores_text([score]).replace("200", '"200"')]:
+        with pytest.raises(ValueError, match="metadata 'scores' should"):
+            read_scores({"scores": text})
+
+
+# -- files in the package -----------------------------------------------------------------------
+
+
+def test_there_is_a_policy_for_the_task_of_one_learner() -> None:
+    assert trained.CLONED in SHIPPED
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_shipped_policy_is_small_and_fits_its_task(name: str) -> None:
+    path, task = SHIPPED[name], rsoccer.make_task(name)
+    assert path.stat().st_size <= MAX_SIZE
+    network = trained.load_best(task)
+    assert (network.task_name, network.metadata["layout"]) == (name, task.layout)
+    training = json.loads(network.metadata["training"])
+    assert set(training) == {"command", "samples", "seed", "package", "physics"}
+    assert f"--task {name}" in training["command"]
+    scores = trained.list_scores(path)
+    assert scores
+    for score in scores:
+        assert score.metric == task.success
+        assert score.low <= score.score <= score.high
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_shipped_policy_scores_what_its_file_says(name: str) -> None:
+    """The first score of its file, within four standard errors of these few matches."""
+    said, matches = trained.list_scores(SHIPPED[name])[0], 40
+    opponent = None if said.opponent == "-" else said.opponent
+    if opponent is not None and " " in opponent:
+        opponent = None  # several policies: the task's own
+    found = rsoccer.evaluate("best", opponent, matches, seed=1, task=name, worlds=40)
+    standard_error = (said.high - said.low) / (2 * 1.96) * math.sqrt(said.matches / matches)
+    assert found.metric == said.metric
+    assert abs(found.score - said.score) <= 4.0 * standard_error + 0.02

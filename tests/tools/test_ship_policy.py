@@ -1,0 +1,71 @@
+"""Shipping of a policy: its scores, its command, its refusals."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import rsoccer
+from rsoccer.policies import trained
+from rsoccer.policies.network import Network
+from rsoccer.train import train
+from tests.policies.networks import network_for
+from tests.train.one_update import one_update
+from tools.ship_policy import MAX_SIZE, ship
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Folder in the place of the package's."""
+    (tmp_path / "trained").mkdir()
+    monkeypatch.setattr(trained, "FOLDER", tmp_path / "trained")
+    return tmp_path / "trained"
+
+
+def test_a_run_becomes_the_best_policy_of_its_task(
+    tmp_path: Path, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("torch")
+    train(one_update("VSS-v0", tmp_path / "run"))
+    path = ship(tmp_path / "run", ["zero", "ou"], starts=2, threads=1)
+    assert path == folder / "VSS-v0.safetensors"
+    first, second = trained.list_scores(path)
+    assert (first.opponent, second.opponent) == ("zero", "ou")
+    assert (first.matches, first.metric) == (4, "goal_score"), "two starts from each side"
+    best = trained.load_best(rsoccer.make_task("VSS-v0"))
+    made = json.loads(best.metadata["training"])
+    command = made["command"].split()
+    assert command[:6] == ["rsoccer", "train", "--task", "VSS-v0", "--samples", "1"]
+    assert "--hidden-sizes 8 --" in f"{made['command']} --"
+    assert not {"--out", "--resume", "--progress", "--no-progress"} & set(command)
+    assert (made["seed"], made["samples"]) == (0, 12)
+    assert made["physics"] == rsoccer.build_info()["physics"]
+    trained_network = Network.load(tmp_path / "run" / "policy.safetensors")
+    assert {name: array.tobytes() for name, array in best.arrays().items()} == {
+        name: array.tobytes() for name, array in trained_network.arrays().items()
+    }
+    capsys.readouterr()
+    assert ship(tmp_path / "run", ["zero"], starts=1, threads=1) == path
+    assert "before:\n    Score(opponent='zero'" in capsys.readouterr().out
+
+
+def test_other_policies_are_refused(
+    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    network = network_for(rsoccer.make_task("SSLGoToBall-v0"))
+    network.save(tmp_path / "policy.safetensors")
+    with pytest.raises(ValueError, match="run: expected a policy with its layout"):
+        ship(tmp_path)
+    network.metadata["layout"] = rsoccer.make_task("SSLGoToBall-v0").layout
+    network.save(tmp_path / "policy.safetensors")
+    with pytest.raises(FileNotFoundError, match=r"args\.json"):
+        ship(tmp_path)
+    (tmp_path / "args.json").write_text('{"task": "SSLGoToBall-v0", "samples": 5, "seed": 2}')
+    (tmp_path / "progress.csv").write_text("update,samples\n1,5\n")
+    monkeypatch.setattr("tools.ship_policy.MAX_SIZE", 100)
+    with pytest.raises(ValueError, match="run: expected a policy of at most 100 bytes"):
+        ship(tmp_path, starts=1, threads=1)
+    assert list(folder.iterdir()) == []
+    monkeypatch.setattr("tools.ship_policy.MAX_SIZE", MAX_SIZE)
+    (score,) = trained.list_scores(ship(tmp_path, starts=1, threads=1))
+    assert (score.opponent, score.metric, score.matches) == ("-", "reached", 1)

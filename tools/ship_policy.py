@@ -1,0 +1,136 @@
+"""Put a run's policy into the package: `python -m tools.ship_policy out/mine`.
+
+The policy plays a fixed list of starts, from both sides where the task has two, against each
+opponent. Its scores and how it was made go into the metadata of the file, which is copied to
+`python/rsoccer/policies/trained/<task>.safetensors`. There it is the policy `best` of its task.
+"""
+
+import argparse
+import json
+import shlex
+from pathlib import Path
+from typing import Any, Final
+
+import rsoccer
+from rsoccer.evaluate import evaluate, table
+from rsoccer.files import write_atomically
+from rsoccer.policies import trained
+from rsoccer.policies.network import Network
+from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
+from rsoccer.task import Task
+from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE, Args
+from rsoccer.train.log import read_progress
+
+STARTS: Final = 500
+"""Starts of an evaluation; a two-sided task plays each number of them for each team."""
+SEED: Final = 0
+"""Seed of the starts, the same for every policy."""
+MAX_SIZE: Final = 100 * 1024
+"""Greatest size of a file, bytes, so that the package stays small."""
+OPPONENTS: Final = {"differential": ("ou", "zero", "chase", "scripted"), "omni": ("ou", "zero")}
+"""Opponents in two-sided tasks by the drive of the robots; other tasks have their own."""
+
+
+def main() -> None:
+    """Evaluate the policy of a run, and copy it into the package."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("run", type=Path, help="folder of a training run")
+    parser.add_argument("--opponents", nargs="*", help="policies of the other team")
+    parser.add_argument("--starts", type=int, default=STARTS, help="starts for each side")
+    parser.add_argument("--threads", type=int, help="threads of the simulator")
+    arguments = parser.parse_args()
+    path = ship(arguments.run, arguments.opponents, arguments.starts, arguments.threads)
+    print(f"{path}: {path.stat().st_size / 1024:.1f} KiB")
+
+
+def ship(
+    run: Path,
+    opponents: list[str] | None = None,
+    starts: int = STARTS,
+    threads: int | None = None,
+) -> Path:
+    """Evaluate the policy of a run, and copy it into the package.
+
+    Args:
+        run: folder of a training run.
+        opponents: policies of the other team; None for those of the protocol.
+        starts: starts for each side, at least 1.
+        threads: threads of the simulator; None for all.
+
+    Returns:
+        The file in the package; an existing one has been replaced.
+
+    Raises:
+        FileNotFoundError: no policy or no settings in the folder.
+        ValueError: a file that is too large, or a policy of a task that is not registered.
+    """
+    network = Network.load(run / f"policy{SUFFIX}")
+    task = rsoccer.make_task(network.task_name)
+    if task.name != network.task_name:
+        raise ValueError(f"run: expected a policy of {task.name}, got one of {network.task_name}")
+    if "layout" not in network.metadata:
+        raise ValueError(f"run: expected a policy with its layout in {run}, got none")
+    training = _training(run)
+    scores = _scores(run / f"policy{SUFFIX}", task, opponents, starts, threads)
+    network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
+    path = trained.FOLDER / f"{task.name}{SUFFIX}"
+    candidate = run / f"{task.name}{SUFFIX}"
+    network.save(candidate)
+    if candidate.stat().st_size > MAX_SIZE:
+        raise ValueError(f"run: expected a policy of at most {MAX_SIZE} bytes, got {candidate}")
+    if path.exists():
+        print("before:", *trained.list_scores(path), sep="\n    ")
+    write_atomically(path, candidate.read_bytes())
+    return path
+
+
+def _scores(
+    policy: Path, task: Task, opponents: list[str] | None, starts: int, threads: int | None
+) -> list[Score]:
+    """Scores against each opponent, printed as a table."""
+    chosen: list[str | None] = [None]
+    if task.two_sided:
+        chosen = list(opponents or OPPONENTS[task.config.robots[0].drive])
+    matches = starts * (2 if task.two_sided else 1)
+    results = [
+        evaluate(policy, opponent, matches, SEED, task=task, threads=threads) for opponent in chosen
+    ]
+    print(table(results))
+    return [
+        Score(each.opponent, each.metric, each.matches, each.score, each.low, each.high)
+        for each in results
+    ]
+
+
+def _training(run: Path) -> dict[str, Any]:
+    """How the policy of a run was made, for its metadata."""
+    settings = json.loads((run / SETTINGS_FILE).read_text())
+    info = rsoccer.build_info()
+    return {
+        "command": _command(settings),
+        "samples": int(read_progress(run)["samples"][-1]),
+        "seed": settings["seed"],
+        "package": info["version"],
+        "physics": info["physics"],
+    }
+
+
+def _command(settings: dict[str, Any]) -> str:
+    """The command of a run: its task, its samples, and settings that are not the defaults."""
+    words = ["rsoccer", "train"]
+    defaults = Args().to_json()
+    for name, value in settings.items():
+        always = name in ("task", "samples")
+        if not always and (name in CHANGEABLE_ON_RESUME or value == defaults.get(name)):
+            continue
+        option = name.replace("_", "-")
+        if isinstance(value, bool):
+            words.append(f"--{option}" if value else f"--no-{option}")
+        else:
+            values = value if isinstance(value, list) else [value]
+            words += [f"--{option}", *map(str, values)]
+    return shlex.join(words)
+
+
+if __name__ == "__main__":
+    main()
