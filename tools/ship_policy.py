@@ -126,6 +126,8 @@ def _command(settings: dict[str, Any]) -> str:
         option = name.replace("_", "-")
         if isinstance(value, bool):
             words.append(f"--{option}" if value else f"--no-{option}")
+        elif isinstance(value, dict):
+            words += [f"--{option}", *(f"{key}={each}" for key, each in value.items())]
         else:
             values = value if isinstance(value, list) else [value]
             words += [f"--{option}", *map(str, values)]

@@ -52,6 +52,7 @@ def in_play(task: rsoccer.Task, frame: Frame) -> Play:
     viewpoint = task.new_viewpoint([0])
     play = task.new_play(len(frame), viewpoint, WorldRng.seeded(0, len(frame)))
     play.start(frame.rows)
+    task.start_episode(play)
     return play
 
 
@@ -120,8 +121,6 @@ def test_the_time_begins_again_after_a_free_ball_and_after_a_move() -> None:
 def test_a_ball_that_crosses_a_goal_line_is_not_moved() -> None:
     task = VssSelfPlay(free_ball=True)
     play = in_play(task, wedge())
-    play.steps[:] = 5
-    play.memory["stuck_at"][:] = play.frame.ball.position
     play.memory["stuck_steps"][:] = STEPS
     play.frame.ball.crossed[:] = 1.0
     assert task.restart_play(play) is None
@@ -138,8 +137,6 @@ def crowded(task: VssSelfPlay, n: int, seed: int) -> Frame:
 def free_balls(task: VssSelfPlay, frame: Frame) -> Frame:
     """States after free balls in all worlds."""
     play = in_play(task, frame)
-    play.steps[:] = 5
-    play.memory["stuck_at"][:] = frame.ball.position
     play.memory["stuck_steps"][:] = STEPS
     restarted = task.restart_play(play)
     assert restarted is not None
@@ -188,9 +185,15 @@ def test_all_bodies_are_placed_as_the_rule_says(
     Matches(task, n, controllers=EVERYONE).reset(rows=after.rows)  # raises where bodies overlap
 
 
-def test_free_balls_are_symmetric_between_the_teams() -> None:
+def test_free_balls_are_symmetric_between_the_teams_and_between_left_and_right() -> None:
     task = VssSelfPlay(free_ball=True)
     before = crowded(task, 100, seed=9)
+    mirrored, flip = before.copy(), np.array([1.0, -1.0], np.float32)
+    mirrored.ball.position[:] *= flip
+    mirrored.robots.position[:] *= flip
+    assert same(
+        free_balls(task, mirrored).robots.position, flip * free_balls(task, before).robots.position
+    )
     rotated = Frame.empty(100, 3, 3)
     rotated.ball.position[:] = -before.ball.position
     rotated.blue.position[:] = -before.yellow.position

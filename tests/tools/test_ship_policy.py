@@ -1,6 +1,8 @@
 """Shipping of a policy: its scores, its command, its refusals."""
 
 import json
+import shlex
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -26,7 +28,8 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     tmp_path: Path, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("torch")
-    train(one_update("VSS-v0", tmp_path / "run"))
+    options = {"opponent": "zero", "max_steps": 300}
+    train(replace(one_update("VSS-v0", tmp_path / "run"), task_options=options))
     path = ship(tmp_path / "run", ["zero", "ou"], starts=2, threads=1)
     assert path == folder / "VSS-v0.safetensors"
     first, second = trained.list_scores(path)
@@ -34,9 +37,10 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     assert (first.matches, first.metric) == (4, "goal_score"), "two starts from each side"
     best = trained.load_best(rsoccer.make_task("VSS-v0"))
     made = json.loads(best.metadata["training"])
-    command = made["command"].split()
-    assert command[:6] == ["rsoccer", "train", "--task", "VSS-v0", "--samples", "1"]
-    assert "--hidden-sizes 8 --" in f"{made['command']} --"
+    command = shlex.split(made["command"])
+    assert command[:4] == ["rsoccer", "train", "--task", "VSS-v0"]
+    for words in ("--samples 1", "--hidden-sizes 8", "--task-options opponent=zero max_steps=300"):
+        assert f" {words} " in f"{made['command']} "
     assert not {"--out", "--resume", "--progress", "--no-progress"} & set(command)
     assert (made["seed"], made["samples"]) == (0, 12)
     assert made["physics"] == rsoccer.build_info()["physics"]

@@ -87,6 +87,14 @@ class FreeBalls:
             "free_balls": counts[1],
         }
 
+    def start_episode(self, play: Play) -> None:
+        """Begin the time at the initial state.
+
+        Args:
+            play: initial state of n worlds; its memory is changed.
+        """
+        play.memory["stuck_at"][:] = play.frame.ball.position
+
     def restart(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
         """Update the memory after a step, and return the states of free balls.
 
@@ -110,8 +118,6 @@ class FreeBalls:
         """(n,) worlds whose ball has been stuck for the time of the rule."""
         ball, memory = play.frame.ball, play.memory
         place, steps = memory["stuck_at"], memory["stuck_steps"]
-        first = play.steps == 0
-        place[first] = play.last_frame.ball.position[first]
         offset = ball.position - place
         squared = offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1]
         left = squared > np.float32(STUCK_DISTANCE * STUCK_DISTANCE)

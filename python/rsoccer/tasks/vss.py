@@ -186,6 +186,11 @@ class Vss(Soccer):
         """Create the memory of stuck balls with the option `free_ball`, else none."""
         return self.free_balls.new_memory(n) if self.free_ball else {}
 
+    def start_episode(self, play: Play) -> None:
+        """Begin the time of stuck balls with the option `free_ball`."""
+        if self.free_ball:
+            self.free_balls.start_episode(play)
+
     def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
         """Choose states for worlds with a free ball."""
         return self.free_balls.restart(play) if self.free_ball else None
