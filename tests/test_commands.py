@@ -13,6 +13,7 @@ import rsoccer
 from rsoccer import cli, commands
 from rsoccer.policies import trained
 from rsoccer.replay import Replay, record_replay
+from rsoccer.train import task_settings
 from tests.policies.networks import network_for
 
 
@@ -192,6 +193,27 @@ def test_train_takes_options_of_the_task(monkeypatch: pytest.MonkeyPatch) -> Non
     assert received[0].final_action_std == 0.1
     assert cli.main(["train"]) == 0
     assert received[1].task_options == {}
+
+
+@pytest.mark.parametrize("words", [["--task", "VSS-v0"], ["--task=VSS-v0"]])
+def test_train_starts_from_the_recommended_settings(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    received: list[Any] = []
+    monkeypatch.setattr(commands, "train", received.append)
+    settings = {"gamma": 0.5, "hidden_sizes": (7, 7), "task_options": {"opponent": "chase"}}
+    monkeypatch.setattr(task_settings, "TASK_SETTINGS", {"VSS-v0": settings})
+    assert cli.main(["train", *words]) == 0
+    assert cli.main(["train", "--hidden-sizes", "9", *words]) == 0
+    assert cli.main(["train"]) == 0
+    first, second, third = received
+    assert (first.task, first.gamma, first.hidden_sizes) == ("VSS-v0", 0.5, (7, 7))
+    assert first.task_options == {"opponent": "chase"}
+    assert (second.gamma, second.hidden_sizes) == (0.5, (9,))
+    assert (third.task, third.gamma) == ("VSSSelfPlay-v0", 0.97)
+    with pytest.raises(SystemExit):
+        cli.main(["train", *words, "--help"])
+    assert "(default: 0.5)" in capsys.readouterr().out
 
 
 def test_train_refuses_an_option_without_a_value(capsys: pytest.CaptureFixture[str]) -> None:

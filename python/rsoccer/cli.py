@@ -54,13 +54,14 @@ def _run(arguments: Sequence[str] | None) -> None:
     """Parse the arguments and run the command."""
     import tyro
 
-    from rsoccer.commands import Command
+    from rsoccer.commands import command_type
 
+    words = sys.argv[1:] if arguments is None else arguments
     command = tyro.cli(
-        Command,
+        command_type(words),
         prog="rsoccer",
         description="Robot soccer for reinforcement learning.",
-        args=arguments,
+        args=words,
         config=(tyro.conf.FlagCreatePairsOff,),
     )
     command.run()

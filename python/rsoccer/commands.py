@@ -6,8 +6,9 @@ import ast
 import json
 import math
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -377,13 +378,32 @@ class Play:
         return ("YOU", rival) if team_of(robot) == "blue" else (rival, "YOU")
 
 
-Command = (
-    Annotated[List, subcommand("list")]
-    | Annotated[Train, subcommand("train")]
-    | Annotated[Evaluate, subcommand("evaluate")]
-    | Annotated[Watch, subcommand("watch")]
-    | Annotated[Play, subcommand("play")]
-)
+def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
+    """Return the union of the commands, as tyro takes it.
+
+    Args:
+        words: the words after `rsoccer`. Options of `train` that they do not give have the
+            recommended values for the task that they name.
+    """
+    default = Train.for_task(_last_value(words, "--task") or Train.task)
+    return (
+        Annotated[List, subcommand("list")]
+        | Annotated[Train, subcommand("train", default=default)]
+        | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[Watch, subcommand("watch")]
+        | Annotated[Play, subcommand("play")]
+    )
+
+
+def _last_value(words: Sequence[str], option: str) -> str | None:
+    """Value of an option, given as two words or with "="; of its last use, as in parsers."""
+    value = None
+    for word, following in pairwise([*words, ""]):
+        if word == option:
+            value = following
+        elif word.startswith(f"{option}="):
+            value = word.partition("=")[2]
+    return value
 
 
 def _policy_and_task(subject: str | None, policy: str | None, task: str | None) -> tuple[str, Task]:

@@ -90,7 +90,7 @@ GROUPS: Final = (
             "rsoccer.policies.trained",
         ),
     ),
-    Group("Training", ("rsoccer.train", "rsoccer.train.args")),
+    Group("Training", ("rsoccer.train", "rsoccer.train.args", "rsoccer.train.task_settings")),
     Group(
         "Evaluation",
         ("rsoccer.evaluate", "rsoccer.evaluate.results", "rsoccer.evaluate.tables"),

@@ -1,6 +1,6 @@
 """Training with PPO, by self-play where both teams learn; needs torch.
 
-`Args` holds the settings of a run, `train` runs it.
+`Args` holds the settings of a run, `Args.for_task` the recommended ones, `train` runs it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ def train(args: Args) -> Path:
     """Train a policy with PPO and save it.
 
     Example:
-        >>> path = train(Args(samples=1_000_000, out=Path("out/mine")))  # doctest: +SKIP
+        >>> path = train(Args.for_task("VSS-v0", out=Path("out/mine")))  # doctest: +SKIP
 
     Args:
         args: settings of the run.

@@ -11,10 +11,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from rsoccer.registry import make_task
 from rsoccer.task import Task
+from rsoccer.train.task_settings import recommended_settings
 
 SETTINGS_FILE = "args.json"
 """File in a run's folder with its settings, written when the run starts and when it resumes."""
@@ -186,6 +187,25 @@ class Args:
             )
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
+
+    @classmethod
+    def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)
+        """Return the recommended settings for a task, with changes.
+
+        Args:
+            task: a registered name or an alias.
+            **changes: values by field; others have the values of `rsoccer.train.task_settings`, or
+                their defaults.
+
+        Raises:
+            TypeError: a field that does not exist.
+            ValueError: a value that the settings refuse.
+
+        Example:
+            >>> Args.for_task("VSS-v0", samples=1_000_000).samples
+            1000000
+        """
+        return cls(**{"task": task, **recommended_settings(task), **changes})
 
     def make_task(self) -> Task:
         """Return a new task with its options.

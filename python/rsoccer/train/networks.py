@@ -88,7 +88,7 @@ class ActorCritic(nn.Module):
         Raises:
             ValueError: another number of components.
         """
-        bias = self.actor[-1].bias
+        *_, bias = self.actor.parameters()
         if len(action) != len(bias):
             raise ValueError(
                 f"initial_action must have {len(bias)} numbers, one per component of the action, "
