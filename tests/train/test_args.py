@@ -74,6 +74,15 @@ def test_differences_are_the_fields_that_change_the_run() -> None:
     ]
 
 
+def test_a_saved_run_may_lack_settings_that_are_newer() -> None:
+    saved = Args(seed=1).to_json()
+    del saved["final_action_std"], saved["task_options"]
+    assert Args(seed=1).differences(saved) == []
+    assert Args(seed=1, final_action_std=0.1).differences(saved) == [
+        "final_action_std was None, now 0.1"
+    ]
+
+
 def test_the_task_is_created_with_its_options() -> None:
     task = Args("VSS-v0", task_options={"n_blue": 2, "opponent": "chase"}).make_task()
     assert task.n_blue == 2

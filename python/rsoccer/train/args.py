@@ -232,13 +232,15 @@ class Args:
         """Return the settings that differ from a saved run's and would change its updates.
 
         Args:
-            saved: settings of the saved run, from `to_json`.
+            saved: settings of the saved run, from `to_json`. Settings that it lacks are newer than
+                the run, and count with their defaults.
 
         Returns:
             One text per field, such as "gamma was 0.97, now 0.9"; empty if the run may resume.
             Fields in `CHANGEABLE_ON_RESUME` are ignored.
         """
         current = self.to_json()
+        saved = {**type(self)().to_json(), **saved}
         names = [name for name in {**current, **saved} if name not in CHANGEABLE_ON_RESUME]
         return [
             f"{name} was {saved.get(name)!r}, now {current.get(name)!r}"
