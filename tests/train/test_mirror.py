@@ -9,7 +9,7 @@ import torch
 
 from rsoccer import make_task
 from rsoccer.reflection import Reflection
-from rsoccer.train import train
+from rsoccer.train import mirror, train
 from rsoccer.train.log import Row
 from rsoccer.train.mirror import with_reflections
 from rsoccer.train.rollout import Batch
@@ -34,7 +34,10 @@ def test_statistics_are_those_of_the_rows_and_their_reflections() -> None:
     assert np.array_equal(std[reflection.order], std)
 
 
-def test_a_batch_holds_each_sample_and_its_reflection(tmp_path: Path) -> None:
+def test_a_batch_holds_each_sample_and_its_reflection(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mirror, "MIN_DENSITY_RATIO", 1e-30)
     trainer = Trainer(tiny(tmp_path, **SYMMETRIC))
     trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
     batch = trainer.collect_rollout(lambda: None)
@@ -58,9 +61,20 @@ def test_a_batch_holds_each_sample_and_its_reflection(tmp_path: Path) -> None:
     torch.testing.assert_close(log_probs, both.log_probs)
 
 
+def test_reflected_actions_that_the_policy_would_hardly_draw_are_left_out(tmp_path: Path) -> None:
+    """Formerly training diverged: the density of such an action changes by orders of magnitude."""
+    trainer = Trainer(tiny(tmp_path, initial_action=(0.9, -0.9), **SYMMETRIC))
+    batch = trainer.collect_rollout(lambda: None)
+    both = with_reflections(batch, trainer.task, trainer.model)
+    assert len(batch) < len(both) < 1.2 * len(batch)
+    reflected = both.log_probs[len(batch) :]
+    assert reflected.min() > batch.log_probs.min() + np.log(0.5)
+
+
 def test_an_update_starts_at_a_ratio_of_1_and_sees_twice_the_samples(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(mirror, "MIN_DENSITY_RATIO", 1e-30)
     args = tiny(tmp_path, n_epochs=1, n_minibatches=1, **SYMMETRIC)
     trainer = Trainer(args)
     batch = trainer.collect_rollout(lambda: None)

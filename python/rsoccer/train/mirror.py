@@ -4,9 +4,16 @@ Data augmentation as in MARLadona (ICRA 2025) and in Mittal et al., "Symmetry Co
 Learning Task Symmetric Robot Policies" (2024): a reflected sample has the advantage and the return
 of its original. Its log density is that of the policy before the update for the reflected
 observation, so an update starts at a probability ratio of 1 for every sample.
+
+A policy is not symmetric by itself. Reflected actions that it would hardly draw have gradients
+without bound, as PPO clips the ratio of a bad action from below only: training diverged. Such
+samples are left out.
 """
 
 from __future__ import annotations
+
+import math
+from typing import Final
 
 import torch
 from torch import Tensor
@@ -16,6 +23,9 @@ from rsoccer.reflection import Reflection
 from rsoccer.task import Task
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.rollout import Batch
+
+MIN_DENSITY_RATIO: Final = 0.5
+"""Least density of a reflected action under the policy, relative to that of the original."""
 
 
 def check_symmetric(task: Task) -> None:
@@ -35,7 +45,9 @@ def check_symmetric(task: Task) -> None:
 
 @torch.no_grad()
 def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
-    """Return a batch of twice the size: the samples, then the same samples reflected.
+    """Return a batch of up to twice the size: the samples, then those that can be reflected.
+
+    Reflected actions below `MIN_DENSITY_RATIO` are left out.
 
     Args:
         batch: samples of one rollout. Their observations are normalised by statistics that the
@@ -52,7 +64,8 @@ def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
         states = batch.central_inputs[:, : -task.observation_size]
         reflection = StateEncoder(task.config).reflection
         reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
-    others = reflected.parts()
+    likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)
+    others = reflected.select(likely.nonzero().squeeze(-1)).parts()
     return Batch(**{name: torch.cat([part, others[name]]) for name, part in batch.parts().items()})
 
 
