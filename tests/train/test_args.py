@@ -12,6 +12,7 @@ from rsoccer.train.args import Args
 
 INVALID: list[tuple[str, Any]] = [
     ("samples", 0),
+    ("device", "gpu"),
     ("worlds", 0),
     ("threads", 0),
     ("horizon", 0),

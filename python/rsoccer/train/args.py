@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Literal, Self, get_args
 
 from rsoccer.registry import make_task
 from rsoccer.task import Task
@@ -20,8 +20,12 @@ from rsoccer.train.task_settings import recommended_settings
 SETTINGS_FILE = "args.json"
 """File in a run's folder with its settings, written when the run starts and when it resumes."""
 
+Device = Literal["auto", "cpu", "cuda"]
+"""Names of devices."""
+
 CHANGEABLE_ON_RESUME = (
     "out",
+    "device",
     "resume",
     "overwrite",
     "samples",
@@ -29,9 +33,9 @@ CHANGEABLE_ON_RESUME = (
     "progress",
     "match_page",
 )
-"""Fields that may change when a run resumes. Of these only `samples` affects the updates: the
-learning rate, and the spread of actions if it has a final value, change towards the end that it
-sets."""
+"""Fields that may change when a run resumes. Two of them affect the updates: the learning rate, and
+the spread of actions if it has a final value, change towards the end that `samples` sets, and each
+`device` rounds in its own way."""
 
 
 # The docstrings of the fields are the help of `rsoccer train`, which keeps their line breaks.
@@ -59,6 +63,9 @@ class Args:
     """threads of the simulator, at least 1"""
     torch_threads: int = 1
     """threads of torch, at least 1; more help wide networks only, in small ones threads wait"""
+    device: Device = "cpu"
+    """where the networks learn: cpu, cuda (a GPU), or auto (a GPU if there is one).
+    Physics and acting are always on the CPU"""
     resume: bool = False
     """continue the run in `out` from its last checkpoint"""
     overwrite: bool = False
@@ -169,6 +176,8 @@ class Args:
         _expect(self, "final_action_std", valid, "None, or finite and above 0")
         valid = all(-1 <= number <= 1 for number in self.initial_action)
         _expect(self, "initial_action", valid, "numbers from -1 to 1")
+        devices = get_args(Device)
+        _expect(self, "device", self.device in devices, f"one of {', '.join(devices)}")
         self._check_hidden_sizes()
         self._check_combinations()
 

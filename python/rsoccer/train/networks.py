@@ -16,6 +16,7 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task
 from rsoccer.train.args import Args
+from rsoccer.train.perceptron import Perceptron
 
 OBSERVATION_CLIP = 10.0
 """Bound of a normalised observation, in standard deviations."""
@@ -121,8 +122,24 @@ class ActorCritic(nn.Module):
             mean: (..., action) mean actions from `actor`.
             actions: (..., action) drawn actions.
         """
-        offset = (actions - mean) * (-self.log_std).exp()
-        constant = mean.shape[-1] * 0.5 * math.log(2 * math.pi)
+        return self.log_density(self.standardise(mean, actions))
+
+    def standardise(self, mean: Tensor, actions: Tensor) -> Tensor:
+        """Return actions in standard deviations from their mean, (..., action).
+
+        Args:
+            mean: (..., action) mean actions from `actor`.
+            actions: (..., action) drawn actions.
+        """
+        return (actions - mean) * (-self.log_std).exp()
+
+    def log_density(self, offset: Tensor) -> Tensor:
+        """Return the log density of Gaussian actions, summed over their components, (...).
+
+        Args:
+            offset: (..., action) actions from `standardise`.
+        """
+        constant = offset.shape[-1] * 0.5 * math.log(2 * math.pi)
         return -0.5 * offset.square().sum(-1) - self.log_std.sum() - constant
 
     def entropy(self) -> Tensor:
@@ -159,7 +176,7 @@ class ActorCritic(nn.Module):
         return Network(arrays, metadata)
 
 
-def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> nn.Sequential:
+def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> Perceptron:
     """Linear layers of the given sizes with tanh between them."""
     layers: list[nn.Module] = []
     for index, (in_features, out_features) in enumerate(itertools.pairwise(sizes)):
@@ -168,7 +185,7 @@ def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> nn.S
         nn.init.orthogonal_(layer.weight, last_gain if last else 2**0.5, generator=generator)
         nn.init.zeros_(layer.bias)
         layers += [layer] if last else [layer, nn.Tanh()]
-    return nn.Sequential(*layers)
+    return Perceptron(*layers)
 
 
 def _empty_linear(in_features: int, out_features: int) -> nn.Linear:

@@ -5,7 +5,7 @@ The collector uses a task through `Matches` and `Outcome` only.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -120,11 +120,33 @@ class Batch:
         Args:
             indices: (k,) indices of the samples.
         """
-        return Batch(**{name: part[indices] for name, part in self.parts().items()})
+        return self._map(lambda part: part.index_select(0, indices))
+
+    def to(self, device: torch.device) -> Batch:
+        """Return the samples on a device, without copying if they are there.
+
+        Args:
+            device: device of the tensors.
+        """
+        return self._map(lambda part: part.to(device))
+
+    def chunk(self, n: int) -> Iterator[Batch]:
+        """Return n consecutive parts of about equal size, without copying.
+
+        Args:
+            n: number of parts.
+        """
+        names, parts = zip(*self.parts().items(), strict=True)
+        for chunk in zip(*(part.chunk(n) for part in parts), strict=True):
+            yield Batch(**dict(zip(names, chunk, strict=True)))
 
     def parts(self) -> dict[str, Tensor]:
         """Return the tensors by name, without those that are None."""
         return {name: part for name, part in vars(self).items() if part is not None}
+
+    def _map(self, function: Callable[[Tensor], Tensor]) -> Batch:
+        """The batch with a function applied to each tensor."""
+        return Batch(**{name: function(part) for name, part in self.parts().items()})
 
 
 class RolloutCollector:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import torch
-from torch import Tensor
 
-from rsoccer.arrays import Array
-from rsoccer.train.checkpoint import Arrays, Checkpoint, add_prefix, select_prefix
+from rsoccer.train.checkpoint import Checkpoint, add_prefix, select_prefix
 
 if TYPE_CHECKING:
     from rsoccer.train.trainer import Trainer
@@ -34,7 +32,7 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
     arrays = {
         **add_prefix("run", run),
         **add_prefix("model", model),
-        **add_prefix("adam", _capture_optimiser(trainer.ppo.optimiser)),
+        **add_prefix("adam", trainer.ppo.optimiser.state_dict()),
         **add_prefix("obs_rms", collector.obs_rms.state_dict()),
         **add_prefix("state_rms", central),
         **add_prefix("return_rms", collector.return_rms.state_dict()),
@@ -76,7 +74,7 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     collector = trainer.collector
     model = {name: torch.tensor(part) for name, part in select_prefix("model", arrays).items()}
     trainer.model.load_state_dict(model)
-    _restore_optimiser(trainer.ppo.optimiser, select_prefix("adam", arrays))
+    trainer.ppo.optimiser.load_state_dict(select_prefix("adam", arrays))
     collector.obs_rms.load_state_dict(select_prefix("obs_rms", arrays))
     collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
     collector.matches.load_state_dict(select_prefix("worlds", arrays))
@@ -92,22 +90,3 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     if trainer.pool is not None:
         trainer.pool.latest = trainer.network()
         trainer.pool.load_state_dict(select_prefix("pool", arrays), trainer.pool.latest.metadata)
-
-
-def _capture_optimiser(optimiser: torch.optim.Optimizer) -> Arrays:
-    """Adam's moments and steps of each parameter by `<parameter>.<name>`."""
-    return {
-        f"{index}.{name}": part.numpy().copy()
-        for index, parts in optimiser.state_dict()["state"].items()
-        for name, part in parts.items()
-    }
-
-
-def _restore_optimiser(optimiser: torch.optim.Optimizer, arrays: dict[str, Array]) -> None:
-    """Restore what `_capture_optimiser` returned."""
-    state: dict[int, dict[str, Tensor]] = {}
-    for name, array in arrays.items():
-        index, key = name.split(".", 1)
-        state.setdefault(int(index), {})[key] = torch.tensor(array)
-    groups = optimiser.state_dict()["param_groups"]
-    optimiser.load_state_dict({"state": state, "param_groups": groups})
