@@ -46,15 +46,16 @@ def example(task: str, worlds: int, threads: int) -> Measure:
     import torch
 
     matches = rsoccer.Matches(task, worlds, 0, threads, autoreset="disabled")
-    ppo: Any = runpy.run_path(str(EXAMPLE))["PPO"](matches, central=False)
+    script: Any = runpy.run_path(str(EXAMPLE))
+    updates = script["train"](matches, updates=10**9, central=False)
+    size = script["HORIZON"] * worlds * len(matches.agents)
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(1)
         decisions, start, elapsed = 0, time.perf_counter(), 0.0
         while not elapsed or elapsed < seconds:
-            samples = ppo.collect()
-            ppo.learn(samples)
-            decisions += len(samples[0])
+            next(updates)
+            decisions += size
             elapsed = time.perf_counter() - start
         return {DECISIONS: decisions / elapsed}
 
