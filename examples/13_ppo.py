@@ -8,6 +8,7 @@ import argparse
 import time
 from collections import deque
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import torch
@@ -21,17 +22,18 @@ HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 6, 4  # a decision is held for REP
 GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL, RATE = 0.91, 0.9, 0.2, 0.002, 0.02, 2e-3
 
 
-def network(inputs: int, outputs: int) -> nn.Sequential:
-    """Return a perceptron with two hidden layers."""
-    hidden = (nn.Linear(inputs, 64), nn.Tanh(), nn.Linear(64, 64), nn.Tanh())
-    return nn.Sequential(*hidden, nn.Linear(64, outputs))
+def network(inputs: int, outputs: int, gain: float) -> nn.Sequential:
+    """Return a perceptron with two hidden layers; `gain` scales the weights of its last one."""
+    first, second, last = nn.Linear(inputs, 64), nn.Linear(64, 64), nn.Linear(64, outputs)
+    last.weight.data *= gain
+    return nn.Sequential(first, nn.Tanh(), second, nn.Tanh(), last)
 
 
 def train(matches: Matches, updates: int, central: bool) -> Iterator[tuple[Network, float]]:  # noqa: C901
     """Learn; after each update yield the policy and the mean score of the last 200 matches."""
     o, k, scores = matches.observation_size, len(matches.agents), deque([0.0], maxlen=200)
-    actor, critic = network(o, matches.action_size), network(o + central * matches.state_size, 1)
-    actor[-1].weight.data *= 0.01  # the first actions are noise around zero
+    actor = network(o, matches.action_size, gain=0.01)  # the first actions are noise around zero
+    critic = network(o + central * matches.state_size, 1, gain=1.0)
     log_std = nn.Parameter(torch.full((matches.action_size,), -0.5))
     parameters = [*actor.parameters(), *critic.parameters(), log_std]
     optimiser = torch.optim.Adam(parameters, RATE, eps=1e-5, foreach=True)
@@ -40,7 +42,7 @@ def train(matches: Matches, updates: int, central: bool) -> Iterator[tuple[Netwo
         states = matches.states()[:, None].repeat(k, axis=1)
         return np.concatenate([observations, states], -1) if central else observations
 
-    def policy(given: Tensor) -> Normal:
+    def policy(given: Tensor) -> Any:  # noqa: ANN401  (a Normal: its methods have no types)
         return Normal(actor(given[..., :o]), log_std.exp(), validate_args=False)
 
     observations = matches.reset()  # (worlds, k, o)
@@ -48,19 +50,19 @@ def train(matches: Matches, updates: int, central: bool) -> Iterator[tuple[Netwo
         optimiser.param_groups[0]["lr"] = RATE * (1 - 0.9 * update / updates)
         decisions = []
         for _ in range(HORIZON):
-            given = inputs(observations)
+            seen = inputs(observations)
             with torch.no_grad():
-                actions = policy(torch.from_numpy(given)).sample().numpy()
-            rewards, terminated = np.zeros(actions.shape[:2], np.float32), matches.done
+                drawn = policy(torch.from_numpy(seen)).sample().numpy()
+            paid, terminated = np.zeros(drawn.shape[:2], np.float32), matches.done
             for _ in range(REPEAT):
-                outcome = matches.step(actions)
-                rewards += outcome.rewards
+                outcome = matches.step(drawn)
+                paid += outcome.rewards
                 terminated |= outcome.terminated
                 if outcome.episodes is not None:
                     scores.extend(outcome.episodes.metrics["goal_score"])
-            ended, after = matches.done, inputs(outcome.observations)
+            ended, following = matches.done, inputs(outcome.observations)
             observations = matches.reset(mask=ended)
-            decisions.append((given, actions, rewards, after, terminated[:, None], ended[:, None]))
+            decisions.append((seen, drawn, paid, following, terminated[:, None], ended[:, None]))
 
         parts = (torch.from_numpy(np.stack(part)) for part in zip(*decisions, strict=True))
         given, actions, rewards, after, terminal, end = parts
@@ -80,7 +82,7 @@ def train(matches: Matches, updates: int, central: bool) -> Iterator[tuple[Netwo
                 log_ratio = policy(x).log_prob(action).sum(-1) - old_log_prob
                 ratio = log_ratio.exp()
                 clipped = ratio.clamp(1 - CLIP, 1 + CLIP) * advantage
-                loss = -torch.minimum(ratio * advantage, clipped).mean()
+                loss: Any = -torch.minimum(ratio * advantage, clipped).mean()
                 loss += 0.5 * (critic(x)[:, 0] - target).square().mean() - ENTROPY * log_std.sum()
                 optimiser.zero_grad()
                 loss.backward()
