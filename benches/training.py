@@ -2,10 +2,8 @@
 
 import runpy
 import time
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
-from unittest import mock
 
 import rsoccer
 from benches.measuring import Measure, Quantity, Values
@@ -18,17 +16,20 @@ def training(task: str, engine: str, worlds: int, threads: int) -> Measure:
     """Measure updates in which all robots of a team learn, as in most of a run; at least one."""
     import torch
 
-    from rsoccer.registry import make_task
-    from rsoccer.train import trainer as module
     from rsoccer.train.args import Args
+    from rsoccer.train.trainer import Trainer
 
     # `Trainer.run` alone writes to the folder, so it stays empty here.
     args = Args(
-        task, Path("nowhere"), worlds=worlds, threads=threads, solo_fraction=0.0, progress=False
+        task,
+        Path("nowhere"),
+        task_options={"engine": engine},
+        worlds=worlds,
+        threads=threads,
+        solo_fraction=0.0,
+        progress=False,
     )
-    # The trainer takes a task by name; an alias with this option would stay registered.
-    with mock.patch.object(module, "make_task", partial(make_task, engine=engine)):
-        trainer = module.Trainer(args)
+    trainer = Trainer(args)
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(args.torch_threads)
