@@ -5,6 +5,7 @@ CARGO ?= cargo
 
 VENV := .venv
 LIBRARIES := .venv-libraries
+RECIPES := .venv-recipes
 BIN := $(VENV)/bin
 # --no-compile: modules are compiled when imported; most of torch and sympy never is.
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --no-compile --constraint constraints.txt
@@ -21,7 +22,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries format docs site physics golden soak agreement coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-recipes format docs site physics golden soak agreement coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -64,6 +65,11 @@ check-site: $(VENV)/site ## build the documentation site without the crates; war
 check-libraries: $(LIBRARIES)/made ## run the tests with other trainer libraries, in an environment of their own
 	$(LIBRARIES)/bin/python -m pytest tests/wrappers tests/test_page_code.py tests/test_docstrings.py
 
+check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/tianshou/made ## run the recipes for libraries that need other versions, each in an environment of its own
+	$(RECIPES)/benchmarl/bin/python -m pytest tests/wrappers/test_recipes.py -k benchmarl
+	$(RECIPES)/pufferlib/bin/python -m pytest tests/wrappers/test_recipes.py -k pufferlib
+	$(RECIPES)/tianshou/bin/python -m pytest tests/wrappers/test_recipes.py -k tianshou
+
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix
@@ -101,7 +107,7 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(BIN)/python -m benches.throughput
 
 clean: ## remove all outputs of make, installed Python packages included
-	rm -rf $(VENV) $(LIBRARIES) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(LIBRARIES) $(RECIPES) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	rm -f python/rsoccer/_core*.so
 
 # Stamp files mark completed steps, so that a second `make` skips them.
@@ -132,6 +138,17 @@ $(LIBRARIES)/made: pyproject.toml constraints.txt $(VENV)/built
 	@$(LIBRARIES)/bin/python tools/see_packages.py $(VENV)
 	$(BIN)/python -m pip --python $(LIBRARIES)/bin/python install --disable-pip-version-check --no-compile \
 		--quiet --constraint constraints.txt --group wrappers
+	@touch $@
+
+# Without constraints.txt: they replace some of its versions. PufferLib asks for older ones than this package.
+RECIPE_benchmarl := benchmarl==1.5.2
+RECIPE_pufferlib := --no-deps pufferlib==2.0.2
+RECIPE_tianshou := tianshou==2.0.1
+
+$(RECIPES)/%/made: $(VENV)/built
+	$(BIN)/python -m venv --clear --without-pip $(@D)
+	@$(@D)/bin/python tools/see_packages.py $(VENV)
+	$(BIN)/python -m pip --python $(@D)/bin/python install --disable-pip-version-check --no-compile --quiet $(RECIPE_$*)
 	@touch $@
 
 $(VENV)/site: $(VENV)/built

@@ -2,10 +2,8 @@
 
 import runpy
 import time
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
-from unittest import mock
 
 import rsoccer
 from benches.measuring import Measure, Quantity, Values
@@ -18,17 +16,20 @@ def training(task: str, engine: str, worlds: int, threads: int) -> Measure:
     """Measure updates in which all robots of a team learn, as in most of a run; at least one."""
     import torch
 
-    from rsoccer.registry import make_task
-    from rsoccer.train import trainer as module
     from rsoccer.train.args import Args
+    from rsoccer.train.trainer import Trainer
 
     # `Trainer.run` alone writes to the folder, so it stays empty here.
     args = Args(
-        task, Path("nowhere"), worlds=worlds, threads=threads, solo_fraction=0.0, progress=False
+        task,
+        Path("nowhere"),
+        task_options={"engine": engine},
+        worlds=worlds,
+        threads=threads,
+        solo_fraction=0.0,
+        progress=False,
     )
-    # The trainer takes a task by name; an alias with this option would stay registered.
-    with mock.patch.object(module, "make_task", partial(make_task, engine=engine)):
-        trainer = module.Trainer(args)
+    trainer = Trainer(args)
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(args.torch_threads)
@@ -46,15 +47,16 @@ def example(task: str, worlds: int, threads: int) -> Measure:
     import torch
 
     matches = rsoccer.Matches(task, worlds, 0, threads, autoreset="disabled")
-    ppo: Any = runpy.run_path(str(EXAMPLE))["PPO"](matches, central=False)
+    script: Any = runpy.run_path(str(EXAMPLE))
+    updates = script["train"](matches, updates=10**9, central=False)
+    size = script["HORIZON"] * worlds * len(matches.agents)
 
     def measure(seconds: float) -> Values:
         torch.set_num_threads(1)
         decisions, start, elapsed = 0, time.perf_counter(), 0.0
         while not elapsed or elapsed < seconds:
-            samples = ppo.collect()
-            ppo.learn(samples)
-            decisions += len(samples[0])
+            next(updates)
+            decisions += size
             elapsed = time.perf_counter() - start
         return {DECISIONS: decisions / elapsed}
 

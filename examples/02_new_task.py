@@ -74,7 +74,7 @@ def main(samples: int = 150_000) -> None:
     from rsoccer.train import Args, train  # needs torch; the task does not
 
     out = Path("out/reach")
-    policy = train(Args("Reach-v0", out, samples, threads=1, worlds=128, overwrite=True))
+    policy = train(Args("Reach-v0", out, samples=samples, threads=1, worlds=128, overwrite=True))
     before, after = share_reached(str(out / "untrained.safetensors")), share_reached(str(policy))
     print(f"reaches the ball in {before:.0%} of matches untrained, in {after:.0%} trained")
 

@@ -1,136 +1,119 @@
-"""PPO in one file on `Matches`, in the manner of CleanRL; `--central` adds a central critic."""
+"""PPO in one file, in the manner of CleanRL; `--central` gives the critic the whole match.
+
+One policy learns for all robots that learn, and is written to a policy file. A match that ends
+waits for the end of the decision, so the observations after it are the last ones of its episode.
+"""
 
 import argparse
 import time
-from itertools import pairwise
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import torch
 from torch import Tensor, nn
+from torch.distributions import Normal
 
 from rsoccer import Matches
+from rsoccer.policies.network import Network
 
 HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 6, 4  # a decision is held for REPEAT steps
-GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL = 0.91, 0.9, 0.2, 0.002, 0.03
+GAMMA, LAMBDA, CLIP, ENTROPY, TARGET_KL, RATE = 0.91, 0.9, 0.2, 0.002, 0.02, 2e-3
 
 
-def network(*sizes: int, gain: float) -> nn.Sequential:
-    """Return linear layers with tanh between them; `gain` scales the last one."""
-    layers: list[nn.Module] = []
-    for inputs, outputs in pairwise(sizes):
-        layer = nn.Linear(inputs, outputs)
-        nn.init.orthogonal_(layer.weight, gain if outputs == sizes[-1] else 2**0.5)
-        layers += [layer, nn.Tanh()]
-    return nn.Sequential(*layers[:-1])
+def network(inputs: int, outputs: int, gain: float) -> nn.Sequential:
+    """Return a perceptron with two hidden layers; `gain` scales the weights of its last one."""
+    first, second, last = nn.Linear(inputs, 64), nn.Linear(64, 64), nn.Linear(64, outputs)
+    last.weight.data *= gain
+    return nn.Sequential(first, nn.Tanh(), second, nn.Tanh(), last)
 
 
-class PPO:
-    """One policy for all robots that learn."""
+def train(matches: Matches, updates: int, central: bool) -> Iterator[tuple[Network, float]]:  # noqa: C901
+    """Learn; after each update yield the policy and the mean score of the last 200 matches."""
+    o, k, scores = matches.observation_size, len(matches.agents), deque([0.0], maxlen=200)
+    actor = network(o, matches.action_size, gain=0.01)  # the first actions are noise around zero
+    critic = network(o + central * matches.state_size, 1, gain=1.0)
+    log_std = nn.Parameter(torch.full((matches.action_size,), -0.5))
+    parameters = [*actor.parameters(), *critic.parameters(), log_std]
+    optimiser = torch.optim.Adam(parameters, RATE, eps=1e-5, foreach=True)
 
-    def __init__(self, matches: Matches, central: bool) -> None:
-        """Begin the matches, which have no automatic resets."""
-        self.matches, self.central, self.scores = matches, central, list[float]()
-        self.observations, size = matches.reset(), matches.observation_size
-        self.actor = network(size, 64, 64, matches.action_size, gain=0.01)
-        self.critic = network(size + central * matches.state_size, 64, 64, 1, gain=1.0)
-        self.log_std = nn.Parameter(torch.full((matches.action_size,), -0.5))
-        self.parameters = [*self.actor.parameters(), *self.critic.parameters(), self.log_std]
-        self.optimiser = torch.optim.Adam(self.parameters, 1e-3, eps=1e-5, foreach=True)
+    def inputs(observations: np.ndarray) -> np.ndarray:  # of the critic; the actor sees the first o
+        states = matches.states()[:, None].repeat(k, axis=1)
+        return np.concatenate([observations, states], -1) if central else observations
 
-    def log_prob(self, means: Tensor, actions: Tensor) -> Tensor:
-        """Return the log density of the actions, without its constant."""
-        return (-0.5 * ((actions - means) / self.log_std.exp()) ** 2 - self.log_std).sum(-1)
+    def policy(given: Tensor) -> Any:  # noqa: ANN401  (a Normal: its methods have no types)
+        return Normal(actor(given[..., :o]), log_std.exp(), validate_args=False)
 
-    def inputs(self) -> Tensor:
-        """Return inputs of the critic: observations and, if it is central, the whole match."""
-        if not self.central:
-            return torch.tensor(self.observations)
-        states = np.repeat(self.matches.states()[:, None], len(self.matches.agents), axis=1)
-        return torch.tensor(np.concatenate([self.observations, states], axis=-1))
+    observations = matches.reset()  # (worlds, k, o)
+    for update in range(updates):
+        optimiser.param_groups[0]["lr"] = RATE * (1 - 0.9 * update / updates)
+        decisions = []
+        for _ in range(HORIZON):
+            seen = inputs(observations)
+            with torch.no_grad():
+                drawn = policy(torch.from_numpy(seen)).sample().numpy()
+            paid, terminated = np.zeros(drawn.shape[:2], np.float32), matches.done
+            for _ in range(REPEAT):
+                outcome = matches.step(drawn)
+                paid += outcome.rewards
+                terminated |= outcome.terminated
+                if outcome.episodes is not None:
+                    scores.extend(outcome.episodes.metrics["goal_score"])
+            ended, following = matches.done, inputs(outcome.observations)
+            observations = matches.reset(mask=ended)
+            decisions.append((seen, drawn, paid, following, terminated[:, None], ended[:, None]))
 
-    def decide(self) -> tuple[Tensor, ...]:
-        """Hold actions for some steps. A match that ends waits, and then begins anew."""
-        inputs = self.inputs()
-        means = self.actor(inputs[..., : self.matches.observation_size])
-        actions = means + self.log_std.exp() * torch.randn(means.shape)
-        rewards, terminated = np.zeros(means.shape[:2], np.float32), self.matches.done
-        for _ in range(REPEAT):
-            outcome = self.matches.step(actions.numpy())
-            rewards += outcome.rewards
-            terminated |= outcome.terminated
-            if outcome.episodes is not None:
-                self.scores += outcome.episodes.metrics["goal_score"].tolist()
-        self.observations, ended = outcome.observations, self.matches.done
-        next_inputs = self.inputs()  # where an episode ended its last ones
-        if ended.any():
-            self.observations = self.matches.reset(mask=ended)
-        ends = [torch.tensor(each)[:, None].expand(means.shape[:2]) for each in (terminated, ended)]
-        log_probs = self.log_prob(means, actions)
-        return inputs, actions, log_probs, torch.tensor(rewards), next_inputs, *ends
-
-    @torch.no_grad()
-    def collect(self) -> list[Tensor]:
-        """Play; return inputs, actions, log densities, advantages and returns of all samples."""
-        decisions = [self.decide() for _ in range(HORIZON)]
-        inputs, actions, log_probs, rewards, next_inputs, terminated, ended = (
-            torch.stack(parts) for parts in zip(*decisions, strict=True)
-        )
-        values, next_values = self.critic(inputs)[..., 0], self.critic(next_inputs)[..., 0]
-        errors = rewards + GAMMA * next_values * ~terminated - values  # the limit is bootstrapped
+        parts = (torch.from_numpy(np.stack(part)) for part in zip(*decisions, strict=True))
+        given, actions, rewards, after, terminal, end = parts
+        with torch.no_grad():  # generalised advantages; the value at a time limit is bootstrapped
+            values, log_probs = critic(given)[..., 0], policy(given).log_prob(actions).sum(-1)
+            errors = rewards + GAMMA * critic(after)[..., 0] * ~terminal - values
         advantages, last = torch.zeros_like(errors), torch.zeros_like(errors[0])
         for t in reversed(range(HORIZON)):
-            last = advantages[t] = errors[t] + GAMMA * LAMBDA * ~ended[t] * last
-        parts = (inputs, actions, log_probs, advantages, advantages + values)
-        return [part.flatten(0, 2) for part in parts]
+            last = advantages[t] = errors[t] + GAMMA * LAMBDA * ~end[t] * last
+        samples = (given, actions, log_probs, advantages, advantages + values)
+        batch = [part.flatten(0, 2) for part in samples]
 
-    def learn(self, samples: list[Tensor]) -> None:
-        """Update both networks, until the policy has changed enough."""
         for _ in range(EPOCHS):
-            order = torch.randperm(len(samples[0])).chunk(MINIBATCHES)
-            changes = [self.update([part[chosen] for part in samples]) for chosen in order]
-            if torch.stack(changes).mean() > TARGET_KL:
+            for rows in torch.randperm(len(batch[0])).chunk(MINIBATCHES):
+                x, action, old_log_prob, advantage, target = (part[rows] for part in batch)
+                advantage = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+                log_ratio = policy(x).log_prob(action).sum(-1) - old_log_prob
+                ratio = log_ratio.exp()
+                clipped = ratio.clamp(1 - CLIP, 1 + CLIP) * advantage
+                loss: Any = -torch.minimum(ratio * advantage, clipped).mean()
+                loss += 0.5 * (critic(x)[:, 0] - target).square().mean() - ENTROPY * log_std.sum()
+                optimiser.zero_grad()
+                loss.backward()
+                nn.utils.clip_grad_norm_(parameters, 0.5)
+                optimiser.step()
+            if (ratio - 1 - log_ratio).mean() > TARGET_KL:  # the policy has changed enough
                 break
-
-    def update(self, samples: list[Tensor]) -> Tensor:
-        """Update both networks on a minibatch; return the KL divergence from the old policy."""
-        inputs, actions, log_probs, advantages, returns = samples
-        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
-        means = self.actor(inputs[:, : self.matches.observation_size])
-        log_ratio = self.log_prob(means, actions) - log_probs
-        ratio = log_ratio.exp()
-        clipped = ratio.clamp(1 - CLIP, 1 + CLIP)
-        policy_loss = -torch.minimum(ratio * advantages, clipped * advantages).mean()
-        value_loss = (self.critic(inputs)[:, 0] - returns).square().mean()
-        self.optimiser.zero_grad()
-        (policy_loss + 0.5 * value_loss - ENTROPY * self.log_std.sum()).backward()
-        nn.utils.clip_grad_norm_(self.parameters, 0.5)
-        self.optimiser.step()
-        return (ratio - 1 - log_ratio).mean().detach()
+        weights = list(actor.state_dict().values())
+        layers, std = zip(weights[::2], weights[1::2], strict=True), log_std.detach().exp()
+        trained = Network.from_layers(matches.task, layers, std, action_repeat=REPEAT)
+        yield trained, float(np.mean(scores))
 
 
 def main() -> None:
-    """Train, and print the mean score of the last matches from time to time."""
+    """Train, print speed and score from time to time, and write the policy."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--task", default="VSS-v0")
-    parser.add_argument("--worlds", type=int, default=256)
-    parser.add_argument("--samples", type=int, default=1_000_000)
-    parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--central", action="store_true")
+    options = {"task": "VSS-v0", "worlds": 256, "samples": 1_500_000, "threads": 2}
+    for name, default in {**options, "out": "ppo.safetensors"}.items():
+        parser.add_argument(f"--{name}", type=type(default), default=default)
     args = parser.parse_args()
     torch.manual_seed(0)
     torch.set_num_threads(1)
     matches = Matches(args.task, args.worlds, 0, args.threads, autoreset="disabled")
-    ppo, start, size = PPO(matches, args.central), time.perf_counter(), 0
-    updates = -(-args.samples // (HORIZON * args.worlds * len(matches.agents)))
-    for update in range(1, updates + 1):
-        samples = ppo.collect()
-        ppo.learn(samples)
-        size += len(samples[0])
+    size, start = HORIZON * args.worlds * len(matches.agents), time.perf_counter()
+    updates = -(-args.samples // size)
+    for update, (policy, score) in enumerate(train(matches, updates, args.central), 1):
         if update % 50 == 0 or update == updates:
-            rate, score = size * REPEAT / (time.perf_counter() - start), "none"
-            if ppo.scores:
-                score = f"{np.mean(ppo.scores[-200:]):+.2f}"
-            print(f"{size:,} decisions, {rate:,.0f} agent-steps/s, goal score {score}", flush=True)
+            speed = update * size / (time.perf_counter() - start)
+            print(f"{update * size:,} decisions, {speed:,.0f} a second, goal score {score:+.2f}")
+            policy.save(args.out)
 
 
 if __name__ == "__main__":

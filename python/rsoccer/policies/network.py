@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.policies import policy_file
@@ -70,6 +71,67 @@ class Network(Policy):
                     f"metadata {name!r} should be {str(size)!r} as the layers are shaped, "
                     f"got {self.metadata.get(name)!r}"
                 )
+
+    @classmethod
+    def from_layers(
+        cls,
+        task: Task,
+        layers: Iterable[tuple[ArrayLike, ArrayLike]],
+        action_std: ArrayLike | None = None,
+        *,
+        action_repeat: int = 1,
+        mean: ArrayLike = 0.0,
+        std: ArrayLike = 1.0,
+        clip: float = 10.0,
+        task_name: str | None = None,
+        task_options: Mapping[str, Any] | None = None,
+    ) -> Self:
+        """Return a network of weights that another program has trained.
+
+        Args:
+            task: the task of the training, such as `Matches.task`.
+            layers: weight (out, in) and bias (out,) of each linear layer, from the observation
+                to the action. Between them is tanh.
+            action_std: (action,) standard deviation of the actions; None for a policy without
+                noise.
+            action_repeat: control steps for which an action is held, at least 1.
+            mean: (o,) or a number: subtracted from observations.
+            std: (o,) or a number above 0: observations are divided by it.
+            clip: bound of a normalised observation, above 0, standard deviations.
+            task_name: name of the task for `make_task`; None for the task's own.
+            task_options: options of the task for `make_task`, if it has any but the defaults.
+
+        Raises:
+            ValueError: weights or numbers that do not fit the policy file's format or the task.
+        """
+        parts = [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in layers]
+        if not parts:
+            raise ValueError("layers: expected one or more, got none")
+        inputs = parts[0][0].shape[-1:]
+        arrays: dict[str, Array] = {
+            name: np.broadcast_to(np.asarray(value, np.float32), inputs).copy()
+            for name, value in (("mean", mean), ("std", std))
+        }
+        for index, (weight, bias) in enumerate(parts):
+            arrays[f"layers.{index}.weight"] = weight
+            arrays[f"layers.{index}.bias"] = bias
+        if action_std is not None:
+            arrays["action_std"] = np.asarray(action_std, np.float32)
+        metadata = {
+            "format": policy_file.FORMAT,
+            "task": task.name if task_name is None else task_name,
+            "layout": task.layout,
+            "observation_size": str(arrays["mean"].size),
+            "action_size": str(parts[-1][1].size),
+            "activation": "tanh",
+            "clip": f"{clip:g}",
+            "action_repeat": str(action_repeat),
+        }
+        if task_options:
+            metadata["task_options"] = json.dumps(dict(task_options), sort_keys=True)
+        network = cls(arrays, metadata)
+        network.check_fits(task, task.observation_size)
+        return network
 
     @property
     def observation_size(self) -> int:

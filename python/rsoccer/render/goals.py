@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 TINT = 0.38
 """Share of the team's colour in the floor of a goal."""
+MAX_ROWS = 100
+"""Most meshes between the middle of a goal and a post: a shallow goal has no endless net."""
 
 
 def goal_shapes(field: Field, edge: float) -> tuple[Shape, ...]:
@@ -62,7 +64,7 @@ def _frame(field: Field, side: int, color: Color) -> tuple[Shape, ...]:
 def _net(field: Field, side: int, color: Color) -> tuple[Line, ...]:
     """Threads of the net: a square grid with four meshes along the depth."""
     mesh = field.goal_depth / 4
-    rows = math.floor(field.goal_width / 2 / mesh)
+    rows = math.floor(min(field.goal_width / 2 / mesh, MAX_ROWS))
     front, back = (side * (field.half_length + d) for d in (0.0, field.goal_depth))
     y = field.goal_width / 2
     along = [

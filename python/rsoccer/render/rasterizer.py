@@ -24,6 +24,10 @@ SUPERSAMPLING = 4
 """Sub-pixels along each axis of a pixel."""
 MAX_SUBPIXELS = 4_000_000
 """Largest number of sub-pixels of a layer, 4 bytes each: larger shapes are sampled less."""
+MAX_TEXT = 1000.0
+"""Largest height of a capital, pixels: larger ones are of robots that fill the image."""
+FAR = 1 << 20
+"""Pixels from the image's corner beyond which coordinates are cut off: pygame holds 32 bits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,26 +104,32 @@ class Rasterizer:
     ) -> None:
         """Fill an outline given in metres."""
         outline = self._camera.project(points)
-        blur_pixels = math.ceil(blur * self._camera.scale)
+        blur_pixels = math.ceil(_near(blur * self._camera.scale))
         area = _pixel_bounds(outline, 2 * blur_pixels).clip(canvas.get_rect().inflate(2, 2))
         if not area:  # outside the image
             return
         factor = _sampling(area)
         layer = pygame.Surface((area.width * factor, area.height * factor), pygame.SRCALPHA)
         corners = [((x - area.x) * factor, (y - area.y) * factor) for x, y in outline]
-        pygame.draw.polygon(layer, _premultiplied(color), corners)
-        _blend(canvas, layer, area, blur_pixels)
+        # pygame fills row by row, those outside of the layer too.
+        if any(max(abs(x), abs(y)) > FAR for x, y in corners):
+            corners = _clipped(corners, layer.get_size())
+        if corners:
+            pygame.draw.polygon(layer, _premultiplied(color), corners)
+            _blend(canvas, layer, area, blur_pixels)
 
     def _write(self, canvas: pygame.Surface, text: Text) -> None:
         """Write a text at a sub-pixel position, so that a number glides with its robot."""
         scale = self._camera.scale
         glyphs = self._text_layer(
-            text.text, text.color, text.height * scale, text.max_width * scale
+            text.text, text.color, min(text.height * scale, MAX_TEXT), text.max_width * scale
         )
         ((x, y),) = self._camera.project((text.center,))
         half_width, half_height = (side / 2 / SUPERSAMPLING for side in glyphs.get_size())
         corner = (x - 2 * text.align * half_width, y - half_height)
         area = _pixel_bounds((corner, (corner[0] + 2 * half_width, y + half_height)), 0)
+        if not area.colliderect(canvas.get_rect()):
+            return
         size = (area.width * SUPERSAMPLING, area.height * SUPERSAMPLING)
         layer = pygame.Surface(size, pygame.SRCALPHA)
         offset = [round((a - b) * SUPERSAMPLING) for a, b in zip(corner, area.topleft, strict=True)]
@@ -148,9 +158,39 @@ def _sampling(area: pygame.Rect) -> int:
 def _pixel_bounds(points: Iterable[Point], border: int) -> pygame.Rect:
     """The whole pixels that hold the points, with a border around them."""
     xs, ys = zip(*points, strict=True)
-    left, top = math.floor(min(xs)) - border, math.floor(min(ys)) - border
-    right, bottom = math.ceil(max(xs)) + border + 1, math.ceil(max(ys)) + border + 1
+    left, top = math.floor(_near(min(xs))) - border, math.floor(_near(min(ys))) - border
+    right, bottom = math.ceil(_near(max(xs))) + border + 1, math.ceil(_near(max(ys))) + border + 1
     return pygame.Rect(left, top, right - left, bottom - top)
+
+
+def _near(pixels: float) -> float:
+    """A coordinate that pygame can hold."""
+    return min(max(pixels, -FAR), FAR)
+
+
+def _clipped(corners: list[Point], size: tuple[int, int]) -> list[Point]:
+    """The part of a polygon within a layer and a border of 1, edge by edge of the layer.
+
+    After Sutherland and Hodgman (1974). At least three corners, or none.
+    """
+    for axis, side in enumerate(size):
+        for bound, sign in ((-1.0, 1.0), (side + 1.0, -1.0)):
+            kept = list[Point]()
+            for start, end in zip([*corners[-1:], *corners[:-1]], corners, strict=True):
+                inside = [sign * (point[axis] - bound) >= 0 for point in (start, end)]
+                if inside[0] != inside[1]:
+                    share = (bound - start[axis]) / (end[axis] - start[axis])
+                    kept.append(_between(start, end, share, axis, bound))
+                if inside[1]:
+                    kept.append(end)
+            corners = kept
+    return corners if len(corners) > 2 else []
+
+
+def _between(start: Point, end: Point, share: float, axis: int, bound: float) -> Point:
+    """The point at a share of a side; exactly on the bound along one axis."""
+    x, y = ((1.0 - share) * a + share * b for a, b in zip(start, end, strict=True))
+    return (bound, y) if axis == 0 else (x, bound)
 
 
 def _premultiplied(color: Color) -> Color:

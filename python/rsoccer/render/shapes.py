@@ -20,6 +20,8 @@ ARC_TOLERANCE = 1e-4
 """Largest distance between an arc and its chords, metres: below a pixel at any sensible size.
 
 Half the points take half the time."""
+MAX_CHORDS = 1000
+"""Most chords of an arc: enough for a circle with a radius of 20 m."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,10 +183,11 @@ def arc_points(center: Point, radius: float, start: float, end: float) -> tuple[
         end: last angle, radians; clockwise if below `start`.
 
     Returns:
-        At least three points; their chords are within `ARC_TOLERANCE` of the arc.
+        At least three points; their chords are within `ARC_TOLERANCE` of the arc, if `MAX_CHORDS`
+        suffice.
     """
     chord = 2 * math.acos(max(0.0, 1.0 - ARC_TOLERANCE / max(radius, ARC_TOLERANCE)))
-    steps = max(2, math.ceil(abs(end - start) / chord))
+    steps = max(2, math.ceil(min(abs(end - start) / max(chord, 1e-9), MAX_CHORDS)))
     angles = [start + (end - start) * i / steps for i in range(steps + 1)]
     x, y = center
     return tuple([(x + radius * math.cos(a), y + radius * math.sin(a)) for a in angles])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, Final, TypeVar
@@ -13,6 +14,10 @@ from rsoccer.replay.quantized import MAX_STEP
 from rsoccer.replay.replay import Episode
 
 ENDS: Final = ("terminated", "truncated", "")
+MIN_FIELD, MAX_FIELD = 0.1, 1000.0
+"""Smallest length and width of a field that can be drawn, and largest size in it, metres."""
+MIN_TIME_STEP: Final = 1e-4
+"""Shortest control step that can be played, seconds: a pause of a second is 10,000 images."""
 
 T = TypeVar("T")
 
@@ -41,12 +46,29 @@ def config(text: str) -> SimConfig:
         text: the JSON.
 
     Raises:
-        ReplayError: no JSON of a configuration.
+        ReplayError: no JSON of a configuration, or sizes that no image can show.
     """
     try:
-        return SimConfig.from_json(text)
+        config = SimConfig.from_json(text)
     except ValueError as error:
         raise ReplayError(f"config: {error}") from None
+    _check_drawable(config)
+    return config
+
+
+def _check_drawable(config: SimConfig) -> None:
+    """Refuse sizes for which an image would be endless, or too large for the memory."""
+    for name, size in json.loads(config.to_json())["field"].items():
+        low = MIN_FIELD if name in ("length", "width") else 0.0
+        if is_number(size) and not low <= size <= MAX_FIELD:
+            raise ReplayError(
+                f"config: expected a field {name} of {low:g} to {MAX_FIELD:g}, got {size:g}"
+            )
+    if config.time_step < MIN_TIME_STEP:
+        raise ReplayError(
+            f"config: expected a time_step of at least {MIN_TIME_STEP:g} s, "
+            f"got {config.time_step:g}"
+        )
 
 
 def steps(name: str, value: object) -> list[float]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
 from collections.abc import Sequence
 
@@ -11,9 +10,8 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Floats
 from rsoccer.policies.network import Network
-from rsoccer.policies.policy_file import FORMAT
 from rsoccer.task import Task
 from rsoccer.train.args import Args
 from rsoccer.train.perceptron import Perceptron
@@ -155,25 +153,18 @@ class ActorCritic(nn.Module):
             mean: (o,) mean of the observations.
             std: (o,) standard deviation of the observations.
         """
-        action_std = self.log_std.detach().exp().numpy().copy()
-        arrays: dict[str, Array] = {"mean": mean, "std": std, "action_std": action_std}
-        linear = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
-        for index, layer in enumerate(linear):
-            arrays[f"layers.{index}.weight"] = layer.weight.detach().numpy().copy()
-            arrays[f"layers.{index}.bias"] = layer.bias.detach().numpy().copy()
-        metadata = {
-            "format": FORMAT,
-            "task": args.task,
-            "layout": task.layout,
-            "observation_size": str(linear[0].in_features),
-            "action_size": str(linear[-1].out_features),
-            "activation": "tanh",
-            "clip": f"{OBSERVATION_CLIP:g}",
-            "action_repeat": str(args.action_repeat),
-        }
-        if args.task_options:
-            metadata["task_options"] = json.dumps(args.task_options, sort_keys=True)
-        return Network(arrays, metadata)
+        layers = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
+        return Network.from_layers(
+            task,
+            [(layer.weight.detach().numpy(), layer.bias.detach().numpy()) for layer in layers],
+            self.log_std.detach().exp().numpy(),
+            action_repeat=args.action_repeat,
+            mean=mean,
+            std=std,
+            clip=OBSERVATION_CLIP,
+            task_name=args.task,
+            task_options=args.task_options,
+        )
 
 
 def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> Perceptron:
