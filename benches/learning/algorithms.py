@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from benches.learning import ppo_run
-from benches.learning.experiments import PPO, Run
+from benches.learning import clones, ppo_run, sb3_run
+from benches.learning.experiments import CLONES, PPO, SB3, Run
 from benches.learning.learned import Learned
 from benches.learning.run_files import Folders
 
@@ -18,17 +19,30 @@ def settings(run: Run) -> dict[str, Any]:
         TypeError: The algorithm has no such setting.
         ValueError: A setting outside its range.
     """
-    return ppo_run.settings(run)
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.settings(run)
+    return clones.settings(run) if algorithm == CLONES else sb3_run.settings(run)
+
+
+def missing_library(run: Run) -> str:
+    """Return the name of a library that a run needs and that is not installed, or an empty text."""
+    names = {PPO: "torch", **dict.fromkeys(SB3, "stable_baselines3")}
+    name = names.get(run.experiment.algorithm)
+    return name if name and find_spec(name) is None else ""
 
 
 def defaults(run: Run) -> dict[str, Any]:
     """Return the defaults of settings that a result may lack, as it is older than the setting."""
-    return ppo_run.defaults()
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.defaults()
+    return {} if algorithm == CLONES else sb3_run.DEFAULTS
 
 
 def samples_so_far(run: Run, folder: Path) -> int | None:
     """Return the samples of an unfinished run that can continue; None for a new one."""
-    return ppo_run.samples_so_far(folder)
+    return ppo_run.samples_so_far(folder) if run.experiment.algorithm == PPO else None
 
 
 def learn(run: Run, folder: Path, folders: Folders) -> Learned:
@@ -38,6 +52,13 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         run: The run.
         folder: Folder for its files.
         folders: Folders of the study.
+
+    Returns:
+        The policy, and how it was learned.
     """
-    assert run.experiment.algorithm == PPO
-    return ppo_run.learn(run, folder)
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.learn(run, folder)
+    if algorithm == CLONES:
+        return clones.learn(run, folders)
+    return sb3_run.learn(run, folder, folders)

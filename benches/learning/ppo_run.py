@@ -9,11 +9,17 @@ from typing import Any, Final
 
 from benches.learning.experiments import Run
 from benches.learning.learned import Learned, curve, restart_clock, timed
+from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
 
 NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
+SELF_PLAY_ONLY: Final = (
+    *("latest_fraction", "past_fraction", "ou_fraction", "pool_size", "pool_interval"),
+    "pfsp_power",
+)
+"""Settings without effect where one team learns."""
 
 
 def args(run: Run, folder: Path = Path("out")) -> Args:
@@ -38,7 +44,13 @@ def args(run: Run, folder: Path = Path("out")) -> Args:
 def settings(run: Run) -> dict[str, Any]:
     """Return all settings that decide the result, as JSON values."""
     values = args(run).to_json()
-    return {name: value for name, value in values.items() if name not in NOT_COMPARED}
+    agents = make_task(run.experiment.task).agents
+    ignored = [*NOT_COMPARED]
+    if len({team_of(name) for name in agents}) == 1:
+        ignored += SELF_PLAY_ONLY
+    if len(agents) == 1:
+        ignored.append("solo_fraction")
+    return {name: value for name, value in values.items() if name not in ignored}
 
 
 def defaults() -> dict[str, Any]:

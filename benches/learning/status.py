@@ -51,6 +51,9 @@ def status(run: Run, study: Study, folders: Folders) -> Status:
         settings = algorithms.settings(run)
     except (TypeError, ValueError, ImportError) as error:
         return Status(run, UNAVAILABLE, str(error), run_files.load(folders, run.key))
+    missing = algorithms.missing_library(run)
+    if missing and run_files.load(folders, run.key) is None:
+        return Status(run, UNAVAILABLE, f"{missing} is not installed")
     if run_files.is_running(folders, run.key):
         return Status(run, RUNNING, _progress(run, folders))
     result = run_files.load(folders, run.key)
@@ -112,7 +115,13 @@ def expected_seconds(run: Run, known: Sequence[Status]) -> float:
     same = [r for r in results if r["run"].startswith(f"{run.experiment.key}/")]
     if same:
         return statistics.median(_seconds(result) for result in same)
-    samples = algorithms.settings(run).get("samples", 0)
+    settings = algorithms.settings(run)
+    if isinstance(settings.get("seconds"), int | float):
+        return float(settings["seconds"])
+    if settings.get("seconds") is not None:
+        ppo = next(entry.run for entry in known if entry.run.key == run.needs[0])
+        return expected_seconds(ppo, known)
+    samples = settings.get("samples", 0)
     for name, value in (("task", run.experiment.task), ("algorithm", run.experiment.algorithm)):
         rates = [r["samples"] / _seconds(r) for r in results if r[name] == value and r["samples"]]
         if rates:
