@@ -19,6 +19,7 @@ from benches.learning import worker
 from benches.learning.experiments import Run, Study
 from benches.learning.listing import listing
 from benches.learning.pool import Pool
+from benches.learning.report import report
 from benches.learning.run_files import Folders
 from benches.learning.status import (
     DONE,
@@ -45,6 +46,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.worker:
         worker.pin(options.core)
         worker.execute(study.run(options.worker), study, folders)
+        return 0
+    if options.report:
+        sys.stdout.write("".join(f"{path}\n" for path in report()))
         return 0
     known = statuses(study, folders)
     chosen = [entry for entry in known if selected(entry.run, options)]
@@ -93,6 +97,7 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benches.learning", description=__doc__)
     add = parser.add_argument
     add("--list", action="store_true", help="print the runs that are done and open, run nothing")
+    add("--report", action="store_true", help="write docs/learning.md, its pictures, README.md")
     add("--group", action="append", help="only this group; may be repeated")
     add("--only", action="append", help="only runs whose name contains this; may be repeated")
     add("--seeds", type=int, help="only the first seeds")

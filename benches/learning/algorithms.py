@@ -40,6 +40,11 @@ def defaults(run: Run) -> dict[str, Any]:
     return {} if algorithm == CLONES else sb3_run.DEFAULTS
 
 
+def without_effect(run: Run) -> frozenset[str]:
+    """Return the names of settings that leave the result of a run as it is."""
+    return ppo_run.without_effect(run) if run.experiment.algorithm == PPO else frozenset()
+
+
 def samples_so_far(run: Run, folder: Path) -> int | None:
     """Return the samples of an unfinished run that can continue; None for a new one."""
     return ppo_run.samples_so_far(folder) if run.experiment.algorithm == PPO else None

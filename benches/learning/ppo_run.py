@@ -43,14 +43,19 @@ def args(run: Run, folder: Path = Path("out")) -> Args:
 
 def settings(run: Run) -> dict[str, Any]:
     """Return all settings that decide the result, as JSON values."""
-    values = args(run).to_json()
-    agents = make_task(run.experiment.task).agents
-    ignored = [*NOT_COMPARED]
-    if len({team_of(name) for name in agents}) == 1:
-        ignored += SELF_PLAY_ONLY
-    if len(agents) == 1:
-        ignored.append("solo_fraction")
+    values, ignored = args(run).to_json(), without_effect(run)
     return {name: value for name, value in values.items() if name not in ignored}
+
+
+def without_effect(run: Run) -> frozenset[str]:
+    """Return the names of settings that leave the result of a run as it is."""
+    agents = make_task(run.experiment.task).agents
+    names = [*NOT_COMPARED]
+    if len({team_of(name) for name in agents}) == 1:
+        names += SELF_PLAY_ONLY
+    if len(agents) == 1:
+        names.append("solo_fraction")
+    return frozenset(names)
 
 
 def defaults() -> dict[str, Any]:

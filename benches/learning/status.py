@@ -80,7 +80,9 @@ def differences(
     protocol = {f"protocol.{name}": value for name, value in asdict(study.protocol).items()}
     kept_protocol = {f"protocol.{name}": value for name, value in result["protocol"].items()}
     now = {**settings, **protocol, "physics": build_info()["physics"]}
-    kept = {**result["settings"], **kept_protocol, "physics": result["physics"]}
+    ignored = algorithms.without_effect(run)
+    settings_then = {n: v for n, v in result["settings"].items() if n not in ignored}
+    kept = {**settings_then, **kept_protocol, "physics": result["physics"]}
     missing = {n: v for n, v in algorithms.defaults(run).items() if n in now and n not in kept}
     before = {**missing, **kept}
     return [
@@ -92,7 +94,7 @@ def differences(
 
 def _after_needs(entry: Status, found: Mapping[str, Status]) -> Status:
     """The status, or that of a run that waits for others."""
-    missing = [key for key in entry.run.needs if found[key].state != DONE]
+    missing = [k for k in entry.run.needs if k not in found or found[k].state != DONE]
     if entry.state in (OPEN, UNFINISHED) and missing:
         return Status(entry.run, WAITING, f"needs {', '.join(missing)}")
     return entry
