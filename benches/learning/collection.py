@@ -56,6 +56,10 @@ class Collected:
         """Return the interquartile mean over the seeds."""
         return iqm([self.scores(opponent, mode)])
 
+    def full_success(self) -> Estimate:
+        """Return the interquartile mean of the share of episodes with full success."""
+        return iqm([[row["decided"] / row["matches"] for row in self.rows()]])
+
     def core_seconds(self) -> float:
         """Return the processor time of learning, a mean over the seeds."""
         return sum(float(r["seconds"]["cpu"]) for r in self.results) / len(self.results)

@@ -74,5 +74,7 @@ def numbers(evaluation: Evaluation) -> dict[str, Any]:
         "high": round(evaluation.high, DIGITS),
         "sides": sides,
         "seconds": round(evaluation.seconds.mean, DIGITS),
+        "decided": evaluation.decided,
+        "own_goals": evaluation.own_goals,
         "seconds_to_decision": None if after is None else round(after, DIGITS),
     }

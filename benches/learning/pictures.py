@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, finished
@@ -17,7 +17,8 @@ COLOURS: Final = {"ppo": "#1f6f8b", "ddpg": "#c8553d", "sac": "#d9a441"}
 BAR, REFERENCE, POINT = "#7fb7c9", "#1f6f8b", "#333333"
 COLUMNS: Final = 2
 PANEL: Final = (4.4, 2.3)  # inches
-RANGES: Final = {"gates": (0.0, 7.0), "goal_score": (-1.0, 1.0)}
+SHARES: Final = ("goal_score", "reached", "received")
+"""Metrics of which 1 is the best value."""
 
 
 def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
@@ -33,11 +34,14 @@ def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
     rows = -(-len(tasks) // COLUMNS)
     size = (PANEL[0] * min(COLUMNS, len(tasks)), PANEL[1] * rows + 0.3)
     figure = Figure(figsize=size, dpi=110, layout="constrained")
+    handles: dict[str, Any] = {}
     for index, task in enumerate(tasks):
         axes = figure.add_subplot(rows, min(COLUMNS, len(tasks)), index + 1)
         _draw_task(axes, task, [part for part in shown if part.experiment.task == task])
-        if index == 0:
-            axes.legend(frameon=False, fontsize=8, loc="upper left")
+        lines, labels = axes.get_legend_handles_labels()
+        handles.update(zip(labels, lines, strict=True))
+    style = {"frameon": False, "fontsize": 9, "ncols": len(handles)}
+    figure.legend(handles.values(), handles, loc="outside upper center", **style)
     figure.supxlabel("samples (decisions of one robot)", fontsize=9)
     figure.savefig(path)
     return path
@@ -59,8 +63,10 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         for curve in curves:
             axes.plot(curve["samples"], curve["values"], color=colour, alpha=0.3, linewidth=0.6)
     axes.set(xscale="log")
-    if metric in RANGES:
-        axes.set_ylim(*RANGES[metric])
+    if metric in SHARES:
+        lowest = min(min(result["curve"]["values"]) for part in parts for result in part.results)
+        axes.set_ylim(min(lowest, 0.0) - 0.04, 1.04)
+        axes.axhline(0.0, color="black", linewidth=0.6)
     axes.set_title(f"{task}: {metric.replace('_', ' ')} while exploring", fontsize=9)
     axes.tick_params(labelsize=8)
     axes.grid(alpha=0.25)
@@ -110,7 +116,8 @@ def _draw_bars(axes: Axes, labels: Sequence[str], parts: Sequence[Collected | No
         if height == 0:
             axes.axvline(estimate.value, color=REFERENCE, linewidth=0.8, linestyle=":")
     axes.set_yticks(range(len(labels)), labels)
-    axes.set_xlim(-1.05, 1.05)
+    lowest = min((min(part.scores()) for part in parts if part), default=0.0)
+    axes.set_xlim(min(lowest, 0.0) - 0.05, 1.05)
     axes.axvline(0.0, color="black", linewidth=0.6)
     axes.invert_yaxis()
     axes.grid(axis="x", alpha=0.25)

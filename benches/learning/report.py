@@ -28,8 +28,7 @@ def report() -> Iterator[Path]:
     from tools.write_readme import written
 
     collected = _collected()
-    for path in draw(collected, DOCS):
-        yield path
+    yield from draw(collected, DOCS)
     for page in PAGES:
         page.write_text(written(page.read_text(), page.name))
         yield page
@@ -45,8 +44,8 @@ def draw(collected: list[Collected], folder: Path) -> list[Path]:
 
 
 def results() -> str:
-    """Return the section with the results of PPO and the learning curves; empty without any."""
-    text = tables.results(_collected())
+    """Return the results of PPO and the learning curves."""
+    text = tables.results(_collected()) or "No run has finished yet."
     picture = _picture(CURVES, "Learning curves of all tasks")
     return "\n\n".join(part for part in (text, picture) if part)
 
@@ -69,12 +68,21 @@ def cooperation() -> str:
 
 def compute() -> str:
     """Return the table of the time that the study took; empty without results."""
-    return tables.compute(_collected())
+    return _section("Compute", tables.compute)
 
 
 def headline() -> str:
-    """Return the table of the README; empty without results."""
-    return tables.headline(_collected())
+    """Return the section of the README; empty without results."""
+    text = _section("Learning", tables.headline)
+    if not text:
+        return ""
+    picture = f"![Learning curves of all tasks](docs/{CURVES})" if (DOCS / CURVES).exists() else ""
+    explained = (
+        "Interquartile means over seeds with 95% intervals; DDPG and SAC had the time of PPO. "
+        "[Learning](docs/learning.md) has the protocol, all opponents, and the reasons why PPO "
+        "failed in the paper."
+    )
+    return "\n\n".join(part for part in (text, explained, picture) if part)
 
 
 def _section(title: str, write: Callable[[list[Collected]], str]) -> str:

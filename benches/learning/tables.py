@@ -9,7 +9,7 @@ from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, find, finished
 from benches.learning.curves import value_at
 from benches.learning.statistics import Estimate, probability_of_improvement
-from benches.learning.targets import TARGETS
+from benches.learning.targets import FULL_SUCCESS, TARGETS
 from tools.markdown import table
 
 Studied = Sequence[Collected]
@@ -21,7 +21,7 @@ def results(collected: Studied) -> str:
     parts = finished(collected, "ppo")
     header = (
         *("task", "against", "score", "95% interval", "target", "seeds", "mean action"),
-        *("won, drawn, lost", "time to success", "samples", "core time"),
+        *("won, drawn, lost (own goals)", "time to success", "samples", "core time"),
     )
     rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
     return _with_notes(header, rows, collected, "ppo")
@@ -30,13 +30,12 @@ def results(collected: Studied) -> str:
 def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
     task = part.experiment.task
     estimate = part.estimate(opponent)
-    target = TARGETS.get((task, opponent))
     return (
         _name(part, task),
         "" if opponent == "-" else f"`{opponent}`",
         _number(estimate.value),
         _interval(estimate),
-        "" if target is None else f"{_number(target)} {_met(estimate, target)}",
+        _target(part, opponent),
         _seeds(part.scores(opponent)),
         _number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
         _outcomes(part, opponent),
@@ -231,18 +230,34 @@ def _exploring(part: Collected, samples: float) -> str:
     return _number(sum(known) / len(known)) if known else ""
 
 
+def _target(part: Collected, opponent: str) -> str:
+    """Target, and whether the lower end of the interval reaches it."""
+    task = part.experiment.task
+    if task in FULL_SUCCESS:
+        estimate, target = part.full_success(), FULL_SUCCESS[task]
+        return f"full success {_number(target)} {_met(estimate, target)}"
+    if (task, opponent) not in TARGETS:
+        return ""
+    target = TARGETS[task, opponent]
+    return f"{_number(target)} {_met(part.estimate(opponent), target)}"
+
+
 def _met(estimate: Estimate, target: float) -> str:
     return "met" if estimate.low >= target else "missed"
 
 
 def _outcomes(part: Collected, opponent: str) -> str:
-    """Shares of matches of all seeds; empty where a score is no result of a match."""
+    """Shares of matches of all seeds, own goals among them; or the share of full success."""
+    if part.experiment.task in FULL_SUCCESS:
+        estimate = part.full_success()
+        return f"full success {_number(estimate.value)}, {_interval(estimate)}"
     rows = part.rows(opponent)
     if not rows[0]["sides"]:
         return ""
     total = sum(row["matches"] for row in rows)
-    counts = (sum(row[name] for row in rows) / total for name in ("wins", "draws", "losses"))
-    return ", ".join(f"{share:.1%}" for share in counts)
+    names = ("wins", "draws", "losses", "own_goals")
+    *counts, own = (sum(row[name] for row in rows) / total for name in names)
+    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
 
 
 def _time_to_success(part: Collected, opponent: str) -> str:
@@ -260,6 +275,8 @@ def _seeds(scores: Sequence[float]) -> str:
 
 
 def _interval(estimate: Estimate) -> str:
+    if estimate.runs == 1:
+        return "one seed"
     return f"{_number(estimate.low)} to {_number(estimate.high)}"
 
 

@@ -18,3 +18,6 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
     ("SSLPassEnduranceMulti-v0", "-"): 10.0,
 }
 """Score by task and opponent; "-" is the task's own."""
+
+FULL_SUCCESS: Final[dict[str, float]] = {"SSLDribbling-v0": 0.9}
+"""Share of episodes with full success, by task, where the target is not a score."""

@@ -66,7 +66,7 @@ def result(run: Run, study: Study, settings: dict[str, Any]) -> dict[str, Any]:
 def row(experiment: Experiment, opponent: str, mode: str, score: float) -> dict[str, Any]:
     """Return an evaluation of 1000 matches."""
     task = make_task(experiment.task)
-    wins = int(round(1000 * min(score, 1.0)))
+    wins = round(1000 * min(score, 1.0))
     return {
         "opponent": opponent,
         "mode": mode,
@@ -79,6 +79,8 @@ def row(experiment: Experiment, opponent: str, mode: str, score: float) -> dict[
         "low": score - 0.02,
         "high": score + 0.02,
         "sides": {"blue": score, "yellow": score} if task.two_sided else {},
+        "decided": wins,
+        "own_goals": 3 if task.two_sided else 0,
         "seconds": 8.0,
         "seconds_to_decision": 5.0,
     }

@@ -13,7 +13,7 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """Options with the folders of a study whose first seeds of VSS-v0 are finished."""
     folder = tmp_path_factory.mktemp("study")
     options = ["--table", TABLE, "--results", f"{folder}/results", "--work", f"{folder}/work"]
-    assert main([*options, "--only", "VSS-v0", "--seeds", "1", "--jobs", "1"]) == 0
+    assert main([*options, "--only", "ppo/VSS-v0", "--seeds", "1", "--jobs", "1"]) == 0
     return options
 
 
@@ -34,7 +34,7 @@ def test_a_run_leaves_its_result_and_its_policy(folders: list[str]) -> None:
 def test_the_list_shows_finished_and_open_runs(
     folders: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main([*folders, "--list", "--jobs", "2"]) == 0
+    assert main([*folders, "--list", "--group", "ppo", "--jobs", "2"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split()[:2] for line in lines[:3]] == [
         ["ppo/VSS-v0/seed-0", "done"],
@@ -44,12 +44,19 @@ def test_the_list_shows_finished_and_open_runs(
     assert lines[3].startswith("1 done, 2 open; ")
 
 
+def test_clones_are_evaluated_against_the_policy_of_their_seed(folders: list[str]) -> None:
+    assert main([*folders, "--only", "clones", "--jobs", "1"]) == 0
+    result = json.loads(result_of(folders, "cooperation/clones/seed-0").read_text())
+    assert result["samples"] == 0
+    assert [row["opponent"] for row in result["evaluations"]] == ["@ppo/VSS-v0"] * 2
+
+
 def test_a_finished_run_is_not_repeated(
     folders: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = result_of(folders, "ppo/VSS-v0/seed-0")
     before = path.read_bytes()
-    assert main([*folders, "--only", "VSS-v0", "--seeds", "1"]) == 0
+    assert main([*folders, "--only", "ppo/VSS-v0", "--seeds", "1"]) == 0
     assert path.read_bytes() == before
     assert "start" not in capsys.readouterr().out
 
