@@ -63,7 +63,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     """
     algorithm = run.experiment.algorithm
     if algorithm == PPO:
-        return ppo_run.learn(run, folder)
+        return ppo_run.learn(run, folder, folders)
     if algorithm == CLONES:
         return clones.learn(run, folders)
     return sb3_run.learn(run, folder, folders)

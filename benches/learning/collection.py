@@ -62,7 +62,8 @@ class Collected:
 
     def core_seconds(self) -> float:
         """Return the processor time of learning, a mean over the seeds."""
-        return sum(float(r["seconds"]["cpu"]) for r in self.results) / len(self.results)
+        seconds = [float(r.get("learning_seconds", r["seconds"]["cpu"])) for r in self.results]
+        return sum(seconds) / len(seconds)
 
     def samples(self) -> float:
         """Return the samples of a run, a mean over the seeds."""

@@ -29,7 +29,7 @@ class Learned:
     samples: int
     """Decisions of single robots that were learned from."""
     curve: dict[str, Any]
-    """Metric while exploring: its name, and lists `samples`, `seconds` and `values`."""
+    """Learning curve: name of the metric, and lists `samples`, `seconds` and `values`."""
     extra: dict[str, Any]
     """More numbers for the result."""
 

@@ -67,7 +67,9 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         lowest = min(min(result["curve"]["values"]) for part in parts for result in part.results)
         axes.set_ylim(min(lowest, 0.0) - 0.04, 1.04)
         axes.axhline(0.0, color="black", linewidth=0.6)
-    axes.set_title(f"{task}: {metric.replace('_', ' ')} while exploring", fontsize=9)
+    opponent = parts[0].opponents[0]
+    against = "" if opponent == "-" else f" against {opponent}"
+    axes.set_title(f"{task}: {metric.replace('_', ' ')}{against}", fontsize=9)
     axes.tick_params(labelsize=8)
     axes.grid(alpha=0.25)
     for side in ("top", "right"):
@@ -87,11 +89,13 @@ def draw_ablation(collected: Sequence[Collected], path: Path) -> Path | None:
         ("The package's setting, and one change less", OURS, "-"),
     )
     names = [change.name for change in CHANGES]
+    lowest = min(min(part.scores()) for part in parts.values())
     for index, (title, base, sign) in enumerate(panels):
         axes = figure.add_subplot(1, 2, index + 1)
         labels = [base, *(f"{sign} {name}" for name in names)]
         keys = [base, *(f"{base}{sign}{name}" for name in names)]
         _draw_bars(axes, labels, [parts.get(key) for key in keys])
+        axes.set_xlim(min(lowest, 0.0) - 0.05, 1.05)
         axes.set_title(title, fontsize=10)
     score = next(iter(parts.values())).rows()[0]
     metric = score["metric"].replace("_", " ")
@@ -116,8 +120,6 @@ def _draw_bars(axes: Axes, labels: Sequence[str], parts: Sequence[Collected | No
         if height == 0:
             axes.axvline(estimate.value, color=REFERENCE, linewidth=0.8, linestyle=":")
     axes.set_yticks(range(len(labels)), labels)
-    lowest = min((min(part.scores()) for part in parts if part), default=0.0)
-    axes.set_xlim(min(lowest, 0.0) - 0.05, 1.05)
     axes.axvline(0.0, color="black", linewidth=0.6)
     axes.invert_yaxis()
     axes.grid(axis="x", alpha=0.25)

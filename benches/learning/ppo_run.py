@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from benches.learning.experiments import Run
 from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.run_files import Folders, with_policies
+from rsoccer.arrays import Array
 from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
@@ -22,13 +26,22 @@ SELF_PLAY_ONLY: Final = (
 """Settings without effect where one team learns."""
 
 
-def args(run: Run, folder: Path = Path("out")) -> Args:
+def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -> Args:
     """Return the settings of a run on one core.
+
+    Args:
+        run: The run.
+        folder: Folder for its files.
+        folders: Folders of the study, in which the policies "@group/name" of the settings are; None
+            keeps these names.
 
     Raises:
         TypeError: This trainer has no such setting.
         ValueError: A setting outside its range.
     """
+    given = run.experiment.settings
+    if folders is not None:
+        given = with_policies(given, folders, run)
     fixed: dict[str, Any] = {
         "task": run.experiment.task,
         "seed": run.seed,
@@ -38,7 +51,7 @@ def args(run: Run, folder: Path = Path("out")) -> Args:
         "progress": False,
         "match_page": False,
     }
-    return Args(**{**run.experiment.settings, **fixed})
+    return Args(**{**given, **fixed})
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -54,7 +67,7 @@ def without_effect(run: Run) -> frozenset[str]:
     if len({team_of(name) for name in agents}) == 1:
         names += SELF_PLAY_ONLY
     if len(agents) == 1:
-        names.append("solo_fraction")
+        names += ("solo_fraction", "solo_partners")
     return frozenset(names)
 
 
@@ -79,12 +92,13 @@ def _continues(wanted: Args, folder: Path) -> bool:
     return path.is_file() and not wanted.differences(checkpoint.load(path).info["args"])
 
 
-def learn(run: Run, folder: Path) -> Learned:
+def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     """Train a policy, from the last checkpoint if there is one.
 
     Args:
         run: The run.
         folder: Folder for its files.
+        folders: Folders of the study.
 
     Returns:
         The policy.
@@ -95,7 +109,7 @@ def learn(run: Run, folder: Path) -> Learned:
     from rsoccer.train import train
     from rsoccer.train.log import read_progress
 
-    wanted = args(run, folder)
+    wanted = args(run, folder, folders)
     resume = _continues(wanted, folder)
     if not resume:
         restart_clock(folder)
@@ -103,15 +117,29 @@ def learn(run: Run, folder: Path) -> Learned:
         policy = str(train(dataclasses.replace(wanted, resume=resume, overwrite=not resume)))
     progress = read_progress(folder)
     metric = make_task(run.experiment.task).success or "reward"
-    values = progress[f"episode/{metric}"]
-    # Opponents of self-play change, so its curve counts the matches against a fixed one.
-    against_ou = progress.get(f"episode_ou/{metric}")
-    if against_ou is not None and any(map(math.isfinite, against_ou)):
-        values = against_ou
     seconds, samples = progress["seconds"], progress["samples"]
     return Learned(
         policies={"sample": policy, "mean": f"{policy}:mean"},
         samples=int(samples[-1]),
-        curve=curve(metric, samples, seconds, values, progress["episodes"]),
+        curve=curve(metric, samples, seconds, *strength(progress, metric)),
         extra={"updates": len(samples), "trainer_seconds": round(float(seconds[-1]), 1)},
     )
+
+
+def strength(progress: Mapping[str, Array], metric: str) -> tuple[Array, Array]:
+    """Return the values of a run's curve and their weights, (updates,) each.
+
+    The ladder, which plays the same matches each time, comes first. Opponents of self-play change,
+    so of its own matches those against `ou` count.
+
+    Args:
+        progress: Columns of the run's log.
+        metric: Metric of the task.
+    """
+    episodes = progress["episodes"]
+    columns = (f"ladder_ou_{metric}", f"ladder_{metric}", f"episode_ou/{metric}")
+    for name in columns:
+        values = progress.get(name)
+        if values is not None and np.isfinite(values).any():
+            return values, np.ones(len(values)) if name.startswith("ladder") else episodes
+    return progress[f"episode/{metric}"], episodes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -114,3 +114,24 @@ def reference(folders: Folders, name: str, run: Run) -> Path:
     if not path.is_file():
         raise ValueError(f"{run.key} needs the policy {path}; run its experiment on this machine")
     return path
+
+
+def with_policies(value: Any, folders: Folders, run: Run) -> Any:  # noqa: ANN401
+    """Return settings with paths in the place of policies "@group/name".
+
+    Args:
+        value: Settings: JSON values, also as names of a dictionary.
+        folders: Folders of the study.
+        run: The run, whose seed the policies have.
+
+    Raises:
+        ValueError: A policy is not in the work folder.
+    """
+    if isinstance(value, str) and value.startswith("@"):
+        return str(reference(folders, value, run))
+    if isinstance(value, Mapping):
+        items = value.items()
+        return {with_policies(k, folders, run): with_policies(v, folders, run) for k, v in items}
+    if isinstance(value, list | tuple):
+        return type(value)(with_policies(item, folders, run) for item in value)
+    return value

@@ -12,8 +12,10 @@ from typing import Any, Final
 import numpy as np
 
 from benches.learning import run_files
-from benches.learning.experiments import Run
+from benches.learning.evaluation import evaluated, opponents_of
+from benches.learning.experiments import Protocol, Run
 from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.relu_actor import ReluActor
 from benches.learning.run_files import Folders
 from rsoccer.registry import make_task
 
@@ -41,6 +43,8 @@ the processor time of learning. `rows` is the least number of robots that act at
 theta, and sigma at the start and at the end of the run, as in the paper; its time is match time.
 """
 FILE: Final = "actor.npz"
+SNAPSHOT: Final = Protocol(starts=50, seed=32)
+"""Evaluation of the points of a learning curve."""
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -83,23 +87,25 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         folders: Folders of the study.
 
     Returns:
-        The policy: SAC's drawn actions, then the mean; DDPG's deterministic actions.
+        The policy: deterministic actions, and for SAC drawn ones too.
     """
     values, seconds = settings(run), budget(run, folders)
+    opponent = opponents_of(run.experiment.task)[0]
     restart_clock(folder)
     with timed(folder):
         from benches.learning.sb3_training import train
 
-        actor, log = train(run.experiment.task, values, run.seed, seconds)
+        def measure(actor: ReluActor) -> float:
+            row = evaluated(run.experiment.task, actor.mean(), opponent, SNAPSHOT)
+            return float(row["score"])
+
+        actor, log = train(run.experiment.task, values, run.seed, seconds, measure)
     actor.save(folder / FILE)
     policies: dict[str, Any] = {"mean": actor.mean()}
     if actor.log_std is not None:
         policies["sample"] = actor
-    metric = make_task(run.experiment.task).success or "reward"
-    columns = (np.array(column) for column in (log.samples, log.seconds, log.means, log.episodes))
-    return Learned(
-        policies,
-        log.total,
-        curve(metric, *columns),
-        {"budget_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps},
-    )
+    metric = make_task(run.experiment.task).success or "return"
+    samples, times, scores = map(np.array, (log.samples, log.seconds, log.scores))
+    extra = {"learning_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps}
+    points = curve(metric, samples, times, scores, np.ones(len(scores)))
+    return Learned(policies, log.total, points, extra)

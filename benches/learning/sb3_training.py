@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -19,25 +20,27 @@ from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.sb3 import SoccerVecEnv
 
-LOG_INTERVAL: Final = 100  # steps of the vector environment
+SNAPSHOTS: Final = np.geomspace(0.03, 1.0, 12)
+"""Shares of the time after which the actor is measured."""
+
+Measure = Callable[[ReluActor], float]
+"""Score of an actor."""
 
 
 @dataclass
 class Log:
-    """Progress of a run: a point after some steps of the vector environment."""
+    """Progress of a run: the score of the actor at some times."""
 
     samples: list[int] = field(default_factory=list)
     seconds: list[float] = field(default_factory=list)
-    means: list[float] = field(default_factory=list)
-    """Mean of the metric over the episodes since the last point; NaN without episodes."""
-    episodes: list[int] = field(default_factory=list)
+    scores: list[float] = field(default_factory=list)
     total: int = 0
     """Samples of the whole run."""
     gradient_steps: int = 0
 
 
 def train(
-    task_name: str, values: dict[str, Any], seed: int, seconds: float
+    task_name: str, values: dict[str, Any], seed: int, seconds: float, measure: Measure
 ) -> tuple[ReluActor, Log]:
     """Train until the processor time is used up.
 
@@ -45,7 +48,8 @@ def train(
         task_name: Registered task.
         values: Settings of `sb3_run`, with the algorithm.
         seed: Seed of the run.
-        seconds: Processor time of this process.
+        seconds: Processor time of this process, without that of the measurements.
+        measure: Measures an actor.
 
     Returns:
         The actor, and the progress.
@@ -66,7 +70,7 @@ def train(
         "seed": seed,
         "device": "cpu",
     }
-    progress = Progress(make_task(task_name).success, seconds)
+    progress = Progress(seconds, values["action_repeat"], measure)
     if values["algorithm"] == "ddpg":
         progress.noise = Noise(envs, values)
         model: Any = DDPG("MlpPolicy", envs, action_noise=progress.noise.process, **arguments)
@@ -113,22 +117,21 @@ class Noise:
 
 
 class Progress(BaseCallback):  # type: ignore[misc]
-    """Ends the run after its time, lowers the noise, and keeps the curve."""
+    """Ends the run after its time, lowers the noise, and measures the actor."""
 
-    def __init__(self, metric: str | None, seconds: float) -> None:
+    noise: Noise | None = None
+
+    def __init__(self, seconds: float, action_repeat: int, measure: Measure) -> None:
         """Prepare a run; its time begins with the first step.
 
         Args:
-            metric: Metric of an episode, in the infos; None is the return.
             seconds: Processor time of the run.
+            action_repeat: Control steps per decision.
+            measure: Measures an actor.
         """
         super().__init__()
-        self.log, self.noise = Log(), None
-        self._metric, self._limit = metric, seconds
-        self._values: list[float] = []
-
-    log: Log
-    noise: Noise | None
+        self.log = Log()
+        self._limit, self._action_repeat, self._measure = seconds, action_repeat, measure
 
     def _on_training_start(self) -> None:
         self._began = time.process_time()
@@ -137,18 +140,18 @@ class Progress(BaseCallback):  # type: ignore[misc]
         spent = time.process_time() - self._began
         if self.noise is not None:
             self.noise.anneal(min(spent / self._limit, 1.0))
-        ended = [info["episode"] for info in self.locals["infos"] if "episode" in info]
-        self._values += [float(episode[self._metric or "r"]) for episode in ended]
-        if self.n_calls % LOG_INTERVAL == 0 or spent >= self._limit:
+        done = len(self.log.scores)
+        if done < len(SNAPSHOTS) and spent >= SNAPSHOTS[done] * self._limit:
             self._add_point(spent)
         return spent < self._limit
 
     def _add_point(self, spent: float) -> None:
+        """Measure the actor, while the clock of the run stands still."""
+        before = time.process_time()
         self.log.samples.append(self.num_timesteps)
         self.log.seconds.append(spent)
-        self.log.means.append(float(np.mean(self._values)) if self._values else float("nan"))
-        self.log.episodes.append(len(self._values))
-        self._values = []
+        self.log.scores.append(self._measure(actor_of(self.model, self._action_repeat)))
+        self._began += time.process_time() - before
 
 
 def actor_of(model: Any, action_repeat: int) -> ReluActor:  # noqa: ANN401

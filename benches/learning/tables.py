@@ -49,7 +49,7 @@ def baselines(collected: Studied) -> str:
     """Return the scores of DDPG and SAC beside those of PPO."""
     header = (
         *("task", "algorithm", "score", "95% interval", "seeds", "PPO, same time"),
-        *("PPO better", "while exploring", "PPO, as many samples", "samples", "gradient steps"),
+        *("PPO better", "PPO, as many samples", "samples", "gradient steps"),
         "core time",
     )
     rows = [_baseline_row(part, collected) for part in finished(collected, "baselines")]
@@ -70,8 +70,7 @@ def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
         _seeds(part.scores()),
         _number(ppo.estimate(part.opponents[0]).value) if ppo else "",
         _better(ppo, part) if ppo else "",
-        _exploring(part, part.samples()),
-        _exploring(ppo, part.samples()) if ppo else "",
+        _on_curve(ppo, part.samples()) if ppo else "",
         _millions(part.samples()),
         _millions(steps),
         _minutes(part.core_seconds()),
@@ -223,8 +222,8 @@ def _better(part: Collected, reference: Collected, opponent: str | None = None) 
     return f"{estimate.value:.2f} ({estimate.low:.2f} to {estimate.high:.2f})"
 
 
-def _exploring(part: Collected, samples: float) -> str:
-    """Mean of the metric while exploring, after some samples."""
+def _on_curve(part: Collected, samples: float) -> str:
+    """Mean of the learning curves after some samples."""
     values = [value_at(result["curve"], samples) for result in part.results]
     known = [value for value in values if value is not None]
     return _number(sum(known) / len(known)) if known else ""

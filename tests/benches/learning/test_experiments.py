@@ -1,11 +1,14 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from benches.learning import ablation, algorithms
-from benches.learning.experiments import Experiment, Study
+from benches.learning.experiments import Experiment, Run, Study
 from benches.learning.learned import POINTS, curve
 from benches.learning.listing import listing
-from benches.learning.run_files import Folders
+from benches.learning.ppo_run import strength
+from benches.learning.run_files import Folders, with_policies
 from benches.learning.status import statuses
 from benches.learning.table import STUDY
 from rsoccer.train import Args
@@ -75,6 +78,32 @@ def test_a_curve_keeps_the_mean_of_all_episodes() -> None:
 def test_a_curve_without_episodes_is_empty() -> None:
     nothing = curve("passes", np.ones(3), np.ones(3), np.full(3, np.nan), np.zeros(3))
     assert nothing == {"metric": "passes", "samples": [], "seconds": [], "values": []}
+
+
+def test_the_curve_of_self_play_is_that_of_the_ladder_or_of_matches_against_ou() -> None:
+    progress = {"episodes": np.array([4.0, 2.0]), "episode/goal_score": np.array([0.0, 0.1])}
+    assert strength(progress, "goal_score")[0].tolist() == [0.0, 0.1]
+    progress["episode_ou/goal_score"] = np.array([np.nan, 0.5])
+    assert strength(progress, "goal_score")[0][1] == 0.5
+    progress["ladder_ou_goal_score"] = np.array([np.nan, 0.7])
+    values, weights = strength(progress, "goal_score")
+    assert values[1] == 0.7
+    assert weights.tolist() == [1.0, 1.0]
+
+
+def test_settings_name_the_policies_of_other_experiments(tmp_path: Path) -> None:
+    folders = Folders(tmp_path, tmp_path)
+    run = Run(Experiment("a", "x", "VSSMulti-v0", settings={"solo_partners": "@b/y"}), 3)
+    with pytest.raises(ValueError, match="a/x/seed-3 needs the policy"):
+        with_policies(run.experiment.settings, folders, run)
+    path = folders.policy("b/y/seed-3")
+    path.parent.mkdir(parents=True)
+    path.touch()
+    assert with_policies(run.experiment.settings, folders, run) == {"solo_partners": str(path)}
+    mix = {"opponents": {"@b/y": 0.5, "ou": 0.5}, "sizes": (8, 8)}
+    expected = {"opponents": {str(path): 0.5, "ou": 0.5}, "sizes": (8, 8)}
+    assert with_policies(mix, folders, run) == expected
+    assert algorithms.settings(run)["solo_partners"] == "@b/y"
 
 
 def test_the_list_estimates_the_time_of_all_runs(tmp_path_factory: pytest.TempPathFactory) -> None:

@@ -29,7 +29,9 @@ def test_a_run_leaves_its_result(algorithm: str, tmp_path: Path) -> None:
     assert result is not None
     assert result["samples"] > 100
     assert result["gradient_steps"] > 1
-    assert result["budget_seconds"] == 2.0
+    assert result["learning_seconds"] == 2.0
+    assert 1 <= len(result["curve"]["samples"]) <= 12
+    assert result["curve"]["samples"][-1] == result["samples"]
     modes = {"ddpg": ["mean"], "sac": ["mean", "sample"]}[algorithm]
     assert [row["mode"] for row in result["evaluations"]] == modes
 
