@@ -17,8 +17,8 @@ from pathlib import Path
 
 from benches.learning import worker
 from benches.learning.experiments import Run, Study
-from benches.learning.listing import listing
-from benches.learning.pool import Pool
+from benches.learning.listing import best, listing
+from benches.learning.pool import BUSY, Pool
 from benches.learning.report import report
 from benches.learning.run_files import Folders
 from benches.learning.status import (
@@ -45,8 +45,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     folders = Folders(options.results.resolve(), options.work.resolve())
     if options.worker:
         worker.pin(options.core)
-        worker.execute(study.run(options.worker), study, folders)
-        return 0
+        written = worker.execute(study.run(options.worker), study, folders)
+        return BUSY if written is None else 0
     if options.report:
         sys.stdout.write("".join(f"{path}\n" for path in report()))
         return 0
@@ -54,6 +54,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     chosen = [entry for entry in known if selected(entry.run, options)]
     if options.list:
         sys.stdout.write(listing(chosen, known, options.jobs) + "\n")
+        return 0
+    if options.best:
+        sys.stdout.write(best(chosen, folders) + "\n")
         return 0
     return work(chosen, known, options)
 
@@ -97,6 +100,7 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benches.learning", description=__doc__)
     add = parser.add_argument
     add("--list", action="store_true", help="print the runs that are done and open, run nothing")
+    add("--best", action="store_true", help="print the best seed of each experiment, its policy")
     add("--report", action="store_true", help="write docs/learning.md, its pictures, README.md")
     add("--group", action="append", help="only this group; may be repeated")
     add("--only", action="append", help="only runs whose name contains this; may be repeated")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from benches.learning.experiments import Experiment
+from rsoccer.train.task_settings import recommended_settings
 
 GROUP: Final = "ablation"
 PAPER: Final = "paper"
@@ -31,8 +32,8 @@ CHANGES: Final = (
         "goals are most of the return, instead of a tenth",
         {"task_options": {"reward_weights": "paper"}},
     ),
-    Change("discount", "discount .97 per control step of 25 ms, instead of .95", {"gamma": 0.95}),
-    Change("repeat", "a decision every 75 ms, instead of every 25 ms", {"action_repeat": 1}),
+    Change("discount", "a longer horizon than .95 per control step of 25 ms", {"gamma": 0.95}),
+    Change("repeat", "decisions held, instead of one in every control step", {"action_repeat": 1}),
     Change(
         "time-limits",
         "values bootstrapped at time limits, and random truncations, instead of ends",
@@ -72,7 +73,7 @@ def experiments(task: str, samples: int, seeds: int) -> tuple[Experiment, ...]:
     """
 
     def experiment(name: str, text: str, parts: Iterable[Change]) -> Experiment:
-        settings = {"samples": samples, **merged(parts)}
+        settings = {"samples": samples, **merged(task, parts)}
         return Experiment(GROUP, name, task, settings=settings, seeds=seeds, text=text)
 
     found = [
@@ -86,11 +87,17 @@ def experiments(task: str, samples: int, seeds: int) -> tuple[Experiment, ...]:
     return tuple(found)
 
 
-def merged(changes: Iterable[Change]) -> dict[str, Any]:
-    """Return the settings of several changes; masks are joined."""
+def merged(task: str, changes: Iterable[Change]) -> dict[str, Any]:
+    """Return the settings of several changes; masks, and options of the task, are joined."""
     settings: dict[str, Any] = {}
+    recommended = recommended_settings(task)
     for change in changes:
         for name, value in change.paper.items():
-            joined = isinstance(value, tuple) and name in settings
-            settings[name] = (*settings[name], *value) if joined else value
+            before = settings.get(name, recommended.get(name))
+            if isinstance(value, tuple):
+                settings[name] = (*(before or ()), *value)
+            elif isinstance(value, Mapping):
+                settings[name] = {**(before or {}), **value}
+            else:
+                settings[name] = value
     return settings

@@ -31,8 +31,9 @@ class Experiment:
     """"ppo" of the package, "ddpg" or "sac" of Stable-Baselines3, or "clones", which learns
     nothing: it evaluates the policy of another task."""
     settings: Mapping[str, Any] = field(default_factory=dict)
-    """Settings that differ from the defaults of the algorithm. In those of PPO "@group/name" is the
-    policy of another experiment, of the same seed."""
+    """Settings that differ from the defaults of the algorithm; for PPO, from those recommended for
+    the task. In settings of PPO "@group/name" is the policy of another experiment, of the same
+    seed."""
     seeds: int = 5
     """Number of runs."""
     opponents: tuple[str | None, ...] | None = None

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import groupby
+from typing import Final
 
 from benches.learning import status as states
+from benches.learning.run_files import Folders
 from benches.learning.status import DONE, STALE, UNAVAILABLE, Status, expected_seconds
 
-HEADLINE_DIGITS = 3
+HEADLINE_DIGITS: Final = 3
 
 
 def listing(entries: Sequence[Status], known: Sequence[Status], jobs: int) -> str:
@@ -49,3 +52,30 @@ def _state(entry: Status, known: Sequence[Status]) -> str:
     minutes = expected_seconds(entry.run, known) / 60.0
     reason = f", {entry.reason}" if entry.reason else ""
     return f"{entry.state}  about {minutes:.0f} min{reason}"
+
+
+def best(entries: Sequence[Status], folders: Folders) -> str:
+    """Return a line for each experiment: its best finished run, and the path of the policy.
+
+    The best run has the highest mean score over its opponents, in the policies' own mode.
+
+    Args:
+        entries: States of the selected runs.
+        folders: Folders with the policies.
+    """
+    finished = [entry for entry in entries if entry.state == DONE]
+    finished.sort(key=lambda entry: entry.run.experiment.key)
+    lines = []
+    for _, seeds in groupby(finished, key=lambda entry: entry.run.experiment.key):
+        score, entry = max(((_mean_score(e), e) for e in seeds), key=lambda pair: pair[0])
+        path = folders.policy(entry.run.key)
+        kept = str(path) if path.is_file() else "policy not in the work folder"
+        lines.append(f"{entry.run.key}  {score:.{HEADLINE_DIGITS}f}  {kept}")
+    return "\n".join(lines)
+
+
+def _mean_score(entry: Status) -> float:
+    """Mean score over the opponents."""
+    rows = entry.result["evaluations"] if entry.result else []
+    scores = [float(row["score"]) for row in rows if row["mode"] == rows[0]["mode"]]
+    return sum(scores) / len(scores)

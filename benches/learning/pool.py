@@ -14,6 +14,8 @@ from benches.learning.experiments import Run
 from rsoccer.train.stop_signal import StopSignal
 
 POLL: Final = 0.2  # s
+BUSY: Final = 75
+"""Exit status of a process whose run another process works on."""
 THREAD_VARIABLES: Final = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 Command = Callable[[Run, int | None], list[str]]
@@ -99,9 +101,10 @@ class Pool:
             key, minutes = job.run.key, (time.monotonic() - job.began) / 60.0
             if status == 0:
                 done.add(key)
-            elif not job.asked:
+            elif not job.asked and status != BUSY:
                 self.failed.append(key)
-            words = "done " if status == 0 else "saved" if job.asked else f"exit status {status}"
+            words = {0: "done ", BUSY: "taken"}.get(status, f"exit status {status}")
+            words = "saved" if job.asked and status else words
             self.log(f"{time.strftime('%H:%M:%S')} {words} {key} ({minutes:.1f} min)\n")
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from benches.learning.experiments import Run
 from benches.learning.learned import Learned, curve, restart_clock, timed
 from benches.learning.run_files import Folders, with_policies
+from rsoccer._core import build_info
 from rsoccer.arrays import Array
 from rsoccer.frame import team_of
 from rsoccer.registry import make_task
@@ -19,6 +20,7 @@ from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
 
 NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
+PHYSICS_FILE: Final = "physics.txt"
 SELF_PLAY_ONLY: Final = (
     *("latest_fraction", "past_fraction", "ou_fraction", "pool_size", "pool_interval"),
     "pfsp_power",
@@ -27,7 +29,7 @@ SELF_PLAY_ONLY: Final = (
 
 
 def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -> Args:
-    """Return the settings of a run on one core.
+    """Return the settings of a run on one core: recommended ones, and those of the experiment.
 
     Args:
         run: The run.
@@ -51,7 +53,7 @@ def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -
         "progress": False,
         "match_page": False,
     }
-    return Args(**{**given, **fixed})
+    return Args.for_task(**{**given, **fixed})
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -85,11 +87,18 @@ def samples_so_far(folder: Path) -> int | None:
 
 
 def _continues(wanted: Args, folder: Path) -> bool:
-    """Whether the folder has a checkpoint of a run with the same settings."""
+    """Whether the folder has a checkpoint of a run with the same settings and physics."""
     from rsoccer.train import checkpoint
 
-    path = folder / checkpoint.FILE_NAME
-    return path.is_file() and not wanted.differences(checkpoint.load(path).info["args"])
+    path, physics = folder / checkpoint.FILE_NAME, folder / PHYSICS_FILE
+    if not path.is_file() or not physics.is_file() or physics.read_text() != _physics():
+        return False
+    return not wanted.differences(checkpoint.load(path).info["args"])
+
+
+def _physics() -> str:
+    """Version of the physics, which a checkpoint does not hold."""
+    return str(build_info()["physics"])
 
 
 def learn(run: Run, folder: Path, folders: Folders) -> Learned:
@@ -113,6 +122,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     resume = _continues(wanted, folder)
     if not resume:
         restart_clock(folder)
+        (folder / PHYSICS_FILE).write_text(_physics())
     with timed(folder):
         policy = str(train(dataclasses.replace(wanted, resume=resume, overwrite=not resume)))
     progress = read_progress(folder)

@@ -9,22 +9,28 @@ from typing import Any, Final
 
 from benches.learning import ablation
 from benches.learning.experiments import SB3, Experiment, Study
+from rsoccer.train.task_settings import recommended_settings
 
 M: Final = 1_000_000
 
-PPO_SETTINGS: Final[dict[str, dict[str, Any]]] = {
-    "VSS-v0": {"samples": 10 * M},
-    "VSSMulti-v0": {"samples": 20 * M},
-    "VSSSelfPlay-v0": {"samples": 20 * M},
-    "SSLGoToBall-v0": {"samples": 3 * M},
-    "SSLPassEndurance-v0": {"samples": 5 * M},
-    "SSLContestedPossession-v0": {"samples": 10 * M},
-    "SSLStaticDefenders-v0": {"samples": 10 * M},
-    "SSLDribbling-v0": {"samples": 10 * M},
-    "SSLPassEnduranceMulti-v0": {"samples": 20 * M},
-    "SSLSelfPlay-v0": {"samples": 20 * M},
+SAMPLES: Final = {
+    "VSS-v0": 10 * M,
+    "VSSMulti-v0": 20 * M,
+    "VSSSelfPlay-v0": 20 * M,
+    "SSLGoToBall-v0": 3 * M,
+    "SSLPassEndurance-v0": 5 * M,
+    "SSLContestedPossession-v0": 10 * M,
+    "SSLStaticDefenders-v0": 10 * M,
+    "SSLDribbling-v0": 10 * M,
+    "SSLPassEnduranceMulti-v0": 20 * M,
+    "SSLSelfPlay-v0": 20 * M,
 }
-"""Settings of each task that differ from the defaults of `rsoccer.train.Args`."""
+"""Samples of a PPO run, where the recommended settings of the task set no number."""
+
+PPO_SETTINGS: Final[dict[str, dict[str, Any]]] = {
+    task: {"samples": samples, **recommended_settings(task)} for task, samples in SAMPLES.items()
+}
+"""Settings of each task: those that the package recommends, `rsoccer.train.task_settings`."""
 
 PPO_RUNS: Final = tuple(
     Experiment("ppo", task, task, settings=settings, text=f"PPO on {task}")

@@ -44,6 +44,15 @@ def test_the_list_shows_finished_and_open_runs(
     assert lines[3].startswith("1 done, 2 open; ")
 
 
+def test_the_best_run_is_named_with_its_policy(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*folders, "--best", "--group", "ppo"]) == 0
+    name, _, path = capsys.readouterr().out.split()
+    assert name == "ppo/VSS-v0/seed-0"
+    assert Path(path).is_file()
+
+
 def test_clones_are_evaluated_against_the_policy_of_their_seed(folders: list[str]) -> None:
     assert main([*folders, "--only", "clones", "--jobs", "1"]) == 0
     result = json.loads(result_of(folders, "cooperation/clones/seed-0").read_text())
