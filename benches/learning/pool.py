@@ -22,6 +22,10 @@ Command = Callable[[Run, int | None], list[str]]
 """Command line of the process for a run, on a core."""
 
 
+Slot = int | str
+"""Place for a process: the number of a processor, or a name."""
+
+
 @dataclass
 class _Job:
     """Process that works on a run."""
@@ -58,13 +62,13 @@ class Pool:
             runs: The runs in their order; one that needs others waits for them.
             done: Keys of finished runs; grows.
         """
-        left = list(runs)
-        active: dict[int | str, _Job] = {}
+        left, slots = list(runs), _slots(self.jobs)
+        active: dict[Slot, _Job] = {}
         with StopSignal() as stop:
             while True:
                 self._collect(active, done)
                 if stop.signal is None and time.monotonic() < self.deadline:
-                    self._fill(left, active, done)
+                    self._fill(slots, left, active, done)
                 if not active:
                     break
                 if stop.signal is not None:
@@ -75,9 +79,11 @@ class Pool:
             ended = f"{stop.name}: " if stop.signal is not None else ""
             self.log(f"{ended}{len(left)} runs not started; the same command continues\n")
 
-    def _fill(self, left: list[Run], active: dict[int | str, _Job], done: set[str]) -> None:
+    def _fill(
+        self, slots: list[Slot], left: list[Run], active: dict[Slot, _Job], done: set[str]
+    ) -> None:
         """Start runs that are ready on the free slots."""
-        for slot in _slots(self.jobs):
+        for slot in slots:
             run = next((run for run in left if done.issuperset(run.needs)), None)
             if slot in active or run is None:
                 continue
@@ -91,7 +97,7 @@ class Pool:
             )
             active[slot] = _Job(run, process, time.monotonic())
 
-    def _collect(self, active: dict[int | str, _Job], done: set[str]) -> None:
+    def _collect(self, active: dict[Slot, _Job], done: set[str]) -> None:
         """Remove the processes that have ended."""
         for slot, job in list(active.items()):
             status = job.process.poll()
@@ -108,7 +114,7 @@ class Pool:
             self.log(f"{time.strftime('%H:%M:%S')} {words} {key} ({minutes:.1f} min)\n")
 
 
-def _slots(jobs: int) -> list[int | str]:
+def _slots(jobs: int) -> list[Slot]:
     """Places for processes: numbers of processors if there are enough, else names."""
     if hasattr(os, "sched_getaffinity"):
         available = sorted(os.sched_getaffinity(0))
