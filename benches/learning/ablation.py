@@ -12,6 +12,8 @@ from rsoccer.train.task_settings import recommended_settings
 GROUP: Final = "ablation"
 PAPER: Final = "paper"
 OURS: Final = "ours"
+OPPONENTS: Final = ("ou", "zero")
+"""Opponents of the evaluation; the first is the paper's."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,9 @@ def experiments(task: str, samples: int, seeds: int) -> tuple[Experiment, ...]:
 
     def experiment(name: str, text: str, parts: Iterable[Change]) -> Experiment:
         settings = {"samples": samples, **merged(task, parts)}
-        return Experiment(GROUP, name, task, settings=settings, seeds=seeds, text=text)
+        return Experiment(
+            GROUP, name, task, settings=settings, seeds=seeds, opponents=OPPONENTS, text=text
+        )
 
     found = [
         experiment(PAPER, "the paper's setting", CHANGES),

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
 
+from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, find, finished
-from benches.learning.curves import value_at
-from benches.learning.statistics import Estimate, probability_of_improvement
-from benches.learning.targets import FULL_SUCCESS, TARGETS
 from tools.markdown import table
 
 Studied = Sequence[Collected]
-STALE_MARK: Final = "\\*"
 
 
 def results(collected: Studied) -> str:
@@ -31,17 +27,17 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
     task = part.experiment.task
     estimate = part.estimate(opponent)
     return (
-        _name(part, task),
+        cells.name_of(part, task),
         "" if opponent == "-" else f"`{opponent}`",
-        _number(estimate.value),
-        _interval(estimate),
-        _target(part, opponent),
-        _seeds(part.scores(opponent)),
-        _number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
-        _outcomes(part, opponent),
-        _time_to_success(part, opponent),
-        _millions(part.samples()),
-        _minutes(part.core_seconds()),
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.target(part, opponent),
+        cells.seeds(part.scores(opponent)),
+        cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
+        cells.outcomes(part, opponent),
+        cells.time_to_success(part, opponent),
+        cells.millions(part.samples()),
+        cells.minutes(part.core_seconds()),
     )
 
 
@@ -63,17 +59,17 @@ def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     opponent = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
     steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
     return (
-        _name(part, f"{experiment.task}{opponent}"),
+        cells.name_of(part, f"{experiment.task}{opponent}"),
         label,
-        _number(estimate.value),
-        _interval(estimate),
-        _seeds(part.scores()),
-        _number(ppo.estimate(part.opponents[0]).value) if ppo else "",
-        _better(ppo, part) if ppo else "",
-        _on_curve(ppo, part.samples()) if ppo else "",
-        _millions(part.samples()),
-        _millions(steps),
-        _minutes(part.core_seconds()),
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.seeds(part.scores()),
+        cells.number(ppo.estimate(part.opponents[0]).value) if ppo else "",
+        cells.better(ppo, part) if ppo else "",
+        cells.on_curve(ppo, part.samples()) if ppo else "",
+        cells.millions(part.samples()),
+        cells.millions(steps),
+        cells.minutes(part.core_seconds()),
     )
 
 
@@ -87,15 +83,15 @@ def ablation(collected: Studied) -> str:
     paper, ours = parts.get(PAPER), parts.get(OURS)
     rows = []
     if paper or ours:
-        cells = ("none", *_ablation_cells(paper, None), *_ablation_cells(ours, None))
-        rows.append((*cells, _seeds_of(paper), _seeds_of(ours)))
+        none = ("none", *_ablation_cells(paper, None), *_ablation_cells(ours, None))
+        rows.append((*none, cells.seeds_of(paper), cells.seeds_of(ours)))
     for change in CHANGES:
         added = parts.get(f"{PAPER}+{change.name}")
         left_out = parts.get(f"{OURS}-{change.name}")
         if added or left_out:
             with_it = _ablation_cells(added, paper)
             without = _ablation_cells(left_out, ours, swap=True)
-            points = (_seeds_of(added), _seeds_of(left_out))
+            points = (cells.seeds_of(added), cells.seeds_of(left_out))
             rows.append((change.text, *with_it, *without, *points))
     return _with_notes(header, rows, collected, "ablation")
 
@@ -109,8 +105,8 @@ def _ablation_cells(
     estimate = part.estimate()
     better = ""
     if reference is not None:
-        better = _better(reference, part) if swap else _better(part, reference)
-    return _number(estimate.value), _interval(estimate), better
+        better = cells.better(reference, part) if swap else cells.better(part, reference)
+    return cells.number(estimate.value), cells.interval(estimate), better
 
 
 def cooperation(collected: Studied) -> str:
@@ -136,14 +132,14 @@ def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tupl
     if opponent.startswith("@"):
         against = f"policy of {opponent.removeprefix('@ppo/')}"
     return (
-        _name(part, part.experiment.task),
+        cells.name_of(part, part.experiment.task),
         part.experiment.text,
         against,
-        _number(estimate.value),
-        _interval(estimate),
-        _number(ppo.estimate(opponent).value) if ppo and comparable else "",
-        _better(part, ppo, opponent) if ppo and comparable else "",
-        _seeds(part.scores(opponent)),
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.number(ppo.estimate(opponent).value) if ppo and comparable else "",
+        cells.better(part, ppo, opponent) if ppo and comparable else "",
+        cells.seeds(part.scores(opponent)),
     )
 
 
@@ -156,7 +152,7 @@ def compute(collected: Studied) -> str:
             learning = sum(float(result["seconds"]["cpu"]) for result in found) / 3600.0
             wall = sum(float(result["seconds"]["wall"]) for result in found) / 3600.0
             evaluation = sum(float(result["evaluation_seconds"]) for result in found) / 3600.0
-            samples = _millions(sum(float(result["samples"]) for result in found))
+            samples = cells.millions(sum(float(result["samples"]) for result in found))
             machines = sorted({str(result["machine"]["machine"]) for result in found})
             hours = (f"{hours:.1f} h" for hours in (learning, wall, evaluation))
             rows.append((group, str(len(found)), samples, *hours, ", ".join(machines)))
@@ -176,9 +172,9 @@ def headline(collected: Studied) -> str:
             (
                 f"`{task}`",
                 f"{metric}{against}",
-                _with_interval(part),
-                *(_with_interval(other) for other in others),
-                f"{_millions(part.samples())}, {_minutes(part.core_seconds())}",
+                cells.with_interval(part),
+                *(cells.with_interval(other) for other in others),
+                f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",
             )
         )
     header = ("task", "score", "PPO", "DDPG", "SAC", "PPO's samples, time of one core")
@@ -198,98 +194,5 @@ def _with_notes(
         names = ", ".join(f"{name} ({count})" for name, count in missing.items())
         notes.append(f"Missing runs: {names}.")
     if any(part.stale for part in parts):
-        notes.append(f"{STALE_MARK} Settings in the table have changed since this run.")
+        notes.append(f"{cells.STALE_MARK} Settings in the table have changed since this run.")
     return "\n\n".join([table(header, rows), *notes])
-
-
-def _name(part: Collected, text: str) -> str:
-    """A name of a task in a cell, with a mark for stale results."""
-    task = part.experiment.task
-    return text.replace(task, f"`{task}`", 1) + (STALE_MARK if part.stale else "")
-
-
-def _with_interval(part: Collected | None) -> str:
-    if part is None:
-        return "-"
-    estimate = part.estimate()
-    return f"{_number(estimate.value)} ({_interval(estimate)})"
-
-
-def _better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
-    """Probability that a run of the first is better, with its interval."""
-    opponent = opponent or part.opponents[0]
-    estimate = probability_of_improvement(part.scores(opponent), reference.scores(opponent))
-    return f"{estimate.value:.2f} ({estimate.low:.2f} to {estimate.high:.2f})"
-
-
-def _on_curve(part: Collected, samples: float) -> str:
-    """Mean of the learning curves after some samples."""
-    values = [value_at(result["curve"], samples) for result in part.results]
-    known = [value for value in values if value is not None]
-    return _number(sum(known) / len(known)) if known else ""
-
-
-def _target(part: Collected, opponent: str) -> str:
-    """Target, and whether the lower end of the interval reaches it."""
-    task = part.experiment.task
-    if task in FULL_SUCCESS:
-        estimate, target = part.full_success(), FULL_SUCCESS[task]
-        return f"full success {_number(target)} {_met(estimate, target)}"
-    if (task, opponent) not in TARGETS:
-        return ""
-    target = TARGETS[task, opponent]
-    return f"{_number(target)} {_met(part.estimate(opponent), target)}"
-
-
-def _met(estimate: Estimate, target: float) -> str:
-    return "met" if estimate.low >= target else "missed"
-
-
-def _outcomes(part: Collected, opponent: str) -> str:
-    """Shares of matches of all seeds, own goals among them; or the share of full success."""
-    if part.experiment.task in FULL_SUCCESS:
-        estimate = part.full_success()
-        return f"full success {_number(estimate.value)}, {_interval(estimate)}"
-    rows = part.rows(opponent)
-    if not rows[0]["sides"]:
-        return ""
-    total = sum(row["matches"] for row in rows)
-    names = ("wins", "draws", "losses", "own_goals")
-    *counts, own = (sum(row[name] for row in rows) / total for name in names)
-    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
-
-
-def _time_to_success(part: Collected, opponent: str) -> str:
-    times = [row["seconds_to_decision"] for row in part.rows(opponent)]
-    known = [float(seconds) for seconds in times if seconds is not None]
-    return f"{sum(known) / len(known):.1f} s" if known else ""
-
-
-def _seeds_of(part: Collected | None) -> str:
-    return "" if part is None else _seeds(part.scores())
-
-
-def _seeds(scores: Sequence[float]) -> str:
-    return " ".join(_number(score) for score in scores)
-
-
-def _interval(estimate: Estimate) -> str:
-    if estimate.runs == 1:
-        return "one seed"
-    return f"{_number(estimate.low)} to {_number(estimate.high)}"
-
-
-def _number(value: float) -> str:
-    """A score with three digits, without the zero before the point."""
-    if abs(value) >= 1.5:
-        return f"{value:.2f}"
-    text = f"{value:.3f}"
-    return text.replace("0.", ".", 1) if abs(value) < 1.0 and float(text) != 1.0 else text
-
-
-def _millions(value: float) -> str:
-    return f"{value / 1e6:.3g} M"
-
-
-def _minutes(seconds: float) -> str:
-    return f"{seconds / 60.0:.0f} min" if seconds >= 60.0 else f"{seconds:.0f} s"
