@@ -12,7 +12,8 @@ import rsoccer
 from rsoccer import Matches
 from rsoccer.arrays import Floats
 from rsoccer.evaluate import Results, evaluate
-from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.frame import Frame
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.policies.vss.chase import Chase
@@ -137,6 +138,7 @@ def test_each_match_counts_once_at_its_end() -> None:
     assert counts(result.sides["blue"]) == (2, 2, 2)
     assert counts(result.sides["yellow"]) == (2, 2, 2)
     assert result.seconds_to_decision == pytest.approx(0.025 * np.mean([1, 3, 4, 6]))
+    assert result.decided == 8
     five = evaluate("zero", "zero", matches=10, task=Decided())
     assert counts(five.sides["blue"]) == (1, 2, 2)
     assert counts(five.sides["yellow"]) == (2, 2, 1)
@@ -227,3 +229,43 @@ def test_wrong_input_is_named(
 def test_a_network_for_other_sizes_is_refused() -> None:
     with pytest.raises(ValueError, match=r"observation_size \d+, but task 'VSSSelfPlay-v0' has"):
         evaluate(untrained_network(), "zero", 2, task=VssSelfPlay(n_blue=2, n_yellow=2))
+
+
+class Push(Policy):
+    """Drives ahead."""
+
+    observes: Observes = "nothing"
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        return np.ones(inputs.action_shape, np.float32)
+
+
+@dataclass(frozen=True)
+class BeforeTheGoal(VssSelfPlay):
+    """The ball lies between one robot and a goal; the robot is the policy's in half of the cases.
+
+    Blue robot 0 faces the own goal in even worlds and the other goal in odd ones.
+    """
+
+    name = "BeforeTheGoal-v0"
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
+        side = np.where(np.arange(len(rng)) % 2 == 0, -1.0, 1.0)
+        frame.ball.position[:, 0] = 0.7 * side
+        frame.robots.position[..., 0] = 0.0
+        frame.yellow.position[..., 1] = 0.6
+        frame.blue.position[:, 0] = np.stack([0.62 * side, np.zeros(len(rng))], axis=-1)
+        frame.blue.heading[:, 0] = np.stack([side, np.zeros(len(rng))], axis=-1)
+        return frame
+
+
+def test_own_goals_are_goals_after_a_last_touch_of_the_own_team() -> None:
+    task = BeforeTheGoal(n_blue=1, n_yellow=1, max_steps=40)
+    result = evaluate(Push(), "zero", matches=16, task=task)
+    assert counts(result.sides["blue"]) == (4, 0, 4)
+    assert counts(result.sides["yellow"]) == (0, 8, 0)  # the robot before the goal stands still
+    assert (result.decided, result.own_goals) == (8, 4)
+    pushed = evaluate("zero", Push(), matches=16, task=task)
+    assert counts(pushed.sides["yellow"]) == (4, 0, 4)
+    assert (pushed.decided, pushed.own_goals) == (8, 0), "these are own goals of the opponent"

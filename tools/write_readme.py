@@ -15,6 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
+from benches.learning import report as learning
 from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
@@ -30,6 +31,7 @@ WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
     DOCS / "index.md",
+    DOCS / "learning.md",
     DOCS / "libraries.md",
     DOCS / "policies.md",
     DOCS / "speed.md",
@@ -212,6 +214,12 @@ PARTS: dict[str, Callable[[], str]] = {
     "curve": curve_picture,
     "demo": demo,
     "instructions": instructions,
+    "learning_ablation": learning.ablation,
+    "learning_baselines": learning.baselines,
+    "learning_compute": learning.compute,
+    "learning_cooperation": learning.cooperation,
+    "learning_headline": learning.headline,
+    "learning_results": learning.results,
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,

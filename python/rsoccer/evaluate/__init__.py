@@ -106,6 +106,9 @@ def _evaluation(
     """Summary of the episodes of each side."""
     # Scores are blue's, so those of yellow change their sign; adding 0.0 turns -0.0 into 0.0.
     scores = [part.scores * (1 - 2 * side) + 0.0 for side, part in enumerate(episodes)]
+    own_goals = sum(
+        int((part.own_goals == 2 * side - 1).sum()) for side, part in enumerate(episodes)
+    )
     seconds = [part.seconds for part in episodes]
     decided = np.concatenate(seconds)[np.concatenate([part.decided for part in episodes])]
     return Evaluation(
@@ -119,6 +122,8 @@ def _evaluation(
         returns=bootstrap_interval([part.returns for part in episodes], rng),
         seconds=bootstrap_interval(seconds, rng),
         seconds_to_decision=float(decided.mean()) if len(decided) else None,
+        decided=len(decided),
+        own_goals=own_goals,
     )
 
 

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.controllers import Controller
+from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.rewards import goal_score
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -33,6 +35,8 @@ class Episodes:
     """(n,) duration"""
     decided: NDArray[np.bool_]
     """(n,) a team scored a goal (two-sided tasks), or the success was full"""
+    own_goals: Doubles
+    """(n,) -1 for a goal that blue's last touch gave yellow, 1 for the opposite, else 0"""
 
 
 @dataclass(frozen=True)
@@ -64,16 +68,17 @@ class EpisodeRunner:
             self._run_batch(min(self.worlds, count - start), first_seed + start)
             for start in range(0, count, self.worlds)
         ]
-        scores, returns, steps = (np.concatenate(parts) for parts in zip(*batches, strict=True))
+        scores, returns, steps, own = (np.concatenate(p) for p in zip(*batches, strict=True))
         task, metric = self.task, self.task.success
         full = np.inf if task.full_success is None else task.full_success
         decided = scores != 0.0 if task.two_sided else scores >= full
         if metric is None:
             scores, decided = returns, np.zeros(count, np.bool_)
-        return Episodes(metric or RETURN, scores, returns, steps * task.config.time_step, decided)
+        seconds = steps * task.config.time_step
+        return Episodes(metric or RETURN, scores, returns, seconds, decided, own)
 
-    def _run_batch(self, n: int, seed: int) -> tuple[Doubles, Doubles, Doubles]:
-        """Scores, returns and steps of n matches at once, (n,) each."""
+    def _run_batch(self, n: int, seed: int) -> tuple[Doubles, Doubles, Doubles, Doubles]:
+        """Scores, returns, steps and own goals of n matches at once, (n,) each."""
         # Ended worlds wait, so long matches count as often as short ones.
         matches = Matches(
             self.task,
@@ -85,7 +90,7 @@ class EpisodeRunner:
         )
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)
-        scores, returns, steps = np.zeros(n), np.zeros(n), np.zeros(n)
+        scores, returns, steps, own = np.zeros((4, n))
         playing = ~matches.done
         while playing.any():
             outcome = matches.step(learners.act(observations))
@@ -94,8 +99,17 @@ class EpisodeRunner:
             returns += outcome.rewards.mean(axis=1)  # zero where a match waits
             ending = playing & outcome.ended
             scores[ending] = _success(self.task, outcome)[ending]
+            own[ending] = _own_goals(matches.frame)[ending]
             playing &= ~ending
-        return scores, returns, steps
+        return scores, returns, steps, own
+
+
+def _own_goals(frame: Frame) -> Doubles:
+    """Goal score (n,) of goals whose team did not touch the ball last, else 0."""
+    score = goal_score(frame.ball).astype(np.float64)
+    last_by_blue = frame.ball.last_touch < frame.n_blue
+    own = (frame.ball.last_touch >= 0) & (last_by_blue != (score > 0))
+    return np.where(own, score, 0.0)
 
 
 def _success(task: Task, outcome: Outcome) -> Floats:

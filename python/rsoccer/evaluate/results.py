@@ -70,6 +70,10 @@ class Evaluation(Results):
     seconds_to_decision: float | None
     """mean seconds of episodes that ended with a goal of either team (two-sided tasks) or with
     full success; None if none did"""
+    decided: int
+    """number of these episodes"""
+    own_goals: int
+    """goals against the policy's team after a last touch by one of its own robots"""
 
     def as_dict(self) -> dict[str, object]:
         """Return the fields as numbers, texts and dictionaries, ready for JSON."""

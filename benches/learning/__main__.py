@@ -1,0 +1,127 @@
+"""Command line of the study: `python -m benches.learning`.
+
+Without options it works on all open runs, one process a core. It may be stopped at any time by
+Ctrl-C; the next call continues.
+"""
+
+from __future__ import annotations
+
+import argparse
+import fnmatch
+import importlib
+import os
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from benches.learning import worker
+from benches.learning.experiments import Run, Study
+from benches.learning.listing import best, listing
+from benches.learning.pool import BUSY, Pool
+from benches.learning.report import report
+from benches.learning.run_files import Folders
+from benches.learning.status import (
+    DONE,
+    OPEN,
+    STALE,
+    UNFINISHED,
+    WAITING,
+    Status,
+    statuses,
+)
+
+TABLE = "benches.learning.table"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Work on the runs of a study, or list them; return the exit status.
+
+    Args:
+        arguments: Command line without the program name; default: that of the process.
+    """
+    options = parse_arguments(arguments)
+    study: Study = importlib.import_module(options.table).STUDY
+    folders = Folders(options.results.resolve(), options.work.resolve())
+    if options.worker:
+        worker.pin(options.core)
+        written = worker.execute(study.run(options.worker), study, folders)
+        return BUSY if written is None else 0
+    if options.report:
+        sys.stdout.write("".join(f"{path}\n" for path in report()))
+        return 0
+    known = statuses(study, folders)
+    chosen = [entry for entry in known if selected(entry.run, options)]
+    if options.list:
+        sys.stdout.write(listing(chosen, known, options.jobs) + "\n")
+        return 0
+    if options.best:
+        sys.stdout.write(best(chosen, folders) + "\n")
+        return 0
+    return work(chosen, known, options)
+
+
+def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Namespace) -> int:
+    """Work on the open runs among the chosen ones; return the exit status."""
+    for entry in chosen:
+        if entry.state == STALE and not options.rerun_stale:
+            sys.stdout.write(f"stale, kept as it is: {entry.run.key}: {entry.reason}\n")
+    wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
+    runs = [entry.run for entry in chosen if entry.state in wanted]
+
+    def command(run: Run, core: int | None) -> list[str]:
+        folders = ["--results", str(options.results), "--work", str(options.work)]
+        place = [] if core is None else ["--core", str(core)]
+        module = [sys.executable, "-m", "benches.learning", "--table", options.table]
+        return [*module, *folders, *place, "--worker", run.key]
+
+    minutes = options.budget_minutes
+    deadline = float("inf") if minutes is None else time.monotonic() + 60.0 * minutes
+    pool = Pool(options.jobs, command, deadline)
+    pool.work(runs, {entry.run.key for entry in known if entry.state == DONE})
+    if pool.failed:
+        sys.stdout.write(f"failed: {', '.join(pool.failed)}\n")
+    return 1 if pool.failed else 0
+
+
+def selected(run: Run, options: argparse.Namespace) -> bool:
+    """Return whether the options select a run."""
+    groups, patterns, seeds = options.group, options.only, options.seeds
+    if groups and run.experiment.group not in groups:
+        return False
+    if seeds is not None and run.seed >= seeds:
+        return False
+    return not patterns or any(fnmatch.fnmatch(run.key, f"*{pattern}*") for pattern in patterns)
+
+
+def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """Return the options of a command line."""
+    default = Folders()
+    parser = argparse.ArgumentParser(prog="python -m benches.learning", description=__doc__)
+    add = parser.add_argument
+    add("--list", action="store_true", help="print the runs that are done and open, run nothing")
+    add("--best", action="store_true", help="print the best seed of each experiment, its policy")
+    add("--report", action="store_true", help="write docs/learning.md, its pictures, README.md")
+    add("--group", action="append", help="only this group; may be repeated")
+    add("--only", action="append", help="only runs whose name contains this; may be repeated")
+    add("--seeds", type=int, help="only the first seeds")
+    add("--jobs", type=int, default=_processors(), help="processes at once (default: one a core)")
+    add("--budget-minutes", type=float, help="start no run after this time")
+    add("--rerun-stale", action="store_true", help="run again what has other settings now")
+    add("--table", default=TABLE, help="module with the STUDY (default: %(default)s)")
+    add("--results", type=Path, default=default.results, help="folder of the results")
+    add("--work", type=Path, default=default.work, help="folder of checkpoints and policies")
+    add("--worker", help=argparse.SUPPRESS)
+    add("--core", type=int, help=argparse.SUPPRESS)
+    options = parser.parse_args(arguments)
+    if options.jobs < 1:
+        parser.error(f"--jobs must be at least 1, got {options.jobs}")
+    return options
+
+
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,69 @@
+"""The algorithms of a study by name: their settings, and their learning."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from benches.learning import clones, ppo_run, sb3_run
+from benches.learning.experiments import CLONES, PPO, SB3, Run
+from benches.learning.learned import Learned
+from benches.learning.run_files import Folders
+
+
+def settings(run: Run) -> dict[str, Any]:
+    """Return all settings that decide the result of a run, as JSON values.
+
+    Raises:
+        TypeError: The algorithm has no such setting.
+        ValueError: A setting outside its range.
+    """
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.settings(run)
+    return clones.settings(run) if algorithm == CLONES else sb3_run.settings(run)
+
+
+def missing_library(run: Run) -> str:
+    """Return the name of a library that a run needs and that is not installed, or an empty text."""
+    names = {PPO: "torch", **dict.fromkeys(SB3, "stable_baselines3")}
+    name = names.get(run.experiment.algorithm)
+    return name if name and find_spec(name) is None else ""
+
+
+def defaults(run: Run) -> dict[str, Any]:
+    """Return the defaults of settings that a result may lack, as it is older than the setting."""
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.defaults()
+    return {} if algorithm == CLONES else sb3_run.DEFAULTS
+
+
+def without_effect(run: Run) -> frozenset[str]:
+    """Return the names of settings that leave the result of a run as it is."""
+    return ppo_run.without_effect(run) if run.experiment.algorithm == PPO else frozenset()
+
+
+def samples_so_far(run: Run, folder: Path) -> int | None:
+    """Return the samples of an unfinished run that can continue; None for a new one."""
+    return ppo_run.samples_so_far(folder) if run.experiment.algorithm == PPO else None
+
+
+def learn(run: Run, folder: Path, folders: Folders) -> Learned:
+    """Learn a policy.
+
+    Args:
+        run: The run.
+        folder: Folder for its files.
+        folders: Folders of the study.
+
+    Returns:
+        The policy, and how it was learned.
+    """
+    algorithm = run.experiment.algorithm
+    if algorithm == PPO:
+        return ppo_run.learn(run, folder, folders)
+    if algorithm == CLONES:
+        return clones.learn(run, folders)
+    return sb3_run.learn(run, folder, folders)

@@ -1,0 +1,80 @@
+"""The evaluation of a policy, the same for all algorithms."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+from benches.learning.experiments import Protocol, Run
+from benches.learning.learned import Learned
+from benches.learning.run_files import Folders, reference
+from rsoccer.evaluate import Evaluation, evaluate
+from rsoccer.policies import PolicyLike
+from rsoccer.registry import make_task
+
+VSSS: Final = ("ou", "zero", "chase", "scripted")
+SSL: Final = ("ou", "zero", "strike")
+DIGITS: Final = 4
+
+
+def opponents_of(task: str) -> tuple[str | None, ...]:
+    """Return the opponents of a task's policies; None is the task's own."""
+    if not make_task(task).two_sided:
+        return (None,)
+    return VSSS if task.startswith("VSS") else SSL
+
+
+def evaluate_run(
+    run: Run, learned: Learned, protocol: Protocol, folders: Folders
+) -> list[dict[str, Any]]:
+    """Return the evaluations of a policy against each opponent in each of its modes.
+
+    Args:
+        run: The run.
+        learned: Its policy; its own mode comes first.
+        protocol: Numbers of matches and seed.
+        folders: Folders with the policies of other experiments.
+    """
+    opponents = run.experiment.opponents
+    if opponents is None:
+        opponents = opponents_of(run.experiment.task)
+    rows = []
+    for opponent in opponents:
+        other: PolicyLike | None = opponent
+        if opponent is not None and opponent.startswith("@"):
+            other = reference(folders, opponent, run)
+        for mode, policy in learned.policies.items():
+            row = evaluated(run.experiment.task, policy, other, protocol)
+            rows.append({"opponent": opponent or "-", "mode": mode, **row})
+    return rows
+
+
+def evaluated(
+    task: str, policy: PolicyLike, opponent: PolicyLike | None, protocol: Protocol
+) -> dict[str, Any]:
+    """Return the numbers of one evaluation, ready for JSON."""
+    matches = protocol.starts * (2 if make_task(task).two_sided else 1)
+    evaluation = evaluate(
+        policy, opponent, matches, protocol.seed, task=task, worlds=250, threads=1
+    )
+    return numbers(evaluation)
+
+
+def numbers(evaluation: Evaluation) -> dict[str, Any]:
+    """Return the numbers that a study keeps: counts, means and intervals."""
+    sides = {side: round(part.score, DIGITS) for side, part in evaluation.sides.items()}
+    after = evaluation.seconds_to_decision
+    return {
+        "metric": evaluation.metric,
+        "matches": evaluation.matches,
+        "wins": evaluation.wins,
+        "draws": evaluation.draws,
+        "losses": evaluation.losses,
+        "score": round(evaluation.score, DIGITS),
+        "low": round(evaluation.low, DIGITS),
+        "high": round(evaluation.high, DIGITS),
+        "sides": sides,
+        "seconds": round(evaluation.seconds.mean, DIGITS),
+        "decided": evaluation.decided,
+        "own_goals": evaluation.own_goals,
+        "seconds_to_decision": None if after is None else round(after, DIGITS),
+    }

@@ -1,0 +1,155 @@
+"""Runs of the package's own trainer, which resume from its checkpoint."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from benches.learning.experiments import Run
+from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.run_files import Folders, with_policies
+from rsoccer._core import build_info
+from rsoccer.arrays import Array
+from rsoccer.frame import team_of
+from rsoccer.registry import make_task
+from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
+
+NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
+"""Settings that leave the result as it is, and the seed, which the name of a run holds."""
+PHYSICS_FILE: Final = "physics.txt"
+SELF_PLAY_ONLY: Final = (
+    *("latest_fraction", "past_fraction", "ou_fraction", "pool_size", "pool_interval"),
+    "pfsp_power",
+)
+"""Settings without effect where one team learns."""
+
+
+def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -> Args:
+    """Return the settings of a run on one core: recommended ones, and those of the experiment.
+
+    Args:
+        run: The run.
+        folder: Folder for its files.
+        folders: Folders of the study, in which the policies "@group/name" of the settings are; None
+            keeps these names.
+
+    Raises:
+        TypeError: This trainer has no such setting.
+        ValueError: A setting outside its range.
+    """
+    given = run.experiment.settings
+    if folders is not None:
+        given = with_policies(given, folders, run)
+    fixed: dict[str, Any] = {
+        "task": run.experiment.task,
+        "seed": run.seed,
+        "out": folder,
+        "threads": 1,
+        "torch_threads": 1,
+        "progress": False,
+        "match_page": False,
+    }
+    return Args.for_task(**{**given, **fixed})
+
+
+def settings(run: Run) -> dict[str, Any]:
+    """Return all settings that decide the result, as JSON values."""
+    values, ignored = args(run).to_json(), without_effect(run)
+    return {name: value for name, value in values.items() if name not in ignored}
+
+
+def without_effect(run: Run) -> frozenset[str]:
+    """Return the names of settings that leave the result of a run as it is."""
+    agents = make_task(run.experiment.task).agents
+    names = [*NOT_COMPARED]
+    if len({team_of(name) for name in agents}) == 1:
+        names += SELF_PLAY_ONLY
+    if len(agents) == 1:
+        names += ("solo_fraction", "solo_partners")
+    return frozenset(names)
+
+
+def defaults() -> dict[str, Any]:
+    """Return the defaults of all settings, as JSON values."""
+    return Args().to_json()
+
+
+def samples_so_far(folder: Path) -> int | None:
+    """Return the samples of the checkpoint in a folder; None without one."""
+    from rsoccer.train import checkpoint
+
+    path = folder / checkpoint.FILE_NAME
+    return int(checkpoint.load(path).info["samples"]) if path.is_file() else None
+
+
+def _continues(wanted: Args, folder: Path) -> bool:
+    """Whether the folder has a checkpoint of a run with the same settings and physics."""
+    from rsoccer.train import checkpoint
+
+    path, physics = folder / checkpoint.FILE_NAME, folder / PHYSICS_FILE
+    if not path.is_file() or not physics.is_file() or physics.read_text() != _physics():
+        return False
+    return not wanted.differences(checkpoint.load(path).info["args"])
+
+
+def _physics() -> str:
+    """Version of the physics, which a checkpoint does not hold."""
+    return str(build_info()["physics"])
+
+
+def learn(run: Run, folder: Path, folders: Folders) -> Learned:
+    """Train a policy, from the last checkpoint if there is one.
+
+    Args:
+        run: The run.
+        folder: Folder for its files.
+        folders: Folders of the study.
+
+    Returns:
+        The policy.
+
+    Raises:
+        Interrupted: A signal came; the checkpoint is saved.
+    """
+    from rsoccer.train import train
+    from rsoccer.train.log import read_progress
+
+    wanted = args(run, folder, folders)
+    resume = _continues(wanted, folder)
+    if not resume:
+        restart_clock(folder)
+        (folder / PHYSICS_FILE).write_text(_physics())
+    with timed(folder):
+        policy = str(train(dataclasses.replace(wanted, resume=resume, overwrite=not resume)))
+    progress = read_progress(folder)
+    metric = make_task(run.experiment.task).success or "reward"
+    seconds, samples = progress["seconds"], progress["samples"]
+    return Learned(
+        policies={"sample": policy, "mean": f"{policy}:mean"},
+        samples=int(samples[-1]),
+        curve=curve(metric, samples, seconds, *strength(progress, metric)),
+        extra={"updates": len(samples), "trainer_seconds": round(float(seconds[-1]), 1)},
+    )
+
+
+def strength(progress: Mapping[str, Array], metric: str) -> tuple[Array, Array]:
+    """Return the values of a run's curve and their weights, (updates,) each.
+
+    The ladder, which plays the same matches each time, comes first. Opponents of self-play change,
+    so of its own matches those against `ou` count.
+
+    Args:
+        progress: Columns of the run's log.
+        metric: Metric of the task.
+    """
+    episodes = progress["episodes"]
+    columns = (f"ladder_ou_{metric}", f"ladder_{metric}", f"episode_ou/{metric}")
+    for name in columns:
+        values = progress.get(name)
+        if values is not None and np.isfinite(values).any():
+            return values, np.ones(len(values)) if name.startswith("ladder") else episodes
+    return progress[f"episode/{metric}"], episodes

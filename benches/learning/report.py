@@ -1,0 +1,99 @@
+"""The report of the study: parts of docs/learning.md and of README.md, and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Final
+
+from benches.learning import tables
+from benches.learning.collection import Collected, collect
+from benches.learning.pictures import draw_ablation, draw_curves
+from benches.learning.run_files import Folders
+from benches.learning.table import STUDY
+from benches.result_files import ROOT
+
+DOCS: Final = ROOT / "docs"
+PAGES: Final = (ROOT / "README.md", DOCS / "learning.md")
+CURVES: Final = "learning_curves.png"
+ABLATION: Final = "learning_ablation.png"
+
+
+def report() -> Iterator[Path]:
+    """Draw the pictures, and write the generated parts of the pages.
+
+    Yields:
+        Path of each file.
+    """
+    from tools.write_readme import written
+
+    collected = _collected()
+    yield from draw(collected, DOCS)
+    for page in PAGES:
+        page.write_text(written(page.read_text(), page.name))
+        yield page
+
+
+def draw(collected: list[Collected], folder: Path) -> list[Path]:
+    """Draw the pictures for which there are results, and return their paths."""
+    paths = (
+        draw_curves(collected, folder / CURVES),
+        draw_ablation(collected, folder / ABLATION),
+    )
+    return [path for path in paths if path is not None]
+
+
+def results() -> str:
+    """Return the results of PPO and the learning curves."""
+    text = tables.results(_collected()) or "No run has finished yet."
+    picture = _picture(CURVES, "Learning curves of all tasks")
+    return "\n\n".join(part for part in (text, picture) if part)
+
+
+def baselines() -> str:
+    """Return the table of DDPG and SAC beside PPO; empty without results."""
+    return _section("PPO, DDPG and SAC", tables.baselines)
+
+
+def ablation() -> str:
+    """Return the table and the picture of the ablation; empty without results."""
+    text = _section("PPO in the setting of the paper", tables.ablation)
+    return f"{text}\n\n{_picture(ABLATION, 'Bars of the ablation')}".strip() if text else ""
+
+
+def cooperation() -> str:
+    """Return the table of teams, clones and critics; empty without results."""
+    return _section("Cooperation", tables.cooperation)
+
+
+def compute() -> str:
+    """Return the table of the time that the study took; empty without results."""
+    return _section("Compute", tables.compute)
+
+
+def headline() -> str:
+    """Return the section of the README; empty without results."""
+    text = _section("Learning", tables.headline)
+    if not text:
+        return ""
+    picture = f"![Learning curves of all tasks](docs/{CURVES})" if (DOCS / CURVES).exists() else ""
+    explained = (
+        "Interquartile means over seeds with 95% intervals; DDPG and SAC had the time of PPO. "
+        "[Learning](docs/learning.md) has the protocol, all opponents, and the reasons why PPO "
+        "failed in the paper."
+    )
+    return "\n\n".join(part for part in (text, explained, picture) if part)
+
+
+def _section(title: str, write: Callable[[list[Collected]], str]) -> str:
+    """A table under a title; empty without results."""
+    text = write(_collected())
+    return f"## {title}\n\n{text}" if text else ""
+
+
+def _picture(name: str, text: str) -> str:
+    return f"![{text}]({name})" if (DOCS / name).exists() else ""
+
+
+def _collected() -> list[Collected]:
+    return collect(STUDY, Folders())

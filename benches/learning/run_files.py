@@ -1,0 +1,137 @@
+"""Files of a study: the result of each finished run, and the folders of unfinished runs."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any, Final
+
+from benches.learning.experiments import Run
+from benches.result_files import RESULTS, ROOT
+from rsoccer.files import write_atomically
+
+POLICY: Final = "policy.safetensors"
+
+
+@dataclass(frozen=True)
+class Folders:
+    """Folders of a study."""
+
+    results: Path = RESULTS / "learning"
+    """Committed: one small file per finished run, in `runs`."""
+    work: Path = ROOT / "out" / "learning"
+    """Not committed: checkpoints, logs and policies."""
+
+    def result(self, key: str) -> Path:
+        """Return the path of a run's result."""
+        return self.results / "runs" / f"{key}.json"
+
+    def workplace(self, key: str) -> Path:
+        """Return the folder of a run's checkpoint, log and policy."""
+        return self.work / key
+
+    def policy(self, key: str) -> Path:
+        """Return the path of a run's policy."""
+        return self.workplace(key) / POLICY
+
+
+def load(folders: Folders, key: str) -> dict[str, Any] | None:
+    """Return the result of a run; None if it has not finished."""
+    path = folders.result(key)
+    if not path.is_file():
+        return None
+    result: dict[str, Any] = json.loads(path.read_text())
+    return result
+
+
+def save(folders: Folders, key: str, result: dict[str, Any]) -> Path:
+    """Write the result of a finished run in one step, and return its path."""
+    path = folders.result(key)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_atomically(path, (_json(result) + "\n").encode())
+    return path
+
+
+def _json(value: dict[str, Any]) -> str:
+    """JSON with a line for each entry of the first two levels: short files, readable changes."""
+    lines = []
+    for name, part in value.items():
+        if isinstance(part, dict) and part:
+            inner = ",\n".join(f"  {json.dumps(k)}: {json.dumps(v)}" for k, v in part.items())
+            text = f"{{\n{inner}\n }}"
+        elif isinstance(part, list) and part:
+            text = "[\n" + ",\n".join(f"  {json.dumps(item)}" for item in part) + "\n ]"
+        else:
+            text = json.dumps(part)
+        lines.append(f" {json.dumps(name)}: {text}")
+    return "{\n" + ",\n".join(lines) + "\n}"
+
+
+@contextmanager
+def lock(folders: Folders, key: str) -> Iterator[bool]:
+    """Hold the lock of a run, which the system releases if the process dies.
+
+    Yields:
+        True if the lock is held; False if another process has it.
+    """
+    folders.workplace(key).mkdir(parents=True, exist_ok=True)
+    with _lock_file(folders, key).open("w") as file:
+        yield _try_lock(file)
+
+
+def is_running(folders: Folders, key: str) -> bool:
+    """Return whether a process holds the lock of a run."""
+    path = _lock_file(folders, key)
+    if not path.exists():
+        return False
+    with path.open("w") as file:
+        return not _try_lock(file)
+
+
+def _lock_file(folders: Folders, key: str) -> Path:
+    return folders.workplace(key) / "lock"
+
+
+def _try_lock(file: IO[str]) -> bool:
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def reference(folders: Folders, name: str, run: Run) -> Path:
+    """Return the policy of another experiment, "@group/name", with the seed of a run.
+
+    Raises:
+        ValueError: It is not in the work folder.
+    """
+    path = folders.policy(f"{name.removeprefix('@')}/seed-{run.seed}")
+    if not path.is_file():
+        raise ValueError(f"{run.key} needs the policy {path}; run its experiment on this machine")
+    return path
+
+
+def with_policies(value: Any, folders: Folders, run: Run) -> Any:  # noqa: ANN401
+    """Return settings with paths in the place of policies "@group/name".
+
+    Args:
+        value: Settings: JSON values, also as names of a dictionary.
+        folders: Folders of the study.
+        run: The run, whose seed the policies have.
+
+    Raises:
+        ValueError: A policy is not in the work folder.
+    """
+    if isinstance(value, str) and value.startswith("@"):
+        return str(reference(folders, value, run))
+    if isinstance(value, Mapping):
+        items = value.items()
+        return {with_policies(k, folders, run): with_policies(v, folders, run) for k, v in items}
+    if isinstance(value, list | tuple):
+        return type(value)(with_policies(item, folders, run) for item in value)
+    return value

@@ -1,0 +1,111 @@
+"""Runs of DDPG and SAC through Stable-Baselines3, the algorithms of the paper.
+
+A run has a budget of processor time, by default that of the PPO run of the same task and seed. It
+is short, and an interrupted one starts again.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from benches.learning import run_files
+from benches.learning.evaluation import evaluated, opponents_of
+from benches.learning.experiments import Protocol, Run
+from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.relu_actor import ReluActor
+from benches.learning.run_files import Folders
+from rsoccer.registry import make_task
+
+DEFAULTS: Final[dict[str, Any]] = {
+    "seconds": "as PPO",
+    "task_options": {},
+    "rows": 48,
+    "samples_per_gradient_step": 10,
+    "action_repeat": 3,
+    "gamma": 0.97,
+    "hidden_sizes": [64, 64],
+    "learning_rate": 1e-3,
+    "batch_size": 256,
+    "buffer_size": 1_000_000,
+    "learning_starts": 10_000,
+    "tau": 0.005,
+    "n_steps": 1,
+    "noise": [0.15, 0.8, 0.15],
+}
+"""Settings and their defaults.
+
+Discount, decision rate and network size are those of PPO; `gamma` is per control step. `seconds` is
+the processor time of learning. `rows` is the least number of robots that act at once.
+`samples_per_gradient_step` is that of the paper. `noise` of DDPG is an Ornstein-Uhlenbeck process:
+theta, and sigma at the start and at the end of the run, as in the paper; its time is match time.
+"""
+FILE: Final = "actor.npz"
+SNAPSHOT: Final = Protocol(starts=50, seed=32)
+"""Evaluation of the points of a learning curve."""
+
+
+def settings(run: Run) -> dict[str, Any]:
+    """Return all settings of a run, as JSON values.
+
+    Raises:
+        TypeError: An unknown setting.
+    """
+    given = run.experiment.settings
+    if unknown := sorted(set(given) - set(DEFAULTS)):
+        raise TypeError(f"expected settings of {sorted(DEFAULTS)}, got {unknown}")
+    values = {**DEFAULTS, **given, "algorithm": run.experiment.algorithm}
+    if run.experiment.algorithm != "ddpg":
+        del values["noise"]
+    return values
+
+
+def budget(run: Run, folders: Folders) -> float:
+    """Return the processor seconds of a run.
+
+    Raises:
+        ValueError: The PPO run whose time it takes has not finished.
+    """
+    seconds = settings(run)["seconds"]
+    if seconds != DEFAULTS["seconds"]:
+        return float(seconds)
+    key = f"{run.experiment.needs[0]}/seed-{run.seed}"
+    result = run_files.load(folders, key)
+    if result is None:
+        raise ValueError(f"{run.key} takes the time of {key}, which has not finished")
+    return float(result["seconds"]["cpu"])
+
+
+def learn(run: Run, folder: Path, folders: Folders) -> Learned:
+    """Train an actor for the time of its budget.
+
+    Args:
+        run: The run.
+        folder: Folder for its files.
+        folders: Folders of the study.
+
+    Returns:
+        The policy: deterministic actions, and for SAC drawn ones too.
+    """
+    values, seconds = settings(run), budget(run, folders)
+    opponent = opponents_of(run.experiment.task)[0]
+    restart_clock(folder)
+    with timed(folder):
+        from benches.learning.sb3_training import train
+
+        def measure(actor: ReluActor) -> float:
+            row = evaluated(run.experiment.task, actor.mean(), opponent, SNAPSHOT)
+            return float(row["score"])
+
+        actor, log = train(run.experiment.task, values, run.seed, seconds, measure)
+    actor.save(folder / FILE)
+    policies: dict[str, Any] = {"mean": actor.mean()}
+    if actor.log_std is not None:
+        policies["sample"] = actor
+    metric = make_task(run.experiment.task).success or "return"
+    samples, times, scores = map(np.array, (log.samples, log.seconds, log.scores))
+    extra = {"learning_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps}
+    points = curve(metric, samples, times, scores, np.ones(len(scores)))
+    return Learned(policies, log.total, points, extra)

@@ -1,0 +1,135 @@
+"""State of each run of a study: finished, stale, or still to be done."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any, Final
+
+from benches.learning import algorithms, run_files
+from benches.learning.experiments import Run, Study
+from benches.learning.run_files import Folders
+from rsoccer._core import build_info
+
+DONE: Final = "done"
+STALE: Final = "stale"
+RUNNING: Final = "running"
+UNFINISHED: Final = "unfinished"
+OPEN: Final = "open"
+WAITING: Final = "waiting"
+UNAVAILABLE: Final = "unavailable"
+
+SAMPLES_PER_SECOND: Final = 8_000.0
+"""Guess for algorithms of which no run has finished yet."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """State of one run."""
+
+    run: Run
+    state: str
+    """One of the constants of this module."""
+    reason: str = ""
+    """Cause of the state, such as the settings that have changed."""
+    result: Mapping[str, Any] | None = field(default=None, compare=False)
+    """Result of a run that is done or stale."""
+
+
+def statuses(study: Study, folders: Folders) -> list[Status]:
+    """Return the state of every run of a study, in its order."""
+    found: dict[str, Status] = {}
+    for run in study.runs():
+        found[run.key] = status(run, study, folders)
+    return [_after_needs(entry, found) for entry in found.values()]
+
+
+def status(run: Run, study: Study, folders: Folders) -> Status:
+    """Return the state of a run, whatever the runs that it needs."""
+    try:
+        settings = algorithms.settings(run)
+    except (TypeError, ValueError, ImportError) as error:
+        return Status(run, UNAVAILABLE, str(error), run_files.load(folders, run.key))
+    missing = algorithms.missing_library(run)
+    if missing and run_files.load(folders, run.key) is None:
+        return Status(run, UNAVAILABLE, f"{missing} is not installed")
+    if run_files.is_running(folders, run.key):
+        return Status(run, RUNNING, _progress(run, folders))
+    result = run_files.load(folders, run.key)
+    if result is not None:
+        changed = differences(run, study, settings, result)
+        return Status(run, STALE if changed else DONE, "; ".join(changed), result)
+    progress = _progress(run, folders)
+    return Status(run, UNFINISHED if progress else OPEN, progress)
+
+
+def differences(
+    run: Run, study: Study, settings: Mapping[str, Any], result: Mapping[str, Any]
+) -> list[str]:
+    """Return the settings that differ from those of a result, one text each.
+
+    A setting that is newer than the result counts as its default.
+
+    Args:
+        run: The run.
+        study: Its study.
+        settings: Present settings of the run.
+        result: The result in its file.
+    """
+    protocol = {f"protocol.{name}": value for name, value in asdict(study.protocol).items()}
+    kept_protocol = {f"protocol.{name}": value for name, value in result["protocol"].items()}
+    now = {**settings, **protocol, "physics": build_info()["physics"]}
+    ignored = algorithms.without_effect(run)
+    settings_then = {n: v for n, v in result["settings"].items() if n not in ignored}
+    kept = {**settings_then, **kept_protocol, "physics": result["physics"]}
+    missing = {n: v for n, v in algorithms.defaults(run).items() if n in now and n not in kept}
+    before = {**missing, **kept}
+    return [
+        f"{name} was {before.get(name)!r}, now {now.get(name)!r}"
+        for name in {**now, **before}
+        if now.get(name) != before.get(name)
+    ]
+
+
+def _after_needs(entry: Status, found: Mapping[str, Status]) -> Status:
+    """The status, or that of a run that waits for others."""
+    missing = [k for k in entry.run.needs if k not in found or found[k].state != DONE]
+    if entry.state in (OPEN, UNFINISHED) and missing:
+        return Status(entry.run, WAITING, f"needs {', '.join(missing)}")
+    return entry
+
+
+def _progress(run: Run, folders: Folders) -> str:
+    """Progress of an unfinished run; empty for a new one."""
+    samples = algorithms.samples_so_far(run, folders.workplace(run.key))
+    return "" if samples is None else f"{samples:,} samples so far"
+
+
+def expected_seconds(run: Run, known: Sequence[Status]) -> float:
+    """Return the expected seconds of a run, evaluation included, from finished runs.
+
+    Args:
+        run: The run.
+        known: States of all runs.
+    """
+    results = [entry.result for entry in known if entry.result and entry.run != run]
+    same = [r for r in results if r["run"].startswith(f"{run.experiment.key}/")]
+    if same:
+        return statistics.median(_seconds(result) for result in same)
+    settings = algorithms.settings(run)
+    if isinstance(settings.get("seconds"), int | float):
+        return float(settings["seconds"])
+    if settings.get("seconds") is not None:
+        ppo = next(entry.run for entry in known if entry.run.key == run.needs[0])
+        return expected_seconds(ppo, known)
+    samples = settings.get("samples", 0)
+    for name, value in (("task", run.experiment.task), ("algorithm", run.experiment.algorithm)):
+        rates = [r["samples"] / _seconds(r) for r in results if r[name] == value and r["samples"]]
+        if rates:
+            return float(samples / statistics.median(rates))
+    return float(samples / SAMPLES_PER_SECOND)
+
+
+def _seconds(result: Mapping[str, Any]) -> float:
+    return float(max(result["seconds"]["wall"] + result["evaluation_seconds"], 1.0))

@@ -1,0 +1,198 @@
+"""Tables of the report as Markdown; empty groups give an empty text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from benches.learning import cells
+from benches.learning.ablation import CHANGES, OURS, PAPER
+from benches.learning.collection import Collected, find, finished
+from tools.markdown import table
+
+Studied = Sequence[Collected]
+
+
+def results(collected: Studied) -> str:
+    """Return the results of PPO on each task against each opponent."""
+    parts = finished(collected, "ppo")
+    header = (
+        *("task", "against", "score", "95% interval", "target", "seeds", "mean action"),
+        *("won, drawn, lost (own goals)", "time to success", "samples", "core time"),
+    )
+    rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
+    return _with_notes(header, rows, collected, "ppo")
+
+
+def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
+    task = part.experiment.task
+    estimate = part.estimate(opponent)
+    return (
+        cells.name_of(part, task),
+        "" if opponent == "-" else f"`{opponent}`",
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.target(part, opponent),
+        cells.seeds(part.scores(opponent)),
+        cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
+        cells.outcomes(part, opponent),
+        cells.time_to_success(part, opponent),
+        cells.millions(part.samples()),
+        cells.minutes(part.core_seconds()),
+    )
+
+
+def baselines(collected: Studied) -> str:
+    """Return the scores of DDPG and SAC beside those of PPO."""
+    header = (
+        *("task", "algorithm", "score", "95% interval", "seeds", "PPO, same time"),
+        *("PPO better", "PPO, as many samples", "samples", "gradient steps"),
+        "core time",
+    )
+    rows = [_baseline_row(part, collected) for part in finished(collected, "baselines")]
+    return _with_notes(header, rows, collected, "baselines")
+
+
+def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
+    experiment, estimate = part.experiment, part.estimate()
+    ppo = find(collected, f"ppo/{experiment.task}")
+    label = f"{experiment.algorithm.upper()}{', paper sizes' if 'paper' in experiment.name else ''}"
+    opponent = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
+    steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
+    return (
+        cells.name_of(part, f"{experiment.task}{opponent}"),
+        label,
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.seeds(part.scores()),
+        cells.number(ppo.estimate(part.opponents[0]).value) if ppo else "",
+        cells.better(ppo, part) if ppo else "",
+        cells.on_curve(ppo, part.samples()) if ppo else "",
+        cells.millions(part.samples()),
+        cells.millions(steps),
+        cells.minutes(part.core_seconds()),
+    )
+
+
+def ablation(collected: Studied) -> str:
+    """Return the scores with one change added to the paper's setting, and with one left out."""
+    parts = {part.experiment.name: part for part in finished(collected, "ablation")}
+    header = (
+        *("change", "paper + change", "95% interval", "P(better than paper)"),
+        *("ours - change", "95% interval", "P(ours better)", "seeds: paper + change", "ours"),
+    )
+    paper, ours = parts.get(PAPER), parts.get(OURS)
+    rows = []
+    if paper or ours:
+        none = ("none", *_ablation_cells(paper, None), *_ablation_cells(ours, None))
+        rows.append((*none, cells.seeds_of(paper), cells.seeds_of(ours)))
+    for change in CHANGES:
+        added = parts.get(f"{PAPER}+{change.name}")
+        left_out = parts.get(f"{OURS}-{change.name}")
+        if added or left_out:
+            with_it = _ablation_cells(added, paper)
+            without = _ablation_cells(left_out, ours, swap=True)
+            points = (cells.seeds_of(added), cells.seeds_of(left_out))
+            rows.append((change.text, *with_it, *without, *points))
+    return _with_notes(header, rows, collected, "ablation")
+
+
+def _ablation_cells(
+    part: Collected | None, reference: Collected | None, *, swap: bool = False
+) -> tuple[str, str, str]:
+    """Score, interval and probability of improvement over a reference, or of the reference."""
+    if part is None:
+        return "missing", "", ""
+    estimate = part.estimate()
+    better = ""
+    if reference is not None:
+        better = cells.better(reference, part) if swap else cells.better(part, reference)
+    return cells.number(estimate.value), cells.interval(estimate), better
+
+
+def cooperation(collected: Studied) -> str:
+    """Return the comparisons of teams, clones and critics."""
+    header = (
+        *("task", "policy", "against", "score", "95% interval", "PPO, decentral critic"),
+        *("P(better than that)", "seeds"),
+    )
+    rows = [
+        _cooperation_row(part, opponent, collected)
+        for part in finished(collected, "cooperation")
+        for opponent in part.opponents
+    ]
+    return _with_notes(header, rows, collected, "cooperation")
+
+
+def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tuple[str, ...]:
+    estimate = part.estimate(opponent)
+    ppo = find(collected, f"ppo/{part.experiment.task}")
+    # Clones play the task of a team: their comparison with it is the same.
+    comparable = ppo is not None and opponent in ppo.opponents
+    against = "" if opponent == "-" else f"`{opponent}`"
+    if opponent.startswith("@"):
+        against = f"policy of {opponent.removeprefix('@ppo/')}"
+    return (
+        cells.name_of(part, part.experiment.task),
+        part.experiment.text,
+        against,
+        cells.number(estimate.value),
+        cells.interval(estimate),
+        cells.number(ppo.estimate(opponent).value) if ppo and comparable else "",
+        cells.better(part, ppo, opponent) if ppo and comparable else "",
+        cells.seeds(part.scores(opponent)),
+    )
+
+
+def compute(collected: Studied) -> str:
+    """Return the time that the runs of each group took."""
+    rows = []
+    for group in dict.fromkeys(part.experiment.group for part in collected):
+        found = [result for part in finished(collected, group) for result in part.results]
+        if found:
+            learning = sum(float(result["seconds"]["cpu"]) for result in found) / 3600.0
+            wall = sum(float(result["seconds"]["wall"]) for result in found) / 3600.0
+            evaluation = sum(float(result["evaluation_seconds"]) for result in found) / 3600.0
+            samples = cells.millions(sum(float(result["samples"]) for result in found))
+            machines = sorted({str(result["machine"]["machine"]) for result in found})
+            hours = (f"{hours:.1f} h" for hours in (learning, wall, evaluation))
+            rows.append((group, str(len(found)), samples, *hours, ", ".join(machines)))
+    header = ("group", "runs", "samples", "core time", "wall clock", "evaluation", "machine")
+    return table(header, rows) if rows else ""
+
+
+def headline(collected: Studied) -> str:
+    """Return the table of the README: all tasks, with PPO, DDPG and SAC."""
+    rows = []
+    for part in finished(collected, "ppo"):
+        task = part.experiment.task
+        others = (find(collected, f"baselines/{task}-{name}") for name in ("ddpg", "sac"))
+        against = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
+        metric = part.rows()[0]["metric"].replace("_", " ")
+        rows.append(
+            (
+                f"`{task}`",
+                f"{metric}{against}",
+                cells.with_interval(part),
+                *(cells.with_interval(other) for other in others),
+                f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",
+            )
+        )
+    header = ("task", "score", "PPO", "DDPG", "SAC", "PPO's samples, time of one core")
+    return table(header, rows) if rows else ""
+
+
+def _with_notes(
+    header: tuple[str, ...], rows: Sequence[tuple[str, ...]], collected: Studied, group: str
+) -> str:
+    """A table with a line about missing and stale runs; empty without rows."""
+    if not rows:
+        return ""
+    parts = [part for part in collected if part.experiment.group == group]
+    missing = {part.experiment.name: part.missing for part in parts if part.missing}
+    notes = []
+    if missing:
+        names = ", ".join(f"{name} ({count})" for name, count in missing.items())
+        notes.append(f"Missing runs: {names}.")
+    if any(part.stale for part in parts):
+        notes.append(f"{cells.STALE_MARK} Settings in the table have changed since this run.")
+    return "\n\n".join([table(header, rows), *notes])

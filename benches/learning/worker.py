@@ -1,0 +1,82 @@
+"""One run in this process: learning, evaluation and the file of its result."""
+
+from __future__ import annotations
+
+import os
+import platform
+import time
+from dataclasses import asdict
+from importlib import metadata
+from pathlib import Path
+from typing import Final
+
+from benches.learning import algorithms
+from benches.learning.evaluation import evaluate_run
+from benches.learning.experiments import Run, Study
+from benches.learning.learned import spent
+from benches.learning.run_files import Folders, lock, save
+from benches.result_files import this_machine
+from rsoccer._core import build_info
+
+PACKAGES: Final = ("numpy", "torch", "gymnasium", "stable-baselines3")
+
+
+def execute(run: Run, study: Study, folders: Folders) -> Path | None:
+    """Learn and evaluate one run, and write its result.
+
+    Args:
+        run: The run; an unfinished one continues.
+        study: The study with its protocol.
+        folders: Folders for files.
+
+    Returns:
+        Path of the result; None if another process works on this run.
+    """
+    folder = folders.workplace(run.key)
+    with lock(folders, run.key) as held:
+        if not held:
+            return None
+        machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": _cores()}
+        learned = algorithms.learn(run, folder, folders)
+        start = time.monotonic()
+        evaluations = evaluate_run(run, learned, study.protocol, folders)
+        result = {
+            "run": run.key,
+            "task": run.experiment.task,
+            "algorithm": run.experiment.algorithm,
+            "text": run.experiment.text,
+            "settings": algorithms.settings(run),
+            "protocol": asdict(study.protocol),
+            "physics": build_info()["physics"],
+            "machine": machine,
+            "libraries": libraries(),
+            "samples": learned.samples,
+            "seconds": {name: round(value, 1) for name, value in spent(folder).items()},
+            "evaluation_seconds": round(time.monotonic() - start, 1),
+            **learned.extra,
+            "curve": learned.curve,
+            "evaluations": evaluations,
+        }
+        return save(folders, run.key, result)
+
+
+def libraries() -> dict[str, str]:
+    """Return the versions of Python and of the libraries that are installed."""
+    versions = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            versions[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            continue
+    return versions
+
+
+def _cores() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
+
+
+def pin(core: int | None) -> None:
+    """Restrict this process to a processor, where the system can do that."""
+    if core is not None and hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {core})

@@ -1,0 +1,87 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from benches.learning.__main__ import main
+
+TABLE = "tests.benches.learning.tiny_table"
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """Options with the folders of a study whose first seeds of VSS-v0 are finished."""
+    folder = tmp_path_factory.mktemp("study")
+    options = ["--table", TABLE, "--results", f"{folder}/results", "--work", f"{folder}/work"]
+    assert main([*options, "--only", "ppo/VSS-v0", "--seeds", "1", "--jobs", "1"]) == 0
+    return options
+
+
+def result_of(options: list[str], key: str) -> Path:
+    return Path(options[3]) / "runs" / f"{key}.json"
+
+
+def test_a_run_leaves_its_result_and_its_policy(folders: list[str]) -> None:
+    result = json.loads(result_of(folders, "ppo/VSS-v0/seed-0").read_text())
+    assert result["samples"] == 600
+    assert result["settings"]["hidden_sizes"] == [8]
+    assert result["seconds"]["cpu"] > 0
+    modes = [(row["opponent"], row["mode"], row["matches"]) for row in result["evaluations"]]
+    assert modes == [(name, mode, 4) for name in ("ou", "zero") for mode in ("sample", "mean")]
+    assert (Path(folders[5]) / "ppo/VSS-v0/seed-0/policy.safetensors").is_file()
+
+
+def test_the_list_shows_finished_and_open_runs(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*folders, "--list", "--group", "ppo", "--jobs", "2"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[:2] for line in lines[:3]] == [
+        ["ppo/VSS-v0/seed-0", "done"],
+        ["ppo/SSLGoToBall-v0/seed-0", "open"],
+        ["ppo/VSS-v0/seed-1", "open"],
+    ]
+    assert lines[3].startswith("1 done, 2 open; ")
+
+
+def test_the_best_run_is_named_with_its_policy(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([*folders, "--best", "--group", "ppo"]) == 0
+    name, _, path = capsys.readouterr().out.split()
+    assert name == "ppo/VSS-v0/seed-0"
+    assert Path(path).is_file()
+
+
+def test_clones_are_evaluated_against_the_policy_of_their_seed(folders: list[str]) -> None:
+    assert main([*folders, "--only", "clones", "--jobs", "1"]) == 0
+    result = json.loads(result_of(folders, "cooperation/clones/seed-0").read_text())
+    assert result["samples"] == 0
+    assert [row["opponent"] for row in result["evaluations"]] == ["@ppo/VSS-v0"] * 2
+
+
+def test_a_finished_run_is_not_repeated(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = result_of(folders, "ppo/VSS-v0/seed-0")
+    before = path.read_bytes()
+    assert main([*folders, "--only", "ppo/VSS-v0", "--seeds", "1"]) == 0
+    assert path.read_bytes() == before
+    assert "start" not in capsys.readouterr().out
+
+
+def test_changed_settings_make_a_run_stale(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = result_of(folders, "ppo/VSS-v0/seed-0")
+    before = path.read_text()
+    path.write_text(before.replace('"gamma": 0.97', '"gamma": 0.9'))
+    try:
+        main([*folders, "--list", "--only", "VSS-v0/seed-0"])
+        assert "stale  gamma was 0.9, now 0.97" in capsys.readouterr().out
+        assert main([*folders, "--only", "VSS-v0/seed-0"]) == 0
+        printed = capsys.readouterr().out
+        assert "stale, kept as it is: ppo/VSS-v0/seed-0" in printed
+        assert "start" not in printed
+    finally:
+        path.write_text(before)

@@ -1,0 +1,84 @@
+"""Baselines through Stable-Baselines3."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benches.learning import sb3_run, worker
+from benches.learning.experiments import Experiment, Protocol, Run, Study
+from benches.learning.run_files import Folders, load
+from rsoccer.rng import WorldRng
+
+pytest.importorskip("stable_baselines3")
+
+QUICK = {"seconds": 2.0, "rows": 12, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
+
+
+def experiment(algorithm: str, task: str = "SSLPassEndurance-v0") -> Experiment:
+    return Experiment("baselines", algorithm, task, algorithm, settings=QUICK, seeds=1)
+
+
+@pytest.mark.parametrize("algorithm", ["ddpg", "sac"])
+def test_a_run_leaves_its_result(algorithm: str, tmp_path: Path) -> None:
+    study = Study((experiment(algorithm),), Protocol(starts=2))
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+    run = study.runs()[0]
+    assert worker.execute(run, study, folders) is not None
+    result = load(folders, run.key)
+    assert result is not None
+    assert result["samples"] > 100
+    assert result["gradient_steps"] > 1
+    assert result["learning_seconds"] == 2.0
+    assert 1 <= len(result["curve"]["samples"]) <= 12
+    assert result["curve"]["samples"][-1] == result["samples"]
+    modes = {"ddpg": ["mean"], "sac": ["mean", "sample"]}[algorithm]
+    assert [row["mode"] for row in result["evaluations"]] == modes
+
+
+@pytest.mark.parametrize("algorithm", ["ddpg", "sac"])
+def test_the_actor_acts_as_the_model(algorithm: str) -> None:
+    from stable_baselines3 import DDPG, SAC
+
+    from benches.learning.sb3_training import actor_of, environments
+
+    run = Run(experiment(algorithm), 0)
+    envs = environments(run.experiment.task, sb3_run.settings(run))
+    model = {"ddpg": DDPG, "sac": SAC}[algorithm]("MlpPolicy", envs, seed=0, device="cpu")
+    observations = envs.reset()
+    expected, _ = model.predict(observations, deterministic=True)
+    actor = actor_of(model, 3).mean()
+    actions = actor.choose(observations[:, None], WorldRng.seeded(0, len(observations)))
+    np.testing.assert_allclose(actions[:, 0], expected, atol=1e-5)
+
+
+def test_a_decision_is_held_and_sums_its_rewards() -> None:
+    from benches.learning.sb3_wrapper import ActionRepeat
+    from rsoccer.sb3 import SoccerVecEnv
+
+    plain = SoccerVecEnv("VSS-v0", 2)
+    held = ActionRepeat(SoccerVecEnv("VSS-v0", 2), 3, 0.5)
+    for envs in (plain, held):
+        envs.seed(5)
+        envs.reset()
+    actions = np.full((2, 2), 0.5, np.float32)
+    steps = [plain.step(actions) for _ in range(3)]
+    observations, rewards, ended, _ = held.step(actions)
+    np.testing.assert_array_equal(observations, steps[-1][0])
+    np.testing.assert_allclose(rewards, sum(0.5**i * step[1] for i, step in enumerate(steps)))
+    assert not ended.any()
+
+
+def test_an_episode_that_ends_within_a_decision_is_reported_once() -> None:
+    from benches.learning.sb3_wrapper import ActionRepeat
+    from rsoccer.sb3 import SoccerVecEnv
+
+    held = ActionRepeat(SoccerVecEnv("VSS-v0", 2, max_steps=4), 3, 1.0)
+    held.seed(5)
+    held.reset()
+    actions = np.ones((2, 2), np.float32)
+    assert not held.step(actions)[2].any()
+    _, _, ended, infos = held.step(actions)
+    assert ended.all()
+    assert [info["steps"] for info in infos] == [4.0, 4.0]
+    assert all(info["TimeLimit.truncated"] for info in infos)

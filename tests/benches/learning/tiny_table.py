@@ -1,0 +1,34 @@
+"""Study of runs that take seconds, for tests in processes of their own."""
+
+from typing import Any, Final
+
+from benches.learning.experiments import Experiment, Protocol, Study
+
+TINY: Final[dict[str, Any]] = {
+    "samples": 600,
+    "worlds": 10,
+    "horizon": 20,
+    "hidden_sizes": (8,),
+    "n_epochs": 1,
+    "n_minibatches": 1,
+}
+LONGER: Final = {**TINY, "samples": 6_000}
+PROTOCOL: Final = Protocol(starts=2)
+STUDY: Final = Study(
+    (
+        Experiment("ppo", "VSS-v0", "VSS-v0", settings=TINY, seeds=2, opponents=("ou", "zero")),
+        Experiment("ppo", "SSLGoToBall-v0", "SSLGoToBall-v0", settings=TINY, seeds=1),
+        Experiment(
+            "cooperation",
+            "clones",
+            "VSSMulti-v0",
+            "clones",
+            settings={"policy": "@ppo/VSS-v0"},
+            seeds=1,
+            opponents=("@ppo/VSS-v0",),
+            needs=("ppo/VSS-v0",),
+        ),
+        Experiment("interrupted", "run", "SSLPassEndurance-v0", settings=LONGER, seeds=1),
+    ),
+    PROTOCOL,
+)
