@@ -93,7 +93,7 @@ impl Rectangle<'_> {
     }
 
     /// Contact points of another rectangle on a face of this one.
-    fn clip(&self, other: &Self, face: Face, time: f32, tag: u8) -> Option<Manifold> {
+    fn clip(&self, other: &Self, face: Face, time: f32, tag: u32) -> Option<Manifold> {
         let (own, axes) = (self.axes(), other.axes());
         let center = other.body.position - self.body.position;
         let side = 1.0_f32.copysign(center.dot(own[face.axis]));
@@ -113,7 +113,7 @@ impl Rectangle<'_> {
         let inverse_span = 1.0 / (at[1] - at[0]);
         let limit = self.half[1 - face.axis];
         #[allow(clippy::cast_possible_truncation)] // two axes
-        let axes = (face.axis << 1 | opposite << 2) as u8;
+        let axes = (face.axis << 1 | opposite << 2) as u32;
         let mut manifold = Manifold::empty(normal);
         for (end, place) in [(0, at[0]), (1, at[1])] {
             let share = (place.clamp(-limit, limit) - at[0]) * inverse_span;
@@ -135,7 +135,7 @@ impl Rectangle<'_> {
 const ROUNDING: f32 = 1e-5;
 
 /// Bit of all features, so that none is 0, which is no point.
-const POINT: u8 = 1 << 4;
+const POINT: u32 = 1 << 4;
 
 #[cfg(test)]
 mod tests {

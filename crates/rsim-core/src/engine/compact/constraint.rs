@@ -15,7 +15,7 @@ use crate::math::Vector;
 pub(super) struct ConstraintPoint {
     /// From both bodies' centres to the point, m.
     pub(super) arms: [Vector; 2],
-    feature: u8,
+    feature: u32,
     /// Along the normal, N s.
     pub(super) impulse: f32,
     /// m.

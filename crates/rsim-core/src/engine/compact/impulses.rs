@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Impulses {
     /// Feature and impulse along the normal (N s) of each point; feature 0 is none.
-    pub(super) normals: [(u8, f32); 2],
+    pub(super) normals: [(u32, f32); 2],
     /// N s.
     pub(super) tangent: f32,
 }
@@ -16,7 +16,7 @@ impl Impulses {
     }
 
     /// Impulse along the normal of the point with this feature, N s.
-    pub(super) fn normal_of(&self, feature: u8) -> f32 {
+    pub(super) fn normal_of(&self, feature: u32) -> f32 {
         let [(first, impulse), (second, other)] = self.normals;
         if first == feature {
             impulse

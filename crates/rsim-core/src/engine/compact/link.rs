@@ -23,7 +23,7 @@ const STEADY: f32 = 0.2;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
     /// Identifies the pair from tick to tick.
-    pub(super) key: u16,
+    pub(super) key: u32,
     pub(super) first: usize,
     pub(super) second: usize,
     /// The robot or wall that the second meets.
@@ -149,13 +149,13 @@ impl Link {
 }
 
 /// Identifies a pair from tick to tick.
-fn key(pair: &Pair) -> u16 {
+fn key(pair: &Pair) -> u32 {
     let other = match pair.other {
         Other::Body(body) => body.body,
         Other::Wall(wall, _) => FIRST_WALL + wall,
     };
     #[allow(clippy::cast_possible_truncation)] // a match has few bodies and walls
-    let key = (pair.one.body << 8 | other) as u16;
+    let key = (pair.one.body << 8 | other) as u32;
     key
 }
 

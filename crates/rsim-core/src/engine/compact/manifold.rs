@@ -26,7 +26,7 @@ pub(super) struct Point {
     /// Now, along the normal, m; negative for overlapping outlines.
     pub(super) separation: f32,
     /// Identifies the point from one sub-step to the next.
-    pub(super) feature: u8,
+    pub(super) feature: u32,
 }
 
 impl Manifold {

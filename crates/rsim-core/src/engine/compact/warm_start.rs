@@ -39,11 +39,12 @@ impl CompactSolver {
         links.clear();
         for pair in near {
             let Some(mut link) = Link::of(pair, rules, solver_bodies) else { continue };
-            let stored = warm_starts.iter().find(|stored| stored.key == link.key);
+            let stored = warm_starts.iter().find(|stored| u32::from(stored.key) == link.key);
             let stored = stored.filter(|_| !(ball_is_lighter && link.second == BALL));
             if let Some(WarmStart { features, normals, tangent, .. }) = stored {
                 link.impulses = Impulses {
-                    normals: [0, 1].map(|point| (features[point], normals[point] * scale)),
+                    normals: [0, 1]
+                        .map(|point| (u32::from(features[point]), normals[point] * scale)),
                     tangent: tangent * scale,
                 };
             }
@@ -54,9 +55,12 @@ impl CompactSolver {
     /// Stores the impulses of the last sub-step, of length `time` (s), for the next tick.
     pub(super) fn store(&mut self, bodies: &mut Bodies, links: &[Link], time: f32) {
         let pressing = links.iter().filter(|link| link.impulses.press());
+        #[allow(clippy::cast_possible_truncation)]
+        // two small numbers in a key, five bits in a feature
         let stored = bodies.store_warm_starts(pressing.map(|link| {
             let Impulses { normals: [one, two], tangent } = link.impulses;
-            WarmStart { key: link.key, features: [one.0, two.0], normals: [one.1, two.1], tangent }
+            let (key, features) = (link.key as u16, [one.0 as u8, two.0 as u8]);
+            WarmStart { key, features, normals: [one.1, two.1], tangent }
         }));
         *self = Self { stored, ball_mass: bodies.ball_mass, time };
     }
