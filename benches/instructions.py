@@ -42,7 +42,7 @@ PARTS: Final = {
     "solver": ("engine/rapier/", "engine/compact/", "engine/ball_contact"),
     "pair search": ("engine/near", "geometry/free_space"),
     "squeeze check": ("tick/squeeze",),
-    "free motion": ("engine/contact_free", "engine/bodies.rs:move_freely"),
+    "free motion": ("engine/contact_free", "bodies.rs:move_freely"),
     "wheels": ("drive/",),
     "loads": (),
     "ball": ("ball/rolling", "ball/impact", "tick/ball_contacts", "tick/flight"),

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::ball::impact::ContactBody;
+use crate::blocks::{BALL, Lanes, place_of, robot};
 use crate::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
 use crate::drive::{BlockWheels, wheels_of};
 use crate::error::ConfigError;
@@ -21,6 +22,34 @@ pub(crate) struct BodyParams {
     pub(crate) robots: Vec<RobotParams>,
     /// Wheels of the robots, by block.
     pub(crate) wheels: Vec<BlockWheels>,
+    /// Inertia and size of all bodies, by block.
+    pub(crate) inertia: Vec<BlockInertia>,
+}
+
+/// Inertia and size of the bodies of a block.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(crate) struct BlockInertia {
+    /// 1/kg.
+    inverse_mass: Lanes,
+    /// 1/(kg m²).
+    inverse_inertia: Lanes,
+    /// Radii of circles around the bodies, m.
+    pub(crate) bounding_radius: Lanes,
+}
+
+/// Inverse mass (1/kg) and inverse moment of inertia (1/(kg m²)) of a body.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InverseInertia {
+    pub(crate) mass: f32,
+    pub(crate) inertia: f32,
+}
+
+impl BlockInertia {
+    fn set(&mut self, lane: usize, inverse: InverseInertia, bounding_radius: f32) {
+        self.inverse_mass.as_mut_array()[lane] = inverse.mass;
+        self.inverse_inertia.as_mut_array()[lane] = inverse.inertia;
+        self.bounding_radius.as_mut_array()[lane] = bounding_radius;
+    }
 }
 
 /// Parameters of a robot, prepared for stepping.
@@ -84,7 +113,27 @@ impl BodyParams {
 
     fn new(ball: BallModel, robots: Vec<RobotParams>, tick: f32) -> Self {
         let wheels = wheels_of(robots.iter().map(|body| &body.model), tick);
-        Self { ball, robots, wheels }
+        let mut inertia = vec![BlockInertia::default(); wheels.len()];
+        // The ball does not rotate in the plane: its spin has three axes and is kept elsewhere.
+        let inverse = InverseInertia { mass: 1.0 / ball.mass, inertia: 0.0 };
+        let (block, lane) = place_of(BALL);
+        inertia[block].set(lane, inverse, ball.radius);
+        for (index, body) in robots.iter().enumerate() {
+            let inverse = InverseInertia { mass: body.inverse_mass, inertia: body.inverse_inertia };
+            let (block, lane) = place_of(robot(index));
+            inertia[block].set(lane, inverse, body.bounding_radius);
+        }
+        Self { ball, robots, wheels, inertia }
+    }
+
+    /// Inverse inertia of a body.
+    pub(crate) fn inverse(&self, body: usize) -> InverseInertia {
+        let (block, lane) = place_of(body);
+        let block = &self.inertia[block];
+        InverseInertia {
+            mass: block.inverse_mass.as_array()[lane],
+            inertia: block.inverse_inertia.as_array()[lane],
+        }
     }
 
     /// Parameters of the models times a world's own factors: [`BALL_PARAMETERS`], then

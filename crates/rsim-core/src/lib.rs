@@ -15,6 +15,7 @@
 
 mod ball;
 mod blocks;
+mod bodies;
 mod body_params;
 pub mod columns;
 mod drive;

@@ -2,7 +2,7 @@
 
 use rsim_core::columns::robot_column;
 use rsim_core::scenes::{self, Driver, Scene, deepest_robots, kinetic_energy, robots, uniform};
-use rsim_core::{RobotModel, SimConfig};
+use rsim_core::{EngineKind, RobotModel, SimConfig};
 
 const TICKS: [f32; 2] = [0.005, 0.0025];
 
@@ -134,9 +134,14 @@ fn robots_commanded_to_stand_gained_energy_after_a_crash() {
 
 #[test]
 fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
-    // A robot without contact that is commanded to stand only slows down. A corner that rubs on it and
-    // leaves slowly is a lasting contact, whose small load is compensated for one more tick; the load
-    // of a crash would give 0.03 m/s and 1 rad/s in a tick.
+    // A robot without contact that is commanded to stand only slows down. With the compact solver,
+    // which finds contacts four times a tick, a corner that rubs on it may leave slowly within a tick:
+    // a lasting contact, whose small load is compensated for one more tick. The load of a crash would
+    // give 0.03 m/s and 1 rad/s in a tick.
+    let [speed_gain, spin_gain] = match scenes::vss(1, 1).engine {
+        EngineKind::Rapier => [1e-3, 1e-2],
+        EngineKind::Compact => [1e-2, 0.2],
+    };
     let touched_opponent = robot_column("touched_opponent");
     for config in both_leagues() {
         check_crashes(&config, |scene, rows, label| {
@@ -147,9 +152,15 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
                 }
                 for (before, after) in robots(&pair[0]).zip(robots(&pair[1])) {
                     let [slow, fast] = [after, before].map(|robot| robot[4].hypot(robot[5]));
-                    assert!(slow <= fast + 1e-2, "{label}, tick {tick}: {fast} to {slow} m/s");
+                    assert!(
+                        slow <= fast + speed_gain,
+                        "{label}, tick {tick}: {fast} to {slow} m/s"
+                    );
                     let [slow, fast] = [after, before].map(|robot| robot[6].abs());
-                    assert!(slow <= fast + 0.2, "{label}, tick {tick}: {fast} to {slow} rad/s");
+                    assert!(
+                        slow <= fast + spin_gain,
+                        "{label}, tick {tick}: {fast} to {slow} rad/s"
+                    );
                 }
             }
         });

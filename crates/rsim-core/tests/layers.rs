@@ -15,6 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["geometry"],
     &["drive", "ball", "features"],
     &["body_params"],
+    &["bodies"],
     &["engine"],
     &["state"],
     &["tick"],

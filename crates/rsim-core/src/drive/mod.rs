@@ -176,7 +176,7 @@ impl BlockAcceleration {
 /// A bounded correction of the velocity alone lets a pushed robot creep: each tick corrects only the
 /// error of the last one. So wheels also compensate the load of the last tick, within the same bounds.
 /// They do so only while the robot is in contact: the load of an impact does not come again.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DriveState {
     /// Change of velocity by other bodies in the last tick, m/s.
     load: VectorLanes,
@@ -191,6 +191,15 @@ pub(crate) struct DriveState {
 }
 
 impl DriveState {
+    /// Wheels before their first tick.
+    pub(crate) const AT_REST: Self = Self {
+        load: VectorLanes::ZERO,
+        angular_load: Lanes::ZERO,
+        change: VectorLanes::ZERO,
+        expected_velocity: VectorLanes::ZERO,
+        expected_spin: Lanes::ZERO,
+    };
+
     /// Accelerations of the robots by their wheels, which follow `commands` for a tick.
     pub(crate) fn accelerate(
         &mut self,

@@ -5,15 +5,15 @@
 //! the solver stops bodies one sub-step ahead. If a test fails, the tick is rolled back and solved
 //! normally.
 
-use super::SubSteps;
-use super::bodies::{Bodies, Motions};
 use super::near::NearPairs;
+use crate::bodies::{Bodies, SubSteps, advance};
+use crate::geometry::motion_block::MotionBlock;
 
-/// Buffers of [`try_contact_free`]; their contents are of no use between ticks.
+/// Buffers of [`try_contact_free`], by block; their contents are of no use between ticks.
 #[derive(Default)]
 pub(super) struct ContactFreeBuffers {
-    now: Motions,
-    end: Motions,
+    now: Vec<MotionBlock>,
+    end: Vec<MotionBlock>,
 }
 
 /// Advances all bodies by a tick without the solver if nothing touches in it. Otherwise nothing
@@ -26,24 +26,27 @@ pub(super) fn try_contact_free(
 ) -> bool {
     if near.pairs.is_empty() {
         bodies.move_freely(sub_steps);
-    } else {
-        let Bodies { motions, accelerations, .. } = bodies;
-        let ContactFreeBuffers { now, end } = buffers;
-        now.copy_from(motions);
-        for index in 0..=sub_steps.count {
-            if !near.are_separated(now) {
-                return false;
-            }
-            if index == sub_steps.count {
-                end.copy_from(now);
-            }
-            now.advance(accelerations, SubSteps { count: 1, ..sub_steps });
-        }
+        return true;
+    }
+    let ContactFreeBuffers { now, end } = buffers;
+    now.clear();
+    now.extend(bodies.blocks.iter().map(|block| block.motion));
+    for index in 0..=sub_steps.count {
         if !near.are_separated(now) {
             return false;
         }
-        motions.copy_from(end);
+        if index == sub_steps.count {
+            end.clone_from(now);
+        }
+        for (motion, block) in now.iter_mut().zip(&bodies.blocks) {
+            advance(motion, &block.acceleration, SubSteps { count: 1, ..sub_steps });
+        }
     }
-    bodies.moved.fill(true);
+    if !near.are_separated(now) {
+        return false;
+    }
+    for (block, end) in bodies.blocks.iter_mut().zip(end) {
+        block.motion = *end;
+    }
     true
 }

@@ -1,18 +1,16 @@
 //! Contacts with an impulse in the last tick, as both contact solvers report them.
 
-use serde::{Deserialize, Serialize};
-
 use crate::math::Vector;
 
 /// The other party of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Partner {
     Wall(usize),
     Robot(usize),
 }
 
 /// A contact of the ball with an impulse in the last tick.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct BallContact {
     pub(crate) with: Partner,
     /// Unit vector from the partner to the ball.
@@ -25,7 +23,7 @@ pub(crate) struct BallContact {
 }
 
 /// A contact of a robot with a wall or another robot, with an impulse in the last tick.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct RobotContact {
     pub(crate) robot: usize,
     pub(crate) with: Partner,
@@ -36,10 +34,10 @@ pub(crate) struct RobotContact {
 }
 
 /// Contacts with an impulse in the last tick, or in the last part of it.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(super) struct Contacts {
-    pub(super) ball: Vec<BallContact>,
-    pub(super) robots: Vec<RobotContact>,
+#[derive(Debug, Default)]
+pub(crate) struct Contacts {
+    pub(crate) ball: Vec<BallContact>,
+    pub(crate) robots: Vec<RobotContact>,
 }
 
 impl Contacts {

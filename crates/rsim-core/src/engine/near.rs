@@ -1,10 +1,11 @@
 //! Pairs of bodies, or of a body and a wall, that can meet in a tick.
 
-use super::bodies::{Bodies, Motions};
-use super::{BallPhase, BallRules, SubSteps};
+use super::{BallPhase, BallRules};
 use crate::blocks::{BALL, LANES, Lanes, VectorLanes, place_of, robot, set_bits};
+use crate::bodies::{Bodies, BodyBlock, SubSteps};
 use crate::body_params::BodyParams;
 use crate::geometry::free_space::FreeSpace;
+use crate::geometry::motion_block::MotionBlock;
 use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::Vector;
 
@@ -78,8 +79,9 @@ impl Solid {
         Self { outline: params.robots[self.body - 1].outline, ..self }
     }
 
-    pub(super) fn placed(&self, motions: &Motions) -> PlacedOutline {
-        let motion = motions.get(self.body);
+    fn placed(&self, motions: &[MotionBlock]) -> PlacedOutline {
+        let (block, lane) = place_of(self.body);
+        let motion = motions[block].get(lane);
         PlacedOutline {
             outline: self.outline,
             position: motion.position,
@@ -143,7 +145,7 @@ impl NearPairs {
         self.pairs.clear();
         let at_walls = self.find_reaches(bodies, params, free_space, search);
         let first = if search.ball_flies { robot(0) } else { BALL };
-        for body in first..bodies.motions.len() {
+        for body in first..bodies.len() {
             let (block, lane) = place_of(body);
             let (radius, speed) = self.reaches[block].get(lane);
             let center = self.reaches[block].center.get(lane);
@@ -191,8 +193,9 @@ impl NearPairs {
         self.reaches.clear();
         let time = Lanes::splat(search.time);
         let mut at_walls = 0;
-        let blocks = bodies.motions.blocks().iter().zip(&bodies.accelerations);
-        for (block, (motion, acceleration)) in blocks.enumerate() {
+        let blocks = bodies.blocks.iter().zip(&params.inertia);
+        for (block, (body, inertia)) in blocks.enumerate() {
+            let BodyBlock { motion, acceleration, .. } = body;
             let mut speed = if let Some(speed) = search.speed {
                 Lanes::splat(speed)
             } else {
@@ -205,7 +208,7 @@ impl NearPairs {
                 *ball = ball.max(motion.velocity.get(BALL).length());
                 margin.as_mut_array()[BALL] += margin_of_ball(*ball, params, search.between);
             }
-            let radius = bodies.bounding_radii(block) + speed * time + margin;
+            let radius = inertia.bounding_radius + speed * time + margin;
             at_walls |= free_space.left_by(motion.position, radius) << (block * LANES);
             self.reaches.push(BlockReach { center: motion.position, radius, speed });
         }
@@ -225,7 +228,7 @@ impl NearPairs {
     }
 
     /// Whether all pairs are separated by more than their margins.
-    pub(super) fn are_separated(&self, motions: &Motions) -> bool {
+    pub(super) fn are_separated(&self, motions: &[MotionBlock]) -> bool {
         self.pairs.iter().all(|pair| {
             let one = pair.one.placed(motions);
             let gap = match &pair.other {

@@ -1,16 +1,18 @@
 //! State of one match, and the constants that all matches of a configuration share.
 
 pub(crate) mod crossing;
+mod memory;
 pub(crate) mod touch;
 
 use serde::{Deserialize, Serialize};
 
 use crate::ball::state::BallState;
+use crate::bodies::{Bodies, BodyBlock};
 use crate::body_params::BodyParams;
-use crate::drive::DriveState;
 use crate::engine::{Engine, NonFinite};
 use crate::geometry::arena::Wall;
 use crate::geometry::free_space::FreeSpace;
+use crate::geometry::motion::Motion;
 use crate::models::config::SimConfig;
 use crate::state::crossing::Crossing;
 use crate::state::touch::TouchRecord;
@@ -26,35 +28,48 @@ pub(crate) struct Setup {
 }
 
 /// State of a match at one instant.
-#[derive(Clone, Serialize, Deserialize)]
-pub(crate) struct State {
+///
+/// `B` is the memory of the blocks of bodies. In a match they follow the other fields, so that the whole
+/// state is one allocation, a `Box<State>`. Only what rapier keeps and parameters of its own lie elsewhere.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct State<B: ?Sized = [BodyBlock]> {
     pub(crate) engine: Engine,
     pub(crate) ball: BallState,
-    pub(crate) robots: Vec<RobotState>,
-    /// Wheels of the robots, by block.
-    pub(crate) drives: Vec<DriveState>,
     pub(crate) touches: TouchRecord,
     pub(crate) crossing: Crossing,
     /// Body parameters of a world that differs from the models.
     pub(crate) own_params: Option<Box<BodyParams>>,
     /// Whether a number became non-finite; only placing the world again repairs it.
     pub(crate) broken: bool,
+    pub(crate) bodies: Bodies<B>,
 }
 
-/// State that a robot keeps from one tick to the next, beyond its motion.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct RobotState {
-    /// Time until the kicker is charged, s.
-    pub(crate) recharging: f32,
-    /// Speed of the dribbler by its maximum, 0 to 1.
-    pub(crate) dribbling: f32,
+impl State<Vec<BodyBlock>> {
+    /// State before any match.
+    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+        Self {
+            engine: Engine::new(config, params, walls),
+            ball: BallState::default(),
+            touches: TouchRecord::default(),
+            crossing: Crossing::default(),
+            own_params: None,
+            broken: false,
+            bodies: Bodies::new(params),
+        }
+    }
 }
 
 impl State {
+    /// Sets the motion of a body, wherever it was. `heading` must be a unit vector.
+    pub(crate) fn place(&mut self, body: usize, motion: &Motion) {
+        self.bodies.set_motion(body, motion);
+        self.engine.note_placed(body);
+    }
+
     /// Checks that all numbers are finite: the engine notices only those that it integrates itself.
     pub(crate) fn check_finite(&self) -> Result<(), NonFinite> {
         let finite = self.ball.is_finite()
-            && (0..=self.robots.len()).all(|body| self.engine.motion(body).is_finite());
+            && (0..self.bodies.len()).all(|body| self.bodies.motion(body).is_finite());
         if finite { Ok(()) } else { Err(NonFinite) }
     }
 }

@@ -1,50 +1,42 @@
-//! Touches during a control step: of the ball, and between robots.
+//! Touches during a control step: of the ball, and between opponents.
 
 use serde::{Deserialize, Serialize};
 
 /// Touches since the control step began, and the last robot that touched the ball.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct TouchRecord {
     /// Last robot that touched the ball, kept over control steps.
     pub(crate) last: Option<u8>,
-    robots: Vec<RobotTouches>,
-}
-
-/// Touches of one robot.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub(crate) struct RobotTouches {
-    pub(crate) ball: bool,
-    pub(crate) opponent: bool,
-    /// Closing speed of the hardest contact with another robot, m/s.
-    pub(crate) collision_speed: f32,
+    /// Robots that touched the ball, one bit each.
+    ball: u64,
+    /// Robots that touched an opponent, one bit each.
+    opponents: u64,
 }
 
 impl TouchRecord {
-    pub(crate) fn new(robots: usize) -> Self {
-        Self { last: None, robots: vec![RobotTouches::default(); robots] }
-    }
-
     /// Clears the record for a new control step.
     pub(crate) fn start_step(&mut self) {
-        self.robots.fill(RobotTouches::default());
+        (self.ball, self.opponents) = (0, 0);
     }
 
     /// Records that a robot touched the ball.
     pub(crate) fn add_ball(&mut self, robot: usize) {
-        self.robots[robot].ball = true;
+        self.ball |= 1 << robot;
         self.last = u8::try_from(robot).ok();
     }
 
-    /// Records that two robots touched at a closing speed, m/s.
-    pub(crate) fn add_robots(&mut self, pair: [usize; 2], opponents: bool, closing: f32) {
-        for robot in pair {
-            let touches = &mut self.robots[robot];
-            touches.opponent |= opponents;
-            touches.collision_speed = touches.collision_speed.max(closing);
-        }
+    /// Records that two opponents touched each other.
+    pub(crate) fn add_opponents(&mut self, pair: [usize; 2]) {
+        self.opponents |= 1 << pair[0] | 1 << pair[1];
     }
 
-    pub(crate) fn of(&self, robot: usize) -> RobotTouches {
-        self.robots[robot]
+    /// Whether a robot touched the ball.
+    pub(crate) fn touched_ball(&self, robot: usize) -> bool {
+        self.ball >> robot & 1 == 1
+    }
+
+    /// Whether a robot touched an opponent.
+    pub(crate) fn touched_opponent(&self, robot: usize) -> bool {
+        self.opponents >> robot & 1 == 1
     }
 }

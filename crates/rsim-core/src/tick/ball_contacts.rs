@@ -4,11 +4,13 @@ use crate::ball::impact::{ContactBody, Sphere};
 use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, robot};
+use crate::bodies::Undisturbed;
 use crate::body_params::BodyParams;
-use crate::engine::{BallContact, Partner, Undisturbed};
+use crate::engine::{BallContact, Partner, Scratch};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::ball::Surface;
+use crate::state::touch::TouchRecord;
 use crate::state::{Setup, State};
 
 /// Maximum number of contacts of the ball that are resolved in one tick; more are squeezes, in which
@@ -25,10 +27,10 @@ pub(super) fn resolve(
     params: &BodyParams,
     mean: Vector,
     now: &mut GroundMotion,
-    undisturbed: &[Undisturbed],
+    scratch: &Scratch,
 ) -> bool {
     let mut contacts = [None; MAX_CONTACTS];
-    let found = state.engine.ball_contacts();
+    let found = scratch.contacts.ball.iter().copied();
     contacts.iter_mut().zip(found).for_each(|(slot, contact)| *slot = Some(contact));
     if contacts[0].is_none() {
         return false;
@@ -43,7 +45,7 @@ pub(super) fn resolve(
     let mut bounced = false;
     for contact in contacts.into_iter().flatten() {
         let normal = contact.normal.extend(0.0);
-        let (before, other) = contact_body(state, setup, params, &contact, undisturbed);
+        let (before, other) = contact_body(state, setup, params, &contact, &scratch.undisturbed);
         let closing = (before - mean).dot(contact.normal);
         let rebound = sphere.rebound(&other, normal, closing);
         let friction = sphere.friction(&other, normal, contact.impulse + rebound);
@@ -51,7 +53,8 @@ pub(super) fn resolve(
         sphere.apply_impulse(impulse, normal);
         bounced |= rebound > 0.0;
         if let Partner::Robot(index) = contact.with {
-            state.engine.apply_impulse(robot(index), -impulse.truncate(), other.arm);
+            let body = robot(index);
+            state.bodies.apply_impulse(params, body, -impulse.truncate(), other.arm);
             state.touches.add_ball(index);
         }
     }
@@ -74,8 +77,8 @@ fn contact_body(
             (Vector::ZERO, ContactBody::fixed(setup.walls[index].surface(model)))
         }
         Partner::Robot(index) => {
-            let motion = state.engine.motion(robot(index));
-            let ball = state.engine.motion(BALL).position;
+            let motion = state.bodies.motion(robot(index));
+            let ball = state.bodies.motion(BALL).position;
             let body = &params.robots[index];
             let point = motion.position + contact.arm;
             let mut other = body.contact_body(&motion, point, model.robot_surface());
@@ -97,7 +100,7 @@ fn running_dribbler(
     motion: &Motion,
     ball: Vector,
 ) -> Option<(Surface, f32)> {
-    let speed = state.robots[index].dribbling;
+    let speed = state.bodies.dribbling(index);
     if speed == 0.0 {
         return None;
     }
@@ -110,9 +113,8 @@ fn running_dribbler(
 }
 
 /// Records the robots that touch a jammed ball, which does not bounce.
-pub(super) fn record_touches(state: &mut State) {
-    let State { engine, touches, .. } = state;
-    for contact in engine.ball_contacts() {
+pub(super) fn record_touches(touches: &mut TouchRecord, contacts: &[BallContact]) {
+    for contact in contacts {
         if let Partner::Robot(index) = contact.with {
             touches.add_ball(index);
         }

@@ -48,7 +48,7 @@ impl StepCommands {
                 continue;
             };
             if body.model.mouth.is_some() {
-                state.robots[index].dribbling = command.dribbler;
+                state.bodies.set_dribbling(index, command.dribbler);
                 if command.kicks() || command.dribbler > 0.0 {
                     self.handling.push(command);
                 }

@@ -6,8 +6,8 @@ use crate::ball::impact::{ContactBody, Sphere};
 use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot};
+use crate::bodies::Bodies;
 use crate::body_params::BodyParams;
-use crate::engine::Engine;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::{Clearance, Obstacle};
 use crate::math::{Vec3, Vector};
@@ -45,7 +45,7 @@ pub(super) fn min_takeoff_speed() -> f32 {
 pub(super) struct Flight<'a> {
     pub(super) params: &'a BodyParams,
     pub(super) walls: &'a [Wall],
-    pub(super) engine: &'a mut Engine,
+    pub(super) bodies: &'a mut Bodies,
     pub(super) touches: &'a mut TouchRecord,
 }
 
@@ -99,7 +99,7 @@ impl Flight<'_> {
 
     /// Lets a ball that is jammed in the plane rise or fall for `time` (s).
     pub(super) fn fall(mut self, ball: &mut BallState, time: f32) {
-        let motion = self.engine.motion(BALL);
+        let motion = self.bodies.motion(BALL);
         let mut flying = self.flying_ball(ball, motion.position, motion.velocity);
         flying.center.z += (ball.v_z - GRAVITY * time / 2.0) * time;
         flying.sphere.velocity.z -= GRAVITY * time;
@@ -125,7 +125,7 @@ impl Flight<'_> {
         }
     }
 
-    /// Writes the result into the ball's state and the engine.
+    /// Writes the result into the state of the ball.
     fn write_back(&mut self, ball: &mut BallState, flying: &FlyingBall) {
         ball.z = if flying.down { 0.0 } else { (flying.center.z - flying.sphere.radius).max(0.0) };
         ball.v_z = flying.sphere.velocity.z;
@@ -134,7 +134,7 @@ impl Flight<'_> {
         }
         ball.hops = if ball.is_down() { 0 } else { flying.hops };
         ball.spin = flying.sphere.spin;
-        self.engine.set_ball(flying.center.truncate(), flying.sphere.velocity.truncate());
+        self.bodies.set_ball(flying.center.truncate(), flying.sphere.velocity.truncate());
     }
 
     /// Resolves overlaps with robots that drove into the ball since its last motion: they hit the ball,
@@ -216,7 +216,7 @@ impl Flight<'_> {
             }
             Obstacle::Robot(index) => {
                 let body = &self.params.robots[index];
-                let motion = self.engine.motion(robot(index));
+                let motion = self.bodies.motion(robot(index));
                 let nearest = body.outline.nearest_at(motion.position, motion.rotation(), point);
                 Clearance::of_upright(&nearest, [0.0, body.model.height], center.z, radius)
             }
@@ -232,7 +232,7 @@ impl Flight<'_> {
             Obstacle::Robot(index) => {
                 self.touches.add_ball(index);
                 let point = (flying.center - normal * ball.radius).truncate();
-                let motion = self.engine.motion(robot(index));
+                let motion = self.bodies.motion(robot(index));
                 self.params.robots[index].contact_body(&motion, point, ball.robot_surface())
             }
         };
@@ -245,7 +245,7 @@ impl Flight<'_> {
         }
         flying.sphere.apply_impulse(impulse, normal);
         if let Obstacle::Robot(index) = obstacle {
-            self.engine.apply_impulse(robot(index), -impulse.truncate(), other.arm);
+            self.bodies.apply_impulse(self.params, robot(index), -impulse.truncate(), other.arm);
         }
         carried
     }

@@ -3,7 +3,7 @@
 use crate::ball::kicks::Kicks;
 use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
-use crate::blocks::{BALL, robot};
+use crate::blocks::{BALL, Lanes, larger, robot};
 use crate::body_params::BodyParams;
 use crate::math::{Vec3, Vector};
 use crate::state::State;
@@ -31,13 +31,13 @@ pub(super) fn handle_ball(
     commands: &[HandlingCommand],
     tick: f32,
 ) {
-    for robot in &mut state.robots {
-        robot.recharging = (robot.recharging - tick).max(0.0);
+    for block in &mut state.bodies.blocks {
+        block.recharging = larger(block.recharging - Lanes::splat(tick), Lanes::ZERO);
     }
     if commands.is_empty() {
         return;
     }
-    let ball = state.engine.motion(BALL);
+    let ball = state.bodies.motion(BALL);
     let ground = GroundMotion { velocity: ball.velocity, spin: state.ball.spin };
     let mut all = Effect {
         impulse: Vector::ZERO,
@@ -49,19 +49,19 @@ pub(super) fn handle_ball(
     let mut handled = false;
     for command in commands {
         let index = command.robot;
-        let kicks = command.kicks() && state.robots[index].recharging == 0.0;
+        let kicks = command.kicks() && state.bodies.recharging(index) == 0.0;
         if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
             continue;
         }
         let body = &params.robots[index];
         let Some(mouth) = &body.model.mouth else { continue };
-        let motion = state.engine.motion(robot(index));
+        let motion = state.bodies.motion(robot(index));
         let held = HeldBall::find(&body.model, &motion, &params.ball, ball.position, state.ball.z);
         let Some(held) = held else { continue };
         handled = true;
         state.touches.add_ball(index);
         if kicks {
-            state.robots[index].recharging = mouth.kicker_recharge_time;
+            state.bodies.set_recharging(index, mouth.kicker_recharge_time);
             let after = held.kicked(ball.velocity, command.kick, command.chip, body.kick_gain);
             all.kicked = true;
             all.v_z = all.v_z.max(after.z);
@@ -72,17 +72,17 @@ pub(super) fn handle_ball(
         all.spin += held.spun(ground, command.dribbler, tick).spin - ground.spin;
         let impulse = held.dribbler_impulse(ball.velocity, command.dribbler, tick);
         all.impulse += impulse;
-        state.engine.apply_impulse(robot(index), -impulse, ball.position - motion.position);
+        state.bodies.apply_impulse(params, robot(index), -impulse, ball.position - motion.position);
     }
     if !handled {
         return;
     }
     for (index, impulse) in all.kicks.shared() {
-        let arm = ball.position - state.engine.motion(robot(index)).position;
-        state.engine.apply_impulse(robot(index), -impulse, arm);
+        let arm = ball.position - state.bodies.motion(robot(index)).position;
+        state.bodies.apply_impulse(params, robot(index), -impulse, arm);
         all.impulse += impulse;
     }
-    state.engine.apply_impulse(BALL, all.impulse, Vector::ZERO);
+    state.bodies.apply_impulse(params, BALL, all.impulse, Vector::ZERO);
     if all.kicked {
         // A chip too weak to leave the floor stays on it.
         state.ball.v_z = if all.v_z < min_takeoff_speed() { 0.0 } else { all.v_z };

@@ -45,15 +45,15 @@ impl Tick<'_> {
         let length = self.setup.config.tick;
         handling::handle_ball(state, self.params, &self.commands.handling, length);
         self.drive_robots(state);
-        let before = state.engine.motion(BALL).position.extend(state.ball.z);
-        let squeeze = self.squeeze(state, state.engine.motion(BALL).velocity, length);
+        let before = state.bodies.motion(BALL).position.extend(state.ball.z);
+        let squeeze = self.squeeze(state, state.bodies.motion(BALL).velocity, length);
         let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
         let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
         for _ in 0..parts {
             self.move_bodies(state, scratch, length / f32::from(parts), squeeze.is_some())?;
         }
-        estimate_loads(state, &scratch.robot_contacts);
-        let after = state.engine.motion(BALL).position.extend(state.ball.z);
+        estimate_loads(state, &scratch.contacts.robots);
+        let after = state.bodies.motion(BALL).position.extend(state.ball.z);
         state.crossing.update(&self.setup.config.field, before, after);
         Ok(())
     }
@@ -67,18 +67,17 @@ impl Tick<'_> {
         length: f32,
         may_squeeze: bool,
     ) -> Result<(), NonFinite> {
-        let before = state.engine.motion(BALL);
+        let before = state.bodies.motion(BALL);
         if state.ball.is_down() {
             self.roll(state, &before, scratch, length, may_squeeze)?;
         } else {
             self.fly(state, &before, scratch, length, may_squeeze)?;
         }
-        state.engine.list_robot_contacts(&mut scratch.robot_contacts);
         robot_contacts::resolve(
             state,
             self.params,
             self.setup.config.blue.len(),
-            &scratch.robot_contacts,
+            &scratch.contacts.robots,
             &scratch.undisturbed,
         );
         Ok(())
@@ -102,30 +101,23 @@ impl Tick<'_> {
         let start = GroundMotion { velocity: before.velocity, spin: state.ball.spin };
         let (displacement, end) = start.after(ball, length);
         let mean = displacement / length;
-        state.engine.set_velocity(BALL, mean);
+        state.bodies.set_velocity(BALL, mean);
         let squeeze = if may_squeeze { self.squeeze(state, mean, length) } else { None };
         if let Some(squeeze) = &squeeze {
-            state.engine.set_velocity(BALL, squeeze.velocity);
+            state.bodies.set_velocity(BALL, squeeze.velocity);
         }
         let squeezed = squeeze.map(|squeeze| squeeze.solver);
         let hooks = self.hooks(BallPhase::Floor, squeezed, length);
-        state.engine.step(scratch, &hooks, &self.setup.free_space)?;
-        let mut now = GroundMotion { velocity: state.engine.motion(BALL).velocity, spin: end.spin };
+        state.engine.step(&mut state.bodies, scratch, &hooks, &self.setup.free_space)?;
+        let mut now = GroundMotion { velocity: state.bodies.motion(BALL).velocity, spin: end.spin };
         if squeezed.is_some_and(|squeezed| squeezed.jammed) {
-            ball_contacts::record_touches(state);
-        } else if ball_contacts::resolve(
-            state,
-            self.setup,
-            self.params,
-            mean,
-            &mut now,
-            &scratch.undisturbed,
-        ) {
+            ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
+        } else if ball_contacts::resolve(state, self.setup, self.params, mean, &mut now, scratch) {
             now = now.after(ball, length / 2.0).1;
         } else {
             now.velocity += end.velocity - mean;
         }
-        state.engine.set_velocity(BALL, now.velocity);
+        state.bodies.set_velocity(BALL, now.velocity);
         state.ball.spin = now.spin;
         Ok(())
     }
@@ -142,20 +134,20 @@ impl Tick<'_> {
         let squeeze = if may_squeeze { self.squeeze(state, before.velocity, length) } else { None };
         let squeeze = squeeze.filter(|squeeze| squeeze.solver.jammed);
         let phase = if let Some(squeeze) = &squeeze {
-            state.engine.set_velocity(BALL, squeeze.velocity);
+            state.bodies.set_velocity(BALL, squeeze.velocity);
             BallPhase::JammedInAir { height: state.ball.z + self.params.ball.radius }
         } else {
             BallPhase::Air
         };
         let hooks = self.hooks(phase, squeeze.map(|squeeze| squeeze.solver), length);
-        state.engine.step(scratch, &hooks, &self.setup.free_space)?;
+        state.engine.step(&mut state.bodies, scratch, &hooks, &self.setup.free_space)?;
         if squeeze.is_some() {
-            ball_contacts::record_touches(state);
+            ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
         }
         let flight = Flight {
             params: self.params,
             walls: &self.setup.walls,
-            engine: &mut state.engine,
+            bodies: &mut state.bodies,
             touches: &mut state.touches,
         };
         if squeeze.is_some() {
@@ -170,7 +162,7 @@ impl Tick<'_> {
     fn squeeze(&self, state: &State, velocity: Vector, time: f32) -> Option<Squeeze> {
         let height = state.ball.z + self.params.ball.radius;
         let free_space = &self.setup.free_space;
-        Squeeze::find(&state.engine, self.params, free_space, velocity, height, time)
+        Squeeze::find(&state.bodies, self.params, free_space, velocity, height, time)
     }
 
     fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallRules<'_> {
@@ -178,12 +170,9 @@ impl Tick<'_> {
     }
 
     fn drive_robots(&self, state: &mut State) {
-        let State { engine, drives, .. } = state;
         let wheels = self.params.wheels.iter().zip(&self.commands.wheels);
-        for (block, (drive, (wheels, commands))) in drives.iter_mut().zip(wheels).enumerate() {
-            let motion = &engine.motion_blocks()[block];
-            let acceleration = drive.accelerate(wheels, commands, motion);
-            engine.set_acceleration(block, acceleration);
+        for (block, (wheels, commands)) in state.bodies.blocks.iter_mut().zip(wheels) {
+            block.acceleration = block.drive.accelerate(wheels, commands, &block.motion);
         }
     }
 }
@@ -191,8 +180,7 @@ impl Tick<'_> {
 /// Estimates the loads of the tick on robots whose `contacts` last.
 fn estimate_loads(state: &mut State, contacts: &[RobotContact]) {
     let in_contact = robot_contacts::sustained(state, contacts);
-    let State { engine, drives, .. } = state;
-    for (block, (drive, motion)) in drives.iter_mut().zip(engine.motion_blocks()).enumerate() {
-        drive.estimate_loads(motion, in_contact >> (block * LANES));
+    for (index, block) in state.bodies.blocks.iter_mut().enumerate() {
+        block.drive.estimate_loads(&block.motion, in_contact >> (index * LANES));
     }
 }

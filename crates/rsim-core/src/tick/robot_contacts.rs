@@ -1,8 +1,9 @@
 //! Bounce of robots off each other and off walls, and the record of their collisions.
 
 use crate::blocks::robot;
+use crate::bodies::Undisturbed;
 use crate::body_params::BodyParams;
-use crate::engine::{Partner, RobotContact, Undisturbed};
+use crate::engine::{Partner, RobotContact};
 use crate::math::Vector;
 use crate::state::State;
 
@@ -31,8 +32,13 @@ pub(super) fn resolve(
             (before.velocity, before.spin)
         });
         if let Partner::Robot(other) = contact.with {
-            let opponents = (contact.robot < n_blue) != (other < n_blue);
-            state.touches.add_robots([contact.robot, other], opponents, closing);
+            let pair = [contact.robot, other];
+            if (contact.robot < n_blue) != (other < n_blue) {
+                state.touches.add_opponents(pair);
+            }
+            for index in pair {
+                state.bodies.add_collision(index, closing);
+            }
         }
         if closing > MIN_BOUNCE_SPEED {
             bounce(state, params, contact, closing);
@@ -54,7 +60,7 @@ pub(super) fn sustained(state: &State, contacts: &[RobotContact]) -> u64 {
 
 /// Velocity (m/s) and turn rate (rad/s) of a robot now.
 fn current_motion(state: &State, index: usize) -> (Vector, f32) {
-    let motion = state.engine.motion(robot(index));
+    let motion = state.bodies.motion(robot(index));
     (motion.velocity, motion.spin)
 }
 
@@ -66,7 +72,7 @@ fn separation_speed(
 ) -> f32 {
     let at = |index: usize| {
         let (velocity, spin) = motion_of(state, index);
-        let arm = contact.point - state.engine.motion(robot(index)).position;
+        let arm = contact.point - state.bodies.motion(robot(index)).position;
         velocity + arm.perp() * spin
     };
     let with = if let Partner::Robot(other) = contact.with { at(other) } else { Vector::ZERO };
@@ -77,7 +83,7 @@ fn separation_speed(
 fn bounce(state: &mut State, params: &BodyParams, contact: &RobotContact, closing: f32) {
     let RobotContact { robot: first, with, normal, point } = *contact;
     let restitution = |index: usize| params.robots[index].model.restitution;
-    let arm = |index: usize| point - state.engine.motion(robot(index)).position;
+    let arm = |index: usize| point - state.bodies.motion(robot(index)).position;
     let inverse_mass =
         |index: usize| params.robots[index].inverse_effective_mass(arm(index), normal);
     let (mean, inverse_mass) = match with {
@@ -92,7 +98,7 @@ fn bounce(state: &mut State, params: &BodyParams, contact: &RobotContact, closin
     let own_arm = arm(first);
     if let Partner::Robot(other) = with {
         let arm = arm(other);
-        state.engine.apply_impulse(robot(other), impulse, arm);
+        state.bodies.apply_impulse(params, robot(other), impulse, arm);
     }
-    state.engine.apply_impulse(robot(first), -impulse, own_arm);
+    state.bodies.apply_impulse(params, robot(first), -impulse, own_arm);
 }

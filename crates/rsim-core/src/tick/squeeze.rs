@@ -6,8 +6,9 @@
 //! the bodies that jam it, and, as long as it is jammed, a mass in the solver that passes pushes on.
 
 use crate::blocks::{BALL, robot};
+use crate::bodies::Bodies;
 use crate::body_params::{BodyParams, RobotParams};
-use crate::engine::{Engine, SqueezedBall};
+use crate::engine::SqueezedBall;
 use crate::geometry::free_space::FreeSpace;
 use crate::math::Vector;
 
@@ -47,18 +48,18 @@ struct Side {
 
 impl Side {
     fn of_robot(
-        engine: &Engine,
+        bodies: &Bodies,
         index: usize,
         body: &RobotParams,
         center: Vector,
         radius: f32,
         tick: f32,
     ) -> Self {
-        let motion = engine.motion(robot(index));
+        let motion = bodies.motion(robot(index));
         let nearest = body.outline.nearest_at(motion.position, motion.rotation(), center);
         let normal = nearest.normal;
         let arm = center - motion.position - normal * nearest.distance;
-        let velocity = motion.velocity + engine.acceleration(robot(index)) * tick;
+        let velocity = motion.velocity + bodies.acceleration(robot(index)).linear * tick;
         let speed = (velocity + arm.perp() * motion.spin).dot(normal);
         let mass = 1.0 / body.inverse_effective_mass(arm, normal);
         Self { normal, gap: nearest.distance - radius, speed, mass }
@@ -86,18 +87,18 @@ impl Squeeze {
     /// The squeeze within the coming `tick` (s) of a ball that moves with `velocity` and has its centre
     /// at `height`, if any.
     pub(super) fn find(
-        engine: &Engine,
+        bodies: &Bodies,
         params: &BodyParams,
         free_space: &FreeSpace,
         velocity: Vector,
         height: f32,
         tick: f32,
     ) -> Option<Self> {
-        let sides = Sides::find(engine, params, free_space, height, tick);
+        let sides = Sides::find(bodies, params, free_space, height, tick);
         if sides.count < 2 {
             return None;
         }
-        let slack = if engine.ball_was_jammed() { JAMMED_SLACK } else { SLACK };
+        let slack = if bodies.ball_was_jammed(params) { JAMMED_SLACK } else { SLACK };
         let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
         let own = params.ball.mass;
         let close = sides.iter().filter(|side| side.gap < params.ball.radius);
@@ -114,20 +115,20 @@ impl Squeeze {
 
 impl Sides {
     fn find(
-        engine: &Engine,
+        bodies: &Bodies,
         params: &BodyParams,
         free_space: &FreeSpace,
         height: f32,
         tick: f32,
     ) -> Self {
         let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
-        let (center, radius) = (engine.motion(BALL).position, params.ball.radius);
+        let (center, radius) = (bodies.motion(BALL).position, params.ball.radius);
         // A body from one side may press the ball against one at rest on the other.
-        let reach = NEAR + (2.0 * engine.fastest_robot(0.0) + JAMMED_SLACK) * tick;
-        for index in engine.robots_near_ball(reach) {
+        let reach = NEAR + (2.0 * bodies.fastest_robot(0.0) + JAMMED_SLACK) * tick;
+        for index in bodies.robots_near_ball(params, reach) {
             let body = &params.robots[index];
             if height < body.model.height {
-                sides.add(Side::of_robot(engine, index, body, center, radius, tick));
+                sides.add(Side::of_robot(bodies, index, body, center, radius, tick));
             }
         }
         if sides.count > 0 {

@@ -2,6 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use crate::bodies::BodyBlock;
 use crate::columns::BALL_COLUMNS;
 use crate::error::{ConfigError, PlaceError, SnapshotError, StepError};
 use crate::models::config::SimConfig;
@@ -193,7 +194,7 @@ impl Batch {
 
     /// The states of all worlds as bytes: everything that their futures depend on.
     pub fn snapshot(&self) -> Vec<u8> {
-        let states: Vec<&State> = self.worlds.iter().map(|world| &world.state).collect();
+        let states: Vec<&State> = self.worlds.iter().map(|world| &*world.state).collect();
         snapshot::write(&self.header(), &states)
     }
 
@@ -202,9 +203,9 @@ impl Batch {
     /// # Errors
     /// [`SnapshotError`] for foreign or damaged bytes, or another configuration; then nothing has changed.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
-        let states: Vec<State> = snapshot::read(&self.header(), bytes)?;
+        let states: Vec<State<Vec<BodyBlock>>> = snapshot::read(&self.header(), bytes)?;
         for (world, state) in self.worlds.iter_mut().zip(states) {
-            world.state = state;
+            world.state = state.boxed();
         }
         Ok(())
     }
@@ -228,7 +229,7 @@ mod tests {
             for wrong in [f32::NAN, f32::INFINITY] {
                 let (mut batch, mut rows) = scene.batch(3, 1);
                 let commands = vec![1.0; 3 * scene.config.command_size()];
-                batch.worlds[1].state.engine.set_velocity(body, Vector::new(wrong, 0.0));
+                batch.worlds[1].state.bodies.set_velocity(body, Vector::new(wrong, 0.0));
                 for _ in 0..2 {
                     // The world is lost until it is placed; the others continue.
                     let before = rows.clone();
@@ -256,7 +257,7 @@ mod tests {
             let commands = scene.commands(&scene.start, 0, 0).repeat(40);
             for world in [33, 7, 20] {
                 let wrong = Vector::new(f32::NAN, 0.0);
-                batch.worlds[world].state.engine.set_velocity(BALL, wrong);
+                batch.worlds[world].state.bodies.set_velocity(BALL, wrong);
             }
             let error = batch.step(&commands, &mut rows, None).expect_err("lost");
             assert_eq!(error.worlds, [7, 20, 33]);

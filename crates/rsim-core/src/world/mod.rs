@@ -11,18 +11,14 @@ use std::cell::RefCell;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use crate::ball::state::BallState;
-use crate::blocks::blocks_of;
 use crate::body_params::BodyParams;
-use crate::drive::DriveState;
-use crate::engine::{Engine, NonFinite, Scratch};
+use crate::engine::{NonFinite, Scratch};
 use crate::error::{ConfigError, PlaceError, StepError};
 use crate::geometry::arena::walls;
 use crate::geometry::free_space::FreeSpace;
 use crate::models::config::SimConfig;
 use crate::state::crossing::Crossing;
-use crate::state::touch::TouchRecord;
-use crate::state::{RobotState, Setup, State};
+use crate::state::{Setup, State};
 use crate::tick::{StepCommands, Tick};
 use crate::world::line_up::line_up;
 use crate::world::placement::{Placement, Start};
@@ -49,7 +45,7 @@ impl WorkingMemory {
 #[derive(Clone)]
 pub struct World {
     shared: Arc<Shared>,
-    state: State,
+    state: Box<State>,
     contact_free_enabled: bool,
 }
 
@@ -58,7 +54,7 @@ struct Shared {
     setup: Setup,
     placement: Placement,
     /// State before any match. A match that starts from it keeps nothing of an earlier one.
-    pristine: State,
+    pristine: Box<State>,
 }
 
 impl World {
@@ -69,18 +65,9 @@ impl World {
     pub fn new(config: &SimConfig) -> Result<Self, ConfigError> {
         config.validate()?;
         let (params, walls) = (BodyParams::of(config), walls(&config.field));
-        let mut pristine = State {
-            engine: Engine::new(config, &params, &walls),
-            ball: BallState::default(),
-            robots: vec![RobotState::default(); config.n_robots()],
-            drives: vec![DriveState::default(); blocks_of(config.n_robots())],
-            touches: TouchRecord::new(config.n_robots()),
-            crossing: Crossing::default(),
-            own_params: None,
-            broken: false,
-        };
+        let mut pristine = State::new(config, &params, &walls).boxed();
         for (body, motion) in line_up(config).iter().enumerate() {
-            pristine.engine.set_motion(body, motion);
+            pristine.place(body, motion);
         }
         let placement = Placement::new(config, &walls);
         let mut row = vec![0.0; config.row_size()];
@@ -129,14 +116,15 @@ impl World {
 
     /// Starts a new match from a checked start.
     fn start(&mut self, checked: &CheckedStart) {
-        self.state.clone_from(&self.shared.pristine);
+        self.state.copy_from(&self.shared.pristine);
         self.state.engine.enable_contact_free_ticks(self.contact_free_enabled);
         self.state.own_params.clone_from(&checked.own_params);
         if let Some(params) = &self.state.own_params {
             self.state.engine.set_params(params);
+            self.state.bodies.ball_mass = params.ball.mass;
         }
         for (body, motion) in checked.start.motions.iter().enumerate() {
-            self.state.engine.set_motion(body, motion);
+            self.state.place(body, motion);
         }
         self.state.ball = checked.start.ball;
     }
@@ -154,6 +142,7 @@ impl World {
         }
         self.state.crossing = Crossing::default();
         self.state.touches.start_step();
+        self.state.bodies.clear_collisions();
         let setup = &self.shared.setup;
         let state = &mut self.state;
         let own_params = state.own_params.take();
@@ -209,4 +198,35 @@ impl World {
 struct CheckedStart {
     start: Start,
     own_params: Option<Box<BodyParams>>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::WARM_STARTS;
+    use crate::models::config::EngineKind;
+    use crate::models::field::Field;
+    use crate::scenes::{self, Driver, Scene};
+
+    #[test]
+    fn crowds_leave_a_third_of_the_space_for_warm_starts_empty() {
+        let vss_5v5 = SimConfig { field: Field::VSS_5V5, ..scenes::vss(5, 5) };
+        let ssl_a = SimConfig { field: Field::SSL_A, ..scenes::ssl(11, 11) };
+        for config in [scenes::vss(1, 1), scenes::vss(3, 3), vss_5v5, scenes::ssl(6, 6), ssl_a] {
+            let config = SimConfig { engine: EngineKind::Compact, ..config };
+            let mut scene = Scene::lined_up("crowd", config, Driver::Chase);
+            let (mut most, mut space) = (0, 0);
+            for seed in 0..4 {
+                scene.scatter(seed);
+                let (mut world, mut row) = (scene.world(), scene.start.clone());
+                for step in 0..200 {
+                    world.step(&scene.commands(&row, step, seed)).expect("finite");
+                    world.write_row(&mut row);
+                    most = most.max(world.state.engine.warm_starts());
+                }
+                space = world.state.bodies.blocks.len() * WARM_STARTS;
+            }
+            assert!(most > 2 && 3 * most <= 2 * space, "{most} of {space}");
+        }
+    }
 }

@@ -26,15 +26,15 @@ impl World {
         if self.state.broken {
             return Err(PlaceError::Lost);
         }
-        let bodies = 0..=self.state.robots.len();
-        let motions = bodies.map(|body| self.state.engine.motion(body)).collect();
+        let bodies = &self.state.bodies;
+        let motions = (0..bodies.len()).map(|body| bodies.motion(body)).collect();
         self.shared.placement.read_ball(ball, motions, self.params())
     }
 
     /// Moves the ball to a checked start.
     pub(super) fn set_ball(&mut self, checked: &BallStart) {
         let state = &mut self.state;
-        state.engine.set_ball(checked.motion.position, checked.motion.velocity);
+        state.bodies.set_ball(checked.motion.position, checked.motion.velocity);
         state.ball = checked.ball;
         state.touches.last = None;
         state.crossing = Crossing::default();

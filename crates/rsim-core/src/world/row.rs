@@ -17,7 +17,7 @@ pub(super) fn write(params: &BodyParams, state: &State, out: &mut [f32]) {
 }
 
 fn write_ball(state: &State, columns: &mut [f32]) {
-    let Motion { position, velocity, .. } = state.engine.motion(BALL);
+    let Motion { position, velocity, .. } = state.bodies.motion(BALL);
     let (ball, crossing) = (&state.ball, &state.crossing);
     columns.copy_from_slice(&[
         position.x,
@@ -38,10 +38,9 @@ fn write_ball(state: &State, columns: &mut [f32]) {
 }
 
 fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [f32]) {
-    let motion = state.engine.motion(robot(index));
-    let ball = state.engine.motion(BALL).position;
+    let motion = state.bodies.motion(robot(index));
+    let ball = state.bodies.motion(BALL).position;
     let cut = beam_is_cut(&params.robots[index].model, &motion, &params.ball, ball, &state.ball);
-    let touches = state.touches.of(index);
     columns.copy_from_slice(&[
         motion.position.x,
         motion.position.y,
@@ -51,8 +50,8 @@ fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [
         motion.velocity.y,
         motion.spin,
         f32::from(u8::from(cut)),
-        f32::from(u8::from(touches.ball)),
-        f32::from(u8::from(touches.opponent)),
-        touches.collision_speed,
+        f32::from(u8::from(state.touches.touched_ball(index))),
+        f32::from(u8::from(state.touches.touched_opponent(index))),
+        state.bodies.collision_speed(index),
     ]);
 }

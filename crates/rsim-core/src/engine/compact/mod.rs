@@ -23,12 +23,12 @@ mod report;
 mod two_points;
 mod warm_start;
 
-use super::SubSteps;
 use super::ball_contact::BallRules;
-use super::bodies::{Acceleration, Bodies};
 use super::contacts::Contacts;
 use super::near::Pair;
 use crate::blocks::{BALL, set_bits};
+use crate::bodies::{Acceleration, Bodies, SubSteps, WarmStart};
+use crate::body_params::BodyParams;
 use body::SolverBody;
 use constraint::Constraint;
 use impulses::Impulses;
@@ -57,6 +57,7 @@ pub(super) struct CompactScratch {
     /// All bodies by index, then walls. Only those that can meet others are in use.
     bodies: Vec<SolverBody>,
     met: Vec<Met>,
+    warm_starts: Vec<WarmStart>,
     links: Vec<Link>,
     constraints: Vec<Constraint>,
     /// Constraints of the last sub-step.
@@ -75,8 +76,8 @@ impl CompactSolver {
         SubSteps { time, count }: SubSteps,
         contacts: &mut Contacts,
     ) -> bool {
-        scratch.read(bodies, near.pairs);
-        self.link(near.pairs, rules, time, &mut scratch.bodies, &mut scratch.links);
+        scratch.read(bodies, rules.params, near.pairs);
+        self.link(bodies, near.pairs, rules, time, scratch);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let min_passes = if jammed { MIN_PASSES_JAMMED } else { MIN_PASSES };
         let step = SubStep {
@@ -93,7 +94,7 @@ impl CompactSolver {
         }
         bodies.move_freely(SubSteps { time, count });
         scratch.write(bodies);
-        self.store(&scratch.links, bodies.ball_mass, time);
+        self.store(bodies, &scratch.links, time);
         report(&scratch.links, &scratch.bodies, contacts);
         meets
     }
@@ -125,13 +126,13 @@ struct SubStep {
 
 impl CompactScratch {
     /// Reads the bodies of `pairs`.
-    fn read(&mut self, bodies: &Bodies, pairs: &[Pair]) {
+    fn read(&mut self, bodies: &Bodies, params: &BodyParams, pairs: &[Pair]) {
         let met = pairs.iter().fold(0_u64, |met, pair| met | pair.bodies());
         self.bodies.clear();
-        self.bodies.resize(bodies.motions.len(), SolverBody::default());
+        self.bodies.resize(bodies.len(), SolverBody::default());
         self.met.clear();
         for body in set_bits(met) {
-            self.bodies[body] = SolverBody::of(&bodies.motions.get(body), bodies.inverse(body));
+            self.bodies[body] = SolverBody::of(&bodies.motion(body), params.inverse(body));
             self.met.push(Met { body, acceleration: bodies.acceleration(body) });
         }
         self.bodies[BALL].inverse_mass = 1.0 / bodies.ball_mass;
@@ -139,13 +140,13 @@ impl CompactScratch {
 
     fn write(&self, bodies: &mut Bodies) {
         for Met { body, .. } in &self.met {
-            bodies.motions.set(*body, &self.bodies[*body].motion());
+            bodies.set_motion(*body, &self.bodies[*body].motion());
         }
     }
 
     /// Advances the bodies that can meet others by a sub-step.
     fn advance(&mut self, step: &SubStep, min_passes: usize) {
-        let Self { bodies, met, links, constraints, previous } = self;
+        let Self { bodies, met, links, constraints, previous, .. } = self;
         let time = step.window.time;
         for Met { body, acceleration } in met.iter() {
             bodies[*body].accelerate(*acceleration, time);

@@ -28,6 +28,7 @@ impl RapierSolver {
             bodies: RigidBodySet::new(),
             colliders: ColliderSet::new(),
             handles: Vec::new(),
+            moved: 0,
             ball_mass: params.ball.mass,
         };
         solver.insert_ball(params, config.tick);

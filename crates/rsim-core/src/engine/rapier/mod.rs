@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 
 use super::NonFinite;
 use super::ball_contact::BallRules;
-use super::bodies::Bodies;
 use super::contacts::Contacts;
 use crate::blocks::{BALL, robot};
+use crate::bodies::Bodies;
 use crate::body_params::BodyParams;
 use crate::geometry::motion::Motion;
 use crate::math::{Pose, Vector};
@@ -33,6 +33,8 @@ pub(super) struct RapierSolver {
     bodies: RigidBodySet,
     colliders: ColliderSet,
     handles: Vec<RigidBodyHandle>,
+    /// Bodies whose poses changed since the last tick here, one bit each.
+    moved: u64,
     /// Mass of the ball that rapier has, kg.
     ball_mass: f32,
 }
@@ -113,7 +115,7 @@ impl RapierSolver {
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         self.parameters.num_internal_pgs_iterations =
             if jammed { SOLVER_PASSES_JAMMED } else { SOLVER_PASSES };
-        self.read_bodies(bodies);
+        self.read_bodies(bodies, rules.params);
         let solved = self.step(scratch, rules);
         self.parameters.warmstart_coefficient = 1.0;
         self.write_bodies(bodies);
@@ -140,11 +142,17 @@ impl RapierSolver {
         if scratch.pipeline.quarantine().bodies().is_empty() { Ok(()) } else { Err(NonFinite) }
     }
 
-    fn read_bodies(&mut self, bodies: &mut Bodies) {
+    /// Takes note that the poses of bodies changed, one bit each.
+    pub(super) fn note_moved(&mut self, bodies: u64) {
+        self.moved |= bodies;
+    }
+
+    fn read_bodies(&mut self, bodies: &Bodies, params: &BodyParams) {
+        let moved = std::mem::take(&mut self.moved);
         for (index, handle) in self.handles.iter().enumerate() {
-            let (body, motion) = (&mut self.bodies[*handle], bodies.motions.get(index));
+            let (body, motion) = (&mut self.bodies[*handle], bodies.motion(index));
             // The ball always: only then does the solver predict along its new velocity.
-            if std::mem::take(&mut bodies.moved[index]) || index == BALL {
+            if moved >> index & 1 == 1 || index == BALL {
                 body.set_position(Pose::from_parts(motion.position, motion.rotation()), true);
             }
             body.set_linvel(motion.velocity, true);
@@ -152,7 +160,7 @@ impl RapierSolver {
             body.reset_forces(false);
             body.reset_torques(false);
             if index != BALL {
-                let (gain, inverse) = (bodies.acceleration(index), bodies.inverse(index));
+                let (gain, inverse) = (bodies.acceleration(index), params.inverse(index));
                 body.add_force(gain.linear / inverse.mass, true);
                 body.add_torque(gain.angular / inverse.inertia, true);
             }
@@ -169,7 +177,7 @@ impl RapierSolver {
                 velocity: body.linvel(),
                 spin: body.angvel(),
             };
-            bodies.motions.set(index, &motion);
+            bodies.set_motion(index, &motion);
         }
     }
 }
