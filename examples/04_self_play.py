@@ -13,14 +13,14 @@ OUT = Path("out/self_play")
 
 
 def main(samples: int = 1_500_000) -> None:
-    """Train; each world plays the current policy, a past policy, or the `ou` policy."""
+    """Train; each world plays the current policy, a past one, or a fixed one."""
     args = Args(
         task="VSSSelfPlay-v0",
         out=OUT,
         samples=samples,
         latest_fraction=0.5,
         past_fraction=0.3,
-        ou_fraction=0.2,
+        opponents={"ou": 3, "scripted": 1},
         overwrite=True,  # without it a second run does not replace the first
     )
     policy = train(args)  # Ctrl-C saves; Args(..., resume=True) continues

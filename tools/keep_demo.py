@@ -40,15 +40,17 @@ def film(task: str, policy: str, seconds: float = 10.0) -> None:
 
 
 def training(folder: Path) -> dict[str, Any]:
-    """Return the speed of a training run and the shares of its time, medians over updates."""
+    """Return the speed of a training run, a median over updates, and the shares of its time."""
     progress = read_progress(folder)
     settings = json.loads((folder / "args.json").read_text())
     samples = float(np.median(progress["samples_per_second"]))
     parts = [name for name in progress if name.startswith("time_")]
+    seconds = 1.0 / progress["samples_per_second"]  # all updates have the same number of samples
+    shares = {part: float(np.average(progress[part], weights=seconds)) for part in parts}
     return {
         "samples_per_second": samples,
         "agent_steps_per_second": samples * settings["action_repeat"],
-        "shares": {part.removeprefix("time_"): float(np.median(progress[part])) for part in parts},
+        "shares": {part.removeprefix("time_"): share for part, share in shares.items()},
     }
 
 

@@ -24,7 +24,7 @@ from rsoccer.envs.parallel import env, parallel_env
 from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
-from rsoccer.evaluate import evaluate
+from rsoccer.evaluate import evaluate, tournament
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy
@@ -82,6 +82,7 @@ __all__ = [
     "register",
     "robots_vector_env",
     "single_env",
+    "tournament",
     "vector_env",
 ]
 

@@ -1,4 +1,7 @@
-"""Entry point of the command `rsoccer list | train | evaluate | watch | play`, and its errors."""
+"""Entry point of the command `rsoccer list | train | evaluate | tournament | watch | play`.
+
+Errors are reported as one line.
+"""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer import policies, registry
 from rsoccer.controllers import Controller
-from rsoccer.evaluate import evaluate, table
+from rsoccer.evaluate import evaluate, table, tournament
 from rsoccer.files import write_atomically
 from rsoccer.frame import team_of
 from rsoccer.human.teams import SCRIPTS, team_controllers
@@ -37,6 +37,11 @@ if TYPE_CHECKING:
 _SUBJECT_HELP = (
     "a policy: a name that `rsoccer list` prints, or the path of a policy file, which plays as it "
     "was trained unless :mean or :sample follows; or a task, whose policy --policy names"
+)
+_POLICIES = arg(
+    metavar="POLICY [POLICY ...]",
+    help="names that `rsoccer list` prints, or paths of policy files; at least two",
+    help_behavior_hint="",
 )
 _SUBJECT = arg(metavar="POLICY|TASK", help=_SUBJECT_HELP, help_behavior_hint="")
 _SUBJECT_OR_REPLAY = arg(
@@ -187,6 +192,53 @@ class Evaluate:
             _write(f"page: {replay.save_html(self.html)}")
         if self.save is not None:
             _write(f"replay: {replay.save(self.save)}")
+
+
+@dataclass(frozen=True)
+class Tournament:
+    """Play every policy against every other one, from both sides, and print their ratings."""
+
+    policies: Annotated[tuple[str, ...], Positional, _POLICIES]
+    """policies that play, at least two"""
+    matches: int = 100
+    """matches between each two policies, half of them on either side"""
+    seed: int = 0
+    """random seed; equal seeds give equal tables"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=_DEFAULT_TASK)] = None
+    """task to play, one that two teams play; each policy controls all robots of its team"""
+    worlds: int = 50
+    """matches played at once"""
+    threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
+    """threads of the simulator"""
+    json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """file to write the results to as JSON, in addition to the tables"""
+    picture: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.png file to write: the goal scores as a heat map, and the ratings"""
+
+    def run(self) -> None:
+        """Play the matches, then print the tables.
+
+        Raises:
+            ValueError: the folder of a file does not exist, or `tournament` refuses an option.
+        """
+        _check_output("json", self.json)
+        _check_output("picture", self.picture, ".png")
+        if self.picture is not None:
+            import matplotlib  # noqa: F401  (a missing package is reported before the matches)
+        result = tournament(
+            self.policies,
+            self.matches,
+            self.seed,
+            task=self.task,
+            worlds=self.worlds,
+            threads=self.threads,
+            on_pair=_show_pairs,
+        )
+        _write(str(result))
+        if self.json is not None:
+            write_atomically(self.json, (json.dumps(result.as_dict(), indent=2) + "\n").encode())
+        if self.picture is not None:
+            _write(f"picture: {result.save_picture(self.picture)}")
 
 
 @dataclass(frozen=True)
@@ -390,6 +442,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         Annotated[List, subcommand("list")]
         | Annotated[Train, subcommand("train", default=default)]
         | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
     )
@@ -476,6 +529,12 @@ def _check_output(option: str, path: Path | None, suffix: str = "") -> None:
         raise ValueError(f"{option}: expected a file in a folder that exists, got {path}")
     if path is not None and suffix and path.suffix != suffix:
         raise ValueError(f"{option}: expected a name ending in {suffix}, got {path}")
+
+
+def _show_pairs(done: int, total: int) -> None:
+    """Show on a terminal how many pairs have played."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r{done} of {total} pairs" + ("\n" if done == total else ""))
 
 
 def _write(text: str) -> None:

@@ -18,6 +18,8 @@ from rsoccer.train.learning_curve import plot_learning_curve
 TASK = "VSSSelfPlay-v0"
 SAMPLES = 1_600_000
 """Default number of decisions to learn from: two to three minutes on two cores."""
+LADDER_INTERVAL = 25
+"""Updates between two points of the learning curve."""
 
 
 def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any]:
@@ -40,7 +42,15 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         seconds[name] = now - started - sum(seconds.values())
         sys.stdout.write(f"{text} ({seconds[name]:.0f} s)\n")
 
-    policy = train(Args(task=TASK, out=out, samples=samples, overwrite=True, match_page=False))
+    args = Args(
+        task=TASK,
+        out=out,
+        samples=samples,
+        overwrite=True,
+        match_page=False,
+        ladder_interval=LADDER_INTERVAL,
+    )
+    policy = train(args)
     stage("training", f"trained on {samples:,} decisions -> {policy}")
     untrained = out / "untrained.safetensors"
     opponents = ("zero", "uniform", "ou", str(untrained))

@@ -19,4 +19,5 @@ def one_update(task: str, folder: Path) -> Args:
         hidden_sizes=(8,),
         n_epochs=1,
         n_minibatches=1,
+        ladder_interval=0,
     )

@@ -63,9 +63,10 @@ TINY = {
     "threads": 1,
     "latest_fraction": 0.4,
     "past_fraction": 0.4,
-    "ou_fraction": 0.2,
     "pool_size": 2,
     "pool_interval": 1,
+    "ladder_interval": 4,
+    "ladder_matches": 8,
     "progress": False,
     "match_page": False,
 }

@@ -32,6 +32,9 @@ INVALID: list[tuple[str, Any]] = [
     ("hidden_sizes", ()),
     ("hidden_sizes", (64, 0)),
     ("latest_fraction", 0.9),
+    ("opponents", {"ou": -1.0}),
+    ("opponents", {"ou": 0.0}),
+    ("teammates", {"ou": float("nan")}),
     ("pool_size", 0),
     ("final_action_std", 0.0),
     ("final_action_std", float("inf")),
@@ -39,6 +42,7 @@ INVALID: list[tuple[str, Any]] = [
     ("task_options", {"robot": object()}),
     ("task_options", {"ball_speed": float("nan")}),
     ("task_options", ["n_blue"]),
+    ("pfsp_power", -1.0),
 ]
 
 
@@ -59,6 +63,7 @@ def test_settings_make_a_round_trip_through_json() -> None:
         hidden_sizes=(32, 16),
         task_options={"n_blue": 2, "reward_weights": {"goal": 5.0}},
         final_action_std=0.1,
+        opponents={"ou": 2, "chase": 1},
         masked_observations=("shot",),
     )
     saved = json.loads(json.dumps(args.to_json()))
@@ -93,6 +98,11 @@ def test_the_task_is_created_with_its_options() -> None:
 def test_a_wrong_task_option_is_refused_with_the_valid_ones() -> None:
     with pytest.raises(ValueError, match=r"task_options: VSS-v0: .*'weights'.*'reward_weights'"):
         Args("VSS-v0", task_options={"weights": "paper"}).make_task()
+
+
+def test_the_order_of_opponents_does_not_matter() -> None:
+    saved = Args(opponents={"ou": 2.0, "chase": 1.0}).to_json()
+    assert Args(opponents={"chase": 1.0, "ou": 2.0}).differences(saved) == []
 
 
 def test_reading_the_settings_needs_no_torch() -> None:

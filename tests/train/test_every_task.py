@@ -43,6 +43,7 @@ def test_metrics_of_a_task_do_not_replace_columns_of_the_run(tmp_path: Path) -> 
         horizon=4,
         hidden_sizes=(8,),
         random_truncation=0.0,
+        ladder_interval=0,
     )
     train(args)
     seconds = read_progress(tmp_path)["seconds"]

@@ -80,7 +80,7 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert sum(float(row["goals_for"]) for row in rows) > 0
     assert sum(float(row["goals_against"]) for row in rows) > 0
     arrays = checkpoint.load(finished / checkpoint.FILE_NAME).arrays
-    assert set(arrays["worlds.yellow_0.opponent"].tolist()) & {2, 3}, "no past policy plays"
+    assert set(arrays["worlds.yellow_0.drawn"].tolist()) & {2, 3}, "no past policy plays"
     assert arrays["pool.frozen_at"].tolist() == [5, 6]
     settings = json.loads((finished / "args.json").read_text())
     assert settings["task"] == NAME and settings["worlds"] == 6

@@ -93,7 +93,13 @@ GROUPS: Final = (
     Group("Training", ("rsoccer.train", "rsoccer.train.args", "rsoccer.train.task_settings")),
     Group(
         "Evaluation",
-        ("rsoccer.evaluate", "rsoccer.evaluate.results", "rsoccer.evaluate.tables"),
+        (
+            "rsoccer.evaluate",
+            "rsoccer.evaluate.results",
+            "rsoccer.evaluate.tables",
+            "rsoccer.evaluate.tournament",
+            "rsoccer.evaluate.ratings",
+        ),
     ),
     Group(
         "Pictures and videos",

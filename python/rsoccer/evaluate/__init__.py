@@ -6,11 +6,11 @@ Every match starts from a new state, ends by the task's rules or at the time lim
 once. Its score is the metric that the task names as its success. In two-sided tasks, where yellow
 can play blue's part, a policy plays half of the matches for each team. Otherwise a policy that has
 learned one side only, or an error in yellow's view, would go unnoticed.
+
+`tournament` plays every policy against every other one, and rates them.
 """
 
 from __future__ import annotations
-
-import os
 
 import numpy as np
 
@@ -24,7 +24,9 @@ from rsoccer.evaluate.results import (
     bootstrap_interval,
     count_results,
 )
+from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.evaluate.tables import table
+from rsoccer.evaluate.tournament import Standing, Tournament, tournament
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy
@@ -33,6 +35,7 @@ from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
 __all__ = ["Evaluation", "Interval", "Results", "evaluate", "table"]
+__all__ += ["Standing", "Tournament", "first_seed", "matches_per_side", "tournament"]
 
 
 def evaluate(
@@ -80,7 +83,7 @@ def evaluate(
     per_side = matches_per_side(task, matches)
     checks.integer("seed", seed, 0)
     checks.integer("worlds", worlds, 1)
-    threads = _processors() if threads is None else checks.integer("threads", threads, 1)
+    threads = processors() if threads is None else checks.integer("threads", threads, 1)
     opponent_policy: Policy | None = None
     if opponent is not None:
         opponent_policy = make_policy(opponent, task)
@@ -130,43 +133,3 @@ def _evaluation(
 def _by_side(scores: list[Doubles], rng: np.random.Generator) -> dict[str, Results]:
     """Results of each side by its name."""
     return {side: count_results([part], rng) for side, part in zip(SIDES, scores, strict=True)}
-
-
-def first_seed(seed: int, side: int) -> int:
-    """Return the seed of the first match that an evaluation plays from a side.
-
-    Args:
-        seed: seed of the evaluation.
-        side: index of the side: 0 for blue or the only one, 1 for yellow.
-    """
-    words = np.random.SeedSequence((seed, side)).generate_state(1, np.uint64)
-    return int(words[0]) >> 1
-
-
-def matches_per_side(task: Task, matches: int) -> int:
-    """Return the number of matches for each side, so that their sum is `matches`.
-
-    Args:
-        task: the task that is played.
-        matches: number of matches of the evaluation.
-
-    Raises:
-        ValueError: too few matches, an odd number in a two-sided task, or such a task without a
-            success metric.
-        TypeError: a number of another type.
-    """
-    if task.two_sided and task.success is None:
-        raise ValueError(f"task: {task.name} has two sides and must name its success, got None")
-    if not task.two_sided:
-        return checks.integer("matches", matches, 1)
-    if checks.integer("matches", matches, 2) % 2:
-        raise ValueError(
-            f"matches: expected an even number, as {task.name} is played from both sides, "
-            f"got {matches}"
-        )
-    return matches // 2
-
-
-def _processors() -> int:
-    """Number of processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

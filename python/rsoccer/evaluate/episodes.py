@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer.arrays import Doubles, Floats
+from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.controllers import Controller
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
@@ -53,6 +53,8 @@ class EpisodeRunner:
     """matches played at once, at least 1"""
     threads: int
     """threads of the simulator, at least 1"""
+    before_step: Callable[[Mask], None] | None = None
+    """called before each step with the mask (n,) of the matches that have not ended"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
@@ -93,6 +95,8 @@ class EpisodeRunner:
         scores, returns, steps, own = np.zeros((4, n))
         playing = ~matches.done
         while playing.any():
+            if self.before_step is not None:
+                self.before_step(playing)
             outcome = matches.step(learners.act(observations))
             observations = outcome.observations
             steps += playing

@@ -22,13 +22,18 @@ def table(evaluations: Iterable[Evaluation]) -> str:
         The tables, separated by an empty line.
     """
     groups = groupby(evaluations, _header)
-    return "\n\n".join(_table([header, *map(_row, group)]) for header, group in groups)
+    return "\n\n".join(align([header, *map(_row, group)], 2) for header, group in groups)
 
 
-def _table(rows: Sequence[Cells]) -> str:
-    """Aligned lines of rows with the same number of cells."""
+def align(rows: Sequence[Cells], names: int) -> str:
+    """Return rows with the same number of cells as lines with aligned columns.
+
+    Args:
+        rows: the rows; those of a table begin with its header.
+        names: number of first columns that are aligned to the left; numbers are to the right.
+    """
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
-    return "\n".join(_aligned(row, widths) for row in rows)
+    return "\n".join(_aligned(row, widths, names) for row in rows)
 
 
 def _header(evaluation: Evaluation) -> Cells:
@@ -72,10 +77,10 @@ def _score(results: Results) -> str:
     return f"{results.score:+.3f}"
 
 
-def _aligned(row: Cells, widths: Sequence[int]) -> str:
+def _aligned(row: Cells, widths: Sequence[int], names: int) -> str:
     """A line with names aligned to the left and numbers to the right."""
     cells = (
-        cell.ljust(width) if column < 2 else cell.rjust(width)
+        cell.ljust(width) if column < names else cell.rjust(width)
         for column, (cell, width) in enumerate(zip(row, widths, strict=True))
     )
     return "  ".join(cells).rstrip()

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from rsoccer.frame import team_of
-from rsoccer.train.pool_slots import PAST, PoolSlots, choose_opponents
+from rsoccer.train.pool_slots import PoolSlots, draw
 
 MAIN: Final = "main"
 """Name of the module that learns."""
@@ -67,10 +67,9 @@ class League:
         if team_of(agent_id) == "blue":
             return MAIN
         rng = np.random.default_rng(int(episode.id_, 16))
-        uniform, slot = rng.uniform(size=1), rng.integers(self.size, size=1)
-        fractions = {"ou": 0.0, "latest": self.latest_fraction}
-        opponent = int(choose_opponents(uniform, slot, fractions)[0])
-        return self.past[opponent - PAST] if opponent >= PAST else MAIN
+        past_share = (1.0 - self.latest_fraction) / self.size
+        shares = [self.latest_fraction, *[past_share] * self.size]
+        return (MAIN, *self.past)[int(draw(rng.uniform(size=1), shares)[0])]
 
     def slots(self, iteration: int) -> Sequence[int]:
         """Return the iterations at which the modules in use were copied, in order of their slots.

@@ -32,6 +32,8 @@ CHANGEABLE_ON_RESUME = (
     "checkpoint_interval",
     "progress",
     "match_page",
+    "ladder_interval",
+    "ladder_matches",
 )
 """Fields that may change when a run resumes. Two of them affect the updates: the learning rate, and
 the spread of actions if it has a final value, change towards the end that `samples` sets, and each
@@ -44,7 +46,7 @@ class Args:
     """Settings of one training run. A sample is one decision of one learning robot.
 
     Raises:
-        ValueError: a value outside its range, fractions of opponents whose sum is not 1, options
+        ValueError: a value outside its range, fractions of opponents whose sum is above 1, options
             of the task that are not JSON values, or `resume` together with `overwrite`.
     """
 
@@ -146,12 +148,25 @@ class Args:
     """share of matches, 0 to 1, against the current policy (tasks where both teams learn)"""
     past_fraction: float = 0.35
     """share of matches, 0 to 1, against frozen past policies"""
-    ou_fraction: float = 0.15
-    """share of matches, 0 to 1, against the `ou` policy (an Ornstein-Uhlenbeck process)"""
+    opponents: dict[str, float] = field(default_factory=dict)
+    """policies of the other team in all other matches: names or files, each with its share, as in
+    `ou 2 scripted 1`; the shares need not sum to 1. Where one team learns they play all matches.
+    By default `ou` where both teams learn, else the task's own policies"""
+    teammates: dict[str, float] = field(default_factory=dict)
+    """policies of the teammates that do not learn, as `opponents`; by default the task's own"""
     pool_size: int = 8
     """past policies kept, at least 1; a full pool drops the one closest in age to its neighbours"""
     pool_interval: int = 10
     """updates between two additions to the past policies, at least 1"""
+    pfsp_power: float = 1.0
+    """preference for past policies that are seldom beaten, at least 0: a past policy is drawn with
+    a weight of (1 - win rate) ** pfsp_power (prioritised fictitious self-play); 0 draws evenly"""
+    ladder_interval: int = 100
+    """updates between two measurements of the policy against fixed opponents, at least 0, and one
+    after the last update; each takes as long as several updates. 0 turns them off"""
+    ladder_matches: int = 100
+    """matches of a measurement, at least 1, with the same seeds each time, spread over `zero`,
+    `ou` and the scripts for a whole team; tasks for one team are played as they are"""
 
     def __post_init__(self) -> None:
         """Convert paths and sizes, and check every value."""
@@ -160,6 +175,8 @@ class Args:
         object.__setattr__(self, "initial_action", tuple(self.initial_action))
         object.__setattr__(self, "masked_observations", tuple(self.masked_observations))
         object.__setattr__(self, "task_options", _as_json(self.task_options))
+        for name in _MIXES:  # sorted, so that equal mixes give equal runs
+            object.__setattr__(self, name, dict(sorted(getattr(self, name).items())))
         for name in _COUNTS:
             _expect(self, name, getattr(self, name) >= 1, "at least 1")
         for name in _POSITIVE:
@@ -167,7 +184,7 @@ class Args:
             _expect(self, name, math.isfinite(value) and value > 0, "finite and above 0")
         for name in _FRACTIONS:
             _expect(self, name, 0 <= getattr(self, name) <= 1, "between 0 and 1")
-        for name in ("entropy_coef", "value_coef"):
+        for name in _AT_LEAST_0:
             value = getattr(self, name)
             _expect(self, name, math.isfinite(value) and value >= 0, "finite and at least 0")
         _expect(self, "seed", self.seed >= 0, "at least 0")
@@ -179,6 +196,7 @@ class Args:
         devices = get_args(Device)
         _expect(self, "device", self.device in devices, f"one of {', '.join(devices)}")
         self._check_hidden_sizes()
+        self._check_mixes()
         self._check_combinations()
 
     def _check_hidden_sizes(self) -> None:
@@ -187,13 +205,19 @@ class Args:
         valid = valid and bool(self.hidden_sizes)
         _expect(self, "hidden_sizes", valid, "one or more widths of at least 1")
 
+    def _check_mixes(self) -> None:
+        """Check the shares of policies."""
+        for name in _MIXES:
+            shares = getattr(self, name).values()
+            valid = all(math.isfinite(share) and share >= 0 for share in shares)
+            valid = valid and (not shares or sum(shares) > 0)
+            _expect(self, name, valid, "policies with finite shares of at least 0, one above 0")
+
     def _check_combinations(self) -> None:
         """Check fields that depend on each other."""
-        total = self.latest_fraction + self.past_fraction + self.ou_fraction
-        if not math.isclose(total, 1.0, abs_tol=1e-6):
-            raise ValueError(
-                f"latest_fraction + past_fraction + ou_fraction must be 1, got {total:g}"
-            )
+        total = self.latest_fraction + self.past_fraction
+        if total > 1.0 + 1e-6:
+            raise ValueError(f"latest_fraction + past_fraction must be at most 1, got {total:g}")
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
 
@@ -260,7 +284,7 @@ class Args:
 
 _COUNTS = (
     *("samples", "threads", "torch_threads", "worlds", "horizon", "action_repeat"),
-    *("n_epochs", "n_minibatches", "pool_size", "pool_interval"),
+    *("n_epochs", "n_minibatches", "pool_size", "pool_interval", "ladder_matches"),
 )
 _POSITIVE = (
     *("learning_rate", "clip_range", "target_kl", "max_grad_norm", "action_std"),
@@ -268,8 +292,10 @@ _POSITIVE = (
 )
 _FRACTIONS = (
     *("solo_fraction", "random_truncation", "gamma", "gae_lambda"),
-    *("latest_fraction", "past_fraction", "ou_fraction"),
+    *("latest_fraction", "past_fraction"),
 )
+_AT_LEAST_0 = ("entropy_coef", "value_coef", "pfsp_power", "ladder_interval")
+_MIXES = ("opponents", "teammates")
 
 
 def _as_json(options: Mapping[str, Any]) -> dict[str, Any]:

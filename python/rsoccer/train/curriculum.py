@@ -3,7 +3,7 @@
 Among teammates that learn too, a robot's reward depends as much on their actions as on its own, so
 learning is slow. A run therefore starts with one learner per match; all other robots follow
 `solo_partners`, `ou` by default. All learners then start from the policy that this first part has
-learned.
+learned. The second part has the opponents and teammates that the settings name.
 """
 
 from __future__ import annotations
@@ -14,10 +14,13 @@ from rsoccer.policies.base import Policy
 from rsoccer.task import LEARN, Learn, Task
 from rsoccer.train.args import Args
 from rsoccer.train.opponent_pool import OpponentPool
+from rsoccer.train.policy_mix import PolicyMix
 from rsoccer.train.timing import Clock, TimedSimulator
 
 Controllers = dict[str, str | Learn | Policy]
 """Controllers by robot or team, as `Matches` takes them."""
+DEFAULT_OPPONENT = "ou"
+"""Fixed policy of opponents in a task where both teams learn."""
 
 
 class Curriculum:
@@ -25,29 +28,80 @@ class Curriculum:
 
     Attributes:
         learners: names of the robots that learn in self-play; blue's if both teams learn.
-        pool: opponents of the learners if both teams learn, else None.
+        opponents: policies of the other team in the second part; None for the task's own.
+        pool: the same policies if both teams learn, else None.
     """
 
     def __init__(self, args: Args, task: Task, clock: Clock) -> None:
-        """Find the learners of a task, and create a pool of opponents if both teams learn.
+        """Find the learners of a task, and make the policies of its other robots.
 
         Args:
             args: settings of the run.
             task: the task to train on.
-            clock: measures the time of the simulator and of the pool.
+            clock: measures the time of the simulator and of the policies.
+
+        Raises:
+            ValueError: a task without learners, opponents or teammates in a task without such
+                robots, a policy that does not fit the task, or opponents in a run that leaves no
+                matches for them.
         """
         self._args, self._task, self._clock = args, task, clock
         defaults = task.default_controllers()
-        self.learners = [name for name in task.robots if defaults[name] is LEARN]
+        learners = [name for name in task.robots if defaults[name] is LEARN]
+        if not learners:
+            raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
+        home = team_of(learners[0])
+        self.learners = [name for name in learners if team_of(name) == home]
         self.pool: OpponentPool | None = None
-        if {team_of(name) for name in self.learners} == {"blue", "yellow"}:
-            fractions = {
-                "latest": args.latest_fraction,
-                "past": args.past_fraction,
-                "ou": args.ou_fraction,
-            }
-            self.pool = OpponentPool(task, fractions, args.pool_size, args.action_repeat, clock)
-            self.learners = [name for name in self.learners if team_of(name) == "blue"]
+        self.opponents: PolicyMix | None = None
+        self._rivals = [name for name in task.robots if team_of(name) != home]
+        if len(self.learners) < len(learners):
+            self.opponents = self.pool = self._create_pool()
+        elif args.opponents:
+            shares = self._with_solo_policy(args.opponents)
+            self.opponents = self._create_mix("opponents", self._rivals, shares)
+        others = [name for name in task.robots if name not in [*self._rivals, *self.learners]]
+        self._teammates: Controllers = {}
+        if args.teammates:
+            mix = self._create_mix("teammates", others, args.teammates)
+            self._teammates = dict.fromkeys(others, mix)
+
+    def _create_pool(self) -> OpponentPool:
+        """Pool of opponents for a task in which both teams learn."""
+        args = self._args
+        selves = (args.latest_fraction, args.past_fraction)
+        if args.opponents and sum(selves) > 1.0 - 1e-6:
+            raise ValueError(
+                "opponents: expected none where latest_fraction + past_fraction is 1, "
+                f"got {args.opponents}"
+            )
+        return OpponentPool(
+            self._task,
+            self._with_solo_policy(args.opponents or {DEFAULT_OPPONENT: 1.0}),
+            selves,
+            args.pool_size,
+            args.action_repeat,
+            args.pfsp_power,
+            self._clock,
+        )
+
+    def _create_mix(self, setting: str, robots: list[str], shares: dict[str, float]) -> PolicyMix:
+        """Mix of policies for some robots, which the task must have."""
+        if not robots:
+            raise ValueError(
+                f"{setting}: expected none, as {self._task.name} has no such robots without a "
+                f"learner, got {getattr(self._args, setting)}"
+            )
+        return PolicyMix(self._task, shares, self._clock)
+
+    def _with_solo_policy(self, shares: dict[str, float]) -> dict[str, float]:
+        """Shares with the policy of the first part in front, so that its code is 0."""
+        return {self._args.solo_partners: 0.0, **shares} if self.starts_solo else shares
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Names of the kinds of opponents in logs; those of the first part have the first one."""
+        return () if self.opponents is None else self.opponents.kinds
 
     @property
     def starts_solo(self) -> bool:
@@ -64,14 +118,14 @@ class Curriculum:
         return self._create(controllers, self._args.worlds * len(self.learners), seed)
 
     def self_play(self, seed: int) -> Matches:
-        """Return matches with the task's learners; yellow is the pool if both teams learn.
+        """Return matches with the task's learners, and the other robots' policies.
 
         Args:
             seed: seed of the first world; the others follow.
         """
-        controllers: Controllers = {}
-        if self.pool is not None:
-            controllers = {"blue": LEARN, "yellow": self.pool}
+        controllers = dict(self._teammates)
+        if self.opponents is not None:
+            controllers |= dict.fromkeys(self._rivals, self.opponents)
         return self._create(controllers, self._args.worlds, seed)
 
     def _create(self, controllers: Controllers, worlds: int, seed: int) -> Matches:

@@ -19,6 +19,8 @@ GOAL_SCORE = "goal_score"
 """Metric of an ended episode that counts goals and wins: +1 for the learners, -1 against them."""
 EPISODE_PREFIX = "episode/"
 """Prefix of the columns of a task's metrics, which keeps them apart from the run's own columns."""
+LADDER_PREFIX = "ladder_"
+"""Prefix of the columns of the ladder."""
 
 Row = dict[str, float]
 """Values of one update by column."""
@@ -147,6 +149,16 @@ def opponent_column(kind: str, metric: str) -> str:
         metric: name of the metric.
     """
     return f"episode_{kind}/{metric}"
+
+
+def ladder_column(metric: str, opponent: str | None = None) -> str:
+    """Return the column of a metric in the matches of the ladder.
+
+    Args:
+        metric: name of the metric.
+        opponent: name of the opponent; None if the task is played with its own robots.
+    """
+    return LADDER_PREFIX + (metric if opponent is None else f"{opponent}_{metric}")
 
 
 def read_progress(folder: Path) -> dict[str, Array]:

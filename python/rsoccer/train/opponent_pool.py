@@ -1,98 +1,101 @@
-"""Pool of opponents for self-play: the current policy, frozen past policies, the `ou` policy.
+"""Opponents for self-play: the current policy, frozen past policies, and fixed policies.
 
 Self-play against the current policy alone can cycle: a policy learns to beat its predecessor and
-forgets how to beat others. Frozen past policies and a share of `ou` opponents keep that skill.
+forgets how to beat others. Frozen past policies and a share of fixed ones keep that skill. Past
+policies are drawn by prioritised fictitious self-play: those that the learner seldom beats often.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Literal
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from rsoccer.arrays import Array, Floats
-from rsoccer.policies import make_policy
-from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.train.checkpoint import add_prefix, select_prefix
-from rsoccer.train.pool_slots import LATEST, OU, PAST, PoolSlots, choose_opponents
+from rsoccer.train.policy_mix import PolicyMix
+from rsoccer.train.pool_slots import PoolSlots, draw
 from rsoccer.train.timing import Clock
 
-KINDS = ("ou", "latest", "past")
-"""Names of the kinds of opponents by code; all past policies are one kind."""
+SELVES = ("latest", "past")
+"""Kinds of opponents after the fixed policies; all past policies are one kind."""
 
 
-class OpponentPool(Policy):
+class OpponentPool(PolicyMix):
     """A policy that gives each world its own opponent, drawn when an episode starts.
+
+    Codes of opponents are the indices of the fixed policies, then `latest_code`; the past policy
+    in slot k has the code `latest_code + 1 + k`.
 
     Attributes:
         latest: the current policy, which the trainer sets after every update; None at first.
         past: frozen past policies.
-        slots: ages of the past policies.
-        opponents: (n,) code of each world's opponent in the last step.
+        slots: ages of the past policies, and the win rates against them.
+        latest_code: code of the current policy.
     """
-
-    observes: Literal["nothing", "view", "observation"] = "observation"
 
     def __init__(
         self,
         task: Task,
-        fractions: dict[str, float],
+        fixed: Mapping[str, float],
+        selves: tuple[float, float],
         size: int,
         action_repeat: int,
+        power: float,
         clock: Clock,
     ) -> None:
         """Create a pool without past policies.
 
         Args:
             task: the task that is trained.
-            fractions: shares of the episodes, 0 to 1, by the names in `KINDS`; they sum to 1.
+            fixed: shares of the fixed policies by name or file, relative to each other.
+            selves: shares of the episodes against the current policy and against past ones, 0 to
+                1; the fixed policies have the rest.
             size: largest number of past policies.
             action_repeat: control steps that networks hold each decision.
+            power: preference for hard past policies, see `PoolSlots.shares`.
             clock: measures the time of the opponents.
+
+        Raises:
+            FileNotFoundError: no such policy file.
+            ValueError: an unknown policy, or one that does not fit the task.
         """
+        super().__init__(task, fixed, clock)
+        self.observes = "observation"
         self.latest: Network | None = None
         self.past: list[Network] = []
         self.slots = PoolSlots(size)
-        self.opponents = np.zeros(0, np.int64)
-        self._clock = clock
-        self._ou = make_policy("ou", task)
-        self._fractions, self._action_repeat = fractions, action_repeat
+        self.latest_code = len(self.kinds)
+        self._shares = np.array([*self._shares * max(1.0 - sum(selves), 0.0), *selves])
+        self.kinds = (*self.kinds, *SELVES)
+        self._action_repeat, self._power = action_repeat, power
 
-    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> dict[str, Array]:
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Draw opponents for new episodes, and return their memory, arrays (n, ...)."""
-        n = shape[0]
-        ou_memory = self._ou.new_memory(shape, rng)
         return {
-            "opponent": self._draw(rng),
-            "age": np.zeros(n, np.int64),
+            **super().new_memory(shape, rng),
+            "age": np.zeros(shape[0], np.int64),
             "held": np.zeros(shape, np.float32),
-            **add_prefix("ou", ou_memory),
         }
 
-    def act(self, inputs: PolicyInput, rng: WorldRng, memory: dict[str, Array]) -> Floats:
-        """Return the actions of each world's opponent, (n, robots, action)."""
-        with self._clock.measure("opponents"):
-            self.opponents = memory["opponent"]
-            return self._act(inputs, rng, memory)
-
-    def _act(self, inputs: PolicyInput, rng: WorldRng, memory: dict[str, Array]) -> Floats:
+    def _act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Actions (n, robots, action); networks decide every `action_repeat` steps."""
         assert inputs.observations is not None, "a pool observes"
-        ou_actions = self._ou.act(inputs, rng, select_prefix("ou", memory))
-        opponent, held = memory["opponent"], memory["held"]
+        actions = super()._act(inputs, rng, memory)
+        drawn, held = memory["drawn"], memory["held"]
         due = memory["age"] % self._action_repeat == 0
         memory["age"] += 1
         for code, network in self._networks():
-            rows = due & (opponent == code)
+            rows = due & (drawn == code)
             if rows.any():
                 streams = rng[rows]
                 held[rows] = network.choose(inputs.observations[rows], streams)
                 rng.put(rows, streams)
-        return np.where((opponent == OU)[:, None, None], ou_actions, held)
+        return np.where((drawn < self.latest_code)[:, None, None], actions, held)
 
     def freeze(self, network: Network, update: int) -> None:
         """Add a past policy. A full pool evicts the one closest in age to its neighbours.
@@ -108,15 +111,38 @@ class OpponentPool(Policy):
         self.past[slot : slot + 1] = [network]  # appends where the pool is not full
 
     def _draw(self, rng: WorldRng) -> Array:
-        """Code of an opponent for each world (n,); `LATEST` for past ones in an empty pool."""
+        """Code of an opponent for each world (n,); the current policy for past ones if none is."""
+        kinds = super()._draw(rng)
         uniform = rng.uniform(0.0, 1.0)
-        slot = rng.integers(max(len(self.past), 1))
-        opponents = choose_opponents(uniform, slot, self._fractions)
-        return opponents if self.past else np.minimum(opponents, LATEST)
+        if not self.past:
+            return np.minimum(kinds, self.latest_code)
+        slots = draw(uniform, self.slots.shares(self._power))
+        return np.where(kinds > self.latest_code, kinds + slots, kinds)
+
+    def kinds_of(self, codes: Array) -> Array:
+        """Return the kind of each opponent as an index into `kinds`, (n,).
+
+        Args:
+            codes: (n,) codes of opponents.
+        """
+        return np.minimum(codes, self.latest_code + 1)
+
+    def record(self, ended: Mask, scores: Array) -> None:
+        """Update the win rates against past policies with the matches that ended.
+
+        Args:
+            ended: (n,) mask of the matches that ended in the last step.
+            scores: (n,) scores of the learners, valid where a match ended.
+        """
+        worlds = np.flatnonzero(ended & (self.drawn > self.latest_code))
+        self.slots.record(self.drawn[worlds] - self.latest_code - 1, scores[worlds])
 
     def state_dict(self) -> dict[str, Array]:
         """Return the arrays of the past policies by name; the trainer saves the current one."""
-        arrays: dict[str, Array] = {"frozen_at": np.array(self.slots.frozen_at, np.int64)}
+        arrays: dict[str, Array] = {
+            "frozen_at": np.array(self.slots.frozen_at, np.int64),
+            "win_rates": np.array(self.slots.win_rates, np.float64),
+        }
         for slot, network in enumerate(self.past):
             arrays |= add_prefix(str(slot), network.arrays())
         return arrays
@@ -129,6 +155,7 @@ class OpponentPool(Policy):
             metadata: metadata of the networks, the same for all.
         """
         self.slots.frozen_at = arrays["frozen_at"].tolist()
+        self.slots.win_rates = arrays["win_rates"].tolist()
         self.past = [
             Network(select_prefix(str(slot), arrays), metadata)
             for slot in range(len(self.slots.frozen_at))
@@ -137,14 +164,5 @@ class OpponentPool(Policy):
     def _networks(self) -> Iterator[tuple[int, Network]]:
         """Codes and networks of the current policy and of the past ones."""
         if self.latest is not None:
-            yield LATEST, self.latest
-        yield from enumerate(self.past, PAST)
-
-
-def kinds_of(opponents: Array) -> Array:
-    """Return the kind of each opponent as an index into `KINDS`, (n,).
-
-    Args:
-        opponents: (n,) codes of opponents.
-    """
-    return np.minimum(opponents, PAST)
+            yield self.latest_code, self.latest
+        yield from enumerate(self.past, self.latest_code + 1)

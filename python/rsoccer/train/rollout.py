@@ -20,7 +20,7 @@ from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.gae import compute_gae
 from rsoccer.train.log import EpisodeStats, Row
 from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
-from rsoccer.train.opponent_pool import KINDS, OpponentPool, kinds_of
+from rsoccer.train.policy_mix import PolicyMix
 from rsoccer.train.running_mean_std import RunningMeanStd
 from rsoccer.train.timing import Clock
 
@@ -173,6 +173,7 @@ class RolloutCollector:
         model: ActorCritic,
         generator: torch.Generator,
         clock: Clock,
+        kinds: tuple[str, ...] = (),
     ) -> None:
         """Create a collector; `enter` gives it matches.
 
@@ -182,6 +183,7 @@ class RolloutCollector:
             model: the policy that acts, and the value network.
             generator: draws actions and truncations.
             clock: measures the time of acting, of the matches and of the value network.
+            kinds: names of the kinds of opponents; without a mix all are of the first kind.
         """
         self._args, self._model, self._generator, self._clock = args, model, generator, clock
         self.gamma = args.gamma**args.action_repeat
@@ -192,17 +194,17 @@ class RolloutCollector:
         if args.central_critic:
             self.central = CentralInputs(task, symmetric=args.mirror_augmentation)
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
-        self.episode_stats = EpisodeStats(KINDS)
+        self.episode_stats = EpisodeStats(kinds)
         self.reward_means: Row = {}
 
-    def enter(self, matches: Matches, pool: OpponentPool | None) -> None:
+    def enter(self, matches: Matches, opponents: PolicyMix | None) -> None:
         """Start to play some matches.
 
         Args:
             matches: matches without automatic resets.
-            pool: the pool that controls the opponents, if one does.
+            opponents: the mix of policies that controls the opponents, if one does.
         """
-        self.matches, self._pool = matches, pool
+        self.matches, self._opponents = matches, opponents
         self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
         self.observations = matches.reset()
         self._update_states()
@@ -284,11 +286,14 @@ class RolloutCollector:
         if self._args.normalise_rewards:
             self.return_rms.update(self.discounted_returns.reshape(-1, 1))
         ended = transition.ended
-        opponents = np.zeros(len(ended), int)
-        if self._pool is not None:
-            opponents = kinds_of(self._pool.opponents)
+        kinds = np.zeros(len(ended), int)
+        if self._opponents is not None:
+            kinds = self._opponents.kinds_of(self._opponents.drawn)
+            if self.matches.task.success in transition.metrics:
+                scores = transition.metrics[self.matches.task.success]
+                self._opponents.record(ended, scores)
         metrics = {name: values[ended] for name, values in transition.metrics.items()}
-        self.episode_stats.add(opponents[ended], metrics)
+        self.episode_stats.add(kinds[ended], metrics)
         means = {f"reward_{name}": mean for name, mean in transition.terms.items()}
         for name, mean in {**means, "reward": float(transition.rewards.mean())}.items():
             self.reward_means[name] = self.reward_means.get(name, 0.0) + mean / self._args.horizon

@@ -23,6 +23,7 @@ from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
+from rsoccer.train.ladder import Ladder
 from rsoccer.train.log import Logger, Row
 from rsoccer.train.mirror import check_symmetric, with_reflections
 from rsoccer.train.networks import ActorCritic
@@ -56,6 +57,7 @@ class Trainer:
         is_solo: True while one robot per match learns.
         model: policy and value network.
         collector: plays the matches.
+        ladder: measures the policy against fixed opponents.
         ppo: updates the model.
         update_stats: columns of the log from the last update of the model.
         samples: decisions that were learned from.
@@ -93,8 +95,11 @@ class Trainer:
         )
         if args.initial_action:
             self.model.set_mean_action(args.initial_action)
-        self.collector = RolloutCollector(args, self.task, self.model, self.generator, self.clock)
-        self.collector.enter(matches, None if self.is_solo else self.pool)
+        self.collector = RolloutCollector(
+            args, self.task, self.model, self.generator, self.clock, self.curriculum.kinds
+        )
+        self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
+        self.ladder = Ladder(args, self.task)
         self.ppo = PPO(args, self.model, self.generator)
         self.update_stats: Row = {}
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
@@ -104,7 +109,8 @@ class Trainer:
     def start_self_play(self) -> None:
         """Begin the second part of the run, in which all learners play."""
         self.is_solo = False
-        self.collector.enter(self.curriculum.self_play(self._self_play_seed), self.pool)
+        matches = self.curriculum.self_play(self._self_play_seed)
+        self.collector.enter(matches, self.curriculum.opponents)
 
     def collect_rollout(self, check_stop: Callable[[], None]) -> Batch:
         """Play `horizon` decisions in every world, and count them as samples.
@@ -195,10 +201,14 @@ class Trainer:
 
     def _log_update(self, logger: Logger, batch_size: int) -> None:
         """Log the last update, which learned from `batch_size` samples."""
+        strength = self.ladder.skip()
+        if self.ladder.is_due(self.updates, self.samples):
+            with self.clock.measure("ladder"):
+                strength = self.ladder.measure(self.network())
         seconds, shares = self.clock.take()
         self.elapsed += seconds
-        # The columns are the same with and without a pool: solo learners meet none.
-        shares = {"physics": 0.0, "opponents": 0.0, **shares}
+        # The columns are the same in all updates: solo learners meet no pool.
+        shares = {"ladder": 0.0, "opponents": 0.0, "physics": 0.0, **shares}
         shares["tasks"] = shares.pop("matches") - shares["physics"] - shares["opponents"]
         row = {
             "update": self.updates,
@@ -206,6 +216,7 @@ class Trainer:
             "seconds": self.elapsed,
             "samples_per_second": batch_size / seconds,
             **self.collector.episode_stats.take(),
+            **strength,
             **self.collector.reward_means,
             **self.update_stats,
             **{f"time_{part}": share for part, share in sorted(shares.items())},

@@ -1,0 +1,162 @@
+"""Tournaments: results, tables, pictures, and policies that are refused before anything plays."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import registry
+from rsoccer.cli import main
+from rsoccer.evaluate.tournament import summarise
+from rsoccer.matches import Matches
+from rsoccer.policies.network import Network
+from rsoccer.policies.noise import Zero
+from rsoccer.policies.policy_file import FORMAT
+from tests.train.short_task import NAME, ShortSelfPlay, register_all
+
+TASK = ShortSelfPlay()
+
+
+def write_network(path: Path, observation_size: int = TASK.observation_size) -> str:
+    """Write a network that drives ahead."""
+    arrays = {
+        "layers.0.weight": np.zeros((2, observation_size), np.float32),
+        "layers.0.bias": np.full(2, 0.5, np.float32),
+        "mean": np.zeros(observation_size, np.float32),
+        "std": np.ones(observation_size, np.float32),
+    }
+    metadata = {"format": FORMAT, "task": "VSSSelfPlay-v0", "activation": "tanh", "clip": "10"}
+    metadata |= {"observation_size": str(observation_size), "action_size": "2"}
+    path.parent.mkdir(exist_ok=True)
+    Network(arrays, metadata).save(path)
+    return str(path)
+
+
+def test_everyone_plays_everyone_from_both_sides(tmp_path: Path) -> None:
+    network = write_network(tmp_path / "ahead" / "policy.safetensors")
+    pairs: list[tuple[int, int]] = []
+    result = rsoccer.tournament(
+        [Path(network), "zero", "chase"],
+        matches=8,
+        task=TASK,
+        threads=1,
+        on_pair=lambda done, total: pairs.append((done, total)),
+    )
+    assert pairs == [(1, 3), (2, 3), (3, 3)]
+    assert result.matches == 8 and result.anchor is None and result.task == TASK.name
+    assert {standing.label for standing in result.standings} == {"ahead", "zero", "chase"}
+    played = [(s.wins + s.draws + s.losses) for s in result.standings]
+    assert played == [16, 16, 16]
+    wins, losses = (sum(getattr(s, n) for s in result.standings) for n in ("wins", "losses"))
+    assert wins == losses > 0
+    ratings = [standing.rating for standing in result.standings]
+    assert ratings == sorted(ratings, reverse=True)
+    assert np.mean(ratings) == pytest.approx(1000.0)
+    scores = np.array(result.scores)
+    np.testing.assert_allclose(scores, -scores.T)
+    for standing, row in zip(result.standings, scores, strict=True):
+        assert standing.score == pytest.approx(row.sum() / 2)
+    assert json.loads(json.dumps(result.as_dict()))["standings"][0]["rating"] == ratings[0]
+
+
+def test_both_policies_of_a_pair_have_the_same_starts_on_both_sides() -> None:
+    """Two equal policies, one of which is named otherwise, have opposite results on the sides."""
+    result = rsoccer.tournament([Zero(), "zero"], matches=20, task=TASK, threads=1)
+    assert result.standings[0].wins == result.standings[0].losses > 0
+    assert result.scores == ((0.0, 0.0), (0.0, 0.0))
+
+
+def test_equal_seeds_give_equal_results_for_any_threads() -> None:
+    first, second, other = (
+        rsoccer.tournament(["ou", "chase"], 4, seed, task=TASK, threads=threads)
+        for seed, threads in ((3, 1), (3, 2), (4, 1))
+    )
+    assert first == second != other
+    assert first.anchor == "ou"
+    assert {s.label: s.rating for s in first.standings}["ou"] == 1000.0
+
+
+def test_ssl_teams_play_tournaments() -> None:
+    task = rsoccer.make_task("SSLSelfPlay-v0", max_steps=40)
+    result = rsoccer.tournament(["strike", "zero"], 2, task=task, threads=1)
+    assert len(result.standings) == 2
+
+
+@pytest.mark.parametrize(
+    ("policies", "task", "message"),
+    [
+        (["ou"], None, "at least two, got 1"),
+        (["ou", "zero", "ou"], None, "'ou' twice"),
+        (["ou", "nobody"], None, "unknown policy 'nobody'"),
+        (["zero", "strike"], None, "strike cannot play VSSSelfPlay-v0"),
+        (["zero", "fetch"], "SSLGoToBall-v0", "that two teams play, got SSLGoToBall-v0"),
+    ],
+)
+def test_unfit_policies_are_refused_before_anything_is_played(
+    policies: list[str], task: str | None, message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Matches, "__init__", lambda *args, **options: pytest.fail("played"))
+    with pytest.raises(ValueError, match=message):
+        rsoccer.tournament(policies, task=task)
+
+
+def test_files_are_refused_by_name(tmp_path: Path) -> None:
+    path = write_network(tmp_path / "a.safetensors")
+    same = str(tmp_path / "b" / ".." / "a.safetensors")
+    with pytest.raises(ValueError, match="twice"):
+        rsoccer.tournament([path, same])
+    other = write_network(tmp_path / "other.safetensors", 5)
+    with pytest.raises(ValueError, match=r"other.safetensors cannot play VSSSelfPlay-v0"):
+        rsoccer.tournament(["ou", other], task="VSSSelfPlay-v0")
+    with pytest.raises(FileNotFoundError):
+        rsoccer.tournament(["ou", str(tmp_path / "gone.safetensors")])
+
+
+@pytest.mark.parametrize("policies", ["ou", 3, ["ou", 4]])
+def test_wrong_types_are_refused(policies: object) -> None:
+    with pytest.raises(TypeError, match="polic"):
+        rsoccer.tournament(policies)  # type: ignore[arg-type]
+
+
+def counted(k: int) -> np.ndarray:
+    """Return counts in which each policy beats the next, and the last the first."""
+    counts = np.zeros((k, k, 3), np.int64)
+    for a in range(k):
+        for b in range(k):
+            if a != b:
+                counts[a, b] = (40, 5, 5) if (b - a) % k == 1 else (20, 10, 20)
+    for a in range(k):
+        counts[(a + 1) % k, a] = (5, 5, 40)
+    return counts
+
+
+def test_the_report_names_cycles() -> None:
+    result = summarise(["rock", "scissors", "paper"], counted(3), "VSSSelfPlay-v0", 0)
+    assert result.cycles == (("rock", "scissors", "paper"),)
+    text = str(result)
+    assert "rock beats scissors beats paper beats rock" in text
+    lines = text.splitlines()
+    assert lines[0] == "VSSSelfPlay-v0, 100 matches a pair, half from each side"
+    assert lines[2].split() == [
+        *("policy", "rating", "95%", "interval", "won", "drawn", "lost", "goal", "score"),
+    ]
+    assert "+0.70" in text and "-0.70" in text
+
+
+def test_the_command_prints_and_writes_the_result(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    register_all()
+    paths = [tmp_path / "result.json", tmp_path / "result.png"]
+    words = ["tournament", "chase", "ou", "--matches", "2", "--task", NAME, "--threads", "1"]
+    assert main([*words, "--json", str(paths[0]), "--picture", str(paths[1])]) == 0
+    printed = capsys.readouterr().out
+    assert "goal score of the row against the column" in printed
+    assert f"picture: {paths[1]}" in printed
+    assert json.loads(paths[0].read_text())["matches"] == 2
+    assert paths[1].read_bytes().startswith(b"\x89PNG")
+    assert main([*words, "--picture", str(tmp_path / "result.jpg")]) == 2
+    assert ".png" in capsys.readouterr().err
