@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -158,6 +159,28 @@ def test_the_partners_of_a_solo_learner_follow_the_chosen_policy(tmp_path: Path)
     assignment = trainer.collector.matches.assignment
     assert [type(group.policy).__name__ for group in assignment.groups] == ["Chase"]
     assert [len(group.robots) for group in assignment.groups] == [5]
+
+
+def test_copies_of_the_learner_play_beside_it_and_resume(tmp_path: Path) -> None:
+    settings: dict[str, Any] = {"solo_copies": 0.5, "solo_fraction": 1.0, "samples": 4 * 144}
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+    trainer = Trainer(tiny(tmp_path / "a", **settings))
+    partners = trainer.curriculum.partners
+    assert partners is not None
+    groups = trainer.collector.matches.assignment.groups
+    assert [len(group.robots) for group in groups if group.policy is partners] == [2]
+    assert [len(group.robots) for group in groups if group.policy is not partners] == [3]
+    trainer.run(StopSignal(), 0)
+    assert set(partners.drawn.tolist()) == {0, partners.latest_code}
+    assert partners.latest is not None
+    weights = partners.latest.arrays()
+    assert all(
+        np.array_equal(weights[name], part) for name, part in trainer.network().arrays().items()
+    )
+    run_until(tiny(tmp_path / "b", **settings), 2 * 13)
+    train(tiny(tmp_path / "b", resume=True, **settings))
+    assert digest(tmp_path / "b") == digest(tmp_path / "a")
 
 
 def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:

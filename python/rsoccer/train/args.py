@@ -84,6 +84,9 @@ class Args:
     Its rewards then follow from its own actions; 0 lets all learners play from the start"""
     solo_partners: str = "ou"
     """policy of all other robots in that first part: a name, or the path of a policy file"""
+    solo_copies: float = 0.0
+    """share of the matches of that first part, 0 to 1, in which the robots that learn later follow
+    the current policy instead of `solo_partners`; more prepare for a team that learns"""
     worlds: int = 256
     """matches played at once, at least 1; more give steadier gradients, slower first progress"""
     horizon: int = 16
@@ -105,6 +108,10 @@ class Args:
     central_critic: bool = False
     """let the value network read the state of the whole match, as in MAPPO, and the observation.
     The policy still acts on the observation of its robot alone"""
+    robot_units: int = 0
+    """units of the first layer, at least 0, for each other robot of a team, in addition to the
+    first of `hidden_sizes`. Their weights are shared by the robots of a team (Deep Sets), so what
+    is learned about one of them holds for all. 0 treats every robot on its own"""
     action_std: float = 0.6
     """initial standard deviation of the actions, above 0; 1 is full speed"""
     final_action_std: float | None = None
@@ -291,10 +298,10 @@ _POSITIVE = (
     "checkpoint_interval",
 )
 _FRACTIONS = (
-    *("solo_fraction", "random_truncation", "gamma", "gae_lambda"),
+    *("solo_fraction", "solo_copies", "random_truncation", "gamma", "gae_lambda"),
     *("latest_fraction", "past_fraction"),
 )
-_AT_LEAST_0 = ("entropy_coef", "value_coef", "pfsp_power", "ladder_interval")
+_AT_LEAST_0 = ("entropy_coef", "value_coef", "pfsp_power", "ladder_interval", "robot_units")
 _MIXES = ("opponents", "teammates")
 
 

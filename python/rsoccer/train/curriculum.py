@@ -30,6 +30,8 @@ class Curriculum:
         learners: names of the robots that learn in self-play; blue's if both teams learn.
         opponents: policies of the other team in the second part; None for the task's own.
         pool: the same policies if both teams learn, else None.
+        partners: policies of the learner's later fellow learners in the first part; None if they
+            follow `solo_partners` in all matches.
     """
 
     def __init__(self, args: Args, task: Task, clock: Clock) -> None:
@@ -56,17 +58,20 @@ class Curriculum:
         self.opponents: PolicyMix | None = None
         self._rivals = [name for name in task.robots if team_of(name) != home]
         if len(self.learners) < len(learners):
-            self.opponents = self.pool = self._create_pool()
+            self.opponents = self.pool = self._create_opponent_pool()
         elif args.opponents:
             shares = self._with_solo_policy(args.opponents)
             self.opponents = self._create_mix("opponents", self._rivals, shares)
+        self.partners: OpponentPool | None = None
+        if args.solo_copies > 0.0 and self.starts_solo:
+            self.partners = self._create_pool({args.solo_partners: 1.0}, (args.solo_copies, 0.0))
         others = [name for name in task.robots if name not in [*self._rivals, *self.learners]]
         self._teammates: Controllers = {}
         if args.teammates:
             mix = self._create_mix("teammates", others, args.teammates)
             self._teammates = dict.fromkeys(others, mix)
 
-    def _create_pool(self) -> OpponentPool:
+    def _create_opponent_pool(self) -> OpponentPool:
         """Pool of opponents for a task in which both teams learn."""
         args = self._args
         selves = (args.latest_fraction, args.past_fraction)
@@ -75,15 +80,13 @@ class Curriculum:
                 "opponents: expected none where latest_fraction + past_fraction is 1, "
                 f"got {args.opponents}"
             )
-        return OpponentPool(
-            self._task,
-            self._with_solo_policy(args.opponents or {DEFAULT_OPPONENT: 1.0}),
-            selves,
-            args.pool_size,
-            args.action_repeat,
-            args.pfsp_power,
-            self._clock,
-        )
+        fixed = self._with_solo_policy(args.opponents or {DEFAULT_OPPONENT: 1.0})
+        return self._create_pool(fixed, selves)
+
+    def _create_pool(self, fixed: dict[str, float], selves: tuple[float, float]) -> OpponentPool:
+        """Pool with fixed policies, and shares of the current policy and of past ones."""
+        size, repeat, power = self._args.pool_size, self._args.action_repeat, self._args.pfsp_power
+        return OpponentPool(self._task, fixed, selves, size, repeat, power, self._clock)
 
     def _create_mix(self, setting: str, robots: list[str], shares: dict[str, float]) -> PolicyMix:
         """Mix of policies for some robots, which the task must have."""
@@ -114,7 +117,10 @@ class Curriculum:
         Args:
             seed: seed of the first world; the others follow.
         """
-        controllers: Controllers = {"all": self._args.solo_partners, self.learners[0]: LEARN}
+        learner, *others = self.learners
+        controllers: Controllers = {"all": self._args.solo_partners, learner: LEARN}
+        if self.partners is not None:
+            controllers |= dict.fromkeys(others, self.partners)
         return self._create(controllers, self._args.worlds * len(self.learners), seed)
 
     def self_play(self, seed: int) -> Matches:

@@ -14,6 +14,7 @@ from rsoccer.train.device import find_device
 from rsoccer.train.log import Row
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.rollout import Batch
+from rsoccer.train.weight_sharing import WeightSharing
 
 
 class PPO:
@@ -27,18 +28,26 @@ class PPO:
         optimiser: Adam over all parameters of the copy.
     """
 
-    def __init__(self, args: Args, model: ActorCritic, generator: torch.Generator) -> None:
+    def __init__(
+        self,
+        args: Args,
+        model: ActorCritic,
+        generator: torch.Generator,
+        sharing: WeightSharing | None = None,
+    ) -> None:
         """Create the copy and the optimiser.
 
         Args:
             args: settings of the run.
             model: the networks to train, on the CPU.
             generator: draws the minibatches, on the CPU.
+            sharing: groups of parameters that stay equal; None for none.
 
         Raises:
             ValueError: the settings ask for a GPU, and torch finds none.
         """
         self._args, self._model, self._generator = args, model, generator
+        self._sharing = sharing
         self.device = find_device(args.device)
         self._learner = copy.deepcopy(model).to(self.device)
         # The parameters become views of one vector: one norm to clip, one step of Adam.
@@ -88,6 +97,8 @@ class PPO:
             check_stop()
             gradients, minibatch_stats = self._gradients(minibatch)
             gradient = torch.cat([part.flatten() for part in gradients])
+            if self._sharing is not None:
+                gradient = self._sharing.average(gradient)
             scale = self._args.max_grad_norm / (gradient.norm() + 1e-6)
             self.optimiser.step(gradient.mul_(scale.clamp(max=1.0)), learning_rate)
             stats.append(minibatch_stats)

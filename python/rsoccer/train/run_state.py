@@ -87,6 +87,7 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     trainer.generator.set_state(torch.tensor(run["generator"]))
     trainer.samples, trainer.updates = info["samples"], info["updates"]
     trainer.elapsed = info["elapsed"]
+    trainer.show_policy()
     if trainer.pool is not None:
-        trainer.pool.latest = trainer.network()
-        trainer.pool.load_state_dict(select_prefix("pool", arrays), trainer.pool.latest.metadata)
+        metadata = trainer.network().metadata
+        trainer.pool.load_state_dict(select_prefix("pool", arrays), metadata)

@@ -33,6 +33,7 @@ from rsoccer.train.rollout import Batch, RolloutCollector
 from rsoccer.train.run_state import capture, restore
 from rsoccer.train.stop_signal import Interrupted, Stopped, StopSignal
 from rsoccer.train.timing import Clock
+from rsoccer.train.weight_sharing import WeightSharing, robot_slots
 
 POLICY_FILE = "policy.safetensors"
 """Name of the policy in a run's folder."""
@@ -84,15 +85,22 @@ class Trainer:
         create = self.curriculum.solo if self.is_solo else self.curriculum.self_play
         matches = create(self._first_seed)
         sizes = (matches.observation_size, self.task.action_size)
+        slots = robot_slots(self.task) if args.robot_units else []
+        shared_units = args.robot_units * sum(len(columns) for columns in slots)
+        first, *others = args.hidden_sizes
         self.model = ActorCritic(
             *sizes,
-            args.hidden_sizes,
+            (first + shared_units, *others),
             args.action_std,
             self.generator,
             state_size=matches.state_size if args.central_critic else 0,
             learn_action_std=args.final_action_std is None,
             mask=observation_mask(self.task, args.masked_observations),
         )
+        sharing: WeightSharing | None = None
+        if slots:
+            sharing = WeightSharing(slots, args.robot_units, sizes[0], self.model)
+            sharing.tie(self.model)
         if args.initial_action:
             self.model.set_mean_action(args.initial_action)
         self.collector = RolloutCollector(
@@ -100,11 +108,16 @@ class Trainer:
         )
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
         self.ladder = Ladder(args, self.task)
-        self.ppo = PPO(args, self.model, self.generator)
+        self.ppo = PPO(args, self.model, self.generator, sharing)
         self.update_stats: Row = {}
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
-        if self.pool is not None:
-            self.pool.latest = self.network()
+        self.show_policy()
+
+    def show_policy(self) -> None:
+        """Make the current policy the latest one of all pools."""
+        for pool in (self.pool, self.curriculum.partners):
+            if pool is not None:
+                pool.latest = self.network()
 
     def start_self_play(self) -> None:
         """Begin the second part of the run, in which all learners play."""
@@ -145,12 +158,10 @@ class Trainer:
         self._update_pool()
 
     def _update_pool(self) -> None:
-        """Make the new policy the latest opponent, and freeze it every `pool_interval` updates."""
-        if self.pool is None:
-            return
-        self.pool.latest = self.network()
-        if self.updates % self.args.pool_interval == 0:
-            self.pool.freeze(self.pool.latest, self.updates)
+        """Make the new policy the latest one, and freeze it every `pool_interval` updates."""
+        self.show_policy()
+        if self.pool is not None and self.updates % self.args.pool_interval == 0:
+            self.pool.freeze(self.network(), self.updates)
 
     def network(self) -> Network:
         """Return the current policy in NumPy."""
