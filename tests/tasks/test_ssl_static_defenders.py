@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from rsoccer import LEARN, Matches
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslContestedPossession, SslStaticDefenders
 from rsoccer.tasks.ssl_attack import SslAttack
@@ -125,3 +126,31 @@ def test_too_many_opponents_are_refused(n_opponents: int) -> None:
 def test_other_scenarios_are_refused(scenario: int) -> None:
     with pytest.raises(ValueError, match="scenario: expected"):
         SslStaticDefenders(scenario=scenario)
+
+
+def test_nearness_grows_towards_an_opponent_and_points_at_it() -> None:
+    task = SslStaticDefenders(n_opponents=2)
+    matches = Matches(task, 1, autoreset="disabled")
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 1))
+    frame.blue.position[0, 0] = [1.0, 0.0]
+    frame.yellow.position[0] = [[1.0, 0.43], [2.5, 0.0]]  # gaps of 0.25 m and 1.32 m
+    frame.ball.position[0] = [0.5, 0.0]
+    observation = matches.reset(rows=frame.rows)[0, 0]
+    block = task.blocks["nearness"]
+    near, far = observation[block.columns].reshape(block.shape)[:2]
+    np.testing.assert_allclose(near, [np.exp(-1.0), 0.0, np.exp(-1.0)], atol=1e-3)
+    np.testing.assert_allclose(far, [np.exp(-5.28), np.exp(-5.28), 0.0], atol=1e-3)
+
+
+@pytest.mark.parametrize("n_opponents", [0, 1, 6])
+def test_nearness_has_a_row_for_each_opponent(n_opponents: int) -> None:
+    task = SslStaticDefenders(n_opponents=n_opponents)
+    matches = Matches(task, 5, controllers={"all": LEARN})
+    observations = matches.reset(3)
+    assert task.blocks["nearness"].shape == (*task.blocks["opponents"].shape[:1], 3)
+    nearness = observations[..., task.blocks["nearness"].columns].reshape(
+        5, 1 + n_opponents, *task.blocks["nearness"].shape
+    )
+    assert (nearness[:, 0, :n_opponents, 0] > 0.0).all()
+    assert (nearness[:, 0, n_opponents:] == 0.0).all()
+    assert (nearness[:, 1:, 1:] == 0.0).all(), "yellow robots have one opponent"

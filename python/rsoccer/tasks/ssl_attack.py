@@ -10,11 +10,15 @@ from rsoccer import rewards
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.markers import Area, Marker
+from rsoccer.reflection import Reflection
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
+from rsoccer.vectors import TINY, norm
 
 CENTRE_LINE_TOLERANCE: Final = np.float32(0.2)
 """Distance that the attacker may go behind the centre line, m."""
+NEARNESS_DISTANCE: Final = np.float32(0.25)
+"""Gap between robots at which their nearness is 1/e, m: a robot brakes from 1.5 m/s within it."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +27,11 @@ class SslAttack(Ssl):
 
     Goal of the task: score without leaving the opponents' half, entering their goal area or
     touching an opponent.
+
+    The observation has one block more than `Soccer`, "nearness" (o, 3), limit 1: exp(-g / 0.25 m)
+    for each opponent at a gap g between the robots; the same times the direction to the opponent,
+    x and y. A touch ends the episode, and positions alone teach a network little about it. A slot
+    without a robot is 0.
 
     Reward terms, unweighted:
 
@@ -69,6 +78,18 @@ class SslAttack(Ssl):
         """Return `LEARN` for blue_0 and "hold" for opponents: at rest with the dribbler on."""
         return dict.fromkeys(self.robots, "hold") | {"blue_0": LEARN}
 
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """Compute the blocks of `Soccer` and the block "nearness" (n, observers, o, 3)."""
+        return {**super().frame_to_observations(play), "nearness": self._nearness(play)}
+
+    def observation_limits(self) -> dict[str, float]:
+        """Return the bounds of `Soccer` and of the block "nearness"."""
+        return {**super().observation_limits(), "nearness": 1.0}
+
+    def block_reflections(self) -> dict[str, Reflection]:
+        """Return the reflections of the blocks of `Soccer` and of the block "nearness"."""
+        return {**super().block_reflections(), "nearness": Reflection.of([1, 1, -1])}
+
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a goal or a failure terminates."""
         goal = rewards.goal(play)
@@ -90,6 +111,19 @@ class SslAttack(Ssl):
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `goal_score`, (n,): 1 for a goal, -1 for one against, else 0."""
         return {"goal_score": rewards.goal_score(play.frame.ball)}
+
+    def _nearness(self, play: Play) -> Floats:
+        """Block "nearness" (n, observers, o, 3)."""
+        view = play.view
+        offset = view.opponents.position - view.ego.position[..., None, :]  # (n, observers, o, 2)
+        distance = norm(offset[..., 0], offset[..., 1])
+        gap = np.maximum(distance - np.float32(2.0 * self.config.robot.bounding_radius), 0.0)
+        near = np.exp(-gap / NEARNESS_DISTANCE)
+        opponents = np.where(play.observers < self.n_blue, self.n_yellow, self.n_blue)
+        near *= np.arange(near.shape[-1]) < opponents[:, None]  # other slots are empty
+        direction = offset / np.maximum(distance, TINY)[..., None]
+        block: Floats = np.concatenate([near[..., None], near[..., None] * direction], axis=-1)
+        return block
 
     def _failed(self, frame: Frame) -> Mask:
         """(n,) whether ball or attacker left its area or the attacker committed a foul."""

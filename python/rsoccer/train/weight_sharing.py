@@ -32,7 +32,8 @@ def robot_slots(task: Task) -> list[Indices]:
 
     Returns:
         Columns (slots, k) for the teammates and for the opponents of a blue robot, where they are
-        two or more; a slot is a robot's place in the blocks of its team and of "body_positions".
+        two or more; a slot is a robot's place in each block with numbers of
+            robots.
 
     Raises:
         ValueError: a task without such a team.
@@ -46,8 +47,10 @@ def robot_slots(task: Task) -> list[Indices]:
     for name, robots in (("teammates", task.n_blue - 1), ("opponents", task.n_yellow)):
         slots = task.blocks[name].shape[0] if name in task.blocks else 0
         if robots > 1:  # further slots are empty
-            offsets = _columns(task, "body_positions")[first : first + slots]
-            found.append(np.concatenate([_columns(task, name), offsets], axis=1))
+            parts = [_columns(task, name), _columns(task, "body_positions")[first : first + slots]]
+            if name == "opponents" and "nearness" in task.blocks:
+                parts.append(_columns(task, "nearness"))
+            found.append(np.concatenate(parts, axis=1))
         first += slots
     if not found:
         raise ValueError(
