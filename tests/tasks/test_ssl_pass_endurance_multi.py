@@ -84,3 +84,18 @@ def test_passer_solves_the_task() -> None:
     assert solved.returns.mean() > uniform.returns.mean() + 10.0
     assert solved.largest_term() == "passes"
     assert solved.term_totals["energy"] < 0.02 * sum(solved.term_totals.values())
+
+
+def test_either_robot_starts_with_the_ball() -> None:
+    task = SslPassEnduranceMulti(random_holder=True)
+    matches = Matches(task, 200, seed=1, autoreset="disabled")
+    matches.reset()
+    holder = matches.play.memory["holder"]
+    assert 0.4 < holder.mean() < 0.6
+    infrared = matches.frame.blue.infrared > 0.5
+    assert infrared[np.arange(200), holder].all()
+    assert (matches.play.memory["left_at"] == matches.frame.ball.position).all()
+    assert not matches.step(np.zeros((200, 2, 5), np.float32)).ended.any()
+    matches = Matches(SslPassEnduranceMulti(), 50, seed=1)
+    matches.reset()
+    assert (matches.play.memory["holder"] == 0).all()

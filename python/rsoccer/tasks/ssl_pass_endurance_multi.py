@@ -6,10 +6,12 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer import rewards
+from rsoccer import checks, rewards
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.rng import WorldRng
 from rsoccer.task import Play
+from rsoccer.tasks.ssl import ball_at_mouth
 from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
 from rsoccer.vectors import norm
 
@@ -24,7 +26,7 @@ class SslPassEnduranceMulti(SslPass):
     Goal of the task: as many passes as possible, each at least 1.5 m long and received in the break
     beam of the other robot's mouth.
 
-    Initial state: that of `SslPass`.
+    Initial state: that of `SslPass`; with `random_holder` blue_1 has the ball in half of all episodes.
 
     Reward terms, unweighted:
 
@@ -48,6 +50,9 @@ class SslPassEnduranceMulti(SslPass):
     Source: SSL hardware challenges 2021, challenge 4, and the rSoccer paper (2021).
     """
 
+    random_holder: bool = False
+    """True: either robot starts with the ball, so that one learner sees both parts in training."""
+
     success = "passes"
     """Metric that measures the success of an episode."""
     full_success = None
@@ -70,6 +75,26 @@ class SslPassEnduranceMulti(SslPass):
     }
     """Weights of the rSoccer paper (2021) in these terms."""
 
+    def __post_init__(self) -> None:
+        """Validate the options."""
+        checks.boolean("random_holder", self.random_holder)
+        super().__post_init__()
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Draw random positions and headings, and place the ball in the mouth of its holder."""
+        frame = super().get_initial_positions_frame(rng)
+        if self.random_holder:
+            with_ball = ball_at_mouth(frame, 1, self.mouth_offset)
+            moved = rng.uniform(0.0, 1.0) < 0.5
+            frame.ball.position[moved] = with_ball[moved]
+        return frame
+
+    def start_episode(self, play: Play) -> None:
+        """Find the holder of the ball; the first pass is measured from its initial position."""
+        distance = self._ball_distances(play.frame)
+        play.memory["holder"][:] = distance[:, 1] < distance[:, 0]
+        play.memory["left_at"][:] = play.frame.ball.position
+
     def new_memory(self, n: int) -> dict[str, Array]:
         """Create the state of the current pass and the number of passes.
 
@@ -87,8 +112,6 @@ class SslPassEnduranceMulti(SslPass):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a failed pass terminates."""
         worlds, memory = np.arange(len(play.frame)), play.memory
-        first_step = play.steps == 1  # the robot may have kicked in this step
-        memory["left_at"][first_step] = play.last_frame.ball.position[first_step]
         receiver = 1 - memory["holder"]
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)

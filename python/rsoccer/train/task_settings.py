@@ -11,7 +11,67 @@ from typing import Any, Final
 
 from rsoccer.registry import list_aliases
 
-TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {}
+M: Final = 1_000_000
+
+_SSL: Final[dict[str, Any]] = {
+    # A pass or a shot pays off seconds later, and no SSL task here has stalemates to break up.
+    "gamma": 0.99,
+    "gae_lambda": 0.95,
+    "random_truncation": 0.0,
+    # Full speed is 3.7 m/s: with the default spread a robot shakes the ball off its dribbler.
+    "action_std": 0.3,
+    "final_action_std": 0.05,
+    "learning_rate": 1e-3,
+}
+"""Settings of all SSL tasks with one learning team."""
+
+_KEEP_BALL: Final = (0.0, 0.0, 0.0, -0.3, 0.3)
+"""Initial action of robots that start with the ball or must not lose it: dribble, do not kick."""
+
+TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
+    "SSLGoToBall-v0": {**_SSL, "samples": 3 * M},
+    "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M},
+    "SSLStaticDefenders-v0": {
+        **_SSL,
+        "samples": 10 * M,
+        "initial_action": _KEEP_BALL,
+        "robot_units": 16,
+    },
+    "SSLContestedPossession-v0": {
+        **_SSL,
+        "samples": 10 * M,
+        "gamma": 0.985,
+        "random_truncation": 0.003,
+        "action_std": 0.4,
+        "worlds": 512,
+        "n_minibatches": 8,
+        # With the default of -1 policies learn to stay away from the opponent.
+        "task_options": {"reward_weights": {"failed": -0.3}},
+    },
+    "SSLDribbling-v0": {
+        **_SSL,
+        "samples": 3 * M,
+        "action_std": 0.1,
+        "final_action_std": 0.03,
+        "learning_rate": 5e-4,
+        "initial_action": (0.0, 0.0, 0.0, -0.5, 0.5),
+        "worlds": 128,
+        "horizon": 32,
+        # From the first gate alone policies learn to stop behind it: with the default of -2 for a
+        # failure the next gate is not worth the risk until it can be crossed.
+        "task_options": {"random_start": True, "reward_weights": {"failed": -0.3}},
+    },
+    "SSLPassEnduranceMulti-v0": {
+        **_SSL,
+        "samples": 8 * M,
+        "initial_action": _KEEP_BALL,
+        # Two robots that both begin to learn walk up to each other instead of passing.
+        "solo_fraction": 1.0,
+        "solo_partners": "passer",
+        "solo_copies": 0.5,
+        "task_options": {"random_holder": True},
+    },
+}
 """Fields of `Args` with their values, by the name of the task."""
 
 
