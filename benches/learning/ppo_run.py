@@ -68,7 +68,7 @@ def without_effect(run: Run) -> frozenset[str]:
     if len({team_of(name) for name in agents}) == 1:
         names += SELF_PLAY_ONLY
     if len(agents) == 1:
-        names += ("solo_fraction", "solo_partners")
+        names += ("solo_fraction", "solo_partners", "solo_copies")
     return frozenset(names)
 
 

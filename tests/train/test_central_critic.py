@@ -49,15 +49,14 @@ def recorded(args: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Trainer, Batch
     trainer, seen = Trainer(args), []
     trainer.collect_rollout(lambda: None)
     collector = trainer.collector
-    original = rsoccer.train.rollout.repeat_action
 
     def record(matches: Matches, *rest: Any, **options: Any) -> Transition:  # noqa: ANN401
         before = matches.states()
-        transition = original(matches, *rest, **options)
+        transition = repeat_action(matches, *rest, **options)
         seen.append((before, transition.states))
         return transition
 
-    monkeypatch.setattr(rsoccer.train.rollout, "repeat_action", record)
+    monkeypatch.setattr("rsoccer.train.rollout.repeat_action", record)
     assert collector.central is not None
     mean, std = (part.copy() for part in collector.central.rms.as_float32())
     batch = trainer.collect_rollout(lambda: None)
