@@ -142,7 +142,8 @@ def attributes(cls: type) -> set[str]:
 
 
 def parameters(function: Any) -> set[str]:  # noqa: ANN401
-    return inspect.signature(function).parameters.keys() - {"self", "cls"}
+    names = inspect.signature(function).parameters.keys() - {"self", "cls"}
+    return {name for name in names if not name.startswith("_")}  # Ray adds private ones to actors
 
 
 # -- Rules: each yields its violations ---------------------------------------------------------

@@ -22,8 +22,7 @@ NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "sampl
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
 PHYSICS_FILE: Final = "physics.txt"
 SELF_PLAY_ONLY: Final = (
-    *("latest_fraction", "past_fraction", "ou_fraction", "pool_size", "pool_interval"),
-    "pfsp_power",
+    *("latest_fraction", "past_fraction", "pool_size", "pool_interval", "pfsp_power"),
 )
 """Settings without effect where one team learns."""
 
@@ -69,7 +68,7 @@ def without_effect(run: Run) -> frozenset[str]:
     if len({team_of(name) for name in agents}) == 1:
         names += SELF_PLAY_ONLY
     if len(agents) == 1:
-        names += ("solo_fraction", "solo_partners")
+        names += ("solo_fraction", "solo_partners", "solo_copies")
     return frozenset(names)
 
 

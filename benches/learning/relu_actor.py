@@ -12,7 +12,7 @@ from typing import Final, Self
 import numpy as np
 
 from rsoccer.arrays import Floats
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.held_actions import HeldActions
 from rsoccer.rng import WorldRng
 
 LOG_STD_RANGE: Final = (-20.0, 2.0)  # as Stable-Baselines3 bounds it
@@ -21,10 +21,8 @@ Layer = tuple[Floats, Floats]
 """Weight (out, in) and bias (out,)."""
 
 
-class ReluActor(Policy):
+class ReluActor(HeldActions):
     """Perceptron whose actions are `tanh` of its last layer, held for some control steps."""
-
-    observes: Observes = "observation"
 
     def __init__(
         self, layers: Sequence[Layer], action_repeat: int = 1, log_std: Layer | None = None
@@ -43,23 +41,6 @@ class ReluActor(Policy):
     def mean(self) -> ReluActor:
         """Return the same actor without the spread of its actions."""
         return ReluActor(self.layers, self.action_repeat)
-
-    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """Return the held action (n, robots, action) and its age (n,), control steps."""
-        return {"held": np.zeros(shape, np.float32), "age": np.zeros(shape[0], np.int64)}
-
-    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return actions (n, robots, action): new decisions, or held ones."""
-        if inputs.observations is None:
-            raise ValueError("an actor needs observations (n, robots, o), got none")
-        held, age = memory["held"], memory["age"]
-        due = age == 0
-        if due.any():
-            streams = rng[due]
-            held[due] = self.choose(inputs.observations[due], streams)
-            rng.put(due, streams)
-        age[:] = (age + 1) % self.action_repeat
-        return held.copy()
 
     def choose(self, observations: Floats, rng: WorldRng) -> Floats:
         """Return new actions (n, robots, action) for observations (n, robots, o)."""

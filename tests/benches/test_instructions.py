@@ -57,10 +57,10 @@ def test_own_costs_and_calls_are_read(tmp_path: Path) -> None:
         ([f"{REGISTRY}/glam-1.0/vec.rs:dot", f"{CORE}/drive/omni.rs:force"], "wheels"),
         ([f"{CORE}/engine/near.rs:find", f"{CORE}/engine/mod.rs:step"], "pair search"),
         ([f"{REGISTRY}/rapier2d-0.36/src/solver.rs:solve"], "solver"),
-        ([f"{CORE}/engine/bodies.rs:move_freely<f32>"], "free motion"),
-        ([f"{CORE}/engine/bodies.rs:motion", f"{CORE}/tick/squeeze.rs:find"], "squeeze check"),
+        ([f"{CORE}/bodies.rs:move_freely<f32>"], "free motion"),
+        ([f"{CORE}/bodies.rs:motion", f"{CORE}/tick/squeeze.rs:find"], "squeeze check"),
         ([f"{CORE}/drive/omni.rs:slip", f"{CORE}/drive/mod.rs:estimate_load"], "loads"),
-        ([f"{CORE}/engine/bodies.rs:motion", f"{CORE}/tick/mod.rs:roll"], None),
+        ([f"{CORE}/bodies.rs:motion", f"{CORE}/tick/mod.rs:roll"], None),
         ([], None),
     ],
 )

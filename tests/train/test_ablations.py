@@ -10,8 +10,8 @@ from torch import nn
 
 from rsoccer.policies.network import Network
 from rsoccer.train import rollout, train
+from rsoccer.train.batch import Batch
 from rsoccer.train.log import read_progress
-from rsoccer.train.rollout import Batch
 from rsoccer.train.trainer import Trainer
 from tests.train.short_task import tiny
 from tests.train.test_trainer import digest, run_until

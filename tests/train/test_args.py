@@ -89,6 +89,10 @@ def test_a_saved_run_may_lack_settings_that_are_newer() -> None:
     ]
 
 
+def test_task_folder_and_samples_are_given_by_position() -> None:
+    assert Args("VSS-v0", Path("x"), 500) == Args(task="VSS-v0", out=Path("x"), samples=500)
+
+
 def test_the_task_is_created_with_its_options() -> None:
     task = Args("VSS-v0", task_options={"n_blue": 2, "opponent": "chase"}).make_task()
     assert task.n_blue == 2

@@ -13,13 +13,14 @@ from rsoccer import LEARN, Matches
 from rsoccer.arrays import Floats
 from rsoccer.policies.network import Network
 from rsoccer.train import checkpoint, train
+from rsoccer.train.batch import Batch
 from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.mirror import with_reflections
-from rsoccer.train.rollout import Batch, Transition, repeat_action
 from rsoccer.train.trainer import Trainer
+from rsoccer.train.transition import Transition, repeat_action
 from tests.train.short_task import NAME, tiny
-from tests.train.test_rollout import NEVER, FakeMatches
 from tests.train.test_trainer import digest, run_until
+from tests.train.test_transition import NEVER, FakeMatches
 
 CENTRAL: dict[str, Any] = {"central_critic": True}
 
@@ -48,15 +49,14 @@ def recorded(args: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Trainer, Batch
     trainer, seen = Trainer(args), []
     trainer.collect_rollout(lambda: None)
     collector = trainer.collector
-    original = rsoccer.train.rollout.repeat_action
 
     def record(matches: Matches, *rest: Any, **options: Any) -> Transition:  # noqa: ANN401
         before = matches.states()
-        transition = original(matches, *rest, **options)
+        transition = repeat_action(matches, *rest, **options)
         seen.append((before, transition.states))
         return transition
 
-    monkeypatch.setattr(rsoccer.train.rollout, "repeat_action", record)
+    monkeypatch.setattr("rsoccer.train.rollout.repeat_action", record)
     assert collector.central is not None
     mean, std = (part.copy() for part in collector.central.rms.as_float32())
     batch = trainer.collect_rollout(lambda: None)
@@ -96,7 +96,13 @@ def test_the_policy_stays_decentral(tmp_path: Path, finished: Path) -> None:
     assert saved["model.actor.0.weight"].shape[1] == task.observation_size
 
 
-@pytest.mark.parametrize("changes", [{}, {"mirror_augmentation": True, "task": "VSS-v0"}])
+MIRRORED = {
+    **{"mirror_augmentation": True, "task": "VSS-v0", "task_options": {"max_steps": 30}},
+    "samples": 6 * 8 * 6,
+}
+
+
+@pytest.mark.parametrize("changes", [{}, MIRRORED], ids=["self-play", "mirrored"])
 def test_a_resumed_run_equals_the_uninterrupted_one(
     changes: dict[str, Any], tmp_path: Path
 ) -> None:

@@ -9,10 +9,10 @@ from torch import nn
 from torch._subclasses.fake_tensor import DataDependentOutputException, FakeTensorMode
 
 from rsoccer.train import Args, checkpoint, ppo, train
+from rsoccer.train.batch import Batch
 from rsoccer.train.device import find_device
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.ppo import PPO
-from rsoccer.train.rollout import Batch
 from rsoccer.train.trainer import Trainer
 from tests.train.short_task import tiny
 

@@ -10,9 +10,9 @@ import torch
 from rsoccer import make_task
 from rsoccer.reflection import Reflection
 from rsoccer.train import mirror, train
+from rsoccer.train.batch import Batch
 from rsoccer.train.log import Row
 from rsoccer.train.mirror import with_reflections
-from rsoccer.train.rollout import Batch
 from rsoccer.train.running_mean_std import RunningMeanStd
 from rsoccer.train.trainer import Trainer
 from tests.train.one_update import one_update

@@ -8,9 +8,9 @@ import torch
 
 from rsoccer.train import Args
 from rsoccer.train.adam import BETA_1
+from rsoccer.train.batch import Batch
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.ppo import PPO
-from rsoccer.train.rollout import Batch
 
 SIZE, OBSERVATION_SIZE, ACTION_SIZE = 64, 5, 2
 

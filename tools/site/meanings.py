@@ -55,6 +55,14 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
         Part(2, "forward and left offsets: of the ball, each teammate, each opponent", LENGTH),
     ),
     "action": (Part(0, "last action of the robot, 0 after a reset", "1"),),
+    "nearness": (
+        Part(
+            3,
+            "for each opponent, at a gap g between the robots: nearness exp(-g / 0.25 m); the same "
+            "times the direction to the opponent, x and y",
+            "1",
+        ),
+    ),
     "gate": (
         Part(2, "offset of the next gate's middle, forward and left", LENGTH),
         Part(1, "direction of the crossing: +1 or -1", "1"),

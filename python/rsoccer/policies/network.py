@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.policies import policy_file
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.held_actions import HeldActions
 
 if TYPE_CHECKING:
     from rsoccer.rng import WorldRng
@@ -26,7 +26,7 @@ MODES: Final = ("sample", "mean")
 """Action selection of a network: drawn from its Gaussian, or the mean of the Gaussian."""
 
 
-class Network(Policy):
+class Network(HeldActions):
     """A trained network, run in NumPy; PyTorch is needed for training only.
 
     In mode "sample" each decision is drawn from the Gaussian of the training, with the random
@@ -43,8 +43,6 @@ class Network(Policy):
         >>> controllers = {"blue": network}  # doctest: +SKIP
         >>> matches = rsoccer.Matches(network.task_name, controllers=controllers)  # doctest: +SKIP
     """
-
-    observes: Observes = "observation"
 
     def __init__(
         self, arrays: Mapping[str, Array], metadata: Mapping[str, str], mode: str | None = None
@@ -148,27 +146,6 @@ class Network(Policy):
         """Name of the task that it was trained on, for `make_task`."""
         return self.metadata["task"]
 
-    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
-        """Return the held action (n, robots, action) and its age (n,), control steps."""
-        if self.action_repeat == 1:
-            return {}
-        return {"held": np.zeros(shape, np.float32), "age": np.zeros(shape[0], np.int64)}
-
-    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return actions (n, robots, action): new decisions, or held ones."""
-        if inputs.observations is None:
-            raise ValueError("a network needs observations (n, robots, o), got none")
-        if self.action_repeat == 1:
-            return self.choose(inputs.observations, rng)
-        held, age = memory["held"], memory["age"]
-        due = age == 0
-        if due.any():
-            streams = rng[due]
-            held[due] = self.choose(inputs.observations[due], streams)
-            rng.put(due, streams)
-        age[:] = (age + 1) % self.action_repeat
-        return held.copy()
-
     def choose(self, observations: Floats, rng: WorldRng) -> Floats:
         """Choose actions as the mode says, without holding them.
 
@@ -259,7 +236,6 @@ class Network(Policy):
 
         Raises:
             FileNotFoundError: no such file.
-            ImportError: safetensors is not installed.
             ValueError: the file is not a usable policy file, or the mode does not fit it.
         """
         try:
@@ -274,6 +250,9 @@ class Network(Policy):
 
         Args:
             path: the file; an existing one is replaced.
+
+        Raises:
+            ImportError: safetensors is not installed.
         """
         policy_file.write_file(Path(path), self.arrays(), self.metadata)
 

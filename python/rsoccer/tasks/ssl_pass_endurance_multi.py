@@ -26,7 +26,8 @@ class SslPassEnduranceMulti(SslPass):
     Goal of the task: as many passes as possible, each at least 1.5 m long and received in the break
     beam of the other robot's mouth.
 
-    Initial state: that of `SslPass`; with `random_holder` blue_1 has the ball half the time.
+    Initial state: that of `SslPass`; with `random_holder` blue_1 has the ball in half of all
+    episodes.
 
     Reward terms, unweighted:
 

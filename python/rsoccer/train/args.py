@@ -54,11 +54,11 @@ class Args:
     """registered task to train on (`rsoccer list` prints the names)"""
     out: Path = Path("out/train")
     """folder for the policy, the checkpoint and the logs"""
+    samples: int = 10_000_000
+    """decisions to learn from, over all learning robots; at least 1, rounded up to full updates"""
     task_options: Mapping[str, Any] = field(default_factory=dict)
     """options of the task, JSON values by name (`rsoccer list` prints them), such as
     reward_weights=paper or opponent=chase"""
-    samples: int = 10_000_000
-    """decisions to learn from, over all learning robots; at least 1, rounded up to full updates"""
     seed: int = 0
     """random seed, at least 0; equal seed, settings, machine and threads give equal runs"""
     threads: int = 2

@@ -21,8 +21,8 @@ from torch import Tensor
 from rsoccer.global_state import StateEncoder
 from rsoccer.reflection import Reflection
 from rsoccer.task import Task
+from rsoccer.train.batch import Batch
 from rsoccer.train.networks import ActorCritic
-from rsoccer.train.rollout import Batch
 
 MIN_DENSITY_RATIO: Final = 0.5
 """Least density of a reflected action under the policy, relative to that of the original."""

@@ -172,16 +172,14 @@ def _mlp(sizes: list[int], last_gain: float, generator: torch.Generator) -> Perc
     layers: list[nn.Module] = []
     for index, (in_features, out_features) in enumerate(itertools.pairwise(sizes)):
         last = index == len(sizes) - 2
-        layer = _empty_linear(in_features, out_features)
+        layer = _linear(in_features, out_features)
         nn.init.orthogonal_(layer.weight, last_gain if last else 2**0.5, generator=generator)
         nn.init.zeros_(layer.bias)
         layers += [layer] if last else [layer, nn.Tanh()]
     return Perceptron(*layers)
 
 
-def _empty_linear(in_features: int, out_features: int) -> nn.Linear:
-    """A layer with uninitialised weights: torch's own initialisation uses the global generator."""
-    layer: nn.Linear = nn.utils.skip_init(  # type: ignore[no-untyped-call]
-        nn.Linear, in_features, out_features
-    )
-    return layer
+def _linear(in_features: int, out_features: int) -> nn.Linear:
+    """A new layer, whose weights leave torch's global generator as it is."""
+    with torch.random.fork_rng(devices=[]):
+        return nn.Linear(in_features, out_features)

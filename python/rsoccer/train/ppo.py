@@ -10,10 +10,10 @@ from torch import Tensor, nn
 
 from rsoccer.train.adam import Adam
 from rsoccer.train.args import Args
+from rsoccer.train.batch import Batch
 from rsoccer.train.device import find_device
 from rsoccer.train.log import Row
 from rsoccer.train.networks import ActorCritic
-from rsoccer.train.rollout import Batch
 from rsoccer.train.weight_sharing import WeightSharing
 
 

@@ -1,21 +1,18 @@
-"""Rollouts: decisions held for `action_repeat` control steps, recorded as a batch for PPO.
-
-The collector uses a task through `Matches` and `Outcome` only.
-"""
+"""Rollouts: decisions of the current policy, recorded as a batch for PPO."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 import torch
 from torch import Tensor
 
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Floats, Mask
 from rsoccer.matches import Matches
 from rsoccer.task import Task
 from rsoccer.train.args import Args
+from rsoccer.train.batch import Batch
 from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.gae import compute_gae
 from rsoccer.train.log import EpisodeStats, Row
@@ -23,130 +20,7 @@ from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
 from rsoccer.train.policy_mix import PolicyMix
 from rsoccer.train.running_mean_std import RunningMeanStd
 from rsoccer.train.timing import Clock
-
-
-@dataclass
-class Transition:
-    """Result of one decision in n worlds, after its last control step."""
-
-    observations: Floats
-    """(n, agents, o) next observations; the last ones of the episode where it ended."""
-    rewards: Floats
-    """(n, agents) sums over the control steps."""
-    terms: dict[str, float]
-    """Sum over the control steps of each reward term's mean over worlds and agents."""
-    terminated: Mask
-    """(n,) the task ended the episode."""
-    ended: Mask
-    """(n,) the episode terminated or reached the time limit."""
-    metrics: dict[str, Array]
-    """(n,) metrics of the task by name, valid where the episode ended."""
-    states: Floats | None = None
-    """(n, s) next global states, the last ones of the episode where it ended; None if not asked."""
-
-
-def repeat_action(
-    matches: Matches, actions: Floats, action_repeat: int, *, with_states: bool = False
-) -> Transition:
-    """Hold actions for some control steps, in each world until its episode ends.
-
-    A world whose episode ends waits for the next decision, so no reward of one episode counts for
-    an action of another.
-
-    Args:
-        matches: matches without automatic resets.
-        actions: (n, agents, action) actions in [-1, 1].
-        action_repeat: control steps, at least 1.
-        with_states: return the global states, too.
-
-    Returns:
-        The transition from before the first step to after the last.
-    """
-    outcome = matches.step(actions)
-    result = Transition(
-        outcome.observations,
-        outcome.rewards,
-        {name: float(term.mean()) for name, term in outcome.terms.items()},
-        outcome.terminated,
-        outcome.ended,
-        outcome.metrics,
-        matches.states() if with_states else None,
-    )
-    for _ in range(action_repeat - 1):
-        playing = ~result.ended
-        outcome = matches.step(actions)
-        result.rewards += outcome.rewards * playing[:, None]
-        for name, term in outcome.terms.items():
-            result.terms[name] += float((term * playing[:, None]).mean())
-        result.observations[playing] = outcome.observations[playing]
-        if result.states is not None:
-            result.states[playing] = matches.states()[playing]
-        result.terminated |= outcome.terminated & playing
-        result.ended |= outcome.ended & playing
-        for name, values in outcome.metrics.items():
-            result.metrics[name][playing] = values[playing]
-    return result
-
-
-@dataclass
-class Batch:
-    """Samples of one rollout; size is horizon x worlds x agents."""
-
-    observations: Tensor
-    """(size, o) normalised observations."""
-    actions: Tensor
-    """(size, action) drawn actions, not clipped."""
-    log_probs: Tensor
-    """(size,) log densities of the actions under the policy that drew them."""
-    advantages: Tensor
-    """(size,) advantages from GAE, in scaled rewards."""
-    returns: Tensor
-    """(size,) targets of the value network: advantages + values."""
-    central_inputs: Tensor | None = None
-    """(size, s + o) inputs of a central critic; None if the critic reads the observations."""
-
-    @property
-    def critic_inputs(self) -> Tensor:
-        """Inputs of the value network."""
-        return self.observations if self.central_inputs is None else self.central_inputs
-
-    def __len__(self) -> int:
-        """Return the number of samples."""
-        return len(self.returns)
-
-    def select(self, indices: Tensor) -> Batch:
-        """Return a minibatch of some samples.
-
-        Args:
-            indices: (k,) indices of the samples.
-        """
-        return self._map(lambda part: part.index_select(0, indices))
-
-    def to(self, device: torch.device) -> Batch:
-        """Return the samples on a device, without copying if they are there.
-
-        Args:
-            device: device of the tensors.
-        """
-        return self._map(lambda part: part.to(device))
-
-    def chunk(self, n: int) -> Iterator[Batch]:
-        """Return n consecutive parts of about equal size, without copying.
-
-        Args:
-            n: number of parts.
-        """
-        names, parts = zip(*self.parts().items(), strict=True)
-        for chunk in zip(*(part.chunk(n) for part in parts), strict=True):
-            yield Batch(**dict(zip(names, chunk, strict=True)))
-
-    def parts(self) -> dict[str, Tensor]:
-        """Return the tensors by name, without those that are None."""
-        return {name: part for name, part in vars(self).items() if part is not None}
-
-    def _map(self, function: Callable[[Tensor], Tensor]) -> Batch:
-        """The batch with a function applied to each tensor."""
-        return Batch(**{name: function(part) for name, part in self.parts().items()})
+from rsoccer.train.transition import Transition, repeat_action
 
 
 class RolloutCollector:

@@ -21,6 +21,7 @@ from rsoccer.policies.network import Network
 from rsoccer.replay.recorder import record_replay
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
+from rsoccer.train.batch import Batch
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
 from rsoccer.train.ladder import Ladder
@@ -29,7 +30,7 @@ from rsoccer.train.mirror import check_symmetric, with_reflections
 from rsoccer.train.networks import ActorCritic
 from rsoccer.train.observation_mask import observation_mask
 from rsoccer.train.ppo import PPO
-from rsoccer.train.rollout import Batch, RolloutCollector
+from rsoccer.train.rollout import RolloutCollector
 from rsoccer.train.run_state import capture, restore
 from rsoccer.train.stop_signal import Interrupted, Stopped, StopSignal
 from rsoccer.train.timing import Clock

@@ -32,8 +32,7 @@ def robot_slots(task: Task) -> list[Indices]:
 
     Returns:
         Columns (slots, k) for the teammates and for the opponents of a blue robot, where they are
-        two or more; a slot is a robot's place in each block with numbers of
-            robots.
+        two or more; a slot is a robot's place in each block with numbers of robots.
 
     Raises:
         ValueError: a task without such a team.

@@ -7,7 +7,7 @@ from benches.learning import ablation, algorithms
 from benches.learning.experiments import Experiment, Run, Study
 from benches.learning.learned import POINTS, curve
 from benches.learning.listing import listing
-from benches.learning.ppo_run import strength
+from benches.learning.ppo_run import NOT_COMPARED, SELF_PLAY_ONLY, defaults, strength
 from benches.learning.run_files import Folders, with_policies
 from benches.learning.status import statuses
 from benches.learning.table import STUDY
@@ -59,6 +59,7 @@ def test_settings_without_effect_on_a_task_do_not_count() -> None:
     single, both = (algorithms.settings(study.run(f"a/{e.name}/seed-0")) for e in study.experiments)
     assert {"pool_size", "solo_fraction"} <= set(both)
     assert not {"pool_size", "solo_fraction", "seed", "out"} & set(single)
+    assert {*NOT_COMPARED, *SELF_PLAY_ONLY} <= set(defaults())
 
 
 def test_a_curve_keeps_the_mean_of_all_episodes() -> None:

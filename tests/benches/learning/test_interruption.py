@@ -25,10 +25,7 @@ def wait_for(path: Path, seconds: float = 120.0) -> None:
         time.sleep(0.05)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_run_continues(
-    number: signal.Signals, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_interrupted_run_continues(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     results, work = tmp_path / "results", tmp_path / "work"
     options = ["--table", TABLE, "--results", str(results), "--work", str(work)]
     options += ["--group", "interrupted", "--jobs", "1"]
@@ -38,7 +35,7 @@ def test_an_interrupted_run_continues(
         command, cwd=ROOT, env={**os.environ, "PYTHONPATH": paths}, start_new_session=True
     )
     wait_for(work / KEY / "checkpoint.safetensors")
-    process.send_signal(number)
+    process.send_signal(signal.SIGINT)  # goes on as SIGTERM
     assert process.wait(timeout=120) == 0
     assert not (results / "runs" / f"{KEY}.json").exists()
     main([*options, "--list"])

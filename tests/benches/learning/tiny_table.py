@@ -11,6 +11,7 @@ TINY: Final[dict[str, Any]] = {
     "hidden_sizes": (8,),
     "n_epochs": 1,
     "n_minibatches": 1,
+    "ladder_matches": 4,
 }
 LONGER: Final = {**TINY, "samples": 6_000}
 PROTOCOL: Final = Protocol(starts=2)

@@ -6,7 +6,7 @@ import numpy as np
 
 from rsoccer.arrays import Floats
 from rsoccer.matches import Matches, Outcome
-from rsoccer.train.rollout import Transition, repeat_action
+from rsoccer.train.transition import Transition, repeat_action
 
 NEVER = 99
 

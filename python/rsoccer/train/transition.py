@@ -1,0 +1,74 @@
+"""A decision held for `action_repeat` control steps, and its result.
+
+Only `Matches` and `Outcome` of a task are used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.matches import Matches
+
+
+@dataclass
+class Transition:
+    """Result of one decision in n worlds, after its last control step."""
+
+    observations: Floats
+    """(n, agents, o) next observations; the last ones of the episode where it ended."""
+    rewards: Floats
+    """(n, agents) sums over the control steps."""
+    terms: dict[str, float]
+    """Sum over the control steps of each reward term's mean over worlds and agents."""
+    terminated: Mask
+    """(n,) the task ended the episode."""
+    ended: Mask
+    """(n,) the episode terminated or reached the time limit."""
+    metrics: dict[str, Array]
+    """(n,) metrics of the task by name, valid where the episode ended."""
+    states: Floats | None = None
+    """(n, s) next global states, the last ones of the episode where it ended; None if not asked."""
+
+
+def repeat_action(
+    matches: Matches, actions: Floats, action_repeat: int, *, with_states: bool = False
+) -> Transition:
+    """Hold actions for some control steps, in each world until its episode ends.
+
+    A world whose episode ends waits for the next decision, so no reward of one episode counts for
+    an action of another.
+
+    Args:
+        matches: matches without automatic resets.
+        actions: (n, agents, action) actions in [-1, 1].
+        action_repeat: control steps, at least 1.
+        with_states: return the global states, too.
+
+    Returns:
+        The transition from before the first step to after the last.
+    """
+    outcome = matches.step(actions)
+    result = Transition(
+        outcome.observations,
+        outcome.rewards,
+        {name: float(term.mean()) for name, term in outcome.terms.items()},
+        outcome.terminated,
+        outcome.ended,
+        outcome.metrics,
+        matches.states() if with_states else None,
+    )
+    for _ in range(action_repeat - 1):
+        playing = ~result.ended
+        outcome = matches.step(actions)
+        result.rewards += outcome.rewards * playing[:, None]
+        for name, term in outcome.terms.items():
+            result.terms[name] += float((term * playing[:, None]).mean())
+        result.observations[playing] = outcome.observations[playing]
+        if result.states is not None:
+            result.states[playing] = matches.states()[playing]
+        result.terminated |= outcome.terminated & playing
+        result.ended |= outcome.ended & playing
+        for name, values in outcome.metrics.items():
+            result.metrics[name][playing] = values[playing]
+    return result
