@@ -14,6 +14,7 @@ from rsoccer.lineup import lineup
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
 from rsoccer.replay import Replay, record_replay
+from rsoccer.rng import WorldRng
 from rsoccer.train import Args, checkpoint, train
 from rsoccer.train import trainer as trainer_module
 from rsoccer.train.run_state import capture
@@ -162,7 +163,7 @@ def test_the_partners_of_a_solo_learner_follow_the_chosen_policy(tmp_path: Path)
 
 
 def test_copies_of_the_learner_play_beside_it_and_resume(tmp_path: Path) -> None:
-    settings: dict[str, Any] = {"solo_copies": 0.5, "solo_fraction": 1.0, "samples": 4 * 144}
+    settings: dict[str, Any] = {"solo_copies": 1.0, "solo_fraction": 1.0, "samples": 4 * 144}
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
     trainer = Trainer(tiny(tmp_path / "a", **settings))
@@ -173,6 +174,9 @@ def test_copies_of_the_learner_play_beside_it_and_resume(tmp_path: Path) -> None
     assert [len(group.robots) for group in groups if group.policy is not partners] == [3]
     trainer.run(StopSignal(), 0)
     assert set(partners.drawn.tolist()) == {0, partners.latest_code}
+    shape = (1000, 2, 2)
+    drawn = partners.new_memory(shape, WorldRng.seeded(0, 1000))["drawn"]
+    assert (drawn == partners.latest_code).all(), "in the end all partners are copies"
     assert partners.latest is not None
     weights = partners.latest.arrays()
     assert all(

@@ -86,7 +86,8 @@ class Args:
     """policy of all other robots in that first part: a name, or the path of a policy file"""
     solo_copies: float = 0.0
     """share of the matches of that first part, 0 to 1, in which the robots that learn later follow
-    the current policy instead of `solo_partners`; more prepare for a team that learns"""
+    the current policy instead of `solo_partners`. It rises from 0 to this value over the part, so
+    that partners become those of a team that learns"""
     worlds: int = 256
     """matches played at once, at least 1; more give steadier gradients, slower first progress"""
     horizon: int = 16

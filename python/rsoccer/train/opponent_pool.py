@@ -70,7 +70,8 @@ class OpponentPool(PolicyMix):
         self.past: list[Network] = []
         self.slots = PoolSlots(size)
         self.latest_code = len(self.kinds)
-        self._shares = np.array([*self._shares * max(1.0 - sum(selves), 0.0), *selves])
+        self._fixed_shares = self._shares
+        self.set_shares(*selves)
         self.kinds = (*self.kinds, *SELVES)
         self._action_repeat, self._power = action_repeat, power
 
@@ -96,6 +97,16 @@ class OpponentPool(PolicyMix):
                 held[rows] = network.choose(inputs.observations[rows], streams)
                 rng.put(rows, streams)
         return np.where((drawn < self.latest_code)[:, None, None], actions, held)
+
+    def set_shares(self, latest: float, past: float) -> None:
+        """Set the shares of the episodes that begin from now on; fixed policies have the rest.
+
+        Args:
+            latest: share against the current policy, 0 to 1.
+            past: share against past policies, 0 to 1.
+        """
+        rest = max(1.0 - latest - past, 0.0)
+        self._shares = np.array([*self._fixed_shares * rest, latest, past])
 
     def freeze(self, network: Network, update: int) -> None:
         """Add a past policy. A full pool evicts the one closest in age to its neighbours.

@@ -81,7 +81,7 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         # Two robots that both begin to learn walk up to each other instead of passing.
         "solo_fraction": 1.0,
         "solo_partners": "passer",
-        "solo_copies": 0.5,
+        "solo_copies": 1.0,
         "task_options": {"random_holder": True},
     },
 }

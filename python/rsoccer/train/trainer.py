@@ -115,10 +115,14 @@ class Trainer:
         self.show_policy()
 
     def show_policy(self) -> None:
-        """Make the current policy the latest one of all pools."""
-        for pool in (self.pool, self.curriculum.partners):
+        """Make the current policy the latest one of all pools, and set its share beside itself."""
+        partners = self.curriculum.partners
+        for pool in (self.pool, partners):
             if pool is not None:
                 pool.latest = self.network()
+        if partners is not None:
+            part = self.args.solo_fraction * self.args.samples
+            partners.set_shares(self.args.solo_copies * min(self.samples / part, 1.0), 0.0)
 
     def start_self_play(self) -> None:
         """Begin the second part of the run, in which all learners play."""
