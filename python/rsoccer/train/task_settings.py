@@ -82,7 +82,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "solo_fraction": 1.0,
         "solo_partners": "passer",
         "solo_copies": 1.0,
-        "task_options": {"random_holder": True},
+        # With the default of -1 for a failure the learner keeps the ball.
+        "task_options": {"random_holder": True, "reward_weights": {"failed": -0.2}},
     },
 }
 """Fields of `Args` with their values, by the name of the task."""
