@@ -210,9 +210,9 @@ def test_a_task_that_needs_options_has_no_id() -> None:
         def __init__(self, speed: float) -> None:
             super().__init__(ball_speed=speed)
 
-    rsoccer.register("Plain-v0", Plain)
-    assert "rsoccer/Plain-v0" not in gymnasium.registry
-    assert rsoccer.single_env("Plain-v0", speed=0.3).learner == "blue_0"
+    rsoccer.register("NeedsSpeed-v0", Plain)
+    assert "rsoccer/NeedsSpeed-v0" not in gymnasium.registry
+    assert rsoccer.single_env("NeedsSpeed-v0", speed=0.3).learner == "blue_0"
 
 
 @needs_zoo_registry
