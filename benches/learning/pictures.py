@@ -42,7 +42,7 @@ def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
         handles.update(zip(labels, lines, strict=True))
     style = {"frameon": False, "fontsize": 9, "ncols": len(handles)}
     figure.legend(handles.values(), handles, loc="outside upper center", **style)
-    figure.supxlabel("samples (decisions of one robot)", fontsize=9)
+    figure.supxlabel("samples (millions of decisions of one robot)", fontsize=9)
     figure.savefig(path)
     return path
 
@@ -62,7 +62,8 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         axes.plot(samples, means, color=colour, linewidth=1.8, label=label)
         for curve in curves:
             axes.plot(curve["samples"], curve["values"], color=colour, alpha=0.3, linewidth=0.6)
-    axes.set(xscale="log")
+    axes.set_xlim(left=0.0)
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value / 1e6:g}")
     if metric in SHARES:
         lowest = min(min(result["curve"]["values"]) for part in parts for result in part.results)
         axes.set_ylim(min(lowest, 0.0) - 0.04, 1.04)

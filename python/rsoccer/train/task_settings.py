@@ -79,11 +79,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "samples": 8 * M,
         "initial_action": _KEEP_BALL,
         # Two robots that both begin to learn walk up to each other instead of passing.
-        "solo_fraction": 1.0,
+        "solo_fraction": 0.6,
         "solo_partners": "passer",
-        "solo_copies": 1.0,
-        # With the default of -1 for a failure the learner keeps the ball.
-        "task_options": {"random_holder": True, "reward_weights": {"failed": -0.2}},
     },
 }
 """Fields of `Args` with their values, by the name of the task."""
