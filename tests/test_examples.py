@@ -2,7 +2,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from rsoccer.policies.network import Network
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 QUICK = {
@@ -31,6 +34,13 @@ def run(name: str, arguments: list[str], folder: Path) -> str:
 @pytest.mark.parametrize("name", QUICK)
 def test_examples_run_and_print(name: str, tmp_path: Path) -> None:
     assert run(name, QUICK[name], tmp_path).strip()
+
+
+def test_the_policy_of_13_ppo_normalises_observations(tmp_path: Path) -> None:
+    run("13_ppo.py", ["--worlds", "8", "--samples", "256"], tmp_path)
+    policy = Network.load(tmp_path / "ppo.safetensors")
+    assert np.abs(policy.mean).max() > 0.1
+    assert np.ptp(policy.std) > 0.1
 
 
 def test_every_example_is_tested() -> None:
