@@ -103,7 +103,7 @@ def _scores(
 
 
 def _training(run: Path) -> dict[str, Any]:
-    """How the policy of a run was made, for its metadata."""
+    """Command, samples and versions of the training of a run, for the metadata."""
     settings = json.loads((run / SETTINGS_FILE).read_text())
     info = rsoccer.build_info()
     return {

@@ -49,6 +49,8 @@ class PPO:
         self._args, self._model, self._generator = args, model, generator
         self._sharing = sharing
         self.device = find_device(args.device)
+        if sharing is not None:
+            sharing.move(self.device)
         self._learner = copy.deepcopy(model).to(self.device)
         # The parameters become views of one vector: one norm to clip, one step of Adam.
         vector = nn.utils.parameters_to_vector(self._learner.parameters()).detach()

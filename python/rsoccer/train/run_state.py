@@ -89,5 +89,6 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     trainer.elapsed = info["elapsed"]
     trainer.show_policy()
     if trainer.pool is not None:
-        metadata = trainer.network().metadata
+        assert trainer.pool.latest is not None, "the policy was shown"
+        metadata = trainer.pool.latest.metadata
         trainer.pool.load_state_dict(select_prefix("pool", arrays), metadata)

@@ -117,9 +117,11 @@ class Trainer:
     def show_policy(self) -> None:
         """Make the current policy the latest one of all pools, and set its share beside itself."""
         partners = self.curriculum.partners
-        for pool in (self.pool, partners):
-            if pool is not None:
-                pool.latest = self.network()
+        pools = [pool for pool in (self.pool, partners) if pool is not None]
+        if pools:
+            network = self.network()
+            for pool in pools:
+                pool.latest = network
         if partners is not None:
             part = self.args.solo_fraction * self.args.samples
             partners.set_shares(self.args.solo_copies * min(self.samples / part, 1.0), 0.0)
@@ -166,7 +168,8 @@ class Trainer:
         """Make the new policy the latest one, and freeze it every `pool_interval` updates."""
         self.show_policy()
         if self.pool is not None and self.updates % self.args.pool_interval == 0:
-            self.pool.freeze(self.network(), self.updates)
+            assert self.pool.latest is not None, "the policy was shown"
+            self.pool.freeze(self.pool.latest, self.updates)
 
     def network(self) -> Network:
         """Return the current policy in NumPy."""

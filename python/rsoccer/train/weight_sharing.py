@@ -112,9 +112,16 @@ class WeightSharing:
         Args:
             gradient: (size,) gradients of the parameters.
         """
-        labels = self._labels.to(gradient.device)
-        sums = torch.zeros_like(gradient).index_add_(0, labels, gradient)
-        return sums.div_(self._counts.to(gradient.device))[labels]
+        sums = torch.zeros_like(gradient).index_add_(0, self._labels, gradient)
+        return sums.div_(self._counts)[self._labels]
+
+    def move(self, device: torch.device) -> None:
+        """Move the groups to the device of the gradients.
+
+        Args:
+            device: device of the updates.
+        """
+        self._labels, self._counts = self._labels.to(device), self._counts.to(device)
 
 
 Swap = tuple[Indices | None, Indices | None]
