@@ -195,6 +195,29 @@ def test_train_takes_options_of_the_task(monkeypatch: pytest.MonkeyPatch) -> Non
     assert received[1].task_options == {}
 
 
+@pytest.mark.parametrize("task", ["VSSMulti-v0", "VSS-v0"])
+def test_train_takes_policies_with_their_shares(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Formerly a recommended mix of opponents could not be replaced."""
+    received: list[Any] = []
+    monkeypatch.setattr(commands, "train", received.append)
+    recommended = {"VSS-v0": {"opponents": {"ou": 2.0, "zero": 1.0}}}
+    monkeypatch.setattr(task_settings, "TASK_SETTINGS", recommended)
+    assert (
+        cli.main(["train", "--task", task, "--opponents", "chase", "1", "scripted:0.5", "3"]) == 0
+    )
+    assert received[0].opponents == {"chase": 1.0, "scripted:0.5": 3.0}
+    assert cli.main(["train", "--task", task, "--opponents"]) == 0
+    assert received[1].opponents == {}
+    assert cli.main(["train", "--task", task]) == 0
+    assert received[2].opponents == recommended.get(task, {}).get("opponents", {})
+
+
+def test_train_refuses_policies_without_shares(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        cli.main(["train", "--opponents", "ou"])
+    assert "pairs of POLICY and SHARE" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("words", [["--task", "VSS-v0"], ["--task=VSS-v0"]])
 def test_train_starts_from_the_recommended_settings(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

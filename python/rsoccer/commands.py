@@ -81,6 +81,23 @@ _TASK_OPTIONS = PrimitiveConstructorSpec[Mapping[str, Any]](
 )
 
 
+def _parse_mix(words: list[str]) -> dict[str, float]:
+    """Policies with their shares, given as POLICY SHARE in turn."""
+    if len(words) % 2:
+        raise ValueError(f"expected pairs of POLICY and SHARE, got {' '.join(words)!r}")
+    return {name: float(share) for name, share in zip(words[::2], words[1::2], strict=True)}
+
+
+# tyro's own would turn the policies of a default mix into options each, and refuse other policies.
+_MIX = PrimitiveConstructorSpec[dict[str, float]](
+    nargs="*",
+    metavar="[POLICY SHARE [POLICY SHARE ...]]",
+    instance_from_str=_parse_mix,
+    is_instance=lambda value: isinstance(value, dict),
+    str_from_instance=lambda mix: [str(part) for pair in mix.items() for part in pair],
+)
+
+
 @dataclass(frozen=True)
 class List:
     """Print the tasks with their options, and the policies."""
@@ -111,6 +128,8 @@ class Train(Args):
     task_options: Annotated[Mapping[str, Any], _TASK_OPTIONS] = field(default_factory=dict)
     """options of the task (`rsoccer list` prints them), such as reward_weights=paper or
     opponent=chase"""
+    opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
+    teammates: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
 
     def run(self) -> None:
         """Train, and print the path of the policy file."""
