@@ -107,7 +107,7 @@ def _training(run: Path) -> dict[str, Any]:
     settings = json.loads((run / SETTINGS_FILE).read_text())
     info = rsoccer.build_info()
     return {
-        "command": _command(settings),
+        "command": command_of(settings),
         "samples": int(read_progress(run)["samples"][-1]),
         "seed": settings["seed"],
         "package": info["version"],
@@ -115,19 +115,28 @@ def _training(run: Path) -> dict[str, Any]:
     }
 
 
-def _command(settings: dict[str, Any]) -> str:
-    """The command of a run: its task, its samples, and settings that are not the defaults."""
+def command_of(settings: dict[str, Any]) -> str:
+    """Return the command of a run: task, samples, and what is not both default and recommended.
+
+    Recommended settings are listed, too, as the table of them may change.
+
+    Args:
+        settings: settings of the run, from `Args.to_json`.
+    """
     words = ["rsoccer", "train"]
-    defaults = Args().to_json()
+    defaults, recommended = Args().to_json(), Args.for_task(settings["task"]).to_json()
     for name, value in settings.items():
         always = name in ("task", "samples")
-        if not always and (name in CHANGEABLE_ON_RESUME or value == defaults.get(name)):
+        usual = value == defaults.get(name) == recommended.get(name)
+        if not always and (name in CHANGEABLE_ON_RESUME or usual):
             continue
         option = name.replace("_", "-")
         if isinstance(value, bool):
             words.append(f"--{option}" if value else f"--no-{option}")
-        elif isinstance(value, dict):
+        elif name == "task_options":
             words += [f"--{option}", *(f"{key}={each}" for key, each in value.items())]
+        elif isinstance(value, dict):  # policies with their shares
+            words += [f"--{option}", *(str(part) for pair in value.items() for part in pair)]
         else:
             values = value if isinstance(value, list) else [value]
             words += [f"--{option}", *map(str, values)]

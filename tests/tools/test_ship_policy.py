@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 
 import rsoccer
+from rsoccer import cli, commands
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
-from rsoccer.train import train
+from rsoccer.train import Args, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
-from tools.ship_policy import MAX_SIZE, ship
+from tools.ship_policy import MAX_SIZE, command_of, ship
 
 
 @pytest.fixture
@@ -73,3 +74,14 @@ def test_other_policies_are_refused(
     monkeypatch.setattr("tools.ship_policy.MAX_SIZE", MAX_SIZE)
     (score,) = trained.list_scores(ship(tmp_path, starts=1, threads=1))
     assert (score.opponent, score.metric, score.matches) == ("-", "reached", 1)
+
+
+@pytest.mark.parametrize("task", ["VSS-v0", "SSLDribbling-v0", "SSLGoToBall-v0"])
+def test_the_recorded_command_has_the_settings_of_the_run(
+    task: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    received: list[Args] = []
+    monkeypatch.setattr(commands, "train", received.append)
+    for args in (Args.for_task(task), Args(task=task), Args(task=task, robot_units=3)):
+        assert cli.main(shlex.split(command_of(args.to_json()))[1:]) == 0
+        assert received[-1].to_json() == args.to_json()
