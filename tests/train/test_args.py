@@ -13,6 +13,7 @@ from rsoccer.train.args import Args
 INVALID: list[tuple[str, Any]] = [
     ("samples", 0),
     ("device", "gpu"),
+    ("learning_rate_schedule", "cosine"),
     ("worlds", 0),
     ("threads", 0),
     ("horizon", 0),

@@ -23,6 +23,9 @@ SETTINGS_FILE = "args.json"
 Device = Literal["auto", "cpu", "cuda"]
 """Names of devices."""
 
+Schedule = Literal["linear", "adaptive"]
+"""Names of schedules of the learning rate."""
+
 CHANGEABLE_ON_RESUME = (
     "out",
     "device",
@@ -122,7 +125,10 @@ class Args:
     """mean action at the start, one number from -1 to 1 per component of the action; empty is 0.
     In SSL a kick of -1 keeps the ball until kicking is learned"""
     learning_rate: float = 2e-3
-    """initial step size of Adam, above 0; it falls to a tenth by the end of the run"""
+    """initial step size of Adam, above 0"""
+    learning_rate_schedule: Schedule = "linear"
+    """change of the step size: linear (it falls to a tenth by the end of the run) or adaptive (it
+    falls after updates that `target_kl` cut short, and rises after those that changed little)"""
     n_epochs: int = 6
     """passes over each batch, at least 1; more learn faster until the policy changes too much"""
     n_minibatches: int = 4
@@ -201,8 +207,9 @@ class Args:
         _expect(self, "final_action_std", valid, "None, or finite and above 0")
         valid = all(-1 <= number <= 1 for number in self.initial_action)
         _expect(self, "initial_action", valid, "numbers from -1 to 1")
-        devices = get_args(Device)
-        _expect(self, "device", self.device in devices, f"one of {', '.join(devices)}")
+        for name, kind in (("device", Device), ("learning_rate_schedule", Schedule)):
+            choices = get_args(kind)
+            _expect(self, name, getattr(self, name) in choices, f"one of {', '.join(choices)}")
         self._check_hidden_sizes()
         self._check_mixes()
         self._check_combinations()

@@ -44,6 +44,7 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
         "samples": trainer.samples,
         "updates": trainer.updates,
         "elapsed": trainer.elapsed,
+        "learning_rate": trainer.learning_rate.value,
         "is_solo": trainer.is_solo,
         "log_size": log_size,
     }
@@ -87,6 +88,7 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     trainer.generator.set_state(torch.tensor(run["generator"]))
     trainer.samples, trainer.updates = info["samples"], info["updates"]
     trainer.elapsed = info["elapsed"]
+    trainer.learning_rate.value = info["learning_rate"]
     trainer.show_policy()
     if trainer.pool is not None:
         assert trainer.pool.latest is not None, "the policy was shown"

@@ -25,6 +25,7 @@ from rsoccer.train.batch import Batch
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
 from rsoccer.train.ladder import Ladder
+from rsoccer.train.learning_rate import LearningRate
 from rsoccer.train.log import Logger, Row
 from rsoccer.train.mirror import check_symmetric, with_reflections
 from rsoccer.train.networks import ActorCritic
@@ -61,6 +62,7 @@ class Trainer:
         collector: plays the matches.
         ladder: measures the policy against fixed opponents.
         ppo: updates the model.
+        learning_rate: step size of the updates.
         update_stats: columns of the log from the last update of the model.
         samples: decisions that were learned from.
         updates: number of updates.
@@ -110,6 +112,7 @@ class Trainer:
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
         self.ladder = Ladder(args, self.task)
         self.ppo = PPO(args, self.model, self.generator, sharing)
+        self.learning_rate = LearningRate(args)
         self.update_stats: Row = {}
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
         self.show_policy()
@@ -153,11 +156,13 @@ class Trainer:
             check_stop: called before each minibatch; an exception that it raises ends the update.
         """
         progress = min(self.samples / self.args.samples, 1.0)
-        learning_rate = self.args.learning_rate * (1.0 - 0.9 * progress)
+        learning_rate = self.learning_rate.start_update(progress)
         with self.clock.measure("learning"):
             if self.args.mirror_augmentation:
                 batch = with_reflections(batch, self.task, self.model)
             self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
+        stats = self.update_stats
+        self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
         self.updates += 1
         if self.args.final_action_std is not None:
             ratio = self.args.final_action_std / self.args.action_std
