@@ -16,6 +16,7 @@ from rsoccer.play import Play
 from rsoccer.replay import Recorder, Replay
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay, free_ball
+from rsoccer.tasks.vss import Vss
 from rsoccer.testing import check_task
 from tests.helpers import same, zeros
 
@@ -263,9 +264,15 @@ def test_check_task_accepts_free_balls(monkeypatch: pytest.MonkeyPatch) -> None:
     check_task(task, worlds=3, steps=60)
 
 
-def test_the_option_is_off_by_default_and_checked() -> None:
+def test_the_option_is_off_in_the_tasks_of_the_paper() -> None:
+    tasks = [rsoccer.make_task(name) for name in NAMES]
+    assert [t.name for t in tasks if isinstance(t, Vss) and t.free_ball] == ["VSSSelfPlay-v0"]
+
+
+def test_the_option_can_be_off_and_is_checked() -> None:
     for name in NAMES:
-        matches = started(rsoccer.make_task(name), wedge(), autoreset="disabled")
+        task = rsoccer.make_task(name, free_ball=False)
+        matches = started(task, wedge(), autoreset="disabled")
         for _ in range(STEPS + 1):
             outcome = matches.step(pushes(matches))
         assert set(outcome.metrics) == {"goal_score"}
@@ -280,7 +287,7 @@ def test_the_option_is_off_by_default_and_checked() -> None:
 
 
 def test_a_replay_shows_free_balls_and_keeps_the_option() -> None:
-    task = replace(VssSelfPlay(free_ball=True), max_steps=450)
+    task = replace(VssSelfPlay(), max_steps=450)
     matches = started(task, wedge(), autoreset="disabled")
     recorder = Recorder(matches, controllers=EVERYONE)
     recorder.begin()
@@ -288,5 +295,5 @@ def test_a_replay_shows_free_balls_and_keeps_the_option() -> None:
         recorder.add(matches.step(pushes(matches)))
     replay = Replay.from_bytes(recorder.replay().to_bytes())
     assert [event.frame for event in replay.events if event.kind == "free_ball"] == [STEPS]
-    assert replay.options == {"free_ball": True, "max_steps": 450}
+    assert replay.options == {"max_steps": 450}
     assert replay.episodes[0].metrics["free_balls"] == 1.0

@@ -12,3 +12,6 @@ class VssSelfPlay(Vss):
     Each robot observes the game from its own side, so one policy can control both teams. Goal of
     the task, initial state, reward terms, termination and metrics are those of `Vss`.
     """
+
+    free_ball: bool = True
+    """True: a ball that is stuck for 10 s leads to a free ball at the mark of its quarter."""

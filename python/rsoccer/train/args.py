@@ -97,17 +97,17 @@ class Args:
     """decisions per world between two updates, at least 1; more cover more of an episode"""
     action_repeat: int = 3
     """control steps (25 ms each) per decision, at least 1; more explore further, react slower"""
-    random_truncation: float = 0.01
+    random_truncation: float = 0.002
     """probability, 0 to 1, that a match is truncated after a decision and starts again.
-    More gives fresh starts in place of long stalemates, less shows how matches end"""
-    gamma: float = 0.97
+    More gives fresh starts in place of long stalemates, less teaches to get out of them"""
+    gamma: float = 0.985
     """discount factor per control step, 0 to 1, whatever `action_repeat` is.
     Closer to 1 looks further ahead, but waiting costs less, so speed is learned later"""
     gae_lambda: float = 0.9
     """lambda of generalised advantage estimation, 0 to 1.
     1 trusts the collected rewards only, 0 trusts the value network only"""
 
-    hidden_sizes: tuple[int, ...] = (64, 64)
+    hidden_sizes: tuple[int, ...] = (128, 128)
     """widths of the hidden layers of the policy and of the value network, at least 1 each"""
     central_critic: bool = False
     """let the value network read the state of the whole match, as in MAPPO, and the observation.
@@ -118,7 +118,7 @@ class Args:
     is learned about one of them holds for all. 0 treats every robot on its own"""
     action_std: float = 0.6
     """initial standard deviation of the actions, above 0; 1 is full speed"""
-    final_action_std: float | None = None
+    final_action_std: float | None = 0.1
     """standard deviation of the actions at the end of the run, above 0; None learns it instead.
     It changes geometrically from `action_std`, and `entropy_coef` has no effect"""
     initial_action: tuple[float, ...] = ()
@@ -131,7 +131,7 @@ class Args:
     falls after updates that `target_kl` cut short, and rises after those that changed little)"""
     n_epochs: int = 6
     """passes over each batch, at least 1; more learn faster until the policy changes too much"""
-    n_minibatches: int = 4
+    n_minibatches: int = 8
     """minibatches per epoch, at least 1"""
     mirror_augmentation: bool = False
     """learn from each sample a second time, with left and right swapped; doubles the learning time.

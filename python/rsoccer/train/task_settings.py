@@ -28,16 +28,13 @@ _SSL: Final[dict[str, Any]] = {
 _KEEP_BALL: Final = (0.0, 0.0, 0.0, -0.3, 0.3)
 """Initial action of robots that start with the ball or must not lose it: dribble, do not kick."""
 
-# A spread that may vanish leaves policies stuck at a wedged ball. Opponents that stand still or
-# defend well are rare in self-play, and a policy that never met them draws against them.
-_VSS: Final[dict[str, Any]] = {"final_action_std": 0.1}
-
 TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
-    "VSS-v0": {**_VSS, "samples": 10 * M, "opponents": {"ou": 2.0, "zero": 1.0, "scripted": 1.0}},
-    "VSSMulti-v0": {**_VSS, "samples": 20 * M},
+    "VSS-v0": {"samples": 10 * M, "worlds": 512},
+    "VSSMulti-v0": {"samples": 20 * M},
     "VSSSelfPlay-v0": {
-        **_VSS,
         "samples": 20 * M,
+        # Opponents that stand still or defend well are rare in self-play, and a policy that never
+        # met them draws against them.
         "opponents": {"ou": 1.0, "zero": 1.0, "chase": 1.0, "scripted": 1.0},
         "latest_fraction": 0.4,
         "past_fraction": 0.3,
