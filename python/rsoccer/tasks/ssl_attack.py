@@ -6,17 +6,22 @@ from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer import rewards
+from rsoccer import checks, rewards, spawn
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.markers import Area, Marker
 from rsoccer.reflection import Reflection
+from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
-from rsoccer.tasks.ssl import Ssl
+from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 from rsoccer.vectors import TINY, norm
 
 CENTRE_LINE_TOLERANCE: Final = np.float32(0.2)
 """Distance that the attacker may go behind the centre line, m."""
+RANDOM_START_FRACTION: Final = 0.5
+"""Fraction of the episodes that start with the ball, with the option `random_start`."""
+RANDOM_START_CLEARANCE: Final = 0.15
+"""Least distance of such a start to lines and opponents, m, so that the ball is free."""
 NEARNESS_DISTANCE: Final = np.float32(0.25)
 """Gap between robots at which their nearness is 1/e, m: a robot brakes from 1.5 m/s within it."""
 
@@ -27,6 +32,9 @@ class SslAttack(Ssl):
 
     Goal of the task: score without leaving the opponents' half, entering their goal area or
     touching an opponent.
+
+    Initial state: that of the subclass. With `random_start` the attacker starts half of the
+    episodes at a random position in the half, with a random heading and the ball in its mouth.
 
     The observation has one block more than `Soccer`, "nearness" (o, 3), limit 1: exp(-g / 0.25 m)
     for each opponent at a gap g between the robots; the same times the direction to the opponent,
@@ -53,6 +61,10 @@ class SslAttack(Ssl):
     Metric: `goal_score`, 1 for a goal, -1 for one against, else 0.
     """
 
+    random_start: bool = False
+    """True: start with the ball in half of the episodes, which teaches shots before the way to
+    the ball is known."""
+
     half_only = True
     """The attacker must stay in the opponents' half and out of their goal area."""
     success = "goal_score"
@@ -73,6 +85,11 @@ class SslAttack(Ssl):
         "energy": 0.0001,
     }
     """Weights of the rSoccer paper (2021) in these terms."""
+
+    def __post_init__(self) -> None:
+        """Validate the options."""
+        checks.boolean("random_start", self.random_start)
+        super().__post_init__()
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for blue_0 and "hold" for opponents: at rest with the dribbler on."""
@@ -111,6 +128,28 @@ class SslAttack(Ssl):
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `goal_score`, (n,): 1 for a goal, -1 for one against, else 0."""
         return {"goal_score": rewards.goal_score(play.frame.ball)}
+
+    def _place_with_ball(self, frame: Frame, rng: WorldRng) -> None:
+        """Write the initial state of `random_start` into a frame with all opponents, in place."""
+        moved = rng.uniform(0.0, 1.0) < RANDOM_START_FRACTION
+        field, radius = self.config.field, self.config.robot.bounding_radius
+        gap = np.float32(2.0 * radius + RANDOM_START_CLEARANCE)
+
+        def forbidden(positions: Floats) -> Mask:
+            offset = positions - frame.yellow.position  # (n, 1, 2) and (n, opponents, 2)
+            near = norm(offset[..., 0], offset[..., 1]).min(axis=1, initial=np.inf) < gap
+            in_area = self.is_in_goal_area(positions, radius + RANDOM_START_CLEARANCE)
+            rejected: Mask = near[:, None] | in_area
+            return rejected
+
+        margin = radius + RANDOM_START_CLEARANCE
+        low = (margin, margin - field.half_width)
+        high = (field.half_length - margin, field.half_width - margin)
+        position = spawn.positions_in_box(rng, (low, high), [radius], 0.0, forbidden)
+        heading = spawn.headings(rng, 1)
+        frame.blue.position[moved] = position[moved]
+        frame.blue.heading[moved] = heading[moved]
+        frame.ball.position[moved] = ball_at_mouth(frame, 0, self.mouth_offset)[moved]
 
     def _nearness(self, play: Play) -> Floats:
         """Block "nearness" (n, observers, o, 3)."""

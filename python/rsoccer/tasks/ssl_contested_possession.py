@@ -61,6 +61,8 @@ class SslContestedPossession(SslAttack):
             frame.yellow.heading[:] = spawn.headings(rng, 1)
             frame.yellow.position[:] = self._opponent_positions(rng)
         frame.ball.position[:] = ball_at_mouth(frame, 1, self.mouth_offset)
+        if self.random_start:
+            self._place_with_ball(frame, rng)
         return frame
 
     def _has_fouled(self, frame: Frame) -> Mask:

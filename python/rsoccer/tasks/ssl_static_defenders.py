@@ -62,7 +62,14 @@ class SslStaticDefenders(SslAttack):
             frame.yellow.position[:] = opponents[:, :2]
             frame.yellow.heading[..., 0] = np.cos(opponents[:, 2])
             frame.yellow.heading[..., 1] = np.sin(opponents[:, 2])
-            return frame
+        else:
+            self._place_at_random(frame, rng)
+        if self.random_start:
+            self._place_with_ball(frame, rng)
+        return frame
+
+    def _place_at_random(self, frame: Frame, rng: WorldRng) -> None:
+        """Write random positions of ball and opponents into a frame, in place."""
         field, radius = self.config.field, self.config.robot.bounding_radius
         low = (BALL_START_X, -field.half_width + radius)
         high = (field.half_length, field.half_width - radius)
@@ -73,7 +80,6 @@ class SslStaticDefenders(SslAttack):
         frame.ball.position[:] = positions[:, 0]
         frame.yellow.position[:] = positions[:, 1:]
         frame.yellow.heading[:] = spawn.headings(rng, self.n_opponents)
-        return frame
 
     def _forbidden(self, positions: Floats) -> Mask:
         """(n, discs) whether a robot would touch the goal area, the goal line or the attacker."""
