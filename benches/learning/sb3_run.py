@@ -18,15 +18,16 @@ from benches.learning.learned import Learned, curve, restart_clock, timed
 from benches.learning.relu_actor import ReluActor
 from benches.learning.run_files import Folders
 from rsoccer.registry import make_task
+from rsoccer.train.args import Args
 
 DEFAULTS: Final[dict[str, Any]] = {
     "seconds": "as PPO",
     "task_options": {},
     "rows": 48,
     "samples_per_gradient_step": 10,
-    "action_repeat": 3,
-    "gamma": 0.97,
-    "hidden_sizes": [64, 64],
+    "action_repeat": Args.action_repeat,
+    "gamma": Args.gamma,
+    "hidden_sizes": list(Args.hidden_sizes),
     "learning_rate": 1e-3,
     "batch_size": 256,
     "buffer_size": 1_000_000,

@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from benches.learning import ablation
 from benches.learning.experiments import SB3, Experiment, Study
+from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
 M: Final = 1_000_000
@@ -45,7 +46,7 @@ BASELINES: Final = tuple(
         f"{task}-{algorithm}",
         task,
         algorithm,
-        settings={n: v for n, v in PPO_SETTINGS[task].items() if n in SHARED_WITH_PPO},
+        settings={name: Args.for_task(task).to_json()[name] for name in SHARED_WITH_PPO},
         seeds=3,
         needs=(f"ppo/{task}",),
     )
@@ -58,8 +59,8 @@ BASELINES: Final = tuple(
 CALIBRATION: Final = tuple(
     Experiment(
         "baselines",
-        f"{task}-{algorithm}-paper",
-        task,
+        f"VSS-v0-{algorithm}-paper",
+        "VSS-v0",
         algorithm,
         settings={
             "seconds": 3600,
@@ -69,11 +70,10 @@ CALIBRATION: Final = tuple(
             "gamma": 0.95,
             "action_repeat": 1,
             "n_steps": 3,
-            "task_options": {"reward_weights": "paper"} if task == "VSS-v0" else {},
+            "task_options": {"reward_weights": "paper"},
         },
         seeds=1,
     )
-    for task in ("VSS-v0", "SSLGoToBall-v0")
     for algorithm, sizes in (("ddpg", [400, 300]), ("sac", [256, 256]))
 )
 """The paper's sizes and settings, for an hour; its runs had 2 M gradient steps."""
