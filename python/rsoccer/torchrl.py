@@ -35,6 +35,7 @@ except ImportError as error:
 
 GroupMap = Mapping[str, Sequence[str]]
 """Names of the learners by group."""
+ENDS = ("done", "terminated", "truncated")
 
 
 class SoccerEnv(EnvBase):
@@ -131,7 +132,7 @@ class SoccerEnv(EnvBase):
         }
         self._with_state = checks.boolean("state", state)
         self._metrics = tuple(self.task.metrics(self.matches.play))
-        self._terminated, self._truncated = np.zeros((2, self.matches.worlds), np.bool_)
+        self._ends = np.zeros((2, self.matches.worlds), np.bool_)  # terminated, truncated
         self._pending_seed: int | None = None
         self._make_specs()
 
@@ -181,7 +182,7 @@ class SoccerEnv(EnvBase):
             seed, self._pending_seed = self._pending_seed, None
         observations = self.matches.reset(seed, mask)
         worlds = slice(None) if mask is None else mask
-        self._terminated[worlds] = self._truncated[worlds] = False
+        self._ends[:, worlds] = False
         zeros = np.zeros((self.matches.worlds, 1), np.float32)
         return self._tensors(observations, None, dict.fromkeys(self._metrics, zeros))
 
@@ -190,8 +191,9 @@ class SoccerEnv(EnvBase):
         matches = self.matches
         outcome = matches.step(self._actions(tensordict))
         # Matches that wait for a reset report no end again.
-        self._terminated |= outcome.terminated
-        self._truncated |= outcome.truncated
+        terminated, truncated = self._ends
+        terminated |= outcome.terminated
+        truncated |= outcome.truncated
         return self._tensors(outcome.observations, outcome.rewards, outcome.metrics)
 
     def _step_proc_data(self, next_tensordict_out: TensorDictBase) -> TensorDictBase:
@@ -219,33 +221,36 @@ class SoccerEnv(EnvBase):
     def _tensors(
         self, observations: Floats, rewards: Floats | None, metrics: Mapping[str, Floats]
     ) -> TensorDictBase:
-        """All keys after a reset, or after a step, which has rewards."""
+        """All keys after a reset, or after a step, which has rewards.
+
+        The specifications hold by construction, so `TensorDict`'s checks of shapes, half of the
+        time of this method, are left out.
+        """
+        size = torch.Size
         n = self.matches.worlds
-        ends = {
-            "done": self._terminated | self._truncated,
-            "terminated": self._terminated.copy(),
-            "truncated": self._truncated.copy(),
-        }
-        content: dict[str, Any] = {
-            name: torch.from_numpy(end.reshape(n, 1)) for name, end in ends.items()
-        }
+        ends = np.empty((3, n, 1, 1), np.bool_)
+        ends[1:, :, 0, 0] = self._ends
+        np.logical_or(ends[1], ends[2], out=ends[0])
+        content: dict[str, Any] = _named_ends(ends[..., 0])
         for group, columns in self._columns.items():
             k = len(self.group_map[group])
-            part = {
-                name: torch.from_numpy(np.repeat(end, k).reshape(n, k, 1))
-                for name, end in ends.items()
-            }
+            part = _named_ends(ends.repeat(k, axis=2))
             part["observation"] = torch.from_numpy(observations[:, columns])
             if rewards is not None:
                 part["reward"] = torch.from_numpy(rewards[:, columns, None])
-            content[group] = TensorDict(part, batch_size=(n, k))
+            content[group] = TensorDict._new_unsafe(part, size((n, k)))
         if self._with_state:
             content["state"] = torch.from_numpy(self.matches.states())
         if self._metrics:
             parts = {name: torch.from_numpy(metrics[name].reshape(n, 1)) for name in self._metrics}
-            content["metrics"] = TensorDict(parts, batch_size=(n,))
-        tensors = TensorDict(content, batch_size=(n,))
+            content["metrics"] = TensorDict._new_unsafe(parts, size((n,)))
+        tensors = TensorDict._new_unsafe(content, size((n,)))
         return tensors if self.device is None else tensors.to(self.device)
+
+
+def _named_ends(ends: Mask) -> dict[str, Any]:
+    """Tensors of done, terminated and truncated (3, ...) by name, in one memory."""
+    return dict(zip(ENDS, torch.from_numpy(ends).unbind(), strict=True))
 
 
 def _groups(
@@ -272,7 +277,4 @@ def _indices(columns: list[int]) -> slice | NDArray[np.intp]:
 
 def _ends_spec(shape: tuple[int, ...]) -> dict[str, Categorical]:
     """Specifications of done, terminated and truncated."""
-    return {
-        name: Categorical(2, shape=shape, dtype=torch.bool)
-        for name in ("done", "terminated", "truncated")
-    }
+    return {name: Categorical(2, shape=shape, dtype=torch.bool) for name in ENDS}
