@@ -38,18 +38,22 @@ def required(module: str) -> ModuleType:
         raise UnavailableError(str(error)) from error
 
 
-def sb3(task: str, worlds: int, *, wrapped: bool) -> Measure:
-    """Return a measure of `rsoccer.sb3.SoccerVecEnv`.
+def sb3(task: str, worlds: int, *, normalized: bool = False, wrapped: bool = False) -> Measure:
+    """Return a measure of `rsoccer.sb3.SoccerVecEnv`, which reports episodes itself.
 
     Args:
         task: Name of the task.
         worlds: Number of matches.
-        wrapped: Whether `VecMonitor` and `VecNormalize` are around it.
+        normalized: Whether `rsoccer.sb3.SoccerVecNormalize` is around it.
+        wrapped: Whether the library's `VecMonitor` and `VecNormalize` are around it.
     """
-    envs = required("rsoccer.sb3").SoccerVecEnv(task, worlds)
+    ours = required("rsoccer.sb3")
+    envs = ours.SoccerVecEnv(task, worlds)
     if wrapped:
         wrappers = required("stable_baselines3.common.vec_env")
         envs = wrappers.VecNormalize(wrappers.VecMonitor(envs))
+    if normalized:
+        envs = ours.SoccerVecNormalize(envs)
     envs.seed(0)
     return _rows(envs, worlds)
 
@@ -162,11 +166,16 @@ def _tensors(env: Any, worlds: int) -> Measure:  # noqa: ANN401
     env.set_seed(0)
     data = env.reset()
     spec = env.full_action_spec
-    actions = [spec.rand() for _ in range(interfaces.N_ACTIONS)]
+    actions = [
+        dict(spec.rand().items(include_nested=True, leaves_only=True))
+        for _ in range(interfaces.N_ACTIONS)
+    ]
 
-    def act(action: Any) -> None:  # noqa: ANN401
+    def act(action: dict[Any, Any]) -> None:
         nonlocal data
-        _, data = env.step_and_maybe_reset(data.update(action))
+        for key, value in action.items():  # as a policy writes its result
+            data.set(key, value)
+        _, data = env.step_and_maybe_reset(data)
 
     step = interfaces.held_actions(actions, act)
     torch.set_num_threads(1)

@@ -254,7 +254,8 @@ def through_libraries(sizes: tuple[int, ...]) -> Iterator[Benchmark]:
     for task in (MATCH_TASK, TEAM_TASK):
         yield through_library(task, sizes, robots)
     rows: dict[str, Start] = {
-        "SB3 SoccerVecEnv": partial(libraries.sb3, wrapped=False),
+        "SB3 SoccerVecEnv": libraries.sb3,
+        "SB3 SoccerVecEnv, SoccerVecNormalize": partial(libraries.sb3, normalized=True),
         "SB3 SoccerVecEnv, monitored and normalized": partial(libraries.sb3, wrapped=True),
     }
     loop: dict[str, Start] = {"SB3 DummyVecEnv": libraries.sb3_dummy}

@@ -22,9 +22,12 @@ from rsoccer._core import (
     SimConfig,
     Simulator,
     Threads,
+    add_rewards,
     build_info,
     clip_actions,
     clip_in_place,
+    normalized,
+    pooled_moments,
 )
 from rsoccer.arrays import Array, Floats
 
@@ -303,6 +306,37 @@ def test_other_threads_run_during_a_step() -> None:
     counter.join()
     # With the GIL held the counter could run only around the call.
     assert during > 1000
+
+
+def test_moments_of_parts_are_those_of_all_rows() -> None:
+    rng = np.random.default_rng(0)
+    rows = (rng.normal(size=(40, 3)) * [1.0, 1e-3, 10.0] + [0.0, 100.0, -5.0]).astype(np.float32)
+    mean, variance = np.zeros(3), np.ones(3)
+    for start, end in ((0, 1), (1, 30), (30, 30), (30, 40)):
+        mean, variance = pooled_moments(rows[start:end], mean, variance, start)
+    np.testing.assert_allclose(mean, rows.mean(0, dtype=np.float64), rtol=1e-12)
+    np.testing.assert_allclose(variance, rows.var(0, dtype=np.float64), rtol=1e-7)
+    expected = (rows - mean) / np.sqrt(variance + 1e-8)
+    assert (abs(expected) > 1.0).any()
+    found = normalized(rows, mean, variance, 1e-8, 1.0)
+    np.testing.assert_allclose(found, expected.clip(-1.0, 1.0), rtol=1e-6)
+    with pytest.raises(ValueError, match="count must be 0 or above, and above 0 without rows"):
+        pooled_moments(rows[:0], mean, variance, 0.0)
+    with pytest.raises(TypeError, match="rows must be an array of float32, got float64"):
+        pooled_moments(expected, mean, variance, 1.0)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="limit must be 0 or above, got -1"):
+        normalized(rows, mean, variance, 1e-8, -1.0)
+
+
+def test_rewards_are_added_to_discounted_returns() -> None:
+    returns, mean, variance = np.array([1.0, 2.0]), 0.0, 0.0
+    mean, variance = add_rewards(returns, np.array([3.0, -1.0], np.float32), 0.5, mean, variance, 0)
+    assert returns.tolist() == [3.5, 0.0]
+    assert (mean, variance) == (returns.mean(), returns.var())
+    with pytest.raises(ValueError, match=r"rewards must have shape \(2,\), got \(3,\)"):
+        add_rewards(returns, np.zeros(3, np.float32), 0.5, mean, variance, 1)
+    with pytest.raises(ValueError, match="count must be 0 or above, and above 0 without returns"):
+        add_rewards(returns, np.zeros(2, np.float32), 0.5, mean, variance, -3)
 
 
 def test_limits_hold_on_both_sides_and_nan_stays() -> None:

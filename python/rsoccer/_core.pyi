@@ -29,11 +29,14 @@ __all__ = [
     "Steering",
     "Threads",
     "Viewpoint",
+    "add_rewards",
     "build_info",
     "clip_actions",
     "clip_in_place",
     "mean_action_magnitude",
     "nearest_to_ball",
+    "normalized",
+    "pooled_moments",
 ]
 
 MAX_PLACED_SPEED: float
@@ -942,6 +945,79 @@ def clip_actions(value: object, shape: tuple[int, ...]) -> NDArray[np.float32] |
 
     Returns:
         A new float32 array, or None if `value` is not a finite float32 array of that shape.
+    """
+
+def pooled_moments(
+    rows: NDArray[np.float32],
+    mean: NDArray[np.float64],
+    variance: NDArray[np.float64],
+    count: float,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return mean and variance of earlier rows and of further ones together.
+
+    Args:
+        rows: Further rows (n, o), float32; n may be 0.
+        mean: Mean (o,) of the earlier rows, float64.
+        variance: Variance (o,) of the earlier rows, float64.
+        count: Number of the earlier rows, 0 or above; above 0 where n is 0.
+
+    Returns:
+        Mean and variance (o,) of all rows, float64.
+
+    Raises:
+        TypeError: An array has another element type.
+        ValueError: An array has another shape, or `count` is out of range.
+    """
+
+def add_rewards(
+    returns: NDArray[np.float64],
+    rewards: NDArray[np.float32],
+    discount: float,
+    mean: float,
+    variance: float,
+    count: float,
+) -> tuple[float, float]:
+    """Discount returns and add rewards to them, in place.
+
+    Args:
+        returns: Discounted returns (n,), float64, C-contiguous and writeable.
+        rewards: Rewards (n,), float32.
+        discount: Factor of the returns.
+        mean: Mean of earlier returns.
+        variance: Variance of earlier returns.
+        count: Number of earlier returns, 0 or above; above 0 where n is 0.
+
+    Returns:
+        Mean and variance of the earlier returns and the new ones together.
+
+    Raises:
+        TypeError: An array has another element type or, of `returns`, another memory order.
+        ValueError: An array has another shape, or `count` is out of range.
+        RuntimeError: `returns` is not writeable.
+    """
+
+def normalized(
+    rows: NDArray[np.float32],
+    mean: NDArray[np.float64],
+    variance: NDArray[np.float64],
+    epsilon: float,
+    limit: float,
+) -> NDArray[np.float32]:
+    """Return rows less a mean, divided by a standard deviation and clipped.
+
+    Args:
+        rows: Rows (n, o), float32.
+        mean: Mean (o,), float64.
+        variance: Variance (o,), float64.
+        epsilon: Number added to the variance before its square root is taken.
+        limit: Bound of the results' magnitude, 0 or above.
+
+    Returns:
+        Normalised rows (n, o), float32, computed in float64. NaN stays.
+
+    Raises:
+        TypeError: An array has another element type.
+        ValueError: An array has another shape, or `limit` is below 0.
     """
 
 @final

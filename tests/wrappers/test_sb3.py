@@ -321,6 +321,100 @@ def test_a_model_is_saved_with_normalized_observations(tmp_path: Path) -> None:
     loaded.learn(96)
 
 
+def normalized(ours: bool, **settings: Any) -> Any:  # noqa: ANN401
+    """Monitored matches in the class of this package, or in the library's."""
+    vec_env = importlib.import_module("stable_baselines3.common.vec_env")
+    sb3 = importlib.import_module("rsoccer.sb3")
+    wrapper = sb3.SoccerVecNormalize if ours else vec_env.VecNormalize
+    return wrapper(vec_env.VecMonitor(many("VSSMulti-v0", 4)), **settings)
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"training": False},
+        {"norm_reward": False, "gamma": 0.5},
+        {"norm_obs": False},
+        {"clip_obs": 0.5, "clip_reward": 0.1},
+    ],
+)
+def test_normalized_rollouts_equal_those_of_the_library(settings: dict[str, Any]) -> None:
+    pair = [normalized(ours, **settings) for ours in (True, False)]
+    for envs in pair:
+        envs.seed(3)
+    first = [envs.reset() for envs in pair]
+    np.testing.assert_allclose(*first, rtol=1e-5, atol=1e-5)
+    rng = np.random.default_rng(0)
+    ended = 0
+    for _ in range(3 * MAX_STEPS):
+        actions = drawn(pair[0], rng)
+        (ours, theirs) = ((*envs.step(actions),) for envs in pair)
+        assert [part.dtype for part in ours[:3]] == [part.dtype for part in theirs[:3]]
+        # A column that never varied is divided by 1e-4, and rounding of its mean with it.
+        np.testing.assert_allclose(ours[0], theirs[0], rtol=1e-4, atol=2e-3)
+        np.testing.assert_allclose(ours[1], theirs[1], rtol=1e-5, atol=1e-6)
+        np.testing.assert_array_equal(ours[2], theirs[2])
+        for info, reference in zip(ours[3], theirs[3], strict=True):
+            assert info.keys() == reference.keys()
+            if info:
+                ended += 1
+                assert info["terminal_observation"].dtype == np.float32
+                np.testing.assert_allclose(
+                    info["terminal_observation"],
+                    reference["terminal_observation"],
+                    rtol=1e-4,
+                    atol=2e-3,
+                )
+                assert info["episode"]["r"] == pytest.approx(reference["episode"]["r"], abs=1e-6)
+        originals = [envs.get_original_obs() for envs in pair]
+        np.testing.assert_array_equal(*originals)
+        np.testing.assert_array_equal(*[envs.get_original_reward() for envs in pair])
+        np.testing.assert_allclose(*[envs.returns for envs in pair], rtol=1e-12)
+        if settings.get("norm_obs", True):
+            again = [envs.normalize_obs(originals[0]) for envs in pair]
+            np.testing.assert_allclose(again[0], ours[0])
+            moments = [envs.obs_rms for envs in pair]
+            np.testing.assert_allclose(*[each.mean for each in moments], rtol=1e-5, atol=1e-6)
+            np.testing.assert_allclose(*[each.var for each in moments], rtol=1e-5, atol=1e-6)
+            assert moments[0].count == moments[1].count
+        moments = [envs.ret_rms for envs in pair]
+        np.testing.assert_allclose(*[each.mean for each in moments], rtol=1e-9)
+        np.testing.assert_allclose(*[each.var for each in moments], rtol=1e-9)
+        assert moments[0].count == moments[1].count
+        ours[0][:] = ours[1][:] = 1e9  # results belong to the caller
+    assert ended == 3 * pair[0].num_envs
+
+
+def test_normalized_matches_train_are_saved_and_are_continued(tmp_path: Path) -> None:
+    vec_env = importlib.import_module("stable_baselines3.common.vec_env")
+    envs = normalized(True)
+    model = stable_baselines3.PPO(
+        "MlpPolicy", envs, n_steps=32, batch_size=48, n_epochs=1, seed=0, device="cpu"
+    )
+    updated(model, 32 * envs.num_envs)
+    assert model.get_vec_normalize_env() is envs
+    envs.save(str(tmp_path / "statistics"))
+    loaded = vec_env.VecNormalize.load(str(tmp_path / "statistics"), many("VSSMulti-v0", 4))
+    assert type(loaded) is type(envs)
+    observations = envs.get_original_obs()
+    np.testing.assert_array_equal(
+        loaded.normalize_obs(observations), envs.normalize_obs(observations)
+    )
+    loaded.reset()
+    loaded.step(drawn(loaded, np.random.default_rng(0)))
+    assert loaded.obs_rms.count == envs.obs_rms.count + 2 * envs.num_envs
+
+
+def test_observations_that_are_no_vectors_are_not_normalized() -> None:
+    sb3 = importlib.import_module("rsoccer.sb3")
+    vec_env = importlib.import_module("stable_baselines3.common.vec_env")
+    envs = many()
+    envs.observation_space = gymnasium.spaces.Box(-1.0, 1.0, (2, 2))
+    with pytest.raises(ValueError, match=r"expected Box \(o,\) float32, got Box"):
+        sb3.SoccerVecNormalize(vec_env.VecMonitor(envs))
+
+
 def test_policies_are_evaluated_by_the_library() -> None:
     evaluation = importlib.import_module("stable_baselines3.common.evaluation")
     vec_env = importlib.import_module("stable_baselines3.common.vec_env")

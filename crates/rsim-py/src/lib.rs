@@ -8,6 +8,7 @@ mod bounds;
 mod config;
 mod ego_features;
 mod models;
+mod moments;
 mod shaping;
 mod simulator;
 mod steering;
@@ -27,6 +28,8 @@ mod _core {
     use crate::ego_features::EgoFeatures;
     #[pymodule_export]
     use crate::models::{BallModel, Field, RobotModel};
+    #[pymodule_export]
+    use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]
