@@ -440,9 +440,10 @@ class SoccerVecNormalize(VecNormalize):  # type: ignore[misc]
         """
         if not self.norm_reward:
             return reward.copy()
-        scaled = reward / math.sqrt(self.ret_rms.var + self.epsilon)
+        scaled: Floats = reward / math.sqrt(self.ret_rms.var + self.epsilon)
         limit = self.clip_reward
-        return np.minimum(np.maximum(scaled, -limit, out=scaled), limit, out=scaled)
+        np.maximum(scaled, -limit, out=scaled)
+        return np.minimum(scaled, limit, out=scaled)
 
     def normalize_obs(self, obs: Floats) -> Floats:
         """Return normalised observations, without an update of the statistics.
