@@ -3,6 +3,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import torch
+from torch import nn
 
 from rsoccer.policies.base import PolicyInput
 from rsoccer.policies.network import Network
@@ -112,6 +114,31 @@ def test_weights_of_another_program_become_a_policy() -> None:
     assert (network.mode, network.action_repeat, network.task_name) == ("sample", 3, "VSS-v0")
     assert Network.from_layers(task, layers).mode == "mean"
     network.check_fits(task, task.observation_size)
+
+
+def test_modules_of_torch_become_a_policy() -> None:
+    task = make_task("VSS-v0")
+    modules = nn.Sequential(
+        nn.Linear(task.observation_size, 8), nn.Tanh(), nn.Linear(8, task.action_size)
+    )
+    network = Network.from_layers(task, modules)
+    observations = torch.rand(4, task.observation_size)
+    expected = modules(observations).clamp(-1, 1).detach()
+    np.testing.assert_allclose(network.mean_actions(observations.numpy()), expected, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "modules",
+    [
+        [nn.Linear(3, 2), nn.ReLU(), nn.Linear(2, 2)],
+        [nn.Linear(3, 2), nn.Tanh(), nn.Linear(2, 2), nn.Tanh()],
+        [nn.Linear(3, 2), nn.Linear(2, 2)],
+        [nn.Linear(3, 2, bias=False)],
+    ],
+)
+def test_modules_other_than_linear_and_tanh_are_refused(modules: list[nn.Module]) -> None:
+    with pytest.raises(ValueError, match="Linear with bias and Tanh in turn, got Linear"):
+        Network.from_layers(make_task("VSS-v0"), modules)
 
 
 def test_weights_that_do_not_fit_are_refused() -> None:

@@ -90,7 +90,16 @@ GROUPS: Final = (
             "rsoccer.policies.trained",
         ),
     ),
-    Group("Training", ("rsoccer.train", "rsoccer.train.args", "rsoccer.train.task_settings")),
+    Group(
+        "Training",
+        (
+            "rsoccer.train",
+            "rsoccer.train.args",
+            "rsoccer.train.task_settings",
+            "rsoccer.train.running_mean_std",
+            "rsoccer.train.transition",
+        ),
+    ),
     Group(
         "Evaluation",
         (

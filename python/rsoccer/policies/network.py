@@ -16,6 +16,8 @@ from rsoccer.policies import policy_file
 from rsoccer.policies.held_actions import HeldActions
 
 if TYPE_CHECKING:
+    from torch import nn
+
     from rsoccer.rng import WorldRng
     from rsoccer.task import Task
 
@@ -74,7 +76,7 @@ class Network(HeldActions):
     def from_layers(
         cls,
         task: Task,
-        layers: Iterable[tuple[ArrayLike, ArrayLike]],
+        layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
         action_std: ArrayLike | None = None,
         *,
         action_repeat: int = 1,
@@ -89,7 +91,8 @@ class Network(HeldActions):
         Args:
             task: the task of the training, such as `Matches.task`.
             layers: weight (out, in) and bias (out,) of each linear layer, from the observation
-                to the action. Between them is tanh.
+                to the action, with tanh between them; or the modules of torch, `nn.Linear` and
+                `nn.Tanh` in turn, such as an `nn.Sequential`.
             action_std: (action,) standard deviation of the actions; None for a policy without
                 noise.
             action_repeat: control steps for which an action is held, at least 1.
@@ -100,11 +103,10 @@ class Network(HeldActions):
             task_options: options of the task for `make_task`, if it has any but the defaults.
 
         Raises:
-            ValueError: weights or numbers that do not fit the policy file's format or the task.
+            ValueError: other modules, or weights or numbers that do not fit the policy file's
+                format or the task.
         """
-        parts = [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in layers]
-        if not parts:
-            raise ValueError("layers: expected one or more, got none")
+        parts = _weights_and_biases(layers)
         inputs = parts[0][0].shape[-1:]
         arrays: dict[str, Array] = {
             name: np.broadcast_to(np.asarray(value, np.float32), inputs).copy()
@@ -269,3 +271,29 @@ def _checked_mode(mode: str | None, action_std: Floats | None) -> str:
             "mode: expected 'mean', as the policy has no action_std to sample with, got 'sample'"
         )
     return mode or ("mean" if action_std is None else "sample")
+
+
+def _weights_and_biases(
+    layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
+) -> list[tuple[Floats, Floats]]:
+    """Weight and bias of each linear layer, given as pairs or as modules."""
+    given: list[Any] = list(layers)
+    if not given:
+        raise ValueError("layers: expected one or more, got none")
+    if callable(given[0]):
+        given = _pairs_of_modules(given)
+    return [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in given]
+
+
+def _pairs_of_modules(modules: list[Any]) -> list[tuple[Array, Array]]:
+    """Weight and bias of the linear ones of some modules; ValueError unless tanh is between."""
+    from torch import nn
+
+    linear, between = modules[::2], modules[1::2]
+    fits = len(linear) == len(between) + 1
+    fits &= all(isinstance(layer, nn.Linear) and layer.bias is not None for layer in linear)
+    fits &= all(isinstance(module, nn.Tanh) for module in between)
+    if not fits:
+        kinds = ", ".join(type(module).__name__ for module in modules)
+        raise ValueError(f"layers: expected Linear with bias and Tanh in turn, got {kinds}")
+    return [tuple(part.detach().cpu().numpy() for part in (x.weight, x.bias)) for x in linear]

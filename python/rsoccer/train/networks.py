@@ -153,10 +153,9 @@ class ActorCritic(nn.Module):
             mean: (o,) mean of the observations.
             std: (o,) standard deviation of the observations.
         """
-        layers = [layer for layer in self.actor if isinstance(layer, nn.Linear)]
         return Network.from_layers(
             task,
-            [(layer.weight.detach().numpy(), layer.bias.detach().numpy()) for layer in layers],
+            self.actor,
             self.log_std.detach().exp().numpy(),
             action_repeat=args.action_repeat,
             mean=mean,
