@@ -18,15 +18,15 @@ from rsoccer.policies.network import Network
 from rsoccer.train.running_mean_std import RunningMeanStd
 from rsoccer.train.transition import repeat_action
 
-HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 6, 4  # a decision is held for REPEAT steps
-GAMMA, LAMBDA, CLIP, ENTROPY, RATE = 0.97**REPEAT, 0.9, 0.2, 0.002, 2e-3
-TRUNCATION = 0.01  # share of matches that start again after a decision, which ends stalemates
+HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 4, 8  # a decision is held for REPEAT steps
+GAMMA, LAMBDA, CLIP, ENTROPY, RATE = 0.985**REPEAT, 0.9, 0.2, 0.002, 2e-3
+TRUNCATION = 0.002  # share of matches that start again after a decision, which ends stalemates
 
 
 def perceptron(inputs: int, outputs: int) -> nn.Sequential:
     """Return a network with two hidden layers."""
-    hidden = [nn.Linear(inputs, 64), nn.Tanh(), nn.Linear(64, 64), nn.Tanh()]
-    return nn.Sequential(*hidden, nn.Linear(64, outputs))
+    hidden = [nn.Linear(inputs, 128), nn.Tanh(), nn.Linear(128, 128), nn.Tanh()]
+    return nn.Sequential(*hidden, nn.Linear(128, outputs))
 
 
 def train(matches: Matches, samples: int, central: bool) -> Network:  # noqa: C901

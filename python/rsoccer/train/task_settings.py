@@ -19,14 +19,17 @@ _SSL: Final[dict[str, Any]] = {
     "gae_lambda": 0.95,
     "random_truncation": 0.0,
     # Full speed is 3.7 m/s: with the default spread a robot shakes the ball off its dribbler.
-    "action_std": 0.3,
-    "final_action_std": 0.05,
+    "action_std": 0.15,
+    "final_action_std": 0.04,
     "learning_rate": 1e-3,
+    "learning_rate_schedule": "adaptive",
+    "n_epochs": 4,
+    "worlds": 512,
 }
 """Settings of all SSL tasks with one learning team."""
 
-_KEEP_BALL: Final = (0.0, 0.0, 0.0, -0.3, 0.3)
-"""Initial action of robots that start with the ball or must not lose it: dribble, do not kick."""
+_KEEP_BALL: Final = (0.0, 0.0, 0.0, -0.2, 0.3)
+"""Initial action of robots that start with the ball or must not lose it: dribble, seldom kick."""
 
 TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "VSS-v0": {"samples": 10 * M, "worlds": 512},
@@ -39,24 +42,22 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "latest_fraction": 0.4,
         "past_fraction": 0.3,
     },
-    "SSLGoToBall-v0": {**_SSL, "samples": 3 * M},
-    "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M},
+    "SSLGoToBall-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
+    "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
     "SSLStaticDefenders-v0": {
         **_SSL,
-        "samples": 10 * M,
+        "samples": 20 * M,
         "initial_action": _KEEP_BALL,
         "robot_units": 16,
+        "task_options": {"random_start": True},
     },
     "SSLContestedPossession-v0": {
         **_SSL,
-        "samples": 10 * M,
+        "samples": 20 * M,
         "gamma": 0.985,
-        "random_truncation": 0.003,
-        "action_std": 0.4,
-        "worlds": 512,
-        "n_minibatches": 8,
+        "initial_action": _KEEP_BALL,
         # With the default of -1 policies learn to stay away from the opponent.
-        "task_options": {"reward_weights": {"failed": -0.3}},
+        "task_options": {"random_start": True, "reward_weights": {"failed": -0.3}},
     },
     "SSLDribbling-v0": {
         **_SSL,
