@@ -130,6 +130,73 @@ def test_keys_move_through_time(tmp_path: Path) -> None:
     }
 
 
+def test_space_presses_a_button_that_was_reached_by_tab_and_not_one_that_was_clicked(
+    tmp_path: Path,
+) -> None:
+    script = """
+      player.pause();
+      const button = document.getElementById("zoom");
+      const space = () => document.activeElement.dispatchEvent(
+        new KeyboardEvent("keydown", {key: " ", bubbles: true, cancelable: true}));
+      button.focus();
+      const left = space();  // true: the browser goes on to press the button
+      const playing = player.playing;
+      button.dispatchEvent(new MouseEvent("click", {bubbles: true, detail: 1}));
+      const focus = document.activeElement.tagName;
+      const taken = !space();
+      return {left, playing, focus, taken, plays: player.playing};
+    """
+    shown = show(to_html(vss()), script, tmp_path)
+    assert shown.console == []
+    assert shown.result == {
+        "left": True,
+        "playing": False,
+        "focus": "BODY",
+        "taken": True,
+        "plays": True,
+    }
+
+
+def test_a_finger_on_the_field_scrolls_a_narrow_page(tmp_path: Path) -> None:
+    script = """
+      player.pause();
+      return ["field", "timeline", "chart"].map(
+        (id) => getComputedStyle(document.getElementById(id)).touchAction);
+    """
+    assert show(to_html(vss()), script, tmp_path).result == ["auto", "pan-y", "auto"]
+
+
+def test_a_cancelled_touch_of_the_timeline_goes_on_playing(tmp_path: Path) -> None:
+    script = """
+      const canvas = document.getElementById("timeline");
+      canvas.setPointerCapture = () => {};
+      player.play();
+      pointer("timeline", "pointerdown", 0.2, 0.5);
+      const held = !player.playing;
+      pointer("timeline", "pointercancel", 0.2, 0.5);
+      return [held, player.playing];
+    """
+    assert show(to_html(vss()), script, tmp_path).result == [True, True]
+
+
+def test_no_zero_has_a_sign(tmp_path: Path) -> None:
+    script = """
+      player.pause();
+      const numbers = [];
+      let negative = 0;
+      for (let frame = 0; frame < player.replay.frames; frame++) {
+        for (let robot = 0; robot < player.robots.length; robot++) {
+          const texts = player.numbersOf(robot, frame).map(([, text]) => text);
+          negative += texts.filter((text) => /^-/.test(text)).length;
+          numbers.push(...texts.filter((text) => /^-0(\\.0*)?( |$)/.test(text)));
+        }
+      }
+      return {numbers, negative: negative > 0};
+    """
+    shown = show(to_html(eleven()), script, tmp_path)
+    assert shown.result == {"numbers": [], "negative": True}
+
+
 def test_the_pointer_scrubs_and_shows_a_robot(tmp_path: Path) -> None:
     script = """
       player.pause();

@@ -147,7 +147,7 @@ class RewardChart {
       }
     }
     const range = high - low || 1;
-    const left = 46;
+    const left = 56; // fits "-0.0123"
     const x = (i) => left + ((i - episode.start) / (last - episode.start)) * (width - left - 6);
     const y = (value) => height - 8 - ((value - low) / range) * (height - 16);
     this.drawAxis(context, width, left, y, [0, high, low]);

@@ -209,7 +209,7 @@ class FieldView {
     const { context, replay, scene } = this;
     const first = this.firstOfTrail(time);
     const width = Math.max(1.6 * this.density / this.camera.scale, 0.004);
-    context.lineCap = "round";
+    context.lineCap = "butt"; // round ends of transparent pieces would show as beads
     moment.robots.forEach((robot, index) => {
       const color = index < scene.nBlue ? scene.colors.blue : scene.colors.yellow;
       const at = (frame) => [replay.robot(index, "x", frame), replay.robot(index, "y", frame)];

@@ -229,16 +229,16 @@ class Player {
       value("touched_ball") > 0 && "touched",
     ].filter(Boolean);
     const numbers = [
-      ["x", `${value("x").toFixed(2)} m`],
-      ["y", `${value("y").toFixed(2)} m`],
+      ["x", `${fixed(value("x"), 2)} m`],
+      ["y", `${fixed(value("y"), 2)} m`],
       ["heading", `${degrees}\u00b0`],
       ["speed", `${speed.toFixed(2)} m/s`],
-      ["turn rate", `${value("v_theta").toFixed(1)} rad/s`],
+      ["turn rate", `${fixed(value("v_theta"), 1)} rad/s`],
       ["ball", flags.join(", ") || "\u2013"],
     ];
     replay.commandColumns.forEach((name, column) => {
       const digits = UNITS[name] === "m/s" ? 2 : 1;
-      const text = replay.command(index, column, frame).toFixed(digits);
+      const text = fixed(replay.command(index, column, frame), digits);
       numbers.push([`\u2192 ${COMMAND_NAMES[name] ?? name}`, `${text} ${UNITS[name] ?? ""}`.trim()]);
     });
     return numbers;
@@ -409,6 +409,10 @@ class Player {
       this.dirty = true;
     });
     document.addEventListener("keydown", (event) => this.key(event));
+    // A button that was clicked gives the keyboard back to the player; one reached by Tab keeps it.
+    document.addEventListener("click", (event) => {
+      if (event.detail > 0) event.target.closest("button, input")?.blur();
+    });
     this.connectTimeline();
     this.connectField();
   }
@@ -427,10 +431,12 @@ class Player {
     canvas.addEventListener("pointermove", (event) => {
       if (canvas.hasPointerCapture(event.pointerId)) scrub(event);
     });
-    canvas.addEventListener("pointerup", () => {
+    const release = () => {
       if (this.resumes) this.play();
       this.resumes = false;
-    });
+    };
+    canvas.addEventListener("pointerup", release);
+    canvas.addEventListener("pointercancel", release);
   }
 
   connectField() {
@@ -454,7 +460,8 @@ class Player {
 
   key(event) {
     const inField = event.target.closest?.("select, input, dialog");
-    if (event.ctrlKey || event.metaKey || event.altKey || inField) return;
+    const pressesButton = event.key === " " && event.target.closest?.("button");
+    if (event.ctrlKey || event.metaKey || event.altKey || inField || pressesButton) return;
     const second = Math.round(1 / this.scene.timeStep);
     const actions = {
       " ": () => this.toggle(),
@@ -477,6 +484,11 @@ class Player {
     event.preventDefault();
     action();
   }
+}
+
+/** A number with some digits after the point, and no sign before zero. */
+function fixed(value, digits) {
+  return value.toFixed(digits).replace(/^-(?=[0.]*$)/, "");
 }
 
 function setText(element, text) {
