@@ -83,6 +83,26 @@ def test_keys_change_robot_speed_pause_and_help() -> None:
     assert not session.shows_help
 
 
+def test_two_digits_choose_a_robot_from_ten_on() -> None:
+    session = session_of("SSLSelfPlay-v0", field="ssl_a", n_blue=11, n_yellow=11)
+
+    def choose(*digits: str, pause: float = 0.1) -> str:
+        session.advance(10.0)
+        for digit in digits:
+            session.devices.keyboard.press(digit)
+            session.devices.keyboard.release(digit)
+            session.advance(pause)
+        return session.driver.robot
+
+    session.paused = True
+    assert choose("1") == "blue_1"
+    assert choose("1", "0") == "blue_10"
+    assert choose("1", "0", "0") == "blue_0"
+    assert choose("1", "2") == "blue_2"  # there is no robot 12
+    assert choose("1", "0", pause=1.0) == "blue_0"
+    assert choose("tab") == "blue_1"
+
+
 @pytest.mark.parametrize(("speed", "steps"), [(0.5, 10), (1.0, 20), (4.0, 80)])
 def test_speed_is_a_factor_on_the_steps(speed: float, steps: int) -> None:
     session = session_of()

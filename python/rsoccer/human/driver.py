@@ -91,15 +91,20 @@ class Driver:
         """Drive the next robot in the order of a state row; the first follows the last."""
         self.robot = self.task.robots[(self.index + 1) % len(self.task.robots)]
 
-    def choose_number(self, number: int) -> None:
+    def choose_number(self, number: int) -> bool:
         """Drive the robot of the same team with a number, if there is one.
 
         Args:
             number: number of the robot in its team.
+
+        Returns:
+            False if there is none.
         """
         robot = f"{team_of(self.robot)}_{number}"
-        if robot in self.task.robots:
+        exists = robot in self.task.robots
+        if exists:
             self.robot = robot
+        return exists
 
     def change_frame(self) -> None:
         """Exchange the axes of the deflections of an SSL robot."""

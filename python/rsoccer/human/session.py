@@ -25,6 +25,8 @@ from rsoccer.task import Task
 
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0)
 """Speeds that the keys choose from; 1 is real time."""
+DIGIT_PAUSE: Final = 0.8
+"""Longest time between the two digits of a robot's number, seconds."""
 
 
 class Session:
@@ -99,6 +101,8 @@ class Session:
         self._caption = ""
         self._caption_left = 0.0  # seconds until the caption ends
         self._debt = 0.0  # steps that are due
+        self._digit = 0  # the last one that was pressed
+        self._digit_left = 0.0  # seconds in which a second one may follow
         self.reset()
 
     def run(self, seconds: float = math.inf) -> None:
@@ -138,6 +142,7 @@ class Session:
         controls = self.driver.controls = self.devices.controls()
         if commands != ["help"] and (commands or controls != Controls()):
             self.shows_help = False
+        self._digit_left -= seconds
         for command in commands:
             self._obey(command)
         if self._caption:
@@ -213,7 +218,7 @@ class Session:
     def _obey(self, command: str) -> None:
         """Execute a command of the keyboard or the gamepad."""
         if command.startswith("robot_"):
-            self.driver.choose_number(int(command.removeprefix("robot_")))
+            self._choose(int(command.removeprefix("robot_")))
         elif command in ("faster", "slower"):
             self._change_speed(faster=command == "faster")
         else:
@@ -226,6 +231,13 @@ class Session:
                 "help": self._toggle_help,
             }
             actions[command]()
+
+    def _choose(self, digit: int) -> None:
+        """Drive the robot with this number, or with two digits that follow each other."""
+        follows = self._digit_left > 0.0 and self._digit > 0
+        if not (follows and self.driver.choose_number(10 * self._digit + digit)):
+            self.driver.choose_number(digit)
+        self._digit, self._digit_left = digit, DIGIT_PAUSE
 
     def _change_speed(self, *, faster: bool) -> None:
         """Take the next speed of the list above or below the current one."""
