@@ -4,6 +4,7 @@ import copy
 import pickle
 from typing import Any
 
+import gymnasium
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
@@ -96,8 +97,12 @@ def test_the_number_of_rows_or_of_matches_is_given() -> None:
     assert (own.robots, own.num_envs) == (("blue_0", "blue_1", "blue_2"), 6)
     with pytest.raises(ValueError, match=r"expected a multiple of the 6 robots .* got 64"):
         robots_vector_env(NAME, 64)
-    with pytest.raises(ValueError, match="num_envs: expected it or matches, got 6 and 1"):
+    with pytest.raises(ValueError, match="num_envs and matches: expected one of them, got 6 and 1"):
         robots_vector_env(NAME, 6, matches=1)
+    with pytest.raises(ValueError, match=r"^matches: expected at least 1, got 0"):
+        robots_vector_env(NAME, matches=0)
+    with pytest.raises(ValueError, match=r"^num_envs: expected at least 1, got 0"):
+        gymnasium.make_vec("rsoccer/VSS-v0", num_envs=0)
     with pytest.raises(ValueError, match="at least one learner, got none"):
         robots_vector_env(NAME, 6, controllers={"all": "ou"})
 

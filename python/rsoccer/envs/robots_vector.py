@@ -358,9 +358,11 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
 def _match_count(num_envs: int | None, matches: int | None, learners: int) -> int:
     """Number of matches that has these rows, or is given."""
     if num_envs is None:
-        return 1 if matches is None else matches
+        return 1 if matches is None else checks.integer("matches", matches, 1)
     if matches is not None:
-        raise ValueError(f"num_envs: expected it or matches, got {num_envs} and {matches}")
+        raise ValueError(
+            f"num_envs and matches: expected one of them, got {num_envs} and {matches}"
+        )
     if checks.integer("num_envs", num_envs, 1) % learners:
         raise ValueError(
             f"num_envs: expected a multiple of the {learners} robots that learn in a match, got "

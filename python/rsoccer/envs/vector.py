@@ -16,6 +16,7 @@ from typing import Any
 
 from gymnasium.vector import AutoresetMode
 
+from rsoccer import checks
 from rsoccer.controllers import Controllers
 from rsoccer.envs.env_matches import SingleLearner
 from rsoccer.envs.options import single_learner_controllers
@@ -149,7 +150,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
         """
         super().__init__(
             task,
-            num_envs,
+            checks.integer("num_envs", num_envs, 1),
             render_mode,
             controllers=single_learner_controllers(task, learner, controllers),
             threads=threads,
