@@ -62,6 +62,8 @@ def test_discrete_tasks_take_integers() -> None:
     outcome = ours.step(indices)
     assert same(outcome.observations, theirs.step(table[indices]).observations)
     assert not same(outcome.observations, ours.step(0 * indices).observations)
+    with pytest.raises(TypeError, match="actions: expected whole numbers, got float64"):
+        ours.step(np.zeros((3, 3)))
     with pytest.raises(ValueError, match=r"expected shape \(3, 3\) of integers, got \(3,\)"):
         ours.step(indices[0])
     with pytest.raises(ValueError, match=r"expected 0 to .*, got 99"):

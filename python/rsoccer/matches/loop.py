@@ -301,10 +301,12 @@ class Matches:
 
     def _action_vectors(self, actions: Array) -> Array:
         """Actions (n, agents, action) of a discrete task, from indices (n, agents) or vectors."""
-        indices = np.asarray(actions)
+        indices, shape = np.asarray(actions), (self.worlds, len(self.agents))
         if indices.dtype.kind not in "iu":
+            if indices.shape == shape:
+                raise TypeError(f"actions: expected whole numbers, got {indices.dtype}")
             return actions
-        if indices.shape != (shape := (self.worlds, len(self.agents))):
+        if indices.shape != shape:
             raise ValueError(f"actions: expected shape {shape} of integers, got {indices.shape}")
         return spaces.action_vectors(self.task, indices)
 
