@@ -142,7 +142,7 @@ $(LIBRARIES)/made: pyproject.toml constraints.txt $(VENV)/built
 
 # Without constraints.txt: they replace some of its versions. PufferLib asks for older ones than this package.
 RECIPE_benchmarl := benchmarl==1.5.2
-RECIPE_pufferlib := --no-deps pufferlib==2.0.2
+RECIPE_pufferlib := --no-deps pufferlib==2.0.2 gym==0.23.0
 RECIPE_tianshou := tianshou==2.0.1
 
 $(RECIPES)/%/made: $(VENV)/built
