@@ -46,7 +46,7 @@ class Sizes:
     """Batch size for the comparison of one thread with two."""
     scaling: tuple[int, ...] = (64, 256, 1024, 4096, 16384)
     football: tuple[int, ...] = (32, 1024, 8192)
-    libraries: tuple[int, ...] = (8, 64)
+    libraries: tuple[int, ...] = (8, 32, 64)
     """Batch sizes of matches through other libraries."""
     training: int = 256
     memory: int = 2048

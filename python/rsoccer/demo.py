@@ -42,8 +42,8 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         seconds[name] = now - started - sum(seconds.values())
         sys.stdout.write(f"{text} ({seconds[name]:.0f} s)\n")
 
-    args = Args(
-        task=TASK,
+    args = Args.for_task(
+        TASK,
         out=out,
         samples=samples,
         overwrite=True,

@@ -47,9 +47,9 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLStaticDefenders-v0": {
         **_SSL,
         "samples": 20 * M,
+        "action_std": 0.3,
         "initial_action": _KEEP_BALL,
         "robot_units": 16,
-        "task_options": {"random_start": True},
     },
     "SSLContestedPossession-v0": {
         **_SSL,
