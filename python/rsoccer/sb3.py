@@ -237,8 +237,9 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         if self._actions is None:
             raise RuntimeError("step_wait before step_async: there are no actions")
         actions, self._actions = self._actions, None
-        if len(actions) != self.num_envs:
-            raise ValueError(f"actions: expected {self.num_envs} rows, got {len(actions)}")
+        shape = (self.num_envs, *(self.action_space.shape or ()))
+        if actions.shape != shape:
+            raise ValueError(f"actions: expected shape {shape}, got {actions.shape}")
         k = len(self.robots)
         outcome = self._matches.step(actions.reshape(self.matches, k, *actions.shape[1:]))
         ends = outcome.ended

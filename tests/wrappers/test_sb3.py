@@ -289,7 +289,7 @@ def test_bad_steps_are_refused() -> None:
     envs.reset()
     with pytest.raises(RuntimeError, match="step_wait before step_async"):
         envs.step_wait()
-    with pytest.raises(ValueError, match="actions: expected 3 rows, got 2"):
+    with pytest.raises(ValueError, match=r"actions: expected shape \(3, 2\), got \(2, 2\)"):
         envs.step(np.zeros((2, 2), np.float32))
     envs.close()
     with pytest.raises(gymnasium.error.ClosedEnvironmentError):
