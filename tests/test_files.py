@@ -99,6 +99,13 @@ def test_bytes_that_are_no_safetensors_are_refused(content: bytes) -> None:
         read_safetensors(content)
 
 
+def test_half_precision_is_read_as_single_precision() -> None:
+    half = np.array([[1.5, -0.25, 65504.0]], np.float16)
+    found, _ = read_safetensors(save({"a": half, "b": np.ones(3, np.float32)}))
+    assert {array.dtype for array in found.values()} == {np.dtype(np.float32)}
+    np.testing.assert_array_equal(found["a"], half.astype(np.float32))
+
+
 def test_a_refused_type_is_named() -> None:
-    with pytest.raises(ValueError, match="array 'a' should be float32, got BF16"):
+    with pytest.raises(ValueError, match="'a' should be float32 or float16, got BF16"):
         read_safetensors(file_of({"a": entry("BF16", (4,))}))

@@ -71,11 +71,12 @@ def ship(
     if "layout" not in network.metadata:
         raise ValueError(f"run: expected a policy with its layout in {run}, got none")
     training = _training(run)
-    scores = _scores(run / f"policy{SUFFIX}", task, opponents, starts, threads)
-    network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
     path = trained.FOLDER / f"{task.name}{SUFFIX}"
     candidate = run / f"{task.name}{SUFFIX}"
-    network.save(candidate)
+    network.save(candidate, half_precision=True)  # scores are those of the rounded weights
+    scores = _scores(candidate, task, opponents, starts, threads)
+    network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
+    network.save(candidate, half_precision=True)
     if candidate.stat().st_size > MAX_SIZE:
         raise ValueError(f"run: expected a policy of at most {MAX_SIZE} bytes, got {candidate}")
     if path.exists():

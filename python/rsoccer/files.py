@@ -68,7 +68,7 @@ def safetensors_bytes(arrays: Mapping[str, NDArray[Any]], metadata: Mapping[str,
 
 
 def read_safetensors(content: bytes) -> tuple[dict[str, NDArray[np.float32]], dict[str, str]]:
-    """Read a safetensors file of float32 arrays, without the library of that name.
+    """Read a safetensors file of float32 and float16 arrays, without the library of that name.
 
     A file is the length of its header, the header in JSON, and the numbers of the arrays, one array
     after the other. The header has the type, shape and place of each array by name, and the
@@ -78,7 +78,7 @@ def read_safetensors(content: bytes) -> tuple[dict[str, NDArray[np.float32]], di
         content: the bytes of the file.
 
     Returns:
-        Copies of the arrays by name, and the metadata by key.
+        Copies of the arrays by name, as float32, and the metadata by key.
 
     Raises:
         ValueError: bytes of another format, a truncated file, or an array of another type.
@@ -105,19 +105,24 @@ def read_safetensors(content: bytes) -> tuple[dict[str, NDArray[np.float32]], di
 
 
 class _WrongType(ValueError):
-    """An array that is not float32."""
+    """An array that is neither float32 nor float16."""
+
+
+_TYPES: Final = {"F32": "<f4", "F16": "<f2"}
+"""Types of numbers in files, and in NumPy."""
 
 
 def _array(name: str, entry: Mapping[str, Any], data: memoryview) -> NDArray[np.float32]:
     """Copy of an array from its entry in the header and its bytes."""
-    if entry["dtype"] != "F32":
-        raise _WrongType(f"array {name!r} should be float32, got {entry['dtype']}")
+    if entry["dtype"] not in _TYPES:
+        raise _WrongType(f"array {name!r} should be float32 or float16, got {entry['dtype']}")
+    dtype = np.dtype(_TYPES[entry["dtype"]])
     shape = entry["shape"]
     if not all(type(size) is int and size >= 0 for size in shape):
         raise ValueError(f"shape {shape} of {name!r}")
-    if math.prod(shape) * 4 != len(data):
+    if math.prod(shape) * dtype.itemsize != len(data):
         raise ValueError(f"{len(data)} bytes for shape {shape} of {name!r}")
-    return np.frombuffer(data, "<f4").reshape(shape).astype(np.float32)
+    return np.frombuffer(data, dtype).reshape(shape).astype(np.float32)
 
 
 def _are_consecutive(places: list[tuple[Any, ...]], length: int) -> bool:

@@ -247,16 +247,21 @@ class Network(HeldActions):
         network.mode = _checked_mode(mode, network.action_std)
         return network
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, half_precision: bool = False) -> None:
         """Write the policy file atomically; equal policies give equal bytes.
 
         Args:
             path: the file; an existing one is replaced.
+            half_precision: write the weights as float16, in half the size and with 3 digits.
 
         Raises:
             ImportError: safetensors is not installed.
         """
-        policy_file.write_file(Path(path), self.arrays(), self.metadata)
+        arrays: dict[str, Array] = dict(self.arrays())
+        if half_precision:
+            weights = [name for name in arrays if name.endswith(".weight")]
+            arrays |= {name: arrays[name].astype(np.float16) for name in weights}
+        policy_file.write_file(Path(path), arrays, self.metadata)
 
     def _sizes(self) -> dict[str, int]:
         return {"observation_size": self.observation_size, "action_size": self.action_size}

@@ -12,7 +12,8 @@ size a and layers 0 to k:
 | `std` | (o,) | float32 | standard deviation of the observations in training, above 0 |
 | `action_std` | (a,) | float32 | standard deviation of the actions in training, above 0; optional |
 
-All numbers are finite. The metadata are text:
+All numbers are finite. Arrays may be float16, which is half the size; they are read as float32.
+The metadata are text:
 
 | key | value | meaning |
 | --- | --- | --- |
@@ -284,7 +285,7 @@ def read_file(path: Path) -> tuple[dict[str, Array], dict[str, str]]:
 
     Raises:
         FileNotFoundError: no such file.
-        ValueError: not a safetensors file, a truncated one, or arrays that are not float32.
+        ValueError: not a safetensors file, a truncated one, or arrays of other types.
     """
     if path.is_dir():
         raise ValueError("it is a folder")
