@@ -76,6 +76,25 @@ def test_holding_the_ball_is_not_rewarded() -> None:
     assert abs(sum(float(np.abs(term).sum()) for term in outcome.terms.values())) < 1e-3
 
 
+def approach_rewards(start: Frame) -> list[float]:
+    """Sum of the term `approach` of both robots, while blue_1 drives to blue_0 for half a second."""
+    matches = Matches(TASK, 1, autoreset="disabled")
+    matches.reset(rows=start.rows)
+    total = np.zeros(2)
+    for _ in range(20):
+        outcome = matches.step(np.array([[DRIBBLE, (-0.2, 0.0, 0.0, -1.0, 1.0)]], np.float32))
+        total += outcome.terms["approach"][0]
+    return [float(value) for value in total]
+
+
+def test_the_receiver_is_rewarded_for_going_to_a_ball_on_its_way_alone() -> None:
+    held = scene(TASK, ball=(-0.907, 0.0), blue_0=(-1.0, 0.0), blue_1=(2.0, 0.0, np.pi))
+    assert approach_rewards(held) == [0.0, 0.0]
+    holder, receiver = approach_rewards(passing(3.0, 2.0))
+    assert holder == 0.0
+    assert receiver > 0.3
+
+
 def test_passer_solves_the_task() -> None:
     task = SslPassEnduranceMulti(max_steps=500)
     solved, uniform = play(task, "passer", worlds=10), play(task, "uniform", worlds=10)

@@ -38,7 +38,7 @@ class SslPassEnduranceMulti(SslPass):
     ball_to_teammate  decrease of the distance between the ball and the receiver,     m
                       to both robots
     approach          decrease of the distance between the ball and the receiver's    m
-                      mouth, to the receiver
+                      mouth, to the receiver, while the ball is on its way
     failed            1 if the pass failed, to both robots                            episodes
     energy            negative mean magnitude of the action                           steps
     ================  ==============================================================  ========
@@ -113,11 +113,12 @@ class SslPassEnduranceMulti(SslPass):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a failed pass terminates."""
         worlds, memory = np.arange(len(play.frame)), play.memory
-        receiver = 1 - memory["holder"]
+        receiver, was_on_its_way = 1 - memory["holder"], memory["on_its_way"].copy()
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)
         progress = (last_distance - distance)[worlds, receiver]
-        is_receiver = receiver[:, None] == play.observers  # (n, observers)
+        # A receiver that were paid for walking up to the holder would do so instead of passing.
+        receives = was_on_its_way[:, None] & (receiver[:, None] == play.observers)
         passed = self._update_passes(play.frame, memory, worlds, receiver)
         # From here on the holder may be the former receiver.
         released = distance[worlds, memory["holder"]] > self.mouth_offset + RELEASE_DISTANCE
@@ -128,7 +129,7 @@ class SslPassEnduranceMulti(SslPass):
         terms = {
             "passes": passed[:, None].astype(np.float32),
             "ball_to_teammate": progress[:, None],
-            "approach": rewards.approach_mouth(play, self.config) * is_receiver,
+            "approach": rewards.approach_mouth(play, self.config) * receives,
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
