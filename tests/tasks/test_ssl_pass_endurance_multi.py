@@ -77,7 +77,7 @@ def test_holding_the_ball_is_not_rewarded() -> None:
 
 
 def approach_rewards(start: Frame) -> list[float]:
-    """Sum of the term `approach` of both robots, while blue_1 drives to blue_0 for half a second."""
+    """Sum of the term `approach` of both robots while blue_1 drives to blue_0 for .5 s."""
     matches = Matches(TASK, 1, autoreset="disabled")
     matches.reset(rows=start.rows)
     total = np.zeros(2)
