@@ -50,13 +50,15 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         **_SSL,
         "samples": 20 * M,
         "action_std": 0.3,
+        "final_action_std": 0.03,
         "initial_action": _KEEP_BALL,
         "robot_units": 16,
     },
     "SSLContestedPossession-v0": {
         **_SSL,
-        "samples": 20 * M,
+        "samples": 30 * M,
         "gamma": 0.985,
+        "final_action_std": 0.02,
         "initial_action": _KEEP_BALL,
         # With the default of -1 policies learn to stay away from the opponent.
         "task_options": {"random_start": True, "reward_weights": {"failed": -0.3}},
@@ -76,11 +78,13 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     },
     "SSLPassEnduranceMulti-v0": {
         **_SSL,
-        "samples": 8 * M,
+        "samples": 20 * M,
+        "action_std": 0.3,
         "initial_action": _KEEP_BALL,
-        # Two robots that both begin to learn walk up to each other instead of passing.
-        "solo_fraction": 0.6,
-        "solo_partners": "passer",
+        # Both robots learn from the start: beside the script `passer`, which goes to any pass, a
+        # robot learns passes that a copy of itself never receives.
+        "solo_fraction": 0.0,
+        "task_options": {"reward_weights": {"failed": -0.2, "ball_to_teammate": 0.2}},
     },
 }
 """Fields of `Args` with their values, by the name of the task."""
