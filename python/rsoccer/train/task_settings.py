@@ -86,6 +86,18 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "solo_fraction": 0.0,
         "task_options": {"reward_weights": {"failed": -0.2, "ball_to_teammate": 0.2}},
     },
+    "SSLSelfPlay-v0": {
+        **_SSL,
+        "samples": 20 * M,
+        "random_truncation": 0.002,
+        "action_std": 0.3,
+        "initial_action": _KEEP_BALL,
+        "worlds": 256,
+        "solo_fraction": 0.3,
+        "opponents": {"ou": 1.0, "zero": 1.0, "strike": 2.0},
+        "latest_fraction": 0.3,
+        "past_fraction": 0.2,
+    },
 }
 """Fields of `Args` with their values, by the name of the task."""
 
