@@ -13,7 +13,7 @@ import rsoccer
 from rsoccer import cli, commands
 from rsoccer.policies import trained
 from rsoccer.replay import Replay, record_replay
-from rsoccer.train import task_settings
+from rsoccer.train import Args, task_settings
 from tests.policies.networks import network_for
 
 
@@ -233,7 +233,7 @@ def test_train_starts_from_the_recommended_settings(
     assert (first.task, first.gamma, first.hidden_sizes) == ("VSS-v0", 0.5, (7, 7))
     assert first.task_options == {"opponent": "chase"}
     assert (second.gamma, second.hidden_sizes) == (0.5, (9,))
-    assert (third.task, third.gamma) == ("VSSSelfPlay-v0", 0.97)
+    assert (third.task, third.gamma) == ("VSSSelfPlay-v0", Args.gamma)
     with pytest.raises(SystemExit):
         cli.main(["train", *words, "--help"])
     assert "(default: 0.5)" in capsys.readouterr().out

@@ -4,6 +4,7 @@ from pathlib import Path
 import pytest
 
 from benches.learning.__main__ import main
+from rsoccer.train.args import Args
 
 TABLE = "tests.benches.learning.tiny_table"
 
@@ -75,10 +76,10 @@ def test_changed_settings_make_a_run_stale(
 ) -> None:
     path = result_of(folders, "ppo/VSS-v0/seed-0")
     before = path.read_text()
-    path.write_text(before.replace('"gamma": 0.97', '"gamma": 0.9'))
+    path.write_text(before.replace(f'"gamma": {Args.gamma}', '"gamma": 0.9'))
     try:
         main([*folders, "--list", "--only", "VSS-v0/seed-0"])
-        assert "stale  gamma was 0.9, now 0.97" in capsys.readouterr().out
+        assert f"stale  gamma was 0.9, now {Args.gamma}" in capsys.readouterr().out
         assert main([*folders, "--only", "VSS-v0/seed-0"]) == 0
         printed = capsys.readouterr().out
         assert "stale, kept as it is: ppo/VSS-v0/seed-0" in printed
