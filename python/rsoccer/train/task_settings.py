@@ -38,11 +38,9 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "samples": 20 * M,
         # Opponents that stand still or defend well are rare in self-play, and a policy that never
         # met them draws against them.
-        "opponents": {"ou": 1.0, "zero": 1.0, "chase": 1.0, "scripted": 2.0},
-        # One learner wins against noise after 3 M samples; the rest of the run is for the teams.
-        "solo_fraction": 0.15,
-        "latest_fraction": 0.3,
-        "past_fraction": 0.2,
+        "opponents": {"ou": 1.0, "zero": 1.0, "chase": 2.0, "scripted": 3.0},
+        "latest_fraction": 0.1,
+        "past_fraction": 0.1,
     },
     "SSLGoToBall-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
     "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
