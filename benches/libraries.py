@@ -38,22 +38,21 @@ def required(module: str) -> ModuleType:
         raise UnavailableError(str(error)) from error
 
 
-def sb3(task: str, worlds: int, *, normalized: bool = False, wrapped: bool = False) -> Measure:
-    """Return a measure of `rsoccer.sb3.SoccerVecEnv`, which reports episodes itself.
+def sb3(task: str, worlds: int, normalizer: str = "") -> Measure:
+    """Return a measure of `rsoccer.sb3.SoccerVecEnv`.
 
     Args:
         task: Name of the task.
         worlds: Number of matches.
-        normalized: Whether `rsoccer.sb3.SoccerVecNormalize` is around it.
-        wrapped: Whether the library's `VecMonitor` and `VecNormalize` are around it.
+        normalizer: `SoccerVecNormalize` or `VecNormalize`, around a `VecMonitor` around it; ""
+            for neither.
     """
     ours = required("rsoccer.sb3")
     envs = ours.SoccerVecEnv(task, worlds)
-    if wrapped:
-        wrappers = required("stable_baselines3.common.vec_env")
-        envs = wrappers.VecNormalize(wrappers.VecMonitor(envs))
-    if normalized:
-        envs = ours.SoccerVecNormalize(envs)
+    if normalizer:
+        library = required("stable_baselines3.common.vec_env")
+        source = ours if normalizer == "SoccerVecNormalize" else library
+        envs = getattr(source, normalizer)(library.VecMonitor(envs))
     envs.seed(0)
     return _rows(envs, worlds)
 

@@ -255,8 +255,10 @@ def through_libraries(sizes: tuple[int, ...]) -> Iterator[Benchmark]:
         yield through_library(task, sizes, robots)
     rows: dict[str, Start] = {
         "SB3 SoccerVecEnv": libraries.sb3,
-        "SB3 SoccerVecEnv, SoccerVecNormalize": partial(libraries.sb3, normalized=True),
-        "SB3 SoccerVecEnv, monitored and normalized": partial(libraries.sb3, wrapped=True),
+        **{
+            f"SB3 SoccerVecEnv, VecMonitor, {name}": partial(libraries.sb3, normalizer=name)
+            for name in ("SoccerVecNormalize", "VecNormalize")
+        },
     }
     loop: dict[str, Start] = {"SB3 DummyVecEnv": libraries.sb3_dummy}
     yield through_library(TEAM_TASK, sizes, rows)
