@@ -183,14 +183,14 @@ def test_train_takes_options_of_the_task(monkeypatch: pytest.MonkeyPatch) -> Non
     received: list[Any] = []
     monkeypatch.setattr(commands, "train", received.append)
     words = ["n_blue=2", "opponent=scripted:0.5", "reward_weights={'goal': 3}", "discrete=False"]
-    assert cli.main(["train", "--task-options", *words, "--final-action-std", "0.1"]) == 0
+    assert cli.main(["train", "--task-options", *words, "--final-action-std", "0.3"]) == 0
     assert received[0].task_options == {
         "n_blue": 2,
         "opponent": "scripted:0.5",
         "reward_weights": {"goal": 3},
         "discrete": False,
     }
-    assert received[0].final_action_std == 0.1
+    assert received[0].final_action_std == 0.3
     assert cli.main(["train"]) == 0
     assert received[1].task_options == {}
 

@@ -60,6 +60,8 @@ TINY = {
     "hidden_sizes": (16,),
     "n_epochs": 2,
     "n_minibatches": 2,
+    "random_truncation": 0.01,  # three in a run
+    "final_action_std": None,  # learned; tests of ablations anneal it
     "threads": 1,
     "latest_fraction": 0.4,
     "past_fraction": 0.4,

@@ -91,7 +91,7 @@ def test_an_update_starts_at_a_ratio_of_1_and_sees_twice_the_samples(
 
 
 def test_learning_makes_the_values_nearly_symmetric(tmp_path: Path) -> None:
-    trainer = Trainer(tiny(tmp_path, worlds=32, n_epochs=40, target_kl=1e3, **SYMMETRIC))
+    trainer = Trainer(tiny(tmp_path, worlds=32, n_epochs=80, target_kl=1e3, **SYMMETRIC))
     batch = trainer.collect_rollout(lambda: None)
     both = with_reflections(batch, trainer.task, trainer.model)
     deviations = []
