@@ -58,12 +58,18 @@ def test_resume_and_overwrite_exclude_each_other() -> None:
         Args(resume=True, overwrite=True)
 
 
+def test_an_adaptive_learning_rate_needs_updates_that_can_be_cut_short() -> None:
+    with pytest.raises(ValueError, match="n_epochs must be at least 2"):
+        Args(learning_rate_schedule="adaptive", n_epochs=1)
+    assert Args(learning_rate_schedule="adaptive", n_epochs=2).n_epochs == 2
+
+
 def test_settings_make_a_round_trip_through_json() -> None:
     args = Args(
         out=Path("somewhere"),
         hidden_sizes=(32, 16),
         task_options={"n_blue": 2, "reward_weights": {"goal": 5.0}},
-        final_action_std=0.1,
+        final_action_std=0.2,
         opponents={"ou": 2, "chase": 1},
         masked_observations=("shot",),
     )
@@ -85,8 +91,8 @@ def test_a_saved_run_may_lack_settings_that_are_newer() -> None:
     saved = Args(seed=1).to_json()
     del saved["final_action_std"], saved["task_options"]
     assert Args(seed=1).differences(saved) == []
-    assert Args(seed=1, final_action_std=0.1).differences(saved) == [
-        "final_action_std was None, now 0.1"
+    assert Args(seed=1, final_action_std=0.2).differences(saved) == [
+        "final_action_std was 0.1, now 0.2"
     ]
 
 

@@ -38,9 +38,9 @@ CHANGEABLE_ON_RESUME = (
     "ladder_interval",
     "ladder_matches",
 )
-"""Fields that may change when a run resumes. Two of them affect the updates: the learning rate, and
-the spread of actions if it has a final value, change towards the end that `samples` sets, and each
-`device` rounds in its own way."""
+"""Fields that may change when a run resumes. Two of them affect the updates: the learning rate in
+its linear schedule, and the spread of actions if it has a final value, change towards the end that
+`samples` sets, and each `device` rounds in its own way."""
 
 
 # The docstrings of the fields are the help of `rsoccer train`, which keeps their line breaks.
@@ -50,7 +50,8 @@ class Args:
 
     Raises:
         ValueError: a value outside its range, fractions of opponents whose sum is above 1, options
-            of the task that are not JSON values, or `resume` together with `overwrite`.
+            of the task that are not JSON values, `resume` together with `overwrite`, or an adaptive
+            learning rate with one epoch.
     """
 
     task: str = "VSSSelfPlay-v0"
@@ -141,7 +142,8 @@ class Args:
     target_kl: float = 0.02
     """KL divergence from the policy that played, above 0, at which the epochs of an update stop"""
     entropy_coef: float = 0.002
-    """weight of the entropy bonus, at least 0; raise it if the robots stop exploring early"""
+    """weight of the entropy bonus, at least 0, where `final_action_std` is None;
+    raise it if the robots stop exploring early"""
     value_coef: float = 0.5
     """weight of the value loss, at least 0"""
     max_grad_norm: float = 0.5
@@ -235,6 +237,9 @@ class Args:
             raise ValueError(f"latest_fraction + past_fraction must be at most 1, got {total:g}")
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
+        if self.learning_rate_schedule == "adaptive" and self.n_epochs == 1:
+            # An only pass is never cut short, so the rate would never fall.
+            raise ValueError("n_epochs must be at least 2 if learning_rate_schedule is adaptive")
 
     @classmethod
     def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)
@@ -284,7 +289,7 @@ class Args:
                 the run, and count with their defaults.
 
         Returns:
-            One text per field, such as "gamma was 0.97, now 0.9"; empty if the run may resume.
+            One text per field, such as "gamma was 0.985, now 0.9"; empty if the run may resume.
             Fields in `CHANGEABLE_ON_RESUME` are ignored.
         """
         current = self.to_json()

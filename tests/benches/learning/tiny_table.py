@@ -9,7 +9,7 @@ TINY: Final[dict[str, Any]] = {
     "worlds": 10,
     "horizon": 20,
     "hidden_sizes": (8,),
-    "n_epochs": 1,
+    "n_epochs": 2,
     "n_minibatches": 1,
     "ladder_matches": 4,
 }
