@@ -68,6 +68,14 @@ def test_weights_are_rounded_once_in_half_precision(tmp_path: Path) -> None:
     assert paths[1].stat().st_size < paths[0].stat().st_size
 
 
+def test_weights_beyond_half_precision_are_refused(tmp_path: Path) -> None:
+    arrays, metadata = network_parts()
+    arrays["layers.0.weight"][0, 0] = -1e5
+    with pytest.raises(ValueError, match=r"layers\.0\.weight: expected at most 65504, got 100000"):
+        Network(arrays, metadata).save(tmp_path / "policy", half_precision=True)
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "policy.safetensors"
     network = Network(*network_parts())

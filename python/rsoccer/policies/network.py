@@ -256,11 +256,16 @@ class Network(HeldActions):
 
         Raises:
             ImportError: safetensors is not installed.
+            ValueError: a weight above 65,504, the greatest number of float16.
         """
         arrays: dict[str, Array] = dict(self.arrays())
         if half_precision:
-            weights = [name for name in arrays if name.endswith(".weight")]
-            arrays |= {name: arrays[name].astype(np.float16) for name in weights}
+            limit = np.finfo(np.float16).max
+            for name in [name for name in arrays if name.endswith(".weight")]:
+                largest = np.abs(arrays[name]).max()
+                if largest > limit:
+                    raise ValueError(f"{name}: expected at most {limit:.0f}, got {largest:g}")
+                arrays[name] = arrays[name].astype(np.float16)
         policy_file.write_file(Path(path), arrays, self.metadata)
 
     def _sizes(self) -> dict[str, int]:
@@ -285,7 +290,7 @@ def _weights_and_biases(
     given: list[Any] = list(layers)
     if not given:
         raise ValueError("layers: expected one or more, got none")
-    if callable(given[0]):
+    if callable(given[0]):  # a module; torch is not imported for pairs of arrays
         given = _pairs_of_modules(given)
     return [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in given]
 
