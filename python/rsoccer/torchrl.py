@@ -36,6 +36,7 @@ except ImportError as error:
 GroupMap = Mapping[str, Sequence[str]]
 """Names of the learners by group."""
 ENDS = ("done", "terminated", "truncated")
+"""Keys of the ends of episodes."""
 
 
 class SoccerEnv(EnvBase):

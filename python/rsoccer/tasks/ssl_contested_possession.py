@@ -29,7 +29,9 @@ class SslContestedPossession(SslAttack):
 
     Initial state: blue_0 at the centre, facing the goal; an opponent at a random position in its
     half, outside its goal area, with a random heading and the ball in its mouth. With `scenario`,
-    the poses of an official scenario. The opponent keeps its position with the dribbler on.
+    the poses of an official scenario. The opponent keeps its position with the dribbler on. With
+    `random_start` half of the episodes start with blue_0 at a random position in the opponent's
+    half, and the ball in its mouth.
 
     Source: SSL hardware challenges 2021, challenge 2, and the rSoccer paper (2021).
     """

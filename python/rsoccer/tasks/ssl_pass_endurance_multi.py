@@ -117,7 +117,7 @@ class SslPassEnduranceMulti(SslPass):
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)
         progress = (last_distance - distance)[worlds, receiver]
-        # A receiver that were paid for walking up to the holder would do so instead of passing.
+        # Robots that are rewarded for going to a ball that is held walk up to each other.
         receives = was_on_its_way[:, None] & (receiver[:, None] == play.observers)
         passed = self._update_passes(play.frame, memory, worlds, receiver)
         # From here on the holder may be the former receiver.

@@ -30,7 +30,8 @@ class SslStaticDefenders(SslAttack):
     Initial state: blue_0 at the centre, facing the goal; the ball and the opponents at random
     positions in the opponents' half, outside their goal area, opponents with random headings. With
     `scenario`, the ball and the opponents of an official scenario, one of them perhaps in the goal
-    area. The opponents keep their positions with the dribbler on.
+    area. The opponents keep their positions with the dribbler on. With `random_start` half
+    of the episodes start with blue_0 at a random position there, and the ball in its mouth.
 
     Source: SSL hardware challenges 2021, challenge 1, and the rSoccer paper (2021).
     """

@@ -10,7 +10,8 @@ class VssSelfPlay(Vss):
     """VSSS match in which all robots of both teams learn.
 
     Each robot observes the game from its own side, so one policy can control both teams. Goal of
-    the task, initial state, reward terms, termination and metrics are those of `Vss`.
+    the task, initial state, reward terms, termination and metrics are those of `Vss`. The option
+    `free_ball` is on.
     """
 
     free_ball: bool = True
