@@ -1,8 +1,9 @@
 """Put a run's policy into the package: `python -m tools.ship_policy out/mine`.
 
-The policy plays a fixed list of starts, from both sides where the task has two, against each
-opponent. Its scores and how it was made go into the metadata of the file, which is copied to
-`python/rsoccer/policies/trained/<task>.safetensors`. There it is the policy `best` of its task.
+Its weights are rounded to half precision. The policy plays a fixed list of starts, from both sides
+where the task has two, against each opponent. Its scores and how it was made go into the metadata
+of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There it is
+the policy `best` of its task.
 """
 
 import argparse
