@@ -20,8 +20,7 @@ BEST: Final = "best"
 CLONED: Final = "VSS-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
-Each robot is then a clone of its single learner: `VSSMulti-v0`, `VSSSelfPlay-v0` and tasks derived
-from them.
+Each robot is then a clone of its single learner, as in `VSSSelfPlay-v0` and tasks derived from it.
 """
 FOLDER = Path(__file__).parent
 """Folder of the files."""
