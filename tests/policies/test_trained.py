@@ -32,24 +32,24 @@ def save(folder: Path, task_name: str, **metadata: str) -> Path:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Replace the files of the package by one for VSS-v0."""
+    """Replace the files of the package by one for VSSMulti-v0."""
     monkeypatch.setattr(trained, "FOLDER", tmp_path)
-    save(tmp_path, "VSS-v0")
+    save(tmp_path, "VSSMulti-v0")
     return tmp_path
 
 
 @pytest.mark.parametrize("name", ["VSS-v0", "VSSMulti-v0", "VSSSelfPlay-v0"])
-def test_vsss_tasks_without_a_file_have_clones_of_one_learner(name: str, folder: Path) -> None:
+def test_vsss_tasks_without_a_file_have_the_policy_of_teams(name: str, folder: Path) -> None:
     policy = policies.make_policy("best", rsoccer.make_task(name))
     assert isinstance(policy, Network)
-    assert (policy.task_name, policy.mode) == ("VSS-v0", "sample")
+    assert (policy.task_name, policy.mode) == ("VSSMulti-v0", "sample")
     save(folder, name, clip="5")
     own = policies.make_policy("best", rsoccer.make_task(name))
     assert isinstance(own, Network)
     assert (own.task_name, float(own.clip)) == (name, 5.0)
 
 
-def test_a_derived_task_has_clones_if_its_observations_are_equal(folder: Path) -> None:
+def test_a_derived_task_has_it_if_its_observations_are_equal(folder: Path) -> None:
     @dataclass(frozen=True)
     class Derived(VssSelfPlay):
         name = "Derived-v0"
@@ -73,12 +73,14 @@ def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
     save(folder, "SSLGoToBall-v0")
     message = (
         r"best: expected a task with a trained policy, got SSLDribbling-v0; there are policies "
-        r"for SSLGoToBall-v0, VSS-v0 \(and tasks with its observations\)"
+        r"for SSLGoToBall-v0, VSSMulti-v0 \(and tasks with its observations\)"
     )
     with pytest.raises(ValueError, match=message):
         policies.make_policy("best", rsoccer.make_task("SSLDribbling-v0"))
-    with pytest.raises(ValueError, match="best: a network trained on 'VSS-v0' has observation_s"):
-        policies.make_policy("best", rsoccer.make_task("VSS-v0", n_yellow=5))
+    with pytest.raises(
+        ValueError, match="best: a network trained on 'VSSMulti-v0' has observation_s"
+    ):
+        policies.make_policy("best", rsoccer.make_task("VSSMulti-v0", n_yellow=5))
     for path in folder.iterdir():
         path.unlink()
     with pytest.raises(ValueError, match="there are policies for no task"):
@@ -88,7 +90,7 @@ def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
 def test_best_plays_wherever_a_policy_is_named(folder: Path) -> None:
     by_name = Matches("VSSSelfPlay-v0", 2, controllers={"yellow": "best"})
     by_file = Matches(
-        "VSSSelfPlay-v0", 2, controllers={"yellow": str(folder / "VSS-v0.safetensors")}
+        "VSSSelfPlay-v0", 2, controllers={"yellow": str(folder / "VSSMulti-v0.safetensors")}
     )
     for matches in (by_name, by_file):
         matches.reset()
@@ -137,8 +139,8 @@ def test_scores_are_kept_in_the_metadata(folder: Path) -> None:
 # -- files in the package -----------------------------------------------------------------------
 
 
-def test_there_is_a_policy_for_the_task_of_one_learner() -> None:
-    assert trained.CLONED in SHIPPED
+def test_there_is_a_policy_for_teams() -> None:
+    assert trained.TEAM_TASK in SHIPPED
 
 
 @pytest.mark.parametrize("name", SHIPPED)

@@ -17,10 +17,10 @@ from rsoccer.task import Task
 
 BEST: Final = "best"
 """Name of the trained policy of the task that is played."""
-CLONED: Final = "VSS-v0"
+TEAM_TASK: Final = "VSSMulti-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
-Each robot is then a clone of its single learner, as in `VSSSelfPlay-v0` and tasks derived from it.
+These are `VSSSelfPlay-v0` and tasks derived from it, in which whole teams play.
 """
 FOLDER = Path(__file__).parent
 """Folder of the files."""
@@ -39,7 +39,7 @@ def load_best(task: Task, mode: str | None = None) -> Network:
         mode: "sample" or "mean"; None is as in training.
 
     Returns:
-        The network of the task's own file, or of `CLONED` where its observations are equal.
+        The network of the task's own file, or of `TEAM_TASK` where its observations are equal.
 
     Raises:
         ValueError: no policy for this task, one that does not fit its options, or an unknown mode.
@@ -55,11 +55,11 @@ def load_best(task: Task, mode: str | None = None) -> Network:
             raise ValueError(f"{BEST}: {error}") from error
         return network
     names = list(files)
-    if CLONED in files:
-        network = Network.load(files[CLONED], mode)
+    if TEAM_TASK in files:
+        network = Network.load(files[TEAM_TASK], mode)
         if network.metadata.get("layout") == task.layout:
             return network
-        names[names.index(CLONED)] += " (and tasks with its observations)"
+        names[names.index(TEAM_TASK)] += " (and tasks with its observations)"
     raise ValueError(
         f"{BEST}: expected a task with a trained policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
