@@ -100,7 +100,7 @@ def test_the_environment_reports_common_ends_and_metrics() -> None:
         assert np.array_equal(np.stack(list(observations.values())), outcome.final_observations[0])
         assert list(rewards.values()) == outcome.rewards[0].tolist()
         assert (terminateds, truncateds) == ({"__all__": False}, {"__all__": truncated})
-    assert infos["yellow_2"] == {"goal_score": 0.0, "steps": 2.0}
+    assert infos["yellow_2"] == {"goal_score": 0.0, "free_balls": 0.0, "steps": 2.0}
 
 
 def test_the_environment_names_what_it_refuses() -> None:

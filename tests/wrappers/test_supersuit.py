@@ -34,7 +34,8 @@ def test_the_robots_of_a_match_are_a_vector_with_autoreset() -> None:
         assert not terminated.any()
         ended = step % MAX_CYCLES == 0
         assert truncated.tolist() == [ended] * ROBOTS
-        names = {"terminal_observation", "goal_score", "steps", "TimeLimit.truncated"}
+        metrics = {"goal_score", "free_balls", "steps"}
+        names = {"terminal_observation", "TimeLimit.truncated"} | metrics
         assert all(set(info) == (names if ended else set()) for info in infos)
 
 
