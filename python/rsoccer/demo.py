@@ -16,7 +16,7 @@ from rsoccer.train import Args, train
 from rsoccer.train.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 1_600_000
+SAMPLES = 3_000_000
 """Default number of decisions to learn from: two to three minutes on two cores."""
 LADDER_INTERVAL = 25
 """Updates between two points of the learning curve."""

@@ -329,6 +329,12 @@ def normalized(ours: bool, **settings: Any) -> Any:  # noqa: ANN401
     return wrapper(vec_env.VecMonitor(many("VSSMulti-v0", 4)), **settings)
 
 
+def expect_close(pair: list[Any], *, rtol: float, atol: float = 0.0) -> None:
+    """Expect two arrays to be equal within tolerances."""
+    ours, theirs = pair
+    np.testing.assert_allclose(ours, theirs, rtol=rtol, atol=atol)
+
+
 @pytest.mark.parametrize(
     "settings",
     [
@@ -344,7 +350,7 @@ def test_normalized_rollouts_equal_those_of_the_library(settings: dict[str, Any]
     for envs in pair:
         envs.seed(3)
     first = [envs.reset() for envs in pair]
-    np.testing.assert_allclose(*first, rtol=1e-5, atol=1e-5)
+    expect_close(first, rtol=1e-5, atol=1e-5)
     rng = np.random.default_rng(0)
     ended = 0
     for _ in range(3 * MAX_STEPS):
@@ -370,17 +376,17 @@ def test_normalized_rollouts_equal_those_of_the_library(settings: dict[str, Any]
         originals = [envs.get_original_obs() for envs in pair]
         np.testing.assert_array_equal(*originals)
         np.testing.assert_array_equal(*[envs.get_original_reward() for envs in pair])
-        np.testing.assert_allclose(*[envs.returns for envs in pair], rtol=1e-12)
+        expect_close([envs.returns for envs in pair], rtol=1e-12)
         if settings.get("norm_obs", True):
             again = [envs.normalize_obs(originals[0]) for envs in pair]
             np.testing.assert_allclose(again[0], ours[0])
             moments = [envs.obs_rms for envs in pair]
-            np.testing.assert_allclose(*[each.mean for each in moments], rtol=1e-5, atol=1e-6)
-            np.testing.assert_allclose(*[each.var for each in moments], rtol=1e-5, atol=1e-6)
+            expect_close([each.mean for each in moments], rtol=1e-5, atol=1e-6)
+            expect_close([each.var for each in moments], rtol=1e-5, atol=1e-6)
             assert moments[0].count == moments[1].count
         moments = [envs.ret_rms for envs in pair]
-        np.testing.assert_allclose(*[each.mean for each in moments], rtol=1e-9)
-        np.testing.assert_allclose(*[each.var for each in moments], rtol=1e-9)
+        expect_close([each.mean for each in moments], rtol=1e-9)
+        expect_close([each.var for each in moments], rtol=1e-9)
         assert moments[0].count == moments[1].count
         ours[0][:] = ours[1][:] = 1e9  # results belong to the caller
     assert ended == 3 * pair[0].num_envs
