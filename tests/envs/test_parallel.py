@@ -57,7 +57,11 @@ def test_a_goal_terminates_for_all_agents() -> None:
     assert rewards["blue_0"] > 5.0
     assert rewards["yellow_0"] < -5.0
     assert match.score == (1, 0)
-    assert match.last_metrics == {"goal_score": 1.0, "steps": round(match.clock / 0.025)}
+    assert match.last_metrics == {
+        "goal_score": 1.0,
+        "free_balls": 0.0,
+        "steps": round(match.clock / 0.025),
+    }
     assert 0.0 < match.clock < 1.0
 
 
@@ -72,7 +76,7 @@ def test_the_time_limit_truncates_for_all_agents() -> None:
     assert match.agents == []
     assert set(terminations.values()) == {False}
     assert set(truncations.values()) == {True}
-    assert match.last_metrics == {"goal_score": 0.0, "steps": 3.0}
+    assert match.last_metrics == {"goal_score": 0.0, "free_balls": 0.0, "steps": 3.0}
     assert match.clock == pytest.approx(0.075)
 
 
@@ -185,8 +189,8 @@ def test_the_last_infos_hold_the_metrics() -> None:
     still = {agent: np.zeros(2, np.float32) for agent in match.agents}
     every = [match.step(still)[4] for _ in range(3)]
     assert every[:2] == [{agent: {} for agent in match.possible_agents}] * 2
-    expected = {"goal_score": 0.0, "steps": 3.0, "TimeLimit.truncated": True}
+    expected = {"goal_score": 0.0, "free_balls": 0.0, "steps": 3.0, "TimeLimit.truncated": True}
     assert every[2] == dict.fromkeys(match.possible_agents, expected)
-    assert match.last_metrics == {"goal_score": 0.0, "steps": 3.0}
+    assert match.last_metrics == {"goal_score": 0.0, "free_balls": 0.0, "steps": 3.0}
     first, *others = every[2].values()
     assert all(info is not first for info in others)

@@ -35,7 +35,7 @@ def test_a_recorded_match_has_every_state_and_reward() -> None:
     first, second = replay.episodes
     assert first.stop == second.start
     assert {first.end, second.end} <= {"terminated", "truncated"}
-    assert set(first.metrics) == {"goal_score"}
+    assert set(first.metrics) == {"goal_score", "free_balls"}
     assert replay.observers == matches.task.robots
 
 
