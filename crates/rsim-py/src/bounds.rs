@@ -1,5 +1,7 @@
 //! Clipping of observations and actions.
 
+use std::ops::Neg;
+
 use numpy::{
     Ix1, IxDyn, PyArray, PyArrayMethods, PyReadonlyArray, PyReadwriteArray, PyUntypedArrayMethods,
 };
@@ -67,9 +69,9 @@ pub(crate) fn clip_actions<'py>(
     Some(clipped)
 }
 
-/// Clips a value to [-bound, bound]. Unlike `clamp` this has nothing to check, so a loop of it is
-/// vectorised.
-fn clip(value: f32, bound: f32) -> f32 {
+/// Clips a value to [-bound, bound]; NaN stays. Unlike `clamp` this has nothing to check, so a loop
+/// of it is vectorised.
+pub(crate) fn clip<T: Copy + PartialOrd + Neg<Output = T>>(value: T, bound: T) -> T {
     if value > bound {
         bound
     } else if value < -bound {

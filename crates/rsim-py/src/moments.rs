@@ -5,8 +5,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{self, readable, sizes};
+use crate::bounds::clip;
 
 type Column<'py> = Bound<'py, PyArray1<f64>>;
+type Rows<'py> = PyReadonlyArray<'py, f32, Ix2>;
+type Numbers<'py> = PyReadonlyArray<'py, f64, Ix1>;
 
 /// Returns means and variances (o,) of `count` earlier rows and of rows (n, o) together.
 ///
@@ -19,10 +22,7 @@ pub(crate) fn pooled_moments<'py>(
     variance: &Bound<'py, PyAny>,
     count: f64,
 ) -> PyResult<(Column<'py>, Column<'py>)> {
-    let [n, size] = sizes("rows", rows)?;
-    let rows: PyReadonlyArray<'_, f32, Ix2> = readable("rows", rows, &[n, size])?;
-    let mean: PyReadonlyArray<'_, f64, Ix1> = readable("mean", mean, &[size])?;
-    let variance: PyReadonlyArray<'_, f64, Ix1> = readable("variance", variance, &[size])?;
+    let ([n, size], rows, mean, variance) = borrow(rows, mean, variance)?;
     let total = total("rows", n, count)?;
     let (rows, mean) = (arrays::values(&rows), arrays::values(&mean));
     let (mut sums, mut squares) = (vec![0.0; size], vec![0.0; size]);
@@ -38,9 +38,7 @@ pub(crate) fn pooled_moments<'py>(
     for ((sum, square), (mean, variance)) in
         columns.zip(mean.iter().zip(&*arrays::values(&variance)))
     {
-        let shift = *sum / total;
-        *sum = mean + shift;
-        *square = (variance * count + *square) / total - shift * shift;
+        (*sum, *square) = pooled(*mean, *variance * count + *square, *sum / total, total);
     }
     Ok((PyArray1::from_vec(py, sums), PyArray1::from_vec(py, squares)))
 }
@@ -67,8 +65,28 @@ pub(crate) fn add_rewards(
         sum += deviation;
         squares += deviation * deviation;
     }
-    let shift = sum / total;
-    Ok((mean + shift, (variance * count + squares) / total - shift * shift))
+    Ok(pooled(mean, variance * count + squares, sum / total, total))
+}
+
+/// Borrows rows (n, o), mean (o,) and variance (o,); returns n and o, too.
+fn borrow<'py>(
+    rows: &Bound<'py, PyAny>,
+    mean: &Bound<'py, PyAny>,
+    variance: &Bound<'py, PyAny>,
+) -> PyResult<([usize; 2], Rows<'py>, Numbers<'py>, Numbers<'py>)> {
+    let [n, size] = sizes("rows", rows)?;
+    Ok((
+        [n, size],
+        readable("rows", rows, &[n, size])?,
+        readable("mean", mean, &[size])?,
+        readable("variance", variance, &[size])?,
+    ))
+}
+
+/// Mean and variance of `total` values, from their sum of squares and their mean deviation, both
+/// relative to an earlier mean.
+fn pooled(mean: f64, squares: f64, shift: f64, total: f64) -> (f64, f64) {
+    (mean + shift, squares / total - shift * shift)
 }
 
 /// Number of earlier values and further ones, which must be above 0.
@@ -94,10 +112,7 @@ pub(crate) fn normalized<'py>(
     epsilon: f64,
     limit: f64,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let [n, size] = sizes("rows", rows)?;
-    let rows: PyReadonlyArray<'_, f32, Ix2> = readable("rows", rows, &[n, size])?;
-    let mean: PyReadonlyArray<'_, f64, Ix1> = readable("mean", mean, &[size])?;
-    let variance: PyReadonlyArray<'_, f64, Ix1> = readable("variance", variance, &[size])?;
+    let ([n, size], rows, mean, variance) = borrow(rows, mean, variance)?;
     if limit.is_nan() || limit < 0.0 {
         return Err(PyValueError::new_err(format!("limit must be 0 or above, got {limit}")));
     }
@@ -118,15 +133,4 @@ pub(crate) fn normalized<'py>(
     }
     drop(values);
     Ok(out)
-}
-
-/// Clips a value to [-limit, limit]; NaN stays.
-fn clip(value: f64, limit: f64) -> f64 {
-    if value > limit {
-        limit
-    } else if value < -limit {
-        -limit
-    } else {
-        value
-    }
 }
