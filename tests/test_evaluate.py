@@ -19,7 +19,7 @@ from rsoccer.policies.policy_file import FORMAT
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
-from rsoccer.tasks import VssSelfPlay
+from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 
 module = sys.modules["rsoccer.evaluate.episodes"]
 
@@ -111,7 +111,7 @@ def test_matches_without_a_goal_are_draws() -> None:
     assert (result.wins, result.draws, result.losses) == (0, 4, 0)
     assert (result.score, result.low, result.high) == (0.0, 0.0, 0.0)
     assert result.seconds_to_decision is None
-    assert str(result).splitlines()[1].endswith(" -")
+    assert " - " in str(result).splitlines()[1]
 
 
 def counts(results: Results) -> tuple[int, int, int]:
@@ -269,3 +269,26 @@ def test_own_goals_are_goals_after_a_last_touch_of_the_own_team() -> None:
     pushed = evaluate("zero", Push(), matches=16, task=task)
     assert counts(pushed.sides["yellow"]) == (4, 0, 4)
     assert (pushed.decided, pushed.own_goals) == (8, 0), "these are own goals of the opponent"
+
+
+def test_other_metrics_are_means_from_the_view_of_the_policy() -> None:
+    result = evaluate("chase", "ou", matches=40, seed=1)
+    assert set(result.metrics) == {"free_balls"}
+    assert 0.0 < result.metrics["free_balls"] < 1.0
+    passing = evaluate("strike", "zero", matches=4, task=PassingTask())
+    assert passing.metrics == {"own_passes": 3.0, "opponent_passes": 1.0}
+    assert passing.as_dict()["metrics"] == passing.metrics
+    assert "own passes" in str(passing)
+
+
+class PassingTask(SslSelfPlay):
+    """A task whose winner, by assumption, makes three passes, and the other team one."""
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """Derive passes from the score, and add a metric of the match that is not a team's."""
+        score = super().metrics(play)["goal_score"]
+        return {
+            "goal_score": score,
+            "blue_passes": 2.0 + score,
+            "yellow_passes": 2.0 - score,
+        }

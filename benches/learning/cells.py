@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Final
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
 
 from benches.learning.collection import Collected
 from benches.learning.curves import value_at
@@ -68,7 +68,13 @@ def outcomes(part: Collected, opponent: str) -> str:
     total = sum(row["matches"] for row in rows)
     names = ("wins", "draws", "losses", "own_goals")
     *counts, own = (sum(row[name] for row in rows) / total for name in names)
-    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
+    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%}){_passes(rows)}"
+
+
+def _passes(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Passes per match of all seeds, with a comma before; empty where none are counted."""
+    passes = [row["metrics"]["own_passes"] for row in rows if "own_passes" in row["metrics"]]
+    return f", {number(sum(passes) / len(passes))} passes" if passes else ""
 
 
 def time_to_success(part: Collected, opponent: str) -> str:

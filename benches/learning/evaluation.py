@@ -77,4 +77,5 @@ def numbers(evaluation: Evaluation) -> dict[str, Any]:
         "decided": evaluation.decided,
         "own_goals": evaluation.own_goals,
         "seconds_to_decision": None if after is None else round(after, DIGITS),
+        "metrics": {name: round(value, DIGITS) for name, value in evaluation.metrics.items()},
     }

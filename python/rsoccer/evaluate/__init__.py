@@ -127,7 +127,23 @@ def _evaluation(
         seconds_to_decision=float(decided.mean()) if len(decided) else None,
         decided=len(decided),
         own_goals=own_goals,
+        metrics=_other_metrics(task, episodes),
     )
+
+
+def _other_metrics(task: Task, episodes: list[Episodes]) -> dict[str, float]:
+    """Means of the metrics beside the score, with teams named from the policy's view."""
+    names = [name for name in episodes[0].metrics if name != episodes[0].metric]
+    if not task.two_sided:
+        return {name: float(episodes[0].metrics[name].mean()) for name in names}
+    blue, yellow = SIDES
+    parts: dict[str, list[Doubles]] = {}
+    for own, other, part in zip(SIDES, (yellow, blue), episodes, strict=True):
+        for name in names:
+            team, _, rest = name.partition("_")
+            named = {own: f"own_{rest}", other: f"opponent_{rest}"}.get(team, name)
+            parts.setdefault(named, []).append(part.metrics[name])
+    return {name: float(np.concatenate(values).mean()) for name, values in parts.items()}
 
 
 def _by_side(scores: list[Doubles], rng: np.random.Generator) -> dict[str, Results]:

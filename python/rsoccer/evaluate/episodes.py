@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.controllers import Controller
 from rsoccer.frame import Frame
-from rsoccer.matches import Matches, Outcome
+from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.rewards import goal_score
 from rsoccer.rng import WorldRng
@@ -19,6 +19,8 @@ from rsoccer.task import Task
 
 RETURN = "return"
 """Name of the score of a task without a success metric: the return of the episode."""
+# Results that are no metrics of the task; their names are none that a task can use.
+_RETURNS, _STEPS, _OWN_GOALS = "(returns)", "(steps)", "(own goals)"
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,8 @@ class Episodes:
     """(n,) a team scored a goal (two-sided tasks), or the success was full"""
     own_goals: Doubles
     """(n,) -1 for a goal that blue's last touch gave yellow, 1 for the opposite, else 0"""
+    metrics: dict[str, Doubles]
+    """(n,) values of all metrics of the task at the end of the episode, by name"""
 
 
 @dataclass(frozen=True)
@@ -70,17 +74,22 @@ class EpisodeRunner:
             self._run_batch(min(self.worlds, count - start), first_seed + start)
             for start in range(0, count, self.worlds)
         ]
-        scores, returns, steps, own = (np.concatenate(p) for p in zip(*batches, strict=True))
         task, metric = self.task, self.task.success
+        joined = {name: np.concatenate([part[name] for part in batches]) for name in batches[0]}
+        returns, steps, own = (joined.pop(name) for name in (_RETURNS, _STEPS, _OWN_GOALS))
         full = np.inf if task.full_success is None else task.full_success
-        decided = scores != 0.0 if task.two_sided else scores >= full
         if metric is None:
             scores, decided = returns, np.zeros(count, np.bool_)
+        elif metric not in joined:
+            raise ValueError(f"task {task.name!r} has no metric {metric!r} to evaluate by")
+        else:
+            scores = joined[metric]
+            decided = scores != 0.0 if task.two_sided else scores >= full
         seconds = steps * task.config.time_step
-        return Episodes(metric or RETURN, scores, returns, seconds, decided, own)
+        return Episodes(metric or RETURN, scores, returns, seconds, decided, own, joined)
 
-    def _run_batch(self, n: int, seed: int) -> tuple[Doubles, Doubles, Doubles, Doubles]:
-        """Scores, returns, steps and own goals of n matches at once, (n,) each."""
+    def _run_batch(self, n: int, seed: int) -> dict[str, Doubles]:
+        """Metrics of n matches at once, (n,) each, with their returns, steps and own goals."""
         # Ended worlds wait, so long matches count as often as short ones.
         matches = Matches(
             self.task,
@@ -92,20 +101,22 @@ class EpisodeRunner:
         )
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)
-        scores, returns, steps, own = np.zeros((4, n))
+        results = {name: np.zeros(n) for name in (_RETURNS, _STEPS, _OWN_GOALS)}
         playing = ~matches.done
         while playing.any():
             if self.before_step is not None:
                 self.before_step(playing)
             outcome = matches.step(learners.act(observations))
             observations = outcome.observations
-            steps += playing
-            returns += outcome.rewards.mean(axis=1)  # zero where a match waits
+            results[_STEPS] += playing
+            results[_RETURNS] += outcome.rewards.mean(axis=1)  # zero where a match waits
             ending = playing & outcome.ended
-            scores[ending] = _success(self.task, outcome)[ending]
-            own[ending] = _own_goals(matches.frame)[ending]
+            if ending.any():
+                results[_OWN_GOALS][ending] = _own_goals(matches.frame)[ending]
+                for name, values in outcome.metrics.items():
+                    results.setdefault(name, np.zeros(n))[ending] = values[ending]
             playing &= ~ending
-        return scores, returns, steps, own
+        return results
 
 
 def _own_goals(frame: Frame) -> Doubles:
@@ -114,15 +125,6 @@ def _own_goals(frame: Frame) -> Doubles:
     last_by_blue = frame.ball.last_touch < frame.n_blue
     own = (frame.ball.last_touch >= 0) & (last_by_blue != (score > 0))
     return np.where(own, score, 0.0)
-
-
-def _success(task: Task, outcome: Outcome) -> Floats:
-    """The task's success metric (n,), or zeros if it names none."""
-    if task.success is None:
-        return np.zeros(len(outcome.terminated), np.float32)
-    if task.success not in outcome.metrics:
-        raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
-    return outcome.metrics[task.success]
 
 
 class LearnerPolicy:

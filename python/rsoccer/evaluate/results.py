@@ -74,6 +74,9 @@ class Evaluation(Results):
     """number of these episodes"""
     own_goals: int
     """goals against the policy's team after a last touch by one of its own robots"""
+    metrics: dict[str, float]
+    """mean per episode of each other metric of the task, by name; in two-sided tasks metrics of
+    blue and yellow, such as `blue_passes`, are `own_passes` and `opponent_passes`"""
 
     def as_dict(self) -> dict[str, object]:
         """Return the fields as numbers, texts and dictionaries, ready for JSON."""

@@ -40,11 +40,13 @@ def _header(evaluation: Evaluation) -> Cells:
     """Column titles: of a two-sided task if the evaluation has sides."""
     metric = evaluation.metric.replace("_", " ")
     first = ("policy", "opponent", "matches")
+    others = [name.replace("_", " ") for name in evaluation.metrics]
     if evaluation.sides:
         counts = ("won", "drawn", "lost")
-        return (*first, *counts, metric, _INTERVAL, "as blue", "as yellow", "goal after")
+        named = (metric, _INTERVAL, "as blue", "as yellow", "goal after")
+        return (*first, *counts, *named, *others)
     means = (title for name in (metric, "return", "seconds") for title in (name, _INTERVAL))
-    return (*first, *means, "done after")
+    return (*first, *means, "done after", *others)
 
 
 def _row(evaluation: Evaluation) -> Cells:
@@ -52,15 +54,16 @@ def _row(evaluation: Evaluation) -> Cells:
     after = evaluation.seconds_to_decision
     last = "-" if after is None else f"{after:.1f} s"
     first = (evaluation.policy, evaluation.opponent, str(evaluation.matches))
+    others = [f"{value:.2f}" for value in evaluation.metrics.values()]
     score = Interval(evaluation.score, evaluation.low, evaluation.high)
     if not evaluation.sides:
         means = (score, evaluation.returns, evaluation.seconds)
         signs = ("", "+", "")
         cells = (_mean(mean, sign) for mean, sign in zip(means, signs, strict=True))
-        return (*first, *(cell for pair in cells for cell in pair), last)
+        return (*first, *(cell for pair in cells for cell in pair), last, *others)
     counts = (evaluation.wins, evaluation.draws, evaluation.losses)
     sides = (_score(evaluation.sides[side]) for side in ("blue", "yellow"))
-    return (*first, *map(str, counts), *_mean(score, "+"), *sides, last)
+    return (*first, *map(str, counts), *_mean(score, "+"), *sides, last, *others)
 
 
 def _mean(interval: Interval, sign: str) -> Cells:

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks, rewards, spawn
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import BallColumns, Frame
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
+from rsoccer.tasks import passes
 from rsoccer.tasks.ssl import Ssl
 
 MIN_START_DISTANCE: Final = 0.3
@@ -48,11 +49,14 @@ class SslSelfPlay(Ssl):
     approach      decrease of the distance between the ball and the mouth, for the    m
                   same robots
     energy        negative mean magnitude of the action                               steps
+    passes        1 for a pass of the robot's team that arrives; its default weight   passes
+                  is 0
     ============  ==================================================================  ========
 
     Termination: a goal of either team. Truncation: after `max_steps`.
 
-    Metric: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0.
+    Metrics: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0; `blue_passes` and
+    `yellow_passes`, passes from a robot to the mouth of a teammate over at least 0.5 m.
 
     Source: SSL rules for the position of a ball that left the field. The rSoccer paper has no such
     task, so its weights are the default ones.
@@ -71,6 +75,7 @@ class SslSelfPlay(Ssl):
         "ball_to_goal": 2.0,
         "approach": 0.5,
         "energy": 0.0002,
+        "passes": 0.0,
     }
     """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = REWARD_WEIGHTS
@@ -89,6 +94,10 @@ class SslSelfPlay(Ssl):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Draw random positions and headings."""
         return spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
+
+    def new_memory(self, n: int) -> dict[str, Array]:
+        """Create the memory of passes: see `passes.new_memory`."""
+        return passes.new_memory(n)
 
     def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
         """Choose positions inside the line, free of robots, for balls that left the field."""
@@ -109,12 +118,18 @@ class SslSelfPlay(Ssl):
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field) * nearest,
             "approach": rewards.approach_mouth(play, self.config) * nearest,
             "energy": rewards.energy(play),
+            "passes": passes.count(play)[:, play.viewpoint.teams].astype(np.float32),
         }
         return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `goal_score`, (n,): 1 if blue scored, -1 if yellow scored, else 0."""
-        return {"goal_score": rewards.goal_score(play.frame.ball)}
+        """Compute `goal_score`, `blue_passes` and `yellow_passes`, each (n,)."""
+        blue, yellow = play.memory["passes"].T.astype(np.float32)
+        return {
+            "goal_score": rewards.goal_score(play.frame.ball),
+            "blue_passes": blue,
+            "yellow_passes": yellow,
+        }
 
     def _free_positions(self, left_at: Floats, robots: Floats) -> Floats:
         """Free positions (k, 2) nearest to (k, 2), with robots at (k, robots, 2)."""
