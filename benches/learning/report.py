@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
 
-from benches.learning import tables
+from benches.learning import lost_starts, tables
 from benches.learning.collection import Collected, collect
 from benches.learning.pictures import draw_ablation, draw_curves
 from benches.learning.run_files import Folders
@@ -44,10 +44,11 @@ def draw(collected: list[Collected], folder: Path) -> list[Path]:
 
 
 def results() -> str:
-    """Return the results of PPO and the learning curves."""
+    """Return the results of PPO, starts that no policy survives, and the learning curves."""
     text = tables.results(_collected()) or "No run has finished yet."
     picture = _picture(CURVES, "Learning curves of all tasks")
-    return "\n\n".join(part for part in (text, picture) if part)
+    parts = (text, lost_starts.sentences(Folders()), picture)
+    return "\n\n".join(part for part in parts if part)
 
 
 def baselines() -> str:

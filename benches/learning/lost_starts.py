@@ -1,0 +1,121 @@
+"""Starts that every policy loses at once: a bound on the score against an opponent.
+
+    python -m benches.learning.lost_starts
+
+A start is a random state, and in some the opponent has the ball in front of the empty goal. The
+study's policies for whole teams and the scripts play the same starts. What all of them lose within
+2 s is hardly a matter of skill, and a policy that wins all other matches scores 1 - 2 * share.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benches.learning.experiments import Run
+from benches.learning.run_files import Folders
+from benches.learning.table import STUDY
+from rsoccer.evaluate import first_seed
+from rsoccer.evaluate.episodes import EpisodeRunner
+from rsoccer.files import write_atomically
+from rsoccer.lineup import lineup
+from rsoccer.policies import make_policy
+from rsoccer.registry import make_task
+from rsoccer.task import LEARN
+from rsoccer.view import SIDES
+
+TASK: Final = "VSSSelfPlay-v0"
+EXPERIMENTS: Final = ("ppo/VSSSelfPlay-v0", "ppo/VSSMulti-v0")
+"""Experiments whose policies play whole teams."""
+SCRIPTS: Final = ("chase", "scripted")
+OPPONENTS: Final = ("chase", "scripted")
+SECONDS: Final = 2.0
+"""Time within which a start counts as lost at once."""
+FILE: Final = "lost_starts.json"
+
+
+def measure(policies: Sequence[str], starts: int, seed: int) -> list[dict[str, Any]]:
+    """Return, for each opponent, the shares of starts that policies lose at once.
+
+    Args:
+        policies: names or files.
+        starts: starts per side, those of the study's protocol.
+        seed: seed of the protocol.
+    """
+    rows = []
+    for opponent in OPPONENTS:
+        lost = np.array([_lost(policy, opponent, starts, seed) for policy in policies])
+        share = float(lost.all(axis=0).mean())
+        rows.append(
+            {
+                "opponent": opponent,
+                "policies": len(policies),
+                "starts": lost.shape[1],
+                "lost_by_all": round(share, 4),
+                "least_lost_by_one": round(float(lost.mean(axis=1).min()), 4),
+                "highest_score": round(1.0 - 2.0 * share, 4),
+            }
+        )
+    return rows
+
+
+def _lost(policy: str, opponent: str, starts: int, seed: int) -> NDArray[np.bool_]:
+    """(2 * starts,) whether a policy loses a start within `SECONDS`, from both sides."""
+    task = make_task(TASK)
+    own, other = make_policy(policy, task), make_policy(opponent, task)
+    lost = []
+    for index, side in enumerate(SIDES):
+        runner = EpisodeRunner(task, lineup(task, LEARN, other, side), own, 250, 1)
+        episodes = runner.run(starts, first_seed(seed, index))
+        against = episodes.scores * (1 - 2 * index) < 0.0
+        lost.append(against & (episodes.seconds < SECONDS))
+    return np.concatenate(lost)
+
+
+def policies_of(folders: Folders) -> list[str]:
+    """Return the policies of finished runs, with and without noise, and the scripts."""
+    found: list[str] = []
+    for experiment in STUDY.experiments:
+        if experiment.key in EXPERIMENTS:
+            runs = (Run(experiment, seed) for seed in range(experiment.seeds))
+            files = (folders.policy(run.key) for run in runs if folders.result(run.key).is_file())
+            found += [f"{path}:{mode}" for path in files for mode in ("sample", "mean")]
+    return [*found, *SCRIPTS]
+
+
+def sentences(folders: Folders) -> str:
+    """Return the result in words; empty without one."""
+    path = _path(folders)
+    if not path.is_file():
+        return ""
+    lines = (
+        f"Against `{row['opponent']}`, {row['lost_by_all']:.1%} of the {row['starts']} starts are "
+        f"lost within {SECONDS:g} s by all of {row['policies']} policies, scripts among them: the "
+        f"ball lies in front of the own goal, and the opponent is there first. A score above "
+        f"{row['highest_score']:.2f} would have to win such starts."
+        for row in json.loads(path.read_text())
+    )
+    return " ".join(lines) + " (`python -m benches.learning.lost_starts`)"
+
+
+def main() -> int:
+    """Measure, write the result and print it."""
+    folders = Folders()
+    rows = measure(policies_of(folders), STUDY.protocol.starts, STUDY.protocol.seed)
+    write_atomically(_path(folders), (json.dumps(rows, indent=1) + "\n").encode())
+    sys.stdout.write(sentences(folders) + "\n")
+    return 0
+
+
+def _path(folders: Folders) -> Path:
+    return folders.results / FILE
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,43 @@
+import json
+from pathlib import Path
+
+import pytest
+
+from benches.learning import lost_starts
+from benches.learning.experiments import Run
+from benches.learning.run_files import Folders, save
+from benches.learning.table import STUDY
+
+
+def test_a_start_counts_if_all_policies_lose_it_at_once() -> None:
+    one = lost_starts.measure(["zero"], starts=40, seed=3)
+    both = lost_starts.measure(["zero", "chase"], starts=40, seed=3)
+    assert [row["opponent"] for row in one] == list(lost_starts.OPPONENTS)
+    for alone, joint in zip(one, both, strict=True):
+        assert alone["starts"] == joint["starts"] == 80
+        assert alone["lost_by_all"] == alone["least_lost_by_one"] > 0.1, "zero stands still"
+        assert 0.0 < joint["lost_by_all"] < joint["least_lost_by_one"] < alone["lost_by_all"]
+        assert joint["highest_score"] == pytest.approx(1.0 - 2.0 * joint["lost_by_all"])
+
+
+def test_policies_are_those_of_finished_runs_of_whole_teams(tmp_path: Path) -> None:
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+    assert lost_starts.policies_of(folders) == list(lost_starts.SCRIPTS)
+    assert not lost_starts.sentences(folders)
+    experiment = next(e for e in STUDY.experiments if e.key == lost_starts.EXPERIMENTS[0])
+    run = Run(experiment, 1)
+    save(folders, run.key, {"run": run.key})
+    policy = str(folders.policy(run.key))
+    found = lost_starts.policies_of(folders)
+    assert found == [f"{policy}:sample", f"{policy}:mean", *lost_starts.SCRIPTS]
+
+
+def test_the_result_in_words(tmp_path: Path) -> None:
+    folders = Folders(tmp_path, tmp_path)
+    row = {"opponent": "chase", "policies": 4, "starts": 80, "lost_by_all": 0.031}
+    rows = [row | {"least_lost_by_one": 0.08, "highest_score": 0.938}]
+    (tmp_path / lost_starts.FILE).write_text(json.dumps(rows))
+    text = lost_starts.sentences(folders)
+    assert "`chase`, 3.1% of the 80 starts" in text
+    assert "by all of 4 policies" in text
+    assert "above 0.94" in text
