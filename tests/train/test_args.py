@@ -39,6 +39,8 @@ INVALID: list[tuple[str, Any]] = [
     ("pool_size", 0),
     ("final_action_std", 0.0),
     ("final_action_std", float("inf")),
+    ("final_gamma", 1.01),
+    ("final_gamma", float("nan")),
     ("initial_action", (0.0, 1.5)),
     ("task_options", {"robot": object()}),
     ("task_options", {"ball_speed": float("nan")}),

@@ -39,8 +39,8 @@ CHANGEABLE_ON_RESUME = (
     "ladder_matches",
 )
 """Fields that may change when a run resumes. Two of them affect the updates: the learning rate in
-its linear schedule, and the spread of actions if it has a final value, change towards the end that
-`samples` sets, and each `device` rounds in its own way."""
+its linear schedule, and the spread of actions and the discount if they have a final value, change
+towards the end that `samples` sets, and each `device` rounds in its own way."""
 
 
 # The docstrings of the fields are the help of `rsoccer train`, which keeps their line breaks.
@@ -104,6 +104,9 @@ class Args:
     gamma: float = 0.985
     """discount factor per control step, 0 to 1, whatever `action_repeat` is.
     Closer to 1 looks further ahead, but waiting costs less, so speed is learned later"""
+    final_gamma: float | None = None
+    """discount factor per control step at the end of the run, 0 to 1; None keeps `gamma`.
+    A longer horizon at the end makes play careful, once it is learned with a short one"""
     gae_lambda: float = 0.9
     """lambda of generalised advantage estimation, 0 to 1.
     1 trusts the collected rewards only, 0 trusts the value network only"""
@@ -207,6 +210,8 @@ class Args:
         std = self.final_action_std
         valid = std is None or (math.isfinite(std) and std > 0)
         _expect(self, "final_action_std", valid, "None, or finite and above 0")
+        valid = self.final_gamma is None or 0 <= self.final_gamma <= 1
+        _expect(self, "final_gamma", valid, "None, or between 0 and 1")
         valid = all(-1 <= number <= 1 for number in self.initial_action)
         _expect(self, "initial_action", valid, "numbers from -1 to 1")
         for name, kind in (("device", Device), ("learning_rate_schedule", Schedule)):

@@ -14,6 +14,7 @@ from rsoccer.task import Task
 from rsoccer.train.args import Args
 from rsoccer.train.batch import Batch
 from rsoccer.train.central_critic import CentralInputs
+from rsoccer.train.discount import discount_per_decision
 from rsoccer.train.gae import compute_gae
 from rsoccer.train.log import EpisodeStats, Row
 from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
@@ -35,7 +36,7 @@ class RolloutCollector:
         central: inputs of a central critic; None if the critic reads the observations.
         obs_rms: running mean and standard deviation of the observations.
         return_rms: running standard deviation of `discounted_returns`.
-        gamma: discount factor per decision.
+        gamma: discount factor per decision, which the trainer may change between rollouts.
         episode_stats: statistics of the episodes that ended.
         reward_means: mean reward per decision in the last rollout, and of each reward term.
     """
@@ -60,7 +61,7 @@ class RolloutCollector:
             kinds: names of the kinds of opponents; without a mix all are of the first kind.
         """
         self._args, self._model, self._generator, self._clock = args, model, generator, clock
-        self.gamma = args.gamma**args.action_repeat
+        self.gamma = discount_per_decision(args, progress=0.0)
         reflection = task.observation_reflection if args.mirror_augmentation else None
         self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
         self.central: CentralInputs | None = None

@@ -24,6 +24,7 @@ from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.batch import Batch
 from rsoccer.train.checkpoint import Checkpoint
 from rsoccer.train.curriculum import Curriculum
+from rsoccer.train.discount import discount_per_decision
 from rsoccer.train.ladder import Ladder
 from rsoccer.train.learning_rate import LearningRate
 from rsoccer.train.log import Logger, Row
@@ -144,6 +145,8 @@ class Trainer:
         Returns:
             Batch of horizon x worlds x agents samples.
         """
+        progress = min(self.samples / self.args.samples, 1.0)
+        self.collector.gamma = discount_per_decision(self.args, progress)
         batch = self.collector.collect(check_stop)
         self.samples += len(batch)
         return batch

@@ -1,0 +1,27 @@
+"""Schedule of the discount factor.
+
+A short horizon is learned fast, but it rewards haste: with .99 per control step of 25 ms, a goal one
+second later is worth a third less, so a shot at once that often fails beats a sure one. A horizon
+that grows during the run has both advantages, as in OpenAI Five (Berner et al., 2019).
+"""
+
+from __future__ import annotations
+
+from rsoccer.train.args import Args
+
+
+def discount_per_decision(args: Args, progress: float) -> float:
+    """Return the discount factor per decision.
+
+    From `gamma` to `final_gamma`, the horizon 1 / (1 - discount) changes geometrically.
+
+    Args:
+        args: settings of the run.
+        progress: share of the run's samples so far, 0 to 1.
+    """
+    per_step = args.gamma
+    if args.final_gamma is not None:
+        per_step = (
+            1.0 - (1.0 - args.gamma) ** (1.0 - progress) * (1.0 - args.final_gamma) ** progress
+        )
+    return float(per_step**args.action_repeat)
