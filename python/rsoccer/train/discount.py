@@ -1,6 +1,6 @@
 """Schedule of the discount factor.
 
-A short horizon is learned fast, but it rewards haste: with .99 per control step of 25 ms, a goal one
+A short horizon is learned fast, but it rewards haste: with .99 per control step of 25 ms, a goal a
 second later is worth a third less, so a shot at once that often fails beats a sure one. A horizon
 that grows during the run has both advantages, as in OpenAI Five (Berner et al., 2019).
 """
