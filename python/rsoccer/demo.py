@@ -5,8 +5,9 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.render.video import write_video
@@ -18,6 +19,9 @@ from rsoccer.train.learning_curve import plot_learning_curve
 TASK = "VSSSelfPlay-v0"
 SAMPLES = 3_000_000
 """Default number of decisions to learn from: two to three minutes on two cores."""
+SHORT_RUN: Final[Mapping[str, Any]] = {"worlds": 512, "n_minibatches": 8, "solo_fraction": 0.8}
+"""Settings of a run that ends before teams play well: most of it has one learner per match, and
+small batches make progress sooner."""
 LADDER_INTERVAL = 25
 """Updates between two points of the learning curve."""
 
@@ -49,6 +53,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         overwrite=True,
         match_page=False,
         ladder_interval=LADDER_INTERVAL,
+        **SHORT_RUN,
     )
     policy = train(args)
     stage("training", f"trained on {samples:,} decisions -> {policy}")

@@ -87,14 +87,45 @@ def test_official_scenarios_are_the_published_ones_rotated_by_180_degrees() -> N
     """Spot checks against the rules, which attack -x (millimetres there)."""
     frame = SslStaticDefenders(scenario=1).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.ball.position[0] == pytest.approx([0.2, 1.8])
-    assert frame.yellow.position[0] == pytest.approx(np.array([[2.9, 0], [2, 0.75], [2, 0.55]]))
+    expected = np.array([[2.9, 0], [2, 0.75], [2, 0.55]])
+    assert frame.yellow.position[0, :3] == pytest.approx(expected)
     angle = np.arctan2(*frame.yellow.heading[0, 0][::-1])
     assert angle == pytest.approx(np.pi - 0.785)
     frame = SslStaticDefenders(scenario=9).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.ball.position[0] == pytest.approx([2.8, 1.75])
     assert frame.yellow.position[0, 2] == pytest.approx([0.8, -1.0])
-    counts = [SslStaticDefenders(scenario=i).n_yellow for i in range(1, 11)]
-    assert counts == [3, 3, 4, 4, 5, 5, 5, 6, 6, 6]
+    assert [opponents_in_half(i) for i in range(1, 11)] == [3, 3, 4, 4, 5, 5, 5, 6, 6, 6]
+
+
+def opponents_in_half(scenario: int) -> int:
+    """Opponents of a scenario that do not wait."""
+    task = SslStaticDefenders(scenario=scenario)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 1))
+    return int((frame.yellow.position[0, :, 0] > 0.0).sum())
+
+
+def test_a_policy_of_the_random_task_fits_every_scenario() -> None:
+    sizes = {SslStaticDefenders(scenario=i).observation_size for i in range(1, 11)}
+    assert sizes == {TASK.observation_size}
+
+
+@pytest.mark.parametrize("n_opponents", [0, 3, 6])
+def test_varied_opponents_are_fewer_or_have_a_goalkeeper(n_opponents: int) -> None:
+    task = SslStaticDefenders(n_opponents=n_opponents, varied_opponents=True)
+    frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
+    position, ball = frame.yellow.position, frame.ball.position
+    in_half = (position[..., 0] > 0.0).sum(axis=1)
+    assert set(in_half.tolist()) == set(range(n_opponents + 1))
+    if n_opponents:
+        all_there = 0.5 + 0.5 / (n_opponents + 1)
+        assert (in_half == n_opponents).mean() == pytest.approx(all_there, abs=0.04)
+        keeper = (position[:, 0, 0] > 2.85) & (np.abs(position[:, 0, 1]) <= 0.3)
+        expected = 0.25 * n_opponents / (n_opponents + 1)
+        assert keeper.mean() == pytest.approx(expected, abs=0.04)
+    gaps = np.linalg.norm(position[:, :, None] - position[:, None], axis=-1)
+    assert (gaps + 9.0 * np.eye(n_opponents)).min(initial=9.0) > 0.2
+    assert np.linalg.norm(position - ball[:, None], axis=-1).min(initial=9.0) > 0.12
+    Matches(task, 100, 3).reset()  # bodies do not overlap
 
 
 def test_strike_solves_the_task() -> None:
@@ -113,7 +144,7 @@ def test_the_number_of_opponents_is_an_option(n_opponents: int) -> None:
     task = SslStaticDefenders(n_opponents=n_opponents)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 20))
     assert frame.yellow.position.shape == (20, n_opponents, 2)
-    assert SslStaticDefenders(n_opponents=n_opponents, scenario=1).n_yellow == 3
+    assert SslStaticDefenders(n_opponents=n_opponents, scenario=1).n_yellow == 6
 
 
 @pytest.mark.parametrize("n_opponents", [-1, 7])
