@@ -7,6 +7,7 @@ from typing import Any, Final
 
 from benches.learning.collection import Collected
 from benches.learning.curves import value_at
+from benches.learning.evaluation import OFFICIAL
 from benches.learning.statistics import Estimate, probability_of_improvement
 from benches.learning.targets import FULL_SUCCESS, TARGETS
 
@@ -17,6 +18,13 @@ def name_of(part: Collected, text: str) -> str:
     """Return the name of a task in a cell, with a mark for stale results."""
     task = part.experiment.task
     return text.replace(task, f"`{task}`", 1) + (STALE_MARK if part.stale else "")
+
+
+def against(opponent: str) -> str:
+    """Return the opponent of a row; empty for the task's own."""
+    if opponent == "-":
+        return ""
+    return "the official scenarios" if opponent == OFFICIAL else f"`{opponent}`"
 
 
 def with_interval(part: Collected | None) -> str:

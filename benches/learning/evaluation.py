@@ -13,6 +13,10 @@ from rsoccer.registry import make_task
 
 VSSS: Final = ("ou", "zero", "chase", "scripted")
 SSL: Final = ("ou", "zero", "strike")
+SCENARIOS: Final = {"SSLStaticDefenders-v0": 10, "SSLContestedPossession-v0": 5}
+"""Numbers of official scenarios; policies of the task's random initial states play them too."""
+OFFICIAL: Final = "official scenarios"
+"""Name of their row, in the place of an opponent."""
 DIGITS: Final = 4
 
 
@@ -45,7 +49,44 @@ def evaluate_run(
         for mode, policy in learned.policies.items():
             row = evaluated(run.experiment.task, policy, other, protocol)
             rows.append({"opponent": opponent or "-", "mode": mode, **row})
+    if run.experiment.task in SCENARIOS:
+        for mode, policy in learned.policies.items():
+            row = on_scenarios(run.experiment.task, policy, protocol)
+            rows.append({"opponent": OFFICIAL, "mode": mode, **row})
     return rows
+
+
+def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str, Any]:
+    """Return the numbers of a policy on all official scenarios of a task, with equal weights.
+
+    Each begins in one state, so matches differ by the noise of the actions alone.
+    """
+    count = SCENARIOS[task]
+    parts = [
+        numbers(
+            evaluate(
+                policy,
+                matches=protocol.starts // count,
+                seed=protocol.seed,
+                task=make_task(task, scenario=scenario),
+                threads=1,
+            )
+        )
+        for scenario in range(1, count + 1)
+    ]
+    sums = ("matches", "wins", "draws", "losses", "decided", "own_goals")
+    after = [part["seconds_to_decision"] for part in parts if part["decided"]]
+    scores = [part["score"] for part in parts]
+    return {
+        "metric": parts[0]["metric"],
+        **{name: sum(part[name] for part in parts) for name in sums},
+        "score": round(sum(scores) / count, DIGITS),
+        "by_scenario": scores,
+        "sides": {},
+        "seconds": round(sum(part["seconds"] for part in parts) / count, DIGITS),
+        "seconds_to_decision": round(sum(after) / len(after), DIGITS) if after else None,
+        "metrics": {},
+    }
 
 
 def evaluated(

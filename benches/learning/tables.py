@@ -28,7 +28,7 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
     estimate = part.estimate(opponent)
     return (
         cells.name_of(part, task),
-        "" if opponent == "-" else f"`{opponent}`",
+        cells.against(opponent),
         cells.number(estimate.value),
         cells.interval(estimate),
         cells.target(part, opponent),

@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from benches.learning.evaluation import OFFICIAL
+
 TARGETS: Final[dict[tuple[str, str], float]] = {
     ("VSS-v0", "ou"): 0.95,
     ("VSS-v0", "zero"): 0.9,
@@ -15,6 +17,7 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
     ("SSLPassEndurance-v0", "-"): 0.98,
     ("SSLContestedPossession-v0", "-"): 0.9,
     ("SSLStaticDefenders-v0", "-"): 0.85,
+    ("SSLStaticDefenders-v0", OFFICIAL): 0.85,
     ("SSLPassEnduranceMulti-v0", "-"): 10.0,
 }
 """Score by task and opponent; "-" is the task's own."""

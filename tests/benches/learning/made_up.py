@@ -57,10 +57,17 @@ def result(run: Run, study: Study, settings: dict[str, Any]) -> dict[str, Any]:
         },
         "evaluations": [
             row(experiment, opponent or "-", mode, round(score * scale, 3))
-            for opponent in experiment.opponents or evaluation.opponents_of(experiment.task)
+            for opponent in opponents_of(experiment)
             for mode in MODES.get(experiment.algorithm, MODES["ppo"])
         ],
     }
+
+
+def opponents_of(experiment: Experiment) -> list[str | None]:
+    """Return the opponents of the rows of an experiment."""
+    opponents = experiment.opponents or evaluation.opponents_of(experiment.task)
+    has_scenarios = experiment.task in evaluation.SCENARIOS
+    return [*opponents, *([evaluation.OFFICIAL] if has_scenarios else [])]
 
 
 def row(experiment: Experiment, opponent: str, mode: str, score: float) -> dict[str, Any]:

@@ -28,6 +28,7 @@ def test_tables_have_a_row_for_each_experiment_with_results(folders: Folders) ->
     text = tables.results(collected)
     assert text.count("| `VSS-v0` |") == 4  # opponents
     assert "StaticDefenders-v0` |" not in text
+    assert text.count("| `SSLContestedPossession-v0` | the official scenarios |") == 1
     assert "Missing runs: VSS-v0 (1), SSLStaticDefenders-v0 (5)." in text
     assert "| `SSLGoToBall-v0` | SAC |" in tables.baselines(collected)
     assert tables.ablation(collected).count("missing") == 1
