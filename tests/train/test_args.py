@@ -40,7 +40,6 @@ INVALID: list[tuple[str, Any]] = [
     ("final_action_std", 0.0),
     ("final_action_std", float("inf")),
     ("final_gamma", 1.01),
-    ("hard_start_fraction", 1.5),
     ("final_gamma", float("nan")),
     ("initial_action", (0.0, 1.5)),
     ("task_options", {"robot": object()}),

@@ -187,18 +187,6 @@ def test_copies_of_the_learner_play_beside_it_and_resume(tmp_path: Path) -> None
     assert digest(tmp_path / "b") == digest(tmp_path / "a")
 
 
-def test_a_resumed_run_begins_from_the_same_hard_starts(tmp_path: Path) -> None:
-    settings: dict[str, Any] = {"hard_start_fraction": 0.5, "solo_fraction": 0.0}
-    for name in ("a", "b"):
-        (tmp_path / name).mkdir()
-    train(tiny(tmp_path / "a", **settings))
-    run_until(tiny(tmp_path / "b", **settings), 3 * 13)
-    train(tiny(tmp_path / "b", resume=True, **settings))
-    assert digest(tmp_path / "b") == digest(tmp_path / "a")
-    saved = checkpoint.load(tmp_path / "a" / checkpoint.FILE_NAME)
-    assert saved.arrays["hard_starts.repeated"].any()
-
-
 def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, initial_action=(0.5, -0.25)))
     observations = trainer.collector.observations

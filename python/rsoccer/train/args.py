@@ -101,9 +101,6 @@ class Args:
     random_truncation: float = 0.002
     """probability, 0 to 1, that a match is truncated after a decision and starts again.
     More gives fresh starts in place of long stalemates, less teaches to get out of them"""
-    hard_start_fraction: float = 0.0
-    """share of the matches, 0 to 1, that begin from the initial state of one that was lost, or, in
-    tasks for one team, was no full success. Such states are rare and soon over otherwise"""
     gamma: float = 0.985
     """discount factor per control step, 0 to 1, whatever `action_repeat` is.
     Closer to 1 looks further ahead, but waiting costs less, so speed is learned later"""
@@ -320,7 +317,6 @@ _POSITIVE = (
 )
 _FRACTIONS = (
     *("solo_fraction", "solo_copies", "random_truncation", "gamma", "gae_lambda"),
-    "hard_start_fraction",
     *("latest_fraction", "past_fraction"),
 )
 _AT_LEAST_0 = ("entropy_coef", "value_coef", "pfsp_power", "ladder_interval", "robot_units")

@@ -16,7 +16,6 @@ from rsoccer.train.batch import Batch
 from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.discount import discount_per_decision
 from rsoccer.train.gae import compute_gae
-from rsoccer.train.hard_starts import HardStarts
 from rsoccer.train.log import EpisodeStats, Row
 from rsoccer.train.networks import OBSERVATION_CLIP, ActorCritic
 from rsoccer.train.policy_mix import PolicyMix
@@ -35,7 +34,6 @@ class RolloutCollector:
             scales the rewards.
         states: (n, s) current global states; None without a central critic.
         central: inputs of a central critic; None if the critic reads the observations.
-        hard_starts: initial states to play again; None without `hard_start_fraction`.
         obs_rms: running mean and standard deviation of the observations.
         return_rms: running standard deviation of `discounted_returns`.
         gamma: discount factor per decision, which the trainer may change between rollouts.
@@ -70,10 +68,6 @@ class RolloutCollector:
         self.states: Floats | None = None
         if args.central_critic:
             self.central = CentralInputs(task, symmetric=args.mirror_augmentation)
-        self.hard_starts: HardStarts | None = None
-        if args.hard_start_fraction > 0.0:
-            row_size = task.config.row_size
-            self.hard_starts = HardStarts(0, row_size, args.hard_start_fraction)
         self.return_rms = RunningMeanStd(1, min_std=1e-6)
         self.episode_stats = EpisodeStats(kinds)
         self.reward_means: Row = {}
@@ -88,8 +82,6 @@ class RolloutCollector:
         self.matches, self._opponents = matches, opponents
         self.discounted_returns = np.zeros((matches.worlds, len(matches.agents)), np.float32)
         self.observations = matches.reset()
-        if self.hard_starts is not None:
-            self.hard_starts.enter(matches.frame.rows)
         self._update_states()
 
     def collect(self, check_stop: Callable[[], None]) -> Batch:
@@ -141,7 +133,7 @@ class RolloutCollector:
             self.discounted_returns[ended] = 0.0
             self.observations = transition.observations
             if ended.any():
-                self.observations = self._begin_matches(ended)
+                self.observations = self.matches.reset(mask=ended)
             self._update_states()
         agents = self.discounted_returns.shape[1]
         final = transition.terminated if self._args.bootstrap_time_limits else ended
@@ -161,31 +153,14 @@ class RolloutCollector:
         uniform = torch.rand(len(self.discounted_returns), generator=self._generator)
         return (uniform < self._args.random_truncation).numpy()
 
-    def _begin_matches(self, worlds: Mask) -> Floats:
-        """Begin matches in some worlds, and return the observations of all."""
-        if self.hard_starts is None:
-            return self.matches.reset(mask=worlds)
-        rows = self.hard_starts.draw(worlds, self._generator)
-        repeated = worlds & self.hard_starts.repeated
-        self.matches.reset(mask=repeated, rows=rows)
-        observations = self.matches.reset(mask=worlds & ~repeated)
-        self.hard_starts.begin(worlds, self.matches.frame.rows)
-        return observations
-
     def _record(self, transition: Transition) -> None:
-        """Update the statistics of rewards and of ended episodes.
-
-        Matches from hard starts do not count: results would look worse than they are.
-        """
+        """Update the statistics of rewards and of ended episodes."""
         self.discounted_returns = (
             self.discounted_returns * np.float32(self.gamma) + transition.rewards
         )
         if self._args.normalise_rewards:
             self.return_rms.update(self.discounted_returns.reshape(-1, 1))
         ended = transition.ended
-        if self.hard_starts is not None:
-            self.hard_starts.keep(ended & self._not_won(transition))
-            ended = ended & ~self.hard_starts.repeated
         kinds = np.zeros(len(ended), int)
         if self._opponents is not None:
             kinds = self._opponents.kinds_of(self._opponents.drawn)
@@ -197,16 +172,6 @@ class RolloutCollector:
         means = {f"reward_{name}": mean for name, mean in transition.terms.items()}
         for name, mean in {**means, "reward": float(transition.rewards.mean())}.items():
             self.reward_means[name] = self.reward_means.get(name, 0.0) + mean / self._args.horizon
-
-    def _not_won(self, transition: Transition) -> Mask:
-        """(n,) matches that were lost (two-sided tasks) or not a full success, where they ended."""
-        task = self.matches.task
-        if task.success is None:
-            return np.zeros(len(transition.ended), np.bool_)
-        scores = transition.metrics[task.success]
-        best = np.inf if task.full_success is None else task.full_success
-        not_won: Mask = scores < (0.0 if task.two_sided else best)
-        return not_won
 
     def _make_batch(
         self,

@@ -29,10 +29,8 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
         run["states"] = collector.states.copy()
     central = {} if collector.central is None else collector.central.rms.state_dict()
     model = {name: part.numpy().copy() for name, part in trainer.model.state_dict().items()}
-    hard_starts = {} if collector.hard_starts is None else collector.hard_starts.state_dict()
     arrays = {
         **add_prefix("run", run),
-        **add_prefix("hard_starts", hard_starts),
         **add_prefix("model", model),
         **add_prefix("adam", trainer.ppo.optimiser.state_dict()),
         **add_prefix("obs_rms", collector.obs_rms.state_dict()),
@@ -82,8 +80,6 @@ def _restore(trainer: Trainer, saved: Checkpoint) -> None:
     collector.return_rms.load_state_dict(select_prefix("return_rms", arrays))
     collector.matches.load_state_dict(select_prefix("worlds", arrays))
     run = select_prefix("run", arrays)
-    if collector.hard_starts is not None:
-        collector.hard_starts.load_state_dict(select_prefix("hard_starts", arrays))
     if collector.central is not None:
         collector.central.rms.load_state_dict(select_prefix("state_rms", arrays))
         collector.states = run["states"].copy()
