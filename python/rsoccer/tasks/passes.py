@@ -51,7 +51,9 @@ def count(play: Play) -> Mask:
     passes = _arrived(play)
     memory = play.memory
     memory["passes"] += passes
-    begins = _begins(play)
+    # The beam breaks some millimetres before the ball touches: a pass has arrived, and another one
+    # begins, while the sender is still the last that touched it.
+    begins = _begins(play) | passes.any(axis=1)
     memory["left_at"][begins] = play.frame.ball.position[begins]
     memory["touched_by"][:] = play.frame.ball.last_touch
     return passes
@@ -75,7 +77,7 @@ def _arrived(play: Play) -> Mask:
 def _begins(play: Play) -> Mask:
     """(n,) whether the ball is with the robot that touched it last, or stopped."""
     ball = play.frame.ball
-    last = ball.last_touch.astype(np.int64)
+    last = ball.last_touch.astype(np.int64)  # -1 reads the last robot, and changes nothing
     robots = play.frame.robots.position[np.arange(len(last)), last]
     begins: Mask = last != play.memory["touched_by"]
     begins |= _squared(ball.position - robots) < REACH * REACH
