@@ -109,23 +109,34 @@ def test_a_policy_of_the_random_task_fits_every_scenario() -> None:
     assert sizes == {TASK.observation_size}
 
 
-@pytest.mark.parametrize("n_opponents", [0, 3, 6])
-def test_varied_opponents_are_fewer_or_have_a_goalkeeper(n_opponents: int) -> None:
-    task = SslStaticDefenders(n_opponents=n_opponents, varied_opponents=True)
+def test_a_fraction_of_the_starts_is_near_a_scenario_mirrored_or_not() -> None:
+    task = SslStaticDefenders(scenario_fraction=0.5)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 2000))
-    position, ball = frame.yellow.position, frame.ball.position
-    in_half = (position[..., 0] > 0.0).sum(axis=1)
-    assert set(in_half.tolist()) == set(range(n_opponents + 1))
-    if n_opponents:
-        all_there = 0.5 + 0.5 / (n_opponents + 1)
-        assert (in_half == n_opponents).mean() == pytest.approx(all_there, abs=0.04)
-        keeper = (position[:, 0, 0] > 2.85) & (np.abs(position[:, 0, 1]) <= 0.3)
-        expected = 0.25 * n_opponents / (n_opponents + 1)
-        assert keeper.mean() == pytest.approx(expected, abs=0.04)
-    gaps = np.linalg.norm(position[:, :, None] - position[:, None], axis=-1)
-    assert (gaps + 9.0 * np.eye(n_opponents)).min(initial=9.0) > 0.2
-    assert np.linalg.norm(position - ball[:, None], axis=-1).min(initial=9.0) > 0.12
-    Matches(task, 100, 3).reset()  # bodies do not overlap
+    official = [
+        SslStaticDefenders(scenario=i).get_initial_positions_frame(WorldRng.seeded(0, 1))
+        for i in range(1, 11)
+    ]
+    found = np.zeros((2000, 10, 2), np.bool_)
+    for index, start in enumerate(official):
+        for mirrored, sign in enumerate(([1.0, 1.0], [1.0, -1.0])):
+            ball = np.abs(frame.ball.position - start.ball.position * sign).max(axis=1)
+            robots = frame.yellow.position - start.yellow.position * sign
+            found[:, index, mirrored] = (ball <= 0.151) & (np.abs(robots).max((1, 2)) <= 0.151)
+    near = np.flatnonzero(found.any(axis=(1, 2)))
+    assert len(near) / 2000 == pytest.approx(0.5, abs=0.04)
+    assert (found.mean(axis=0) > 0.01).all(), "each scenario, mirrored or not"
+    assert (frame.yellow.position[near, :, 0].max(axis=1) > 2.7).all(), "goalkeepers"
+    assert not frame.blue.position.any()
+    Matches(task, 200, 3).reset()  # bodies do not overlap
+
+
+def test_scenarios_need_all_opponents() -> None:
+    with pytest.raises(ValueError, match="n_opponents: expected 6 with scenarios, got 3"):
+        SslStaticDefenders(scenario=1, n_opponents=3)
+    with pytest.raises(ValueError, match="n_opponents: expected 6 with scenarios, got 0"):
+        SslStaticDefenders(scenario_fraction=0.1, n_opponents=0)
+    with pytest.raises(ValueError, match="scenario_fraction: expected"):
+        SslStaticDefenders(scenario_fraction=1.1)
 
 
 def test_strike_solves_the_task() -> None:
@@ -144,7 +155,6 @@ def test_the_number_of_opponents_is_an_option(n_opponents: int) -> None:
     task = SslStaticDefenders(n_opponents=n_opponents)
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 20))
     assert frame.yellow.position.shape == (20, n_opponents, 2)
-    assert SslStaticDefenders(n_opponents=n_opponents, scenario=1).n_yellow == 6
 
 
 @pytest.mark.parametrize("n_opponents", [-1, 7])

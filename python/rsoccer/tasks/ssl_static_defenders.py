@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer import checks, spawn
 from rsoccer.arrays import Floats, Mask
@@ -20,12 +19,8 @@ ATTACKER_CLEARANCE: Final = 0.3
 BALL_START_X: Final = 0.15
 """Least x of ball and opponents in the initial state, m."""
 MAX_OPPONENTS: Final = 6
-VARIED_FRACTION: Final = 0.5
-"""Fraction of the episodes with fewer opponents or a goalkeeper, with `varied_opponents`."""
-KEEPER_X: Final = 0.1
-"""Distance of a goalkeeper from the goal line, m: that of the official scenarios."""
-KEEPER_Y: Final = 0.3
-"""Greatest distance of a goalkeeper from the centre of the goal, m: that of the scenarios."""
+MAX_SHIFT: Final = 0.15
+"""Greatest shift of the ball, and of the opponents together, with `scenario_fraction`, m."""
 WAITING_SPACING: Final = 0.25
 """Distance between opponents that do not take part, m."""
 
@@ -38,9 +33,12 @@ class SslStaticDefenders(SslAttack):
 
     Initial state: blue_0 at the centre, facing the goal; the ball and the opponents at random
     positions in the opponents' half, outside their goal area, opponents with random headings. With
-    `scenario`, the ball and the opponents of an official scenario, one of them perhaps in the goal
-    area. The opponents keep their positions with the dribbler on. With `random_start` half
-    of the episodes start with blue_0 at a random position there, and the ball in its mouth.
+    `scenario`, the ball and the opponents of an official scenario, one of them in the goal area.
+    The opponents keep their positions with the dribbler on. With `random_start` half of the
+    episodes start with blue_0 at a random position there, and the ball in its mouth.
+
+    Scenarios have 3 to 6 opponents, but as many robots as random initial states with 6, so that one
+    policy plays them all: the others wait along the attacker's own goal line.
 
     Source: SSL hardware challenges 2021, challenge 1, and the rSoccer paper (2021).
     """
@@ -48,39 +46,37 @@ class SslStaticDefenders(SslAttack):
     scenario: int | None = None
     """Official scenario, 1 to 10; None for random initial states."""
     n_opponents: int = MAX_OPPONENTS
-    """Opponents in random initial states, 0 to 6; a scenario has its own number."""
-    varied_opponents: bool = False
-    """True: half of the random initial states have 0 to `n_opponents` opponents, the others
-    waiting, and half of those with any have a goalkeeper. So a policy learns for any number."""
+    """Opponents in random initial states, 0 to 6; must be 6 with scenarios."""
+    scenario_fraction: float = 0.0
+    """Fraction of the random initial states, 0 to 1, that are near an official scenario: any of
+    them, mirrored or not, ball and opponents shifted by up to 0.15 m. For training."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
         checks.integer_in_range("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
         if self.scenario is not None:
             checks.integer_in_range("scenario", self.scenario, 1, scenarios.N_STATIC_DEFENDERS)
-        checks.boolean("varied_opponents", self.varied_opponents)
+        checks.number_in_range("scenario_fraction", self.scenario_fraction, 0.0, 1.0)
+        uses_scenarios = self.scenario is not None or self.scenario_fraction > 0.0
+        if uses_scenarios and self.n_opponents != MAX_OPPONENTS:
+            raise ValueError(
+                f"n_opponents: expected {MAX_OPPONENTS} with scenarios, got {self.n_opponents}"
+            )
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
-        """Return one attacker, and the number of opponents of the option, 6 in a scenario."""
-        return 1, self.n_opponents if self.scenario is None else MAX_OPPONENTS
+        """Return one attacker, and the number of opponents of the option."""
+        return 1, self.n_opponents
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Place the attacker at the centre; ball and opponents at random or by scenario."""
         frame = Frame.empty(len(rng), *self.team_sizes())
         if self.scenario is not None:
-            ball, opponents = scenarios.static_defenders(self.scenario)
-            count = len(opponents)
-            frame.ball.position[:] = ball
-            frame.yellow.position[:, :count] = opponents[:, :2]
-            frame.yellow.heading[:, :count, 0] = np.cos(opponents[:, 2])
-            frame.yellow.heading[:, :count, 1] = np.sin(opponents[:, 2])
-            frame.yellow.heading[:, count:] = (1.0, 0.0)
-            self._let_wait(frame, np.full(len(frame), count))
+            frame = self._scenario_frame(self.scenario, len(rng))
         else:
             self._place_at_random(frame, rng)
-            if self.varied_opponents:
-                self._vary(frame, rng)
+            if self.scenario_fraction > 0.0:
+                self._place_near_scenarios(frame, rng)
         if self.random_start:
             self._place_with_ball(frame, rng)
         return frame
@@ -98,30 +94,41 @@ class SslStaticDefenders(SslAttack):
         frame.yellow.position[:] = positions[:, 1:]
         frame.yellow.heading[:] = spawn.headings(rng, self.n_opponents)
 
-    def _vary(self, frame: Frame, rng: WorldRng) -> None:
-        """Write other numbers of opponents, and goalkeepers, into half of the worlds, in place."""
-        if not self.n_opponents:
-            return
-        varied = rng.uniform(0.0, 1.0) < VARIED_FRACTION
-        count = np.floor(rng.uniform(0.0, self.n_opponents + 1.0)).astype(np.int64)
-        has_keeper = varied & (rng.uniform(0.0, 1.0) < 0.5)  # the first one; it may wait, too
-        keeper_y = rng.uniform(-KEEPER_Y, KEEPER_Y)
-        frame.yellow.position[has_keeper, 0, 0] = self.config.field.half_length - KEEPER_X
-        frame.yellow.position[has_keeper, 0, 1] = keeper_y[has_keeper]
-        self._let_wait(frame, np.where(varied, count, self.n_opponents))
-
-    def _let_wait(self, frame: Frame, count: NDArray[np.int64]) -> None:
-        """Write the positions of the opponents from `count` (n,) on into a frame, in place.
-
-        They stand along the attacker's own goal line, from a corner on.
-        """
+    def _scenario_frame(self, scenario: int, n: int) -> Frame:
+        """Frame of n worlds with an official scenario; opponents that it lacks wait."""
+        frame = Frame.empty(n, *self.team_sizes())
+        ball, opponents = scenarios.static_defenders(scenario)
+        count = len(opponents)
+        frame.ball.position[:] = ball
+        frame.yellow.position[:, :count] = opponents[:, :2]
+        frame.yellow.heading[:, :count, 0] = np.cos(opponents[:, 2])
+        frame.yellow.heading[:, :count, 1] = np.sin(opponents[:, 2])
         field, radius = self.config.field, self.config.robot.bounding_radius
-        index = np.arange(frame.n_yellow)
-        places = np.empty((len(index), 2), np.float32)
-        places[:, 0] = radius - field.half_length
-        places[:, 1] = radius - field.half_width + WAITING_SPACING * index
-        waits = index >= count[:, None]
-        frame.yellow.position[:] = np.where(waits[..., None], places, frame.yellow.position)
+        waiting = np.arange(MAX_OPPONENTS - count)
+        frame.yellow.position[:, count:, 0] = radius - field.half_length
+        frame.yellow.position[:, count:, 1] = radius - field.half_width + WAITING_SPACING * waiting
+        return frame
+
+    def _place_near_scenarios(self, frame: Frame, rng: WorldRng) -> None:
+        """Write states near official scenarios into a fraction of a frame, in place."""
+        chosen = rng.uniform(0.0, 1.0) < self.scenario_fraction
+        scenario = np.floor(rng.uniform(0.0, scenarios.N_STATIC_DEFENDERS)).astype(np.int64)
+        mirror = np.where(rng.uniform(0.0, 1.0) < 0.5, np.float32(-1.0), np.float32(1.0))
+        ball_shift = rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
+        shift = rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
+        shift[:, 0] = -np.abs(shift[:, 0])  # a goalkeeper has no space behind it
+        field = self.config.field
+        low = np.array([BALL_START_X, MAX_SHIFT - field.half_width], np.float32)
+        high = np.array([field.half_length, field.half_width], np.float32) - np.float32(MAX_SHIFT)
+        for index in range(scenarios.N_STATIC_DEFENDERS):
+            worlds = np.flatnonzero(chosen & (scenario == index))
+            part = self._scenario_frame(index + 1, len(worlds))
+            takes_part = part.yellow.position[..., :1] > 0.0
+            part.yellow.position[:] += shift[worlds, None] * takes_part
+            part.ball.position[:] = np.clip(part.ball.position + ball_shift[worlds], low, high)
+            for values in (part.ball.position, part.yellow.position, part.yellow.heading):
+                values[..., 1] *= mirror[worlds].reshape(-1, *[1] * (values.ndim - 2))
+            frame.rows[worlds] = part.rows
 
     def _forbidden(self, positions: Floats) -> Mask:
         """(n, discs) whether a robot would touch the goal area, the goal line or the attacker."""
