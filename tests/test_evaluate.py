@@ -276,7 +276,7 @@ def test_other_metrics_are_means_from_the_view_of_the_policy() -> None:
     assert set(result.metrics) == {"free_balls"}
     assert 0.0 < result.metrics["free_balls"] < 1.0
     passing = evaluate("strike", "zero", matches=4, task=PassingTask())
-    assert passing.metrics == {"own_passes": 3.0, "opponent_passes": 1.0}
+    assert passing.metrics == {"own_passes": 3.0, "opponent_passes": 1.0, "throw_ins": 4.0}
     assert passing.as_dict()["metrics"] == passing.metrics
     assert "own passes" in str(passing)
 
@@ -291,4 +291,5 @@ class PassingTask(SslSelfPlay):
             "goal_score": score,
             "blue_passes": 2.0 + score,
             "yellow_passes": 2.0 - score,
+            "throw_ins": np.full_like(score, 4.0),
         }

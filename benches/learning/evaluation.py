@@ -10,10 +10,14 @@ from benches.learning.run_files import Folders, reference
 from rsoccer.evaluate import Evaluation, evaluate
 from rsoccer.policies import PolicyLike
 from rsoccer.registry import make_task
+from rsoccer.tasks import scenarios
 
 VSSS: Final = ("ou", "zero", "chase", "scripted")
 SSL: Final = ("ou", "zero", "strike")
-SCENARIOS: Final = {"SSLStaticDefenders-v0": 10, "SSLContestedPossession-v0": 5}
+SCENARIOS: Final = {
+    "SSLStaticDefenders-v0": scenarios.N_STATIC_DEFENDERS,
+    "SSLContestedPossession-v0": scenarios.N_CONTESTED_POSSESSION,
+}
 """Numbers of official scenarios; policies of the task's random initial states play them too."""
 OFFICIAL: Final = "official scenarios"
 """Name of their row, in the place of an opponent."""
@@ -59,7 +63,8 @@ def evaluate_run(
 def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str, Any]:
     """Return the numbers of a policy on all official scenarios of a task, with equal weights.
 
-    Each begins in one state, so matches differ by the noise of the actions alone.
+    Each begins in one state, so matches differ by the noise of the actions alone, and those of a
+    policy without noise not at all.
     """
     count = SCENARIOS[task]
     parts = [
@@ -75,7 +80,9 @@ def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str,
         for scenario in range(1, count + 1)
     ]
     sums = ("matches", "wins", "draws", "losses", "decided", "own_goals")
-    after = [part["seconds_to_decision"] for part in parts if part["decided"]]
+    decided = [part for part in parts if part["decided"]]
+    seconds = sum(part["decided"] * part["seconds_to_decision"] for part in decided)
+    total = sum(part["decided"] for part in decided)
     scores = [part["score"] for part in parts]
     return {
         "metric": parts[0]["metric"],
@@ -84,7 +91,7 @@ def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str,
         "by_scenario": scores,
         "sides": {},
         "seconds": round(sum(part["seconds"] for part in parts) / count, DIGITS),
-        "seconds_to_decision": round(sum(after) / len(after), DIGITS) if after else None,
+        "seconds_to_decision": round(seconds / total, DIGITS) if total else None,
         "metrics": {},
     }
 

@@ -57,7 +57,7 @@ def _state(entry: Status, known: Sequence[Status]) -> str:
 def best(entries: Sequence[Status], folders: Folders) -> str:
     """Return a line for each experiment: its best finished run, and the path of the policy.
 
-    The best run has the highest mean score over its opponents, in the policies' own mode.
+    The best run has the highest mean score over its evaluations, in the policies' own mode.
 
     Args:
         entries: States of the selected runs.

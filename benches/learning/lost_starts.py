@@ -79,13 +79,23 @@ def _lost(policy: str, opponent: str, starts: int, seed: int) -> NDArray[np.bool
 
 
 def policies_of(folders: Folders) -> list[str]:
-    """Return the policies of finished runs, with and without noise, and the scripts."""
+    """Return the policies of the runs on this machine, with and without noise, and the scripts.
+
+    Raises:
+        FileNotFoundError: There are no policies of runs.
+    """
     found: list[str] = []
     for experiment in STUDY.experiments:
         if experiment.key in EXPERIMENTS:
             runs = (Run(experiment, seed) for seed in range(experiment.seeds))
             files = (folders.policy(run.key) for run in runs if folders.result(run.key).is_file())
-            found += [f"{path}:{mode}" for path in files for mode in ("sample", "mean")]
+            kept = [path for path in files if path.is_file()]
+            found += [f"{path}:{mode}" for path in kept for mode in ("sample", "mean")]
+    if not found:
+        raise FileNotFoundError(
+            f"expected policies of {', '.join(EXPERIMENTS)} in {folders.work}, got none; "
+            "`python -m benches.learning` learns them"
+        )
     return [*found, *SCRIPTS]
 
 
@@ -96,9 +106,9 @@ def sentences(folders: Folders) -> str:
         return ""
     lines = (
         f"Against `{row['opponent']}`, {row['lost_by_all']:.1%} of the {row['starts']} starts are "
-        f"lost within {SECONDS:g} s by all of {row['policies']} policies, scripts among them: the "
-        f"ball lies in front of the own goal, and the opponent is there first. A score above "
-        f"{row['highest_score']:.2f} would have to win such starts."
+        f"lost within {SECONDS:g} s by all of {row['policies']} policies, scripts among them, and "
+        f"{row['least_lost_by_one']:.1%} by the best of them. A score above "
+        f"{row['highest_score']:.2f} would have to win starts that all lose."
         for row in json.loads(path.read_text())
     )
     return " ".join(lines) + " (`python -m benches.learning.lost_starts`)"

@@ -17,7 +17,12 @@ def results(collected: Studied) -> str:
     parts = finished(collected, "ppo")
     header = (
         *("task", "against", "score", "95% interval", "target", "seeds", "mean action"),
-        *("won, drawn, lost (own goals)", "time to success", "samples", "core time"),
+        *(
+            "won, drawn, lost (own goals), passes per match",
+            "time to success",
+            "samples",
+            "core time",
+        ),
     )
     rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
     return _with_notes(header, rows, collected, "ppo")

@@ -1,13 +1,13 @@
 """Passes that `SSLSelfPlay-v0` counts, in scenes with one kick or a rolling ball."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 
 from rsoccer import Matches
 from rsoccer.tasks import SslSelfPlay
-from rsoccer.tasks.passes import NOBODY
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, scene
 
 TASK = SslSelfPlay()
@@ -16,45 +16,92 @@ FACING = {"blue_0": (-1.0, 0.0, 0.0), "blue_1": (1.0, 0.0, np.pi)}
 """Two teammates 2 m apart, face to face."""
 
 
-def passes_after_kick(
-    poses: Mapping[str, tuple[float, ...]], kicker: str = "blue_0"
-) -> tuple[float, float]:
-    """Passes of blue and yellow after a robot kicks; all others dribble where they stand."""
+@dataclass
+class Kicked:
+    """What happened after a kick."""
+
+    passes: tuple[float, float]
+    """Of blue and yellow."""
+    beams: set[int] = field(default_factory=set)
+    """Robots whose break beam the ball broke after the kick."""
+    touches: set[int] = field(default_factory=set)
+    """Robots that touched the ball."""
+
+
+def kick(
+    poses: Mapping[str, tuple[float, ...]], kicker: str = "blue_0", speed: float = 0.5
+) -> Kicked:
+    """Let a robot kick, `speed` 1 being the hardest; all others dribble where they stand."""
     matches = Matches(TASK, 1, autoreset="disabled")
     matches.reset(rows=scene(TASK, **poses).rows)
     actions = np.tile(np.array(DRIBBLE, np.float32), (1, len(matches.agents), 1))
+    kicked = Kicked((0.0, 0.0))
     for step in range(60):
-        softly = (*KICK[:3], 0.5, -1.0)
-        actions[0, TASK.robots.index(kicker)] = softly if step < 2 else STAND
+        actions[0, TASK.robots.index(kicker)] = (*KICK[:3], speed, -1.0) if step < 2 else STAND
         outcome = matches.step(actions)
-    metrics = outcome.metrics
-    return float(metrics["blue_passes"][0]), float(metrics["yellow_passes"][0])
+        robots = matches.frame.robots
+        kicked.beams |= set(np.flatnonzero(robots.infrared[0] > 0.5).tolist())
+        kicked.touches.add(int(matches.frame.ball.last_touch[0]))
+    blue, yellow = (float(outcome.metrics[f"{team}_passes"][0]) for team in ("blue", "yellow"))
+    kicked.passes = (blue, yellow)
+    return kicked
 
 
 def test_a_ball_from_mouth_to_mouth_of_teammates_is_one_pass() -> None:
-    assert passes_after_kick({**FACING, "ball": (-1.0 + MOUTH, 0.0)}) == (1.0, 0.0)
+    """At some speeds the ball breaks the beam one step before it touches the robot."""
+    arrived = 0
+    for speed in np.linspace(0.2, 0.7, 26):
+        kicked = kick({**FACING, "ball": (-1.0 + MOUTH, 0.0)}, speed=float(speed))
+        assert kicked.passes == (float(1 in kicked.beams), 0.0), speed
+        arrived += 1 in kicked.beams
+    assert arrived > 15
 
 
 def test_passes_are_those_of_the_team() -> None:
     poses = {"yellow_0": FACING["blue_0"], "yellow_1": FACING["blue_1"]}
-    assert passes_after_kick({**poses, "ball": (-1.0 + MOUTH, 0.0)}, "yellow_0") == (0.0, 1.0)
+    kicked = kick({**poses, "ball": (-1.0 + MOUTH, 0.0)}, "yellow_0")
+    assert kicked.passes == (0.0, 1.0)
 
 
 @pytest.mark.parametrize(
-    ("case", "poses"),
+    ("case", "poses", "beam", "touch"),
     [
-        ("to an opponent", {"blue_0": FACING["blue_0"], "yellow_0": FACING["blue_1"]}),
-        ("too short", {"blue_0": (-0.25, 0.0, 0.0), "blue_1": (0.25, 0.0, np.pi)}),
-        ("touched by an opponent", {**FACING, "yellow_0": (0.0, 0.109, np.pi / 2)}),
+        ("to an opponent", {"blue_0": FACING["blue_0"], "yellow_0": FACING["blue_1"]}, 3, 3),
+        ("too short", {"blue_0": (-0.25, 0.0, 0.0), "blue_1": (0.25, 0.0, np.pi)}, 1, 1),
+        ("past an opponent", {**FACING, "yellow_0": (0.55, 0.1112, np.pi / 2)}, 1, 3),
     ],
 )
-def test_other_balls_are_no_passes(case: str, poses: dict[str, tuple[float, ...]]) -> None:
-    ball = (poses["blue_0"][0] + MOUTH, 0.0)
-    assert passes_after_kick({**poses, "ball": ball}) == (0.0, 0.0), case
+def test_other_balls_are_no_passes(
+    case: str, poses: dict[str, tuple[float, ...]], beam: int, touch: int
+) -> None:
+    kicked = kick({**poses, "ball": (poses["blue_0"][0] + MOUTH, 0.0)})
+    assert kicked.passes == (0.0, 0.0), case
+    assert beam in kicked.beams
+    assert touch in kicked.touches
 
 
 def test_a_ball_that_nobody_touched_is_no_pass() -> None:
-    assert passes_after_kick({**FACING, "ball": (0.0, 0.0, 1.5, 0.0)}) == (0.0, 0.0)
+    kicked = kick({**FACING, "ball": (0.0, 0.0, 1.5, 0.0)})
+    assert 1 in kicked.beams
+    assert kicked.passes == (0.0, 0.0)
+
+
+def test_worlds_and_episodes_have_their_own_passes() -> None:
+    """The ball of world 1 is nearer, so its pass arrives sooner, and a new episode begins at 0."""
+    far = scene(TASK, **FACING, ball=(-1.0 + MOUTH, 0.0))
+    near = scene(TASK, **{**FACING, "blue_0": (0.2, 0.0, 0.0)}, ball=(0.2 + MOUTH, 0.0))
+    rows = np.concatenate([far.rows, near.rows])
+    matches = Matches(TASK, 2, autoreset="disabled")
+    matches.reset(rows=rows)
+    actions = np.tile(np.array(DRIBBLE, np.float32), (2, 6, 1))
+    counts = []
+    for step in range(60):
+        actions[:, 0] = (*KICK[:3], 0.5, -1.0) if step < 2 else STAND
+        counts.append(matches.step(actions).metrics["blue_passes"].tolist())
+    assert [0.0, 1.0] in counts
+    assert counts[-1] == [1.0, 1.0]
+    matches.reset(mask=np.array([True, False]), rows=rows[:1])
+    assert matches.step(actions).metrics["blue_passes"].tolist() == [0.0, 1.0]
 
 
 def test_a_ball_that_stopped_is_no_pass() -> None:
@@ -80,17 +127,22 @@ def test_a_ball_that_stopped_is_no_pass() -> None:
 
 
 def test_a_ball_that_left_the_field_is_no_pass() -> None:
+    """blue_1 waits beside the place 0.2 m inside the line where the ball is put."""
     matches = Matches(TASK, 1, autoreset="disabled")
-    start = scene(TASK, blue_0=(0.0, 1.7, np.pi / 2), ball=(0.0, 1.7 + MOUTH))
-    matches.reset(rows=start.rows)
-    actions = np.tile(np.array(STAND, np.float32), (1, 6, 1))
-    actions[0, 0] = KICK
-    seen = []
-    for _ in range(20):
-        matches.step(actions)
-        seen.append(int(matches.play.memory["touched_by"][0]))
-    assert 0 in seen, "blue_0 had the ball"
-    assert seen[-1] == NOBODY
+    poses = {"blue_0": (0.0, 0.9, np.pi / 2), "blue_1": (-0.5, 1.8, 0.0)}
+    matches.reset(rows=scene(TASK, **poses, ball=(0.0, 0.9 + MOUTH)).rows)
+    actions = np.tile(np.array(DRIBBLE, np.float32), (1, 6, 1))
+    beams = set()
+    for step in range(120):
+        actions[0, 0] = KICK if step < 2 else STAND
+        actions[0, 1] = (0.1 if step > 30 else 0.0, 0.0, 0.0, -1.0, 1.0)
+        outcome = matches.step(actions)
+        beams |= set(np.flatnonzero(matches.frame.robots.infrared[0] > 0.5).tolist())
+        if 1 in beams:
+            break
+    assert 1 in beams, "blue_1 collected the ball"
+    assert matches.frame.ball.position[0, 1] - (0.9 + MOUTH) > 0.5
+    assert outcome.metrics["blue_passes"][0] == 0.0
 
 
 def test_passes_are_rewarded_on_demand() -> None:

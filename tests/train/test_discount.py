@@ -22,10 +22,10 @@ def test_the_horizon_changes_geometrically_to_the_final_one() -> None:
     assert horizons == pytest.approx([100.0, 200.0, 400.0])
 
 
-def test_no_discount_at_the_end() -> None:
-    args = Args(gamma=0.9, final_gamma=1.0, action_repeat=3)
-    assert discount_per_decision(args, 0.0) == pytest.approx(0.9**3)
-    assert discount_per_decision(args, 1.0) == 1.0
+@pytest.mark.parametrize(("gamma", "final"), [(1.0, 0.99), (0.99, 1.0)])
+def test_an_infinite_horizon_cannot_be_approached(gamma: float, final: float) -> None:
+    with pytest.raises(ValueError, match=r"gamma.*below 1 where final_gamma is set"):
+        Args(gamma=gamma, final_gamma=final)
 
 
 def test_rollouts_use_the_discount_of_their_samples(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.controllers import Controller
 from rsoccer.frame import Frame
-from rsoccer.matches import Matches
+from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.rewards import goal_score
 from rsoccer.rng import WorldRng
@@ -19,8 +19,6 @@ from rsoccer.task import Task
 
 RETURN = "return"
 """Name of the score of a task without a success metric: the return of the episode."""
-# Results that are no metrics of the task; their names are none that a task can use.
-_RETURNS, _STEPS, _OWN_GOALS = "(returns)", "(steps)", "(own goals)"
 
 
 @dataclass(frozen=True)
@@ -75,21 +73,24 @@ class EpisodeRunner:
             for start in range(0, count, self.worlds)
         ]
         task, metric = self.task, self.task.success
-        joined = {name: np.concatenate([part[name] for part in batches]) for name in batches[0]}
-        returns, steps, own = (joined.pop(name) for name in (_RETURNS, _STEPS, _OWN_GOALS))
+        returns = np.concatenate([batch.returns for batch in batches])
+        steps = np.concatenate([batch.steps for batch in batches])
+        own_goals = np.concatenate([batch.own_goals for batch in batches])
+        metrics = {
+            name: np.concatenate([batch.metrics[name] for batch in batches])
+            for name in batches[0].metrics
+        }
         full = np.inf if task.full_success is None else task.full_success
         if metric is None:
             scores, decided = returns, np.zeros(count, np.bool_)
-        elif metric not in joined:
-            raise ValueError(f"task {task.name!r} has no metric {metric!r} to evaluate by")
         else:
-            scores = joined[metric]
+            scores = metrics[metric]
             decided = scores != 0.0 if task.two_sided else scores >= full
         seconds = steps * task.config.time_step
-        return Episodes(metric or RETURN, scores, returns, seconds, decided, own, joined)
+        return Episodes(metric or RETURN, scores, returns, seconds, decided, own_goals, metrics)
 
-    def _run_batch(self, n: int, seed: int) -> dict[str, Doubles]:
-        """Metrics of n matches at once, (n,) each, with their returns, steps and own goals."""
+    def _run_batch(self, n: int, seed: int) -> _Batch:
+        """Results of n matches that are played at once."""
         # Ended worlds wait, so long matches count as often as short ones.
         matches = Matches(
             self.task,
@@ -101,22 +102,39 @@ class EpisodeRunner:
         )
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)
-        results = {name: np.zeros(n) for name in (_RETURNS, _STEPS, _OWN_GOALS)}
+        results = _Batch(np.zeros(n), np.zeros(n), np.zeros(n), {})
         playing = ~matches.done
         while playing.any():
             if self.before_step is not None:
                 self.before_step(playing)
             outcome = matches.step(learners.act(observations))
             observations = outcome.observations
-            results[_STEPS] += playing
-            results[_RETURNS] += outcome.rewards.mean(axis=1)  # zero where a match waits
+            results.steps[:] += playing
+            results.returns[:] += outcome.rewards.mean(axis=1)  # zero where a match waits
             ending = playing & outcome.ended
             if ending.any():
-                results[_OWN_GOALS][ending] = _own_goals(matches.frame)[ending]
+                _check_success(self.task, outcome)
+                results.own_goals[ending] = _own_goals(matches.frame)[ending]
                 for name, values in outcome.metrics.items():
-                    results.setdefault(name, np.zeros(n))[ending] = values[ending]
+                    results.metrics.setdefault(name, np.zeros(n))[ending] = values[ending]
             playing &= ~ending
         return results
+
+
+@dataclass(frozen=True)
+class _Batch:
+    """Results (n,) of n matches that were played at once."""
+
+    returns: Doubles
+    steps: Doubles
+    own_goals: Doubles
+    metrics: dict[str, Doubles]
+
+
+def _check_success(task: Task, outcome: Outcome) -> None:
+    """Raise ValueError if the task lacks its success metric."""
+    if task.success is not None and task.success not in outcome.metrics:
+        raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
 
 
 def _own_goals(frame: Frame) -> Doubles:

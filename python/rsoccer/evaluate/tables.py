@@ -16,7 +16,7 @@ def table(evaluations: Iterable[Evaluation]) -> str:
     """Return evaluations as lines of text: a header, one line each, aligned columns.
 
     Args:
-        evaluations: the rows, in order. Consecutive ones of the same metric share a table.
+        evaluations: the rows, in order. Consecutive ones of the same metrics share a table.
 
     Returns:
         The tables, separated by an empty line.

@@ -105,7 +105,8 @@ class Args:
     """discount factor per control step, 0 to 1, whatever `action_repeat` is.
     Closer to 1 looks further ahead, but waiting costs less, so speed is learned later"""
     final_gamma: float | None = None
-    """discount factor per control step at the end of the run, 0 to 1; None keeps `gamma`.
+    """discount factor per control step at the end of the run, at least 0 and below 1, as `gamma`
+    then has to be; None keeps `gamma`.
     A longer horizon at the end makes play careful, once it is learned with a short one"""
     gae_lambda: float = 0.9
     """lambda of generalised advantage estimation, 0 to 1.
@@ -210,8 +211,6 @@ class Args:
         std = self.final_action_std
         valid = std is None or (math.isfinite(std) and std > 0)
         _expect(self, "final_action_std", valid, "None, or finite and above 0")
-        valid = self.final_gamma is None or 0 <= self.final_gamma <= 1
-        _expect(self, "final_gamma", valid, "None, or between 0 and 1")
         valid = all(-1 <= number <= 1 for number in self.initial_action)
         _expect(self, "initial_action", valid, "numbers from -1 to 1")
         for name, kind in (("device", Device), ("learning_rate_schedule", Schedule)):
@@ -242,6 +241,10 @@ class Args:
             raise ValueError(f"latest_fraction + past_fraction must be at most 1, got {total:g}")
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
+        if self.final_gamma is not None:  # the horizon 1 / (1 - discount) has to be finite
+            for name in ("gamma", "final_gamma"):
+                valid = 0 <= getattr(self, name) < 1
+                _expect(self, name, valid, "at least 0 and below 1 where final_gamma is set")
         if self.learning_rate_schedule == "adaptive" and self.n_epochs == 1:
             # An only pass is never cut short, so the rate would never fall.
             raise ValueError("n_epochs must be at least 2 if learning_rate_schedule is adaptive")

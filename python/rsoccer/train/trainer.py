@@ -136,6 +136,11 @@ class Trainer:
         matches = self.curriculum.self_play(self._self_play_seed)
         self.collector.enter(matches, self.curriculum.opponents)
 
+    @property
+    def progress(self) -> float:
+        """Share of the run's samples so far, 0 to 1."""
+        return min(self.samples / self.args.samples, 1.0)
+
     def collect_rollout(self, check_stop: Callable[[], None]) -> Batch:
         """Play `horizon` decisions in every world, and count them as samples.
 
@@ -145,8 +150,7 @@ class Trainer:
         Returns:
             Batch of horizon x worlds x agents samples.
         """
-        progress = min(self.samples / self.args.samples, 1.0)
-        self.collector.gamma = discount_per_decision(self.args, progress)
+        self.collector.gamma = discount_per_decision(self.args, self.progress)
         batch = self.collector.collect(check_stop)
         self.samples += len(batch)
         return batch
@@ -158,8 +162,7 @@ class Trainer:
             batch: samples from `collect_rollout`.
             check_stop: called before each minibatch; an exception that it raises ends the update.
         """
-        progress = min(self.samples / self.args.samples, 1.0)
-        learning_rate = self.learning_rate.start_update(progress)
+        learning_rate = self.learning_rate.start_update(self.progress)
         with self.clock.measure("learning"):
             if self.args.mirror_augmentation:
                 batch = with_reflections(batch, self.task, self.model)
@@ -169,7 +172,7 @@ class Trainer:
         self.updates += 1
         if self.args.final_action_std is not None:
             ratio = self.args.final_action_std / self.args.action_std
-            self.model.set_action_std(self.args.action_std * ratio**progress)
+            self.model.set_action_std(self.args.action_std * ratio**self.progress)
         self._update_pool()
 
     def _update_pool(self) -> None:
