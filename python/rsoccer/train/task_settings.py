@@ -40,6 +40,21 @@ _TEAM: Final[dict[str, Any]] = {
 _KEEP_BALL: Final = (0.0, 0.0, 0.0, -0.2, 0.3)
 """Initial action of robots that start with the ball or must not lose it: dribble, seldom kick."""
 
+_STATIC_DEFENDERS: Final[dict[str, Any]] = {
+    **_SSL,
+    # With .99 a shot at once that often fails is worth more than a sure one a second later.
+    "final_gamma": 0.9985,
+    "action_std": 0.3,
+    "final_action_std": 0.03,
+    "initial_action": _KEEP_BALL,
+    "robot_units": 16,
+    # Learning takes most of the time, so few passes over many samples.
+    "worlds": 2048,
+    "n_minibatches": 16,
+    "n_epochs": 2,
+}
+"""Settings of `SSLStaticDefenders-v0` for any number of opponents."""
+
 TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "VSS-v0": {"samples": 10 * M, "worlds": 512},
     "VSSMulti-v0": {
@@ -60,19 +75,15 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLGoToBall-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
     "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
     "SSLStaticDefenders-v0": {
-        **_SSL,
+        **_STATIC_DEFENDERS,
         "samples": 40 * M,
-        # With .99 a shot at once that often fails is worth more than a sure one a second later.
-        "final_gamma": 0.9985,
-        "action_std": 0.3,
-        "final_action_std": 0.03,
-        "initial_action": _KEEP_BALL,
-        "robot_units": 16,
-        # Learning takes most of the time, so few passes over many samples.
-        "worlds": 2048,
-        "n_minibatches": 16,
-        "n_epochs": 2,
         "task_options": {"scenario_fraction": 0.3, "reward_weights": {"failed": -0.3}},
+    },
+    # The same without opponents, so without scenarios.
+    "SSLGoToBallShoot-v0": {
+        **_STATIC_DEFENDERS,
+        "samples": 5 * M,
+        "task_options": {"reward_weights": {"failed": -0.3}},
     },
     "SSLContestedPossession-v0": {
         **_SSL,
