@@ -56,7 +56,7 @@ class SslSelfPlay(Ssl):
     Termination: a goal of either team. Truncation: after `max_steps`.
 
     Metrics: `goal_score`, 1 if blue scored, -1 if yellow scored, else 0; `blue_passes`, passes from
-    a robot of blue to the mouth of a teammate over at least 0.5 m; `yellow_passes`, those of yellow.
+    a robot of blue to a teammate's mouth over at least 0.5 m; `yellow_passes`, those of yellow.
 
     Source: SSL rules for the position of a ball that left the field. The rSoccer paper has no such
     task, so its weights are the default ones.
