@@ -26,7 +26,7 @@ STARTS: Final = 500
 """Starts of an evaluation; a two-sided task plays each number of them for each team."""
 SEED: Final = 0
 """Seed of the starts, the same for every policy."""
-MAX_SIZE: Final = 128 * 1024
+MAX_SIZE: Final = 144 * 1024
 """Greatest size of a file, bytes, so that the package stays small."""
 OPPONENTS: Final = {"differential": ("ou", "zero", "chase", "scripted"), "omni": ("ou", "zero", "strike")}
 """Opponents in two-sided tasks by the drive of the robots; other tasks have their own."""

@@ -18,7 +18,7 @@ from rsoccer.policies.policy_file import Score, read_scores, scores_text
 from rsoccer.tasks import VssSelfPlay
 from tests.policies.networks import network_for
 
-MAX_SIZE = 128 * 1024
+MAX_SIZE = 144 * 1024
 SHIPPED = trained.list_trained()
 
 
