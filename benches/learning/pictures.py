@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, finished
 from benches.learning.curves import band
@@ -17,6 +19,8 @@ COLOURS: Final = {"ppo": "#1f6f8b", "ddpg": "#c8553d", "sac": "#d9a441"}
 BAR, REFERENCE, POINT = "#7fb7c9", "#1f6f8b", "#333333"
 COLUMNS: Final = 2
 PANEL: Final = (4.4, 2.3)  # inches
+SCRIPTS: Final = ("scripted", "strike")
+"""Strongest scripts of the leagues."""
 SHARES: Final = ("goal_score", "reached", "received")
 """Metrics of which 1 is the best value."""
 
@@ -62,11 +66,13 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         axes.plot(samples, means, color=colour, linewidth=1.8, label=label)
         for curve in curves:
             axes.plot(curve["samples"], curve["values"], color=colour, alpha=0.3, linewidth=0.6)
+        _draw_script(axes, part, colour)
     axes.set_xlim(left=0.0)
     axes.xaxis.set_major_formatter(lambda value, _: f"{value / 1e6:g}")
     if metric in SHARES:
-        lowest = min(min(result["curve"]["values"]) for part in parts for result in part.results)
-        axes.set_ylim(min(lowest, 0.0) - 0.04, 1.04)
+        lines = (np.asarray(line.get_ydata(), np.float64) for line in axes.get_lines())
+        lowest = min(float(values.min(initial=0.0)) for values in lines)
+        axes.set_ylim(lowest - 0.04, 1.04)
         axes.axhline(0.0, color="black", linewidth=0.6)
     opponent = parts[0].opponents[0]
     against = "" if opponent == "-" else f" against {opponent}"
@@ -75,6 +81,17 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
     axes.grid(alpha=0.25)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def _draw_script(axes: Axes, part: Collected, colour: str) -> None:
+    """Mean of the curves against the strongest script, if the run was measured against one."""
+    ladders = [result.get("ladder", {}) for result in part.results]
+    for script in SCRIPTS:
+        drawn = band([ladder[script] for ladder in ladders if script in ladder])
+        if drawn is not None:
+            samples, means, _, _ = drawn
+            label = f"{part.experiment.algorithm.upper()} against {script}"
+            axes.plot(samples, means, color=colour, linewidth=1.2, linestyle="--", label=label)
 
 
 def draw_ablation(collected: Sequence[Collected], path: Path) -> Path | None:

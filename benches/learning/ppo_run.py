@@ -17,10 +17,16 @@ from rsoccer.arrays import Array
 from rsoccer.frame import team_of
 from rsoccer.registry import make_task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
+from rsoccer.train.ladder import OPPONENTS
+from rsoccer.train.log import ladder_column
 
 NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
 PHYSICS_FILE: Final = "physics.txt"
+LADDER_POINTS: Final = 20
+"""Measurements against fixed opponents in a run."""
+LADDER_MATCHES: Final = 200
+"""Matches of a measurement, over all opponents."""
 SELF_PLAY_ONLY: Final = (
     *("latest_fraction", "past_fraction", "pool_size", "pool_interval", "pfsp_power"),
 )
@@ -51,8 +57,14 @@ def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -
         "torch_threads": 1,
         "progress": False,
         "match_page": False,
+        "ladder_matches": LADDER_MATCHES,
     }
-    return Args.for_task(**{**given, **fixed})
+    wanted = Args.for_task(**{**given, **fixed})
+    agents = wanted.make_task().agents
+    learners = sum(team_of(name) == team_of(agents[0]) for name in agents)
+    per_update = wanted.worlds * wanted.horizon * learners
+    interval = max(1, round(wanted.samples / per_update / LADDER_POINTS))
+    return dataclasses.replace(wanted, ladder_interval=interval)
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -127,12 +139,32 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     progress = read_progress(folder)
     metric = make_task(run.experiment.task).success or "reward"
     seconds, samples = progress["seconds"], progress["samples"]
+    values, weights = strength(progress, metric)
+    extra = {"updates": len(samples), "trainer_seconds": round(float(seconds[-1]), 1)}
     return Learned(
         policies={"sample": policy, "mean": f"{policy}:mean"},
         samples=int(samples[-1]),
-        curve=curve(metric, samples, seconds, *strength(progress, metric)),
-        extra={"updates": len(samples), "trainer_seconds": round(float(seconds[-1]), 1)},
+        curve=curve(metric, samples, seconds, values, weights),
+        extra={**extra, "ladder": ladder_curves(progress, metric)},
     )
+
+
+def ladder_curves(progress: Mapping[str, Array], metric: str) -> dict[str, Any]:
+    """Return the curves of the ladder by opponent; empty for a task without opponents.
+
+    Args:
+        progress: Columns of the run's log.
+        metric: Metric of the task.
+    """
+    found = {}
+    for opponent in OPPONENTS:
+        values = progress.get(ladder_column(metric, opponent))
+        if values is not None:
+            weights = np.ones(len(values))
+            found[opponent] = curve(
+                metric, progress["samples"], progress["seconds"], values, weights
+            )
+    return found
 
 
 def strength(progress: Mapping[str, Array], metric: str) -> tuple[Array, Array]:
