@@ -44,8 +44,7 @@ _STATIC_DEFENDERS: Final[dict[str, Any]] = {
     **_SSL,
     # With .99 a shot at once that often fails is worth more than a sure one a second later.
     "final_gamma": 0.9985,
-    "action_std": 0.3,
-    "final_action_std": 0.03,
+    "final_action_std": 0.02,
     "initial_action": _KEEP_BALL,
     "robot_units": 16,
     # Learning takes most of the time, so few passes over many samples.
@@ -77,13 +76,17 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLStaticDefenders-v0": {
         **_STATIC_DEFENDERS,
         "samples": 40 * M,
-        "task_options": {"scenario_fraction": 0.3, "reward_weights": {"failed": -0.3}},
+        "task_options": {
+            "random_start": True,
+            "scenario_fraction": 0.3,
+            "reward_weights": {"failed": -0.3},
+        },
     },
     # The same without opponents, so without scenarios.
     "SSLGoToBallShoot-v0": {
         **_STATIC_DEFENDERS,
         "samples": 5 * M,
-        "task_options": {"reward_weights": {"failed": -0.3}},
+        "task_options": {"random_start": True, "reward_weights": {"failed": -0.3}},
     },
     "SSLContestedPossession-v0": {
         **_SSL,
