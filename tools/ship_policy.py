@@ -28,7 +28,10 @@ SEED: Final = 0
 """Seed of the starts, the same for every policy."""
 MAX_SIZE: Final = 144 * 1024
 """Greatest size of a file, bytes, so that the package stays small."""
-OPPONENTS: Final = {"differential": ("ou", "zero", "chase", "scripted"), "omni": ("ou", "zero", "strike")}
+OPPONENTS: Final = {
+    "differential": ("ou", "zero", "chase", "scripted"),
+    "omni": ("ou", "zero", "strike"),
+}
 """Opponents in two-sided tasks by the drive of the robots; other tasks have their own."""
 
 
