@@ -72,7 +72,12 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "past_fraction": 0.1,
     },
     "SSLGoToBall-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
-    "SSLPassEndurance-v0": {**_SSL, "samples": 3 * M, "action_std": 0.3},
+    "SSLPassEndurance-v0": {
+        **_SSL,
+        "samples": 3 * M,
+        "action_std": 0.3,
+        "final_action_std": 0.02,
+    },
     "SSLStaticDefenders-v0": {
         **_STATIC_DEFENDERS,
         "samples": 40 * M,
