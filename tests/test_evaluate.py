@@ -111,7 +111,7 @@ def test_matches_without_a_goal_are_draws() -> None:
     assert (result.wins, result.draws, result.losses) == (0, 4, 0)
     assert (result.score, result.low, result.high) == (0.0, 0.0, 0.0)
     assert result.seconds_to_decision is None
-    assert " - " in str(result).splitlines()[1]
+    assert str(result).splitlines()[1].split()[-2:] == ["-", "0.00"], "goal after, free balls"
 
 
 def counts(results: Results) -> tuple[int, int, int]:

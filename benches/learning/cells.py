@@ -24,6 +24,8 @@ def against(opponent: str) -> str:
     """Return the opponent of a row; empty for the task's own."""
     if opponent == "-":
         return ""
+    if opponent.startswith("@"):
+        return f"policy of {opponent.removeprefix('@ppo/')}"
     return "the official scenarios" if opponent == OFFICIAL else f"`{opponent}`"
 
 

@@ -133,13 +133,10 @@ def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tupl
     ppo = find(collected, f"ppo/{part.experiment.task}")
     # Clones play the task of a team: their comparison with it is the same.
     comparable = ppo is not None and opponent in ppo.opponents
-    against = "" if opponent == "-" else f"`{opponent}`"
-    if opponent.startswith("@"):
-        against = f"policy of {opponent.removeprefix('@ppo/')}"
     return (
         cells.name_of(part, part.experiment.task),
         part.experiment.text,
-        against,
+        cells.against(opponent),
         cells.number(estimate.value),
         cells.interval(estimate),
         cells.number(ppo.estimate(opponent).value) if ppo and comparable else "",

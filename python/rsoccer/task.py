@@ -102,6 +102,17 @@ class Task(ABC):
         """
         return {}
 
+    def rule_memory(self, n: int) -> dict[str, Array]:
+        """Create the memory of rules that derived tasks keep, whatever their `new_memory` is.
+
+        Args:
+            n: number of worlds.
+
+        Returns:
+            Arrays (n, ...) by name, as `new_memory`. Default: none.
+        """
+        return {}
+
     @abstractmethod
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Draw the initial state of episodes.
@@ -389,7 +400,7 @@ class Task(ABC):
             commands=np.zeros((n, robots, len(self.config.command_columns)), np.float32),
             actions=np.zeros((n, robots, self.action_size), np.float32),
             rng=rng,
-            memory=checks.memory("new_memory", self.new_memory(n), n),
+            memory=checks.memory("new_memory", self.new_memory(n), n) | self.rule_memory(n),
             viewpoint=viewpoint,
             steps=np.zeros(n, np.int64),
             threads=threads or Threads(),

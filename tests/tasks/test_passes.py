@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
+from rsoccer.arrays import Array
 from rsoccer.tasks import SslSelfPlay
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, scene
 
@@ -18,7 +19,7 @@ FACING = {"blue_0": (-1.0, 0.0, 0.0), "blue_1": (1.0, 0.0, np.pi)}
 
 @dataclass
 class Kicked:
-    """What happened after a kick."""
+    """Passes, broken beams and touches after a kick."""
 
     passes: tuple[float, float]
     """Of blue and yellow."""
@@ -143,6 +144,18 @@ def test_a_ball_that_left_the_field_is_no_pass() -> None:
     assert 1 in beams, "blue_1 collected the ball"
     assert matches.frame.ball.position[0, 1] - (0.9 + MOUTH) > 0.5
     assert outcome.metrics["blue_passes"][0] == 0.0
+
+
+def test_a_derived_task_with_memory_of_its_own_counts_passes() -> None:
+    class Counting(SslSelfPlay):
+        def new_memory(self, n: int) -> dict[str, Array]:
+            return {"own": np.zeros(n, np.float32)}
+
+    matches = Matches(Counting(), 2, 0)
+    matches.reset()
+    outcome = matches.step(np.zeros((2, 6, 5), np.float32))
+    assert outcome.metrics["blue_passes"].tolist() == [0.0, 0.0]
+    assert "own" in matches.play.memory
 
 
 def test_passes_are_rewarded_on_demand() -> None:

@@ -95,7 +95,7 @@ class SslSelfPlay(Ssl):
         """Draw random positions and headings."""
         return spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
 
-    def new_memory(self, n: int) -> dict[str, Array]:
+    def rule_memory(self, n: int) -> dict[str, Array]:
         """Create the memory of passes: see `passes.new_memory`."""
         return passes.new_memory(n)
 

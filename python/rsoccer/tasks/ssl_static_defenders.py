@@ -70,10 +70,10 @@ class SslStaticDefenders(SslAttack):
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Place the attacker at the centre; ball and opponents at random or by scenario."""
-        frame = Frame.empty(len(rng), *self.team_sizes())
         if self.scenario is not None:
             frame = self._scenario_frame(self.scenario, len(rng))
         else:
+            frame = Frame.empty(len(rng), *self.team_sizes())
             self._place_at_random(frame, rng)
             if self.scenario_fraction > 0.0:
                 self._place_near_scenarios(frame, rng)
@@ -126,8 +126,10 @@ class SslStaticDefenders(SslAttack):
             takes_part = part.yellow.position[..., :1] > 0.0
             part.yellow.position[:] += shift[worlds, None] * takes_part
             part.ball.position[:] = np.clip(part.ball.position + ball_shift[worlds], low, high)
-            for values in (part.ball.position, part.yellow.position, part.yellow.heading):
-                values[..., 1] *= mirror[worlds].reshape(-1, *[1] * (values.ndim - 2))
+            sign = mirror[worlds]
+            part.ball.position[:, 1] *= sign
+            part.yellow.position[..., 1] *= sign[:, None]
+            part.yellow.heading[..., 1] *= sign[:, None]
             frame.rows[worlds] = part.rows
 
     def _forbidden(self, positions: Floats) -> Mask:

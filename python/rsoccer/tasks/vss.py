@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks, rewards, spawn
-from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig, Threads
-from rsoccer.arrays import Floats, Mask
+from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
@@ -19,7 +19,7 @@ from rsoccer.task import Play
 from rsoccer.tasks import options
 from rsoccer.tasks.free_ball import FreeBalls
 from rsoccer.tasks.soccer import Soccer
-from rsoccer.view import SIDES, Viewpoint
+from rsoccer.view import SIDES
 
 DISCRETE_ACTIONS: Final = np.array(
     [[1, 1], [-1, -1], [-1, 1], [1, -1], [0.5, 1], [1, 0.5], [-0.5, -1], [-1, -0.5], [0, 0]],
@@ -182,17 +182,9 @@ class Vss(Soccer):
         """Rule of the option `free_ball`."""
         return FreeBalls(self.config)
 
-    def new_play(
-        self, n: int, viewpoint: Viewpoint, rng: WorldRng, threads: Threads | None = None
-    ) -> Play:
-        """Create the state of n worlds, with the memory of stuck balls with `free_ball`.
-
-        That memory is apart from `new_memory`, which tasks derived from this one may replace.
-        """
-        play = super().new_play(n, viewpoint, rng, threads)
-        if self.free_ball:
-            play.memory |= self.free_balls.new_memory(n)
-        return play
+    def rule_memory(self, n: int) -> dict[str, Array]:
+        """Create the memory of stuck balls with the option `free_ball`, else none."""
+        return self.free_balls.new_memory(n) if self.free_ball else {}
 
     def start_episode(self, play: Play) -> None:
         """Begin the time of stuck balls with the option `free_ball`."""
