@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import cli, commands
+from rsoccer import cli
+from rsoccer.commands import train as train_command
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
 from rsoccer.train import Args, train
@@ -82,7 +83,7 @@ def test_the_recorded_command_has_the_settings_of_the_run(
     task: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     received: list[Args] = []
-    monkeypatch.setattr(commands, "train", received.append)
+    monkeypatch.setattr(train_command, "train", received.append)
     for args in (Args.for_task(task), Args(task=task), Args(task=task, robot_units=3)):
         assert cli.main(shlex.split(command_of(args.to_json()))[1:]) == 0
         assert received[-1].to_json() == args.to_json()

@@ -13,8 +13,8 @@ from rsoccer.train import rollout, train
 from rsoccer.train.batch import Batch
 from rsoccer.train.log import read_progress
 from rsoccer.train.trainer import Trainer
+from tests.train.runs import digest, run_until
 from tests.train.short_task import tiny
-from tests.train.test_trainer import digest, run_until
 
 
 def test_the_annealed_spread_falls_by_equal_factors(tmp_path: Path) -> None:

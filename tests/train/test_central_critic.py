@@ -18,8 +18,8 @@ from rsoccer.train.central_critic import CentralInputs
 from rsoccer.train.mirror import with_reflections
 from rsoccer.train.trainer import Trainer
 from rsoccer.train.transition import Transition, repeat_action
+from tests.train.runs import digest, run_until
 from tests.train.short_task import NAME, tiny
-from tests.train.test_trainer import digest, run_until
 from tests.train.test_transition import NEVER, FakeMatches
 
 CENTRAL: dict[str, Any] = {"central_critic": True}

@@ -16,8 +16,8 @@ from rsoccer.train.mirror import with_reflections
 from rsoccer.train.running_mean_std import RunningMeanStd
 from rsoccer.train.trainer import Trainer
 from tests.train.one_update import one_update
+from tests.train.runs import digest, run_until
 from tests.train.short_task import tiny
-from tests.train.test_trainer import digest, run_until
 
 SYMMETRIC = {"mirror_augmentation": True}
 

@@ -10,8 +10,8 @@ from rsoccer.registry import make_task
 from rsoccer.train import checkpoint, train
 from rsoccer.train.run_state import restore
 from rsoccer.train.trainer import Trainer
+from tests.train.runs import run_until
 from tests.train.short_task import NAME, tiny
-from tests.train.test_trainer import run_until
 
 
 def test_the_policy_file_plays_the_trained_network(finished: Path) -> None:

@@ -1,7 +1,5 @@
 """Training runs: equal for equal seeds, equal after a resume, and rewards rise."""
 
-import csv
-import hashlib
 import json
 from pathlib import Path
 from typing import Any
@@ -10,68 +8,14 @@ import numpy as np
 import pytest
 import torch
 
-from rsoccer.lineup import lineup
 from rsoccer.policies.network import Network
-from rsoccer.registry import make_task
-from rsoccer.replay import Replay, record_replay
 from rsoccer.rng import WorldRng
-from rsoccer.train import Args, checkpoint, train
-from rsoccer.train import trainer as trainer_module
+from rsoccer.train import checkpoint, train
 from rsoccer.train.run_state import capture
-from rsoccer.train.stop_signal import Stopped, StopSignal
+from rsoccer.train.stop_signal import StopSignal
 from rsoccer.train.trainer import Trainer
+from tests.train.runs import digest, progress, run_until
 from tests.train.short_task import FORWARD, NAME, tiny
-
-
-def digest(folder: Path) -> str:
-    """Return the SHA-256 of every array of a run's checkpoint, and of its counters."""
-    saved = checkpoint.load(folder / checkpoint.FILE_NAME)
-    total = hashlib.sha256()
-    for name, array in sorted(saved.arrays.items()):
-        total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
-    total.update(f"{saved.info['samples']} {saved.info['updates']}".encode())
-    return total.hexdigest()
-
-
-def progress(folder: Path) -> list[dict[str, str]]:
-    """Return the rows of the log without the columns that depend on wall-clock time."""
-    with (folder / "progress.csv").open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    times = ("seconds", "samples_per_second", "time_")
-    return [{k: v for k, v in row.items() if not k.startswith(times)} for row in rows]
-
-
-class StopAfter(StopSignal):
-    """A signal that comes at the given check."""
-
-    def __init__(self, checks: int) -> None:
-        super().__init__()
-        self.checks_left = checks
-
-    def check(self) -> None:
-        self.checks_left -= 1
-        if self.checks_left < 0:
-            raise Stopped("test")
-
-
-def run_until(args: Args, checks: int) -> int:
-    """Train until a signal at the given check, and return the number of updates."""
-    trainer = Trainer(args)
-    with pytest.raises(Stopped):
-        trainer.run(StopAfter(checks), 0)
-    return trainer.updates
-
-
-def test_a_run_ends_with_a_match_of_its_policy(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(trainer_module, "MATCH_SECONDS", 2.0)
-    policy = train(tiny(tmp_path, match_page=True))
-    replay = Replay.load(tmp_path / "match.rsr")
-    assert (replay.task, replay.seconds, replay.names) == (NAME, 2.0, ("TRAINED", "OU"))
-    assert (tmp_path / "match.html").read_text() == replay.to_html()
-    rows = record_replay(NAME, lineup(make_task(NAME), str(policy)), seconds=2.0).rows
-    np.testing.assert_allclose(replay.rows, rows, atol=0.06)
 
 
 def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> None:
@@ -226,45 +170,3 @@ def test_capturing_the_state_does_not_change_the_run(tmp_path: Path) -> None:
             trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
     left, right = capture(first, 0).arrays, capture(second, 0).arrays
     assert all(left[name].tobytes() == right[name].tobytes() for name in left)
-
-
-# -- Invalid input --
-
-
-def test_a_folder_with_a_run_is_not_overwritten_by_default(finished: Path) -> None:
-    before = digest(finished)
-    with pytest.raises(ValueError, match="holds a run"):
-        train(tiny(finished))
-    assert digest(finished) == before
-
-
-def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="does not exist"):
-        train(tiny(tmp_path, resume=True))
-
-
-def test_resuming_with_other_settings_is_refused(finished: Path) -> None:
-    with pytest.raises(ValueError, match=f"gamma was {Args.gamma}, now 0.9"):
-        train(tiny(finished, resume=True, gamma=0.9))
-    with pytest.raises(ValueError, match="task was 'ShortSelfPlay-v0', now 'VSSMulti-v0'"):
-        train(tiny(finished, resume=True, task="VSSMulti-v0"))
-
-
-@pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.generator"])
-def test_an_incomplete_checkpoint_is_refused(missing: str, finished: Path, tmp_path: Path) -> None:
-    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
-    del saved.arrays[missing]
-    checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
-    with pytest.raises(ValueError, match="does not fit"):
-        train(tiny(tmp_path, resume=True))
-
-
-def test_an_unwritable_folder_is_refused_before_training(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    with pytest.raises(ValueError, match="out must be a folder to write in"):
-        train(tiny(tmp_path / "file" / "run"))
-
-
-def test_an_unknown_task_is_refused_with_the_valid_ones(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="VSSSelfPlay-v0"):
-        train(tiny(tmp_path, task="Chess-v0"))

@@ -163,6 +163,7 @@ PRIVATE: Final = (
     "rsoccer.checks",
     "rsoccer.cli",
     "rsoccer.commands",
+    "rsoccer.commands.*",
     "rsoccer.compat",
     "rsoccer.compat.*",
     "rsoccer.demo",

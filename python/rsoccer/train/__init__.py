@@ -30,6 +30,6 @@ def train(args: Args) -> Path:
             damaged or of a run with other settings.
         Interrupted: Ctrl-C or SIGTERM ended the run, after a checkpoint was saved.
     """
-    from rsoccer.train.trainer import run
+    from rsoccer.train.run import run
 
     return run(args)

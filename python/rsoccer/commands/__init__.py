@@ -1,0 +1,45 @@
+"""Commands of the command line, a module for each: a class whose fields are the options."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Annotated, Any
+
+from tyro.conf import subcommand
+
+from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.list import List
+from rsoccer.commands.play import Play
+from rsoccer.commands.tournament import Tournament
+from rsoccer.commands.train import Train
+from rsoccer.commands.watch import Watch
+
+
+def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
+    """Return the union of the commands, as tyro takes it.
+
+    Args:
+        words: the words after `rsoccer`. Options of `train` that they do not give have the
+            recommended values for the task that they name.
+    """
+    default = Train.for_task(_last_value(words, "--task") or Train.task)
+    return (
+        Annotated[List, subcommand("list")]
+        | Annotated[Train, subcommand("train", default=default)]
+        | Annotated[Evaluate, subcommand("evaluate")]
+        | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Watch, subcommand("watch")]
+        | Annotated[Play, subcommand("play")]
+    )
+
+
+def _last_value(words: Sequence[str], option: str) -> str | None:
+    """Value of an option, given as two words or with "="; of its last use, as in parsers."""
+    value = None
+    for word, following in pairwise([*words, ""]):
+        if word == option:
+            value = following
+        elif word.startswith(f"{option}="):
+            value = word.partition("=")[2]
+    return value

@@ -1,0 +1,103 @@
+"""`rsoccer evaluate`: the scores of a policy against each opponent."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import Positional, arg
+
+from rsoccer.commands.output import check_output, write
+from rsoccer.commands.subject import (
+    DEFAULT_OPPONENT_HINT,
+    DEFAULT_TASK_HINT,
+    POLICY,
+    SUBJECT,
+    policy_and_task,
+    team_name,
+)
+from rsoccer.evaluate import evaluate, table
+from rsoccer.files import write_atomically
+from rsoccer.lineup import opponents_of
+from rsoccer.replay.evaluation import record_last_match
+from rsoccer.replay.replay import SUFFIX
+from rsoccer.task import Task
+
+
+@dataclass(frozen=True)
+class Evaluate:
+    """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
+
+    subject: Annotated[str | None, Positional, SUBJECT] = None
+    """policy in the place of the learners, or the task"""
+    policy: Annotated[str | None, POLICY] = None
+    """policy in the place of the learners, after a task"""
+    opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=DEFAULT_OPPONENT_HINT)] = ()
+    """policies of the other team, names or paths; one row of the table for each"""
+    matches: int = 200
+    """matches against each opponent; in two-sided tasks half of them as blue, half as yellow"""
+    seed: int = 0
+    """random seed; equal seeds give equal tables"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
+    """task to play"""
+    worlds: int = 50
+    """matches played at once"""
+    threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
+    """threads of the simulator"""
+    json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """file to write the results to as JSON, in addition to the table"""
+    html: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.html file to write: a page that plays the last match in a browser"""
+    save: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.rsr file to write: the last match as a replay, which `rsoccer watch` plays"""
+
+    def run(self) -> None:
+        """Play the matches, then print the table.
+
+        Raises:
+            ValueError: neither a policy nor a task, the folder of a file does not exist, or
+                `evaluate` refuses an option.
+        """
+        check_output("json", self.json)
+        check_output("html", self.html, ".html")
+        check_output("save", self.save, SUFFIX)
+        if (self.subject, self.policy, self.task) == (None, None, None):
+            raise ValueError("policy: expected a policy or a task, got none")
+        policy, task = policy_and_task(self.subject, self.policy, self.task)
+        evaluations = [
+            evaluate(
+                policy,
+                opponent,
+                self.matches,
+                self.seed,
+                task=task,
+                worlds=self.worlds,
+                threads=self.threads,
+            )
+            for opponent in self.opponents or (None,)
+        ]
+        write(f"{evaluations[0].task}\n\n{table(evaluations)}")
+        if self.json is not None:
+            results = [evaluation.as_dict() for evaluation in evaluations]
+            write_atomically(self.json, (json.dumps(results, indent=2) + "\n").encode())
+        if self.html is not None or self.save is not None:
+            self._write_last_match(policy, task)
+
+    def _write_last_match(self, policy: str, task: Task) -> None:
+        """Record the last match against the last opponent."""
+        opponent = self.opponents[-1] if self.opponents else None
+        opponents = opponents_of(task) if opponent is None else [opponent]
+        replay = record_last_match(
+            policy,
+            opponent,
+            self.matches,
+            self.seed,
+            task=task,
+            names=(team_name(policy), " ".join(map(team_name, opponents))),
+        )
+        if self.html is not None:
+            write(f"page: {replay.save_html(self.html)}")
+        if self.save is not None:
+            write(f"replay: {replay.save(self.save)}")

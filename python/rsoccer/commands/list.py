@@ -1,0 +1,54 @@
+"""`rsoccer list`: the tasks with their options, and the policies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rsoccer import policies, registry
+from rsoccer.commands.output import write
+from rsoccer.policies import trained
+from rsoccer.policies.policy_file import Score
+from rsoccer.task import Task
+
+
+@dataclass(frozen=True)
+class List:
+    """Print the tasks with their options, and the policies."""
+
+    def run(self) -> None:
+        """Print the lists."""
+        for name in registry.list_tasks():
+            task = registry.make_task(name)
+            write(f"{name}: {_summary(task)}")
+            write("\n".join(f"    {option}" for option in _options(task)) + "\n")
+        for name, (task_name, options) in registry.list_aliases().items():
+            values = [f"{option}={value!r}" for option, value in options.items()]
+            write(f"{name}: {', '.join([task_name, *values])}")
+        write(f"policies: {', '.join(policies.list_policies())}, or the path of a policy file")
+        write("best is the trained policy of the task; its mean scores, with 95% intervals:")
+        for name, path in trained.list_trained().items():
+            scores = [_score_text(score) for score in trained.list_scores(path)]
+            write("\n".join(f"    {name}: {score}" for score in scores or ["not measured"]))
+        examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
+        write("best and files play as they were trained; :mean or :sample may follow the name")
+        write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
+
+
+def _score_text(score: Score) -> str:
+    """A score in one line."""
+    opponent = "" if score.opponent == "-" else f" against {score.opponent}"
+    return (
+        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}, "
+        f"{score.matches} matches"
+    )
+
+
+def _summary(task: Task) -> str:
+    """First line of the task's docstring."""
+    return (type(task).__doc__ or "").strip().split("\n")[0]
+
+
+def _options(task: Task) -> list[str]:
+    """Options of a task for `make_task`, each with its default."""
+    names = registry.list_options(type(task))
+    return [f"{name}={getattr(task, name)!r}" for name in names]

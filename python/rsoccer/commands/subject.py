@@ -1,0 +1,76 @@
+"""The policy and the task of a command: their options, and what is played without them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tyro.conf import arg
+
+from rsoccer import policies, registry
+from rsoccer.human.teams import SCRIPTS
+from rsoccer.lineup import DEFAULT_TASK, task_for
+from rsoccer.policies import trained
+from rsoccer.task import Task
+
+_SUBJECT_HELP = (
+    "a policy: a name that `rsoccer list` prints, or the path of a policy file, which plays as it "
+    "was trained unless :mean or :sample follows; or a task, whose policy --policy names"
+)
+SUBJECT = arg(metavar="POLICY|TASK", help=_SUBJECT_HELP, help_behavior_hint="")
+SUBJECT_OR_REPLAY = arg(
+    metavar="POLICY|TASK|REPLAY",
+    help=f"{_SUBJECT_HELP}; or a replay (.rsr)",
+    help_behavior_hint="(default: best in VSSSelfPlay-v0)",
+)
+POLICY = arg(
+    metavar="POLICY", help_behavior_hint="(default: best, or a script where there is none)"
+)
+DEFAULT_TASK_HINT = "(default: the one that the policy was trained on, or VSSSelfPlay-v0)"
+DEFAULT_OPPONENT_HINT = "(default: the task's own, or ou where that team learns)"
+
+
+def policy_and_task(subject: str | None, policy: str | None, task: str | None) -> tuple[str, Task]:
+    """Return the policy and the task of a command, whose first word names either.
+
+    Args:
+        subject: first word: a policy or a task.
+        policy: value of `--policy`.
+        task: value of `--task`.
+
+    Raises:
+        ValueError: two policies, two tasks, or an unknown task.
+    """
+    if subject is not None and registry.is_task_name(subject) and not Path(subject).exists():
+        if task is not None:
+            raise ValueError(f"task: expected one task, got {subject} and {task}")
+        task = subject
+    elif subject is not None:
+        if policy is not None:
+            raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
+        policy = subject
+    if task is not None:
+        made = registry.make_task(task)
+    else:
+        made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
+    return policy or _default_policy(made), made
+
+
+def _default_policy(task: Task) -> str:
+    """The trained policy of a task, or a script that plays in the place of one."""
+    try:
+        trained.load_best(task)
+    except ValueError:
+        return SCRIPTS[task.config.robots[0].drive]
+    return trained.BEST
+
+
+def team_name(player: str) -> str:
+    """Return the name of a policy on the scoreboard: for a file its folder's name.
+
+    Args:
+        player: name of a policy, or path of its file.
+    """
+    if player.partition(":")[0] in policies.list_policies():
+        return player.upper()
+    path = Path(player)
+    return (path.parent.name or path.stem if path.suffix else player).upper()

@@ -1,0 +1,75 @@
+"""`rsoccer tournament`: ratings of policies that all play against each other."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import Positional, arg
+
+from rsoccer.commands.output import check_output, write
+from rsoccer.commands.subject import DEFAULT_TASK_HINT
+from rsoccer.evaluate import tournament
+from rsoccer.files import write_atomically
+
+_POLICIES = arg(
+    metavar="POLICY [POLICY ...]",
+    help="names that `rsoccer list` prints, or paths of policy files; at least two",
+    help_behavior_hint="",
+)
+
+
+@dataclass(frozen=True)
+class Tournament:
+    """Play every policy against every other one, from both sides, and print their ratings."""
+
+    policies: Annotated[tuple[str, ...], Positional, _POLICIES]
+    """policies that play, at least two"""
+    matches: int = 100
+    """matches between each two policies, half of them on either side"""
+    seed: int = 0
+    """random seed; equal seeds give equal tables"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
+    """task to play, one that two teams play; each policy controls all robots of its team"""
+    worlds: int = 50
+    """matches played at once"""
+    threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
+    """threads of the simulator"""
+    json: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """file to write the results to as JSON, in addition to the tables"""
+    picture: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.png file to write: the goal scores as a heat map, and the ratings"""
+
+    def run(self) -> None:
+        """Play the matches, then print the tables.
+
+        Raises:
+            ValueError: the folder of a file does not exist, or `tournament` refuses an option.
+        """
+        check_output("json", self.json)
+        check_output("picture", self.picture, ".png")
+        if self.picture is not None:
+            import matplotlib  # noqa: F401  (a missing package is reported before the matches)
+        result = tournament(
+            self.policies,
+            self.matches,
+            self.seed,
+            task=self.task,
+            worlds=self.worlds,
+            threads=self.threads,
+            on_pair=_show_pairs,
+        )
+        write(str(result))
+        if self.json is not None:
+            write_atomically(self.json, (json.dumps(result.as_dict(), indent=2) + "\n").encode())
+        if self.picture is not None:
+            write(f"picture: {result.save_picture(self.picture)}")
+
+
+def _show_pairs(done: int, total: int) -> None:
+    """Show on a terminal how many pairs have played."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r{done} of {total} pairs" + ("\n" if done == total else ""))

@@ -1,0 +1,68 @@
+"""`rsoccer train`: `Args` with the options that tyro cannot parse by itself."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
+
+from tyro.constructors import PrimitiveConstructorSpec
+
+from rsoccer.commands.output import write
+from rsoccer.train import Args, train
+
+
+def _parse_options(words: list[str]) -> dict[str, Any]:
+    """Options given as NAME=VALUE; values as `rsoccer list` prints them, or text without quotes."""
+    options: dict[str, Any] = {}
+    for word in words:
+        name, separator, value = word.partition("=")
+        if not name or not separator:
+            raise ValueError(f"task_options: expected NAME=VALUE, got {word!r}")
+        try:
+            options[name] = ast.literal_eval(value)
+        except (SyntaxError, ValueError):
+            options[name] = value
+    return options
+
+
+_TASK_OPTIONS = PrimitiveConstructorSpec[Mapping[str, Any]](
+    nargs="*",
+    metavar="[NAME=VALUE [NAME=VALUE ...]]",
+    instance_from_str=_parse_options,
+    is_instance=lambda value: isinstance(value, Mapping),
+    str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
+)
+
+
+def _parse_mix(words: list[str]) -> dict[str, float]:
+    """Policies with their shares, given as POLICY SHARE in turn."""
+    if len(words) % 2:
+        raise ValueError(f"expected pairs of POLICY and SHARE, got {' '.join(words)!r}")
+    return {name: float(share) for name, share in zip(words[::2], words[1::2], strict=True)}
+
+
+# tyro's own would turn the policies of a default mix into options each, and refuse other policies.
+_MIX = PrimitiveConstructorSpec[dict[str, float]](
+    nargs="*",
+    metavar="[POLICY SHARE [POLICY SHARE ...]]",
+    instance_from_str=_parse_mix,
+    is_instance=lambda value: isinstance(value, dict),
+    str_from_instance=lambda mix: [str(part) for pair in mix.items() for part in pair],
+)
+
+
+@dataclass(frozen=True)
+class Train(Args):
+    """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
+
+    task_options: Annotated[Mapping[str, Any], _TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task (`rsoccer list` prints them), such as reward_weights=paper or
+    opponent=chase"""
+    opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
+    teammates: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
+
+    def run(self) -> None:
+        """Train, and print the path of the policy file."""
+        write(f"policy: {train(self)}")

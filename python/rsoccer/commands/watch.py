@@ -1,0 +1,143 @@
+"""`rsoccer watch`: a match or a replay in a window or in files."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from tyro.conf import Positional, arg
+
+from rsoccer.commands.output import check_output, write
+from rsoccer.commands.subject import (
+    DEFAULT_OPPONENT_HINT,
+    DEFAULT_TASK_HINT,
+    POLICY,
+    SUBJECT_OR_REPLAY,
+    policy_and_task,
+    team_name,
+)
+from rsoccer.controllers import Controller
+from rsoccer.lineup import lineup, opponents_of
+from rsoccer.replay.recorder import record_replay
+from rsoccer.replay.replay import SUFFIX, Replay
+from rsoccer.task import Task
+
+if TYPE_CHECKING:
+    from rsoccer.render.image import Image
+
+
+@dataclass(frozen=True)
+class Watch:
+    """Show a match or a replay in a window, or write it to files: video, page, replay."""
+
+    subject: Annotated[str | None, Positional, SUBJECT_OR_REPLAY] = None
+    """policy in the place of the learners, the task, or a replay to play"""
+    policy: Annotated[str | None, POLICY] = None
+    """policy in the place of the learners, after a task"""
+    opponent: Annotated[
+        str | None, arg(metavar="POLICY", help_behavior_hint=DEFAULT_OPPONENT_HINT)
+    ] = None
+    """policy of the yellow team, a name or path, against the policy in blue"""
+    task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
+    """task to play"""
+    seed: int = 0
+    """random seed; each seed gives another match"""
+    seconds: float = 60.0
+    """seconds of play; a new episode begins when one ends. A replay has its own duration"""
+    speed: float = 1.0
+    """speed of the window, above 0: 1 is real time, 2 is twice as fast"""
+    width: int | None = None
+    """width of the picture in pixels; by default one at which robots can be distinguished"""
+    video: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.mp4 or .gif file to write instead of opening a window; needs no display"""
+    html: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.html file to write instead: a page that plays the match in a browser"""
+    save: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.rsr file to write instead: a replay, which `rsoccer watch` plays again"""
+    snapshots: Annotated[
+        float | None, arg(metavar="SECONDS", help_behavior_hint="(default: none)")
+    ] = None
+    """seconds of play between the snapshots of the saved replay, from which it can be resumed"""
+
+    def run(self) -> None:
+        """Show the match, or write the files.
+
+        Raises:
+            ValueError: the speed is not positive and finite, or another option is refused.
+        """
+        if not 0.0 < self.speed < math.inf:
+            raise ValueError(f"speed: expected a positive number, got {self.speed}")
+        check_output("html", self.html, ".html")
+        check_output("save", self.save, SUFFIX)
+        if self.subject is not None and self.subject.endswith(SUFFIX):
+            self._play_replay(self._load(self.subject))
+        elif self.html or self.save:
+            self._play_replay(self._record())
+        else:
+            self._play_match()
+
+    def _load(self, path: str) -> Replay:
+        """The replay that is named in the place of a policy."""
+        for name in ("policy", "opponent", "task", "snapshots"):
+            if getattr(self, name) is not None:
+                raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
+        return Replay.load(path)
+
+    def _record(self) -> Replay:
+        """A new match as a replay."""
+        task, controllers, names = self._match()
+        return record_replay(
+            task,
+            controllers,
+            self.seed,
+            self.seconds,
+            names=names,
+            snapshot_interval=self.snapshots,
+        )
+
+    def _play_replay(self, replay: Replay) -> None:
+        """Write a replay to the files, or show it."""
+        if self.save is not None:
+            path = replay.save(self.save)
+            write(f"replay: {path} ({path.stat().st_size / 1024 / replay.seconds:.1f} KiB/s)")
+        if self.html is not None:
+            write(f"page: {replay.save_html(self.html)}")
+        if self.video is not None or not (self.html or self.save):
+            from rsoccer.replay.film import film_replay
+
+            self._show(replay.task, *film_replay(replay, self.width))
+
+    def _play_match(self) -> None:
+        """Show a new match while it is played."""
+        from rsoccer.render.record import film_match
+
+        task, controllers, names = self._match()
+        images, fps = film_match(
+            task, controllers, self.seed, self.seconds, names=names, width=self.width
+        )
+        self._show(task.name, images, fps)
+
+    def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
+        """The task, the controllers, and the names of the teams."""
+        policy, task = policy_and_task(self.subject, self.policy, self.task)
+        opponents = opponents_of(task) if self.opponent is None else [self.opponent]
+        names = (team_name(policy), " ".join(map(team_name, opponents)))
+        return task, lineup(task, policy, self.opponent), names
+
+    def _show(self, title: str, images: Iterator[Image], fps: float) -> None:
+        """Write images to the video file, or show them in a window."""
+        from rsoccer.render.video import write_video
+
+        if self.video is not None:
+            write(f"video: {write_video(self.video, images, fps)}")
+            return
+        from rsoccer.render.window import Window
+
+        window = Window(title, fps * self.speed)
+        for image in images:
+            if not window.show(image):
+                break
+        window.close()

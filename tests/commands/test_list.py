@@ -1,0 +1,39 @@
+"""`rsoccer list`."""
+
+import subprocess
+import sys
+
+import pytest
+
+import rsoccer
+from rsoccer import cli
+from rsoccer.policies import trained
+
+
+def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["list"]) == 0
+    printed = capsys.readouterr().out
+    for name in [*rsoccer.list_tasks(), "max_steps=1200", "opponent='ou'", "chase", "scripted:0.5"]:
+        assert name in printed
+
+
+def test_list_shows_the_scores_of_trained_policies(capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.main(["list"]) == 0
+    printed = capsys.readouterr().out
+    assert "free_ball=False" in printed
+    for name, path in trained.list_trained().items():
+        score = trained.list_scores(path)[0]
+        assert f"{name}: {score.metric} {score.score:.3f} ({score.low:.3f} to " in printed
+    assert trained.list_trained()
+
+
+def test_list_and_help_import_no_heavy_package() -> None:
+    code = (
+        "import sys; from rsoccer.cli import main; main(['list'])\n"
+        "try: main(['train', '--help'])\n"
+        "except SystemExit: pass\n"
+        "sys.exit(','.join({'torch', 'pygame', 'matplotlib', 'PIL'} & set(sys.modules)) or 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "--learning-rate" in done.stdout

@@ -1,0 +1,50 @@
+"""Runs that end early, and the files that runs leave."""
+
+import csv
+import hashlib
+from pathlib import Path
+
+import pytest
+
+from rsoccer.train import Args, checkpoint
+from rsoccer.train.stop_signal import Stopped, StopSignal
+from rsoccer.train.trainer import Trainer
+
+
+def digest(folder: Path) -> str:
+    """Return the SHA-256 of every array of a run's checkpoint, and of its counters."""
+    saved = checkpoint.load(folder / checkpoint.FILE_NAME)
+    total = hashlib.sha256()
+    for name, array in sorted(saved.arrays.items()):
+        total.update(f"{name} {array.shape} {array.dtype}".encode() + array.tobytes())
+    total.update(f"{saved.info['samples']} {saved.info['updates']}".encode())
+    return total.hexdigest()
+
+
+def progress(folder: Path) -> list[dict[str, str]]:
+    """Return the rows of the log without the columns that depend on wall-clock time."""
+    with (folder / "progress.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    times = ("seconds", "samples_per_second", "time_")
+    return [{k: v for k, v in row.items() if not k.startswith(times)} for row in rows]
+
+
+class StopAfter(StopSignal):
+    """A signal that comes at the given check."""
+
+    def __init__(self, checks: int) -> None:
+        super().__init__()
+        self.checks_left = checks
+
+    def check(self) -> None:
+        self.checks_left -= 1
+        if self.checks_left < 0:
+            raise Stopped("test")
+
+
+def run_until(args: Args, checks: int) -> int:
+    """Train until a signal at the given check, and return the number of updates."""
+    trainer = Trainer(args)
+    with pytest.raises(Stopped):
+        trainer.run(StopAfter(checks), 0)
+    return trainer.updates
