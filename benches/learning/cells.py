@@ -40,7 +40,13 @@ def with_interval(part: Collected | None) -> str:
 def better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
     """Return the probability that a run of the first is better, with its interval."""
     opponent = opponent or part.opponents[0]
-    estimate = probability_of_improvement(part.scores(opponent), reference.scores(opponent))
+    return probability(
+        probability_of_improvement(part.scores(opponent), reference.scores(opponent))
+    )
+
+
+def probability(estimate: Estimate) -> str:
+    """Return a probability with its interval."""
     return f"{estimate.value:.2f} ({estimate.low:.2f} to {estimate.high:.2f})"
 
 

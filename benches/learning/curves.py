@@ -24,6 +24,18 @@ def value_at(curve: Curve, samples: float) -> float | None:
     return float(np.interp(samples, curve["samples"], curve["values"]))
 
 
+def mean_until(curve: Curve, samples: float) -> float:
+    """Return the mean of a curve from its first point to a number of samples.
+
+    Args:
+        curve: Curve with at least one point.
+        samples: At least those of the first point.
+    """
+    first = float(curve["samples"][0])
+    grid = np.linspace(first, max(samples, first), GRID)
+    return float(np.interp(grid, curve["samples"], curve["values"]).mean())
+
+
 def band(curves: Sequence[Curve]) -> tuple[Doubles, Doubles, Doubles, Doubles] | None:
     """Return the mean of several seeds' curves with its 95% bootstrap interval.
 

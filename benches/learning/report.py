@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
 
-from benches.learning import lost_starts, tables
+from benches.learning import lost_starts, paper_claims, tables
 from benches.learning.collection import Collected, collect
 from benches.learning.pictures import draw_ablation, draw_curves
 from benches.learning.run_files import Folders
@@ -52,8 +52,10 @@ def results() -> str:
 
 
 def baselines() -> str:
-    """Return the table of DDPG and SAC beside PPO; empty without results."""
-    return _section("PPO, DDPG and SAC", tables.baselines)
+    """Return DDPG and SAC beside PPO, and the paper's order of them; empty without results."""
+    text = _section("PPO, DDPG and SAC", tables.baselines)
+    order = paper_claims.order(_collected())
+    return f"{text}\n\n### The order of the algorithms\n\n{order}" if order else text
 
 
 def ablation() -> str:

@@ -1,0 +1,99 @@
+"""The order of the algorithms in the paper's figure, beside that of this study."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from benches.learning import cells
+from benches.learning.collection import Collected, find
+from benches.learning.curves import mean_until
+from benches.learning.statistics import Estimate, probability_of_improvement
+from tools.markdown import table
+
+Scores = Callable[[Collected, Collected], tuple[list[float], list[float]]]
+"""Scores of the seeds of two experiments that a claim compares."""
+
+
+def _while_learning(first: Collected, second: Collected) -> tuple[list[float], list[float]]:
+    """Means of the learning curves up to the samples that all runs of both have."""
+    curves = [[result["curve"] for result in part.results] for part in (first, second)]
+    common = min(curve["samples"][-1] for part in curves for curve in part)
+    means = [[mean_until(curve, common) for curve in part] for part in curves]
+    return means[0], means[1]
+
+
+def _in_the_end(first: Collected, second: Collected) -> tuple[list[float], list[float]]:
+    """Scores of the evaluation after the runs."""
+    return first.scores(), second.scores()
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What the paper says about two algorithms."""
+
+    text: str
+    better: str
+    """Name of an algorithm, in keys of experiments."""
+    worse: str
+    tasks: tuple[str, ...]
+    scores: Scores
+
+
+_VSSS: Final = ("VSS-v0", "VSSMulti-v0")
+_CURVES: Final = ("SSLGoToBall-v0", "SSLDribbling-v0", "SSLContestedPossession-v0")
+
+CLAIMS: Final = (
+    Claim(
+        "DDPG is ahead of SAC at equal samples", "ddpg", "sac", (*_VSSS, *_CURVES), _while_learning
+    ),
+    Claim(
+        "SAC is ahead of DDPG in the end",
+        *("sac", "ddpg"),
+        ("SSLGoToBall-v0", "SSLStaticDefenders-v0"),
+        _in_the_end,
+    ),
+    Claim("DDPG is ahead of PPO, which does not learn", "ddpg", "ppo", _VSSS, _in_the_end),
+)
+"""Section "Results" of the rSoccer paper (2021), whose runs had 10 to 20 M samples."""
+
+
+def order(collected: Sequence[Collected]) -> str:
+    """Return the table of the claims, with a row for each task that has results; else ""."""
+    header = (
+        *("task", "the paper", "score of the first", "of the second"),
+        *("P(first better)", "here"),
+    )
+    rows = [
+        row
+        for claim in CLAIMS
+        for task in claim.tasks
+        if (row := _row(claim, task, collected)) is not None
+    ]
+    return table(header, rows) if rows else ""
+
+
+def _row(claim: Claim, task: str, collected: Sequence[Collected]) -> tuple[str, ...] | None:
+    """Cells of a claim about a task; None without results of both algorithms."""
+    first, second = (_find(name, task, collected) for name in (claim.better, claim.worse))
+    if first is None or second is None:
+        return None
+    scores = claim.scores(first, second)
+    estimate = probability_of_improvement(*scores)
+    means = (cells.number(sum(part) / len(part)) for part in scores)
+    return f"`{task}`", claim.text, *means, cells.probability(estimate), _verdict(estimate)
+
+
+def _find(algorithm: str, task: str, collected: Sequence[Collected]) -> Collected | None:
+    key = f"ppo/{task}" if algorithm == "ppo" else f"baselines/{task}-{algorithm}"
+    return find(collected, key)
+
+
+def _verdict(estimate: Estimate) -> str:
+    """Whether the seeds agree with the claim; open where the interval contains even odds."""
+    if estimate.runs <= 2:  # one seed each
+        return "one seed"
+    if estimate.low > 0.5:
+        return "agrees"
+    return "the reverse" if estimate.high < 0.5 else "open"
