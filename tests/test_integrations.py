@@ -11,7 +11,7 @@ import pytest
     [
         (
             "rsoccer.sb3",
-            "stable_baselines3.common.vec_env",
+            "stable_baselines3",
             'rsoccer.sb3 needs Stable-Baselines3: pip install "stable-baselines3>=2.4"',
         ),
         (

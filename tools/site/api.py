@@ -123,7 +123,8 @@ GROUPS: Final = (
     Group(
         "Libraries",
         (
-            "rsoccer.sb3",
+            "rsoccer.sb3.vec_env",
+            "rsoccer.sb3.vec_normalize",
             "rsoccer.torchrl",
             "rsoccer.rllib.env",
             "rsoccer.rllib.runner",
@@ -181,6 +182,7 @@ PRIVATE: Final = (
     "rsoccer.replay",
     "rsoccer.replay.*",
     "rsoccer.rllib",
+    "rsoccer.sb3",
     "rsoccer.tasks",
     "rsoccer.tasks.*",
     "rsoccer.testing",
