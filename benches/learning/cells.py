@@ -38,11 +38,12 @@ def with_interval(part: Collected | None) -> str:
 
 
 def better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
-    """Return the probability that a run of the first is better, with its interval."""
+    """Return the probability that a run of the first is better; empty for a single seed."""
     opponent = opponent or part.opponents[0]
-    return probability(
-        probability_of_improvement(part.scores(opponent), reference.scores(opponent))
-    )
+    scores = part.scores(opponent), reference.scores(opponent)
+    if min(map(len, scores)) == 1:
+        return ""
+    return probability(probability_of_improvement(*scores))
 
 
 def probability(estimate: Estimate) -> str:

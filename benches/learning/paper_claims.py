@@ -80,8 +80,10 @@ def _row(claim: Claim, task: str, collected: Sequence[Collected]) -> tuple[str, 
     if first is None or second is None:
         return None
     scores = claim.scores(first, second)
-    estimate = probability_of_improvement(*scores)
     means = (cells.number(sum(part) / len(part)) for part in scores)
+    if min(map(len, scores)) == 1:
+        return f"`{task}`", claim.text, *means, "", "one seed"
+    estimate = probability_of_improvement(*scores)
     return f"`{task}`", claim.text, *means, cells.probability(estimate), _verdict(estimate)
 
 
@@ -92,8 +94,6 @@ def _find(algorithm: str, task: str, collected: Sequence[Collected]) -> Collecte
 
 def _verdict(estimate: Estimate) -> str:
     """Whether the seeds agree with the claim; open where the interval contains even odds."""
-    if estimate.runs <= 2:  # one seed each
-        return "one seed"
     if estimate.low > 0.5:
         return "agrees"
     return "the reverse" if estimate.high < 0.5 else "open"
