@@ -117,8 +117,8 @@ def _ablation_cells(
 def cooperation(collected: Studied) -> str:
     """Return the comparisons of teams, clones and critics."""
     header = (
-        *("task", "policy", "against", "score", "95% interval", "PPO, decentral critic"),
-        *("P(better than that)", "seeds"),
+        *("task", "policy", "against", "score", "95% interval", "target"),
+        *("PPO, decentral critic", "P(better than that)", "seeds"),
     )
     rows = [
         _cooperation_row(part, opponent, collected)
@@ -139,6 +139,8 @@ def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tupl
         cells.against(opponent),
         cells.number(estimate.value),
         cells.interval(estimate),
+        # Targets against scripts are those of the first table's policies.
+        cells.target(part, opponent) if opponent.startswith("@") else "",
         cells.number(ppo.estimate(opponent).value) if ppo and comparable else "",
         cells.better(part, ppo, opponent) if ppo and comparable else "",
         cells.seeds(part.scores(opponent)),

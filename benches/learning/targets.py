@@ -9,6 +9,7 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
     ("VSS-v0", "zero"): 0.9,
     ("VSS-v0", "scripted"): 0.6,
     ("VSSMulti-v0", "ou"): 0.97,
+    ("VSSMulti-v0", "@ppo/VSS-v0"): 0.3,
     ("VSSSelfPlay-v0", "ou"): 0.9,
     ("VSSSelfPlay-v0", "zero"): 0.9,
     ("VSSSelfPlay-v0", "chase"): 0.9,
@@ -19,8 +20,9 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
     ("SSLStaticDefenders-v0", "-"): 0.85,
     ("SSLStaticDefenders-v0", OFFICIAL): 0.85,
     ("SSLPassEnduranceMulti-v0", "-"): 10.0,
+    ("SSLSelfPlay-v0", "strike"): 0.0,  # more wins than losses
 }
-"""Score by task and opponent; "-" is the task's own."""
+"""Score by task and opponent; "-" is the task's own, "@ppo/TASK" a policy of another task."""
 
 FULL_SUCCESS: Final[dict[str, float]] = {"SSLDribbling-v0": 0.9}
 """Share of episodes with full success, by task, where the target is not a score."""
