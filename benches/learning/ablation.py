@@ -61,6 +61,11 @@ CHANGES: Final = (
         "observations and rewards normalised",
         {"normalise_observations": False, "normalise_rewards": False},
     ),
+    Change(
+        "reflections",
+        "samples learned from a second time with left and right swapped",
+        {"mirror_augmentation": False},
+    ),
 )
 """The learner itself is the same in all runs: the paper does not name the settings of its PPO."""
 
