@@ -111,7 +111,8 @@ def _ablation_cells(
     better = ""
     if reference is not None:
         better = cells.better(reference, part) if swap else cells.better(part, reference)
-    return cells.number(estimate.value), cells.interval(estimate), better
+    mark = cells.STALE_MARK if part.stale else ""
+    return f"{cells.number(estimate.value)}{mark}", cells.interval(estimate), better
 
 
 def cooperation(collected: Studied) -> str:

@@ -1,8 +1,10 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from benches.learning import report, tables
+from benches.learning.cells import STALE_MARK
 from benches.learning.collection import collect, find
 from benches.learning.curves import band, value_at
 from benches.learning.experiments import Experiment, Study
@@ -97,3 +99,12 @@ def test_equal_samples_are_read_from_the_curve(folders: Folders) -> None:
 def test_curves_without_points_have_no_band() -> None:
     empty = {"metric": "", "samples": [], "seconds": [], "values": []}
     assert band([empty]) is None
+
+
+def test_stale_variants_of_the_ablation_are_marked(tmp_path: Path) -> None:
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+    variant = Experiment("ablation", "paper", "VSS-v0", settings={"gamma": 0.9}, seeds=1)
+    store(Study((variant,)), folders)
+    changed = Study((replace(variant, settings={"gamma": 0.8}),))
+    assert STALE_MARK not in tables.ablation(collect(Study((variant,)), folders))
+    assert tables.ablation(collect(changed, folders)).count(STALE_MARK) == 2  # its cell, the note
