@@ -65,7 +65,6 @@ def _run(arguments: Sequence[str] | None) -> None:
         prog="rsoccer",
         description="Robot soccer for reinforcement learning.",
         args=words,
-        config=(tyro.conf.FlagCreatePairsOff,),
     )
     command.run()
 

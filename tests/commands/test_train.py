@@ -94,3 +94,16 @@ def test_train_refuses_an_option_without_a_value(capsys: pytest.CaptureFixture[s
     with pytest.raises(SystemExit):
         cli.main(["train", "--task-options", "n_blue"])
     assert "expected NAME=VALUE" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("word", "value"), [("--", True), ("--no-", False)])
+@pytest.mark.parametrize("recommended", [True, False])
+def test_a_switch_has_both_forms_whatever_is_recommended(
+    word: str, value: bool, recommended: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    received: list[Any] = []
+    monkeypatch.setattr(train_command, "train", received.append)
+    settings = {"VSS-v0": {"mirror_augmentation": recommended}}
+    monkeypatch.setattr(task_settings, "TASK_SETTINGS", settings)
+    assert cli.main(["train", "--task", "VSS-v0", f"{word}mirror-augmentation"]) == 0
+    assert received[0].mirror_augmentation is value

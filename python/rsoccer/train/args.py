@@ -139,7 +139,7 @@ class Args:
     n_minibatches: int = 8
     """minibatches per epoch, at least 1"""
     mirror_augmentation: bool = False
-    """learn from each sample a second time, with left and right swapped; doubles the learning time.
+    """learn from each sample a second time, with left and right swapped, in up to twice the time.
     The task must be symmetric, as all are but SSLDribbling-v0"""
     clip_range: float = 0.2
     """clip range of PPO, above 0: largest change of an action's probability ratio in an update"""
