@@ -8,7 +8,7 @@ from typing import Any, Final
 from benches.learning.collection import Collected
 from benches.learning.curves import value_at
 from benches.learning.evaluation import OFFICIAL
-from benches.learning.statistics import Estimate, probability_of_improvement
+from benches.learning.statistics import Estimate, comparison
 from benches.learning.targets import FULL_SUCCESS, TARGETS
 
 STALE_MARK: Final = "\\*"
@@ -40,14 +40,13 @@ def with_interval(part: Collected | None) -> str:
 def better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
     """Return the probability that a run of the first is better; empty for a single seed."""
     opponent = opponent or part.opponents[0]
-    scores = part.scores(opponent), reference.scores(opponent)
-    if min(map(len, scores)) == 1:
+    return probability(comparison(part.scores(opponent), reference.scores(opponent)))
+
+
+def probability(estimate: Estimate | None) -> str:
+    """Return a probability with its interval; empty without one."""
+    if estimate is None:
         return ""
-    return probability(probability_of_improvement(*scores))
-
-
-def probability(estimate: Estimate) -> str:
-    """Return a probability with its interval."""
     return f"{estimate.value:.2f} ({estimate.low:.2f} to {estimate.high:.2f})"
 
 

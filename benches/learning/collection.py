@@ -92,6 +92,14 @@ def find(collected: Sequence[Collected], key: str) -> Collected | None:
     return next((part for part in collected if part.results and part.experiment.key == key), None)
 
 
+def find_task(
+    collected: Sequence[Collected], task: str, algorithm: str = "ppo"
+) -> Collected | None:
+    """Return the experiment of an algorithm on a task, PPO or a baseline, if it has results."""
+    name = f"ppo/{task}" if algorithm == "ppo" else f"baselines/{task}-{algorithm}"
+    return find(collected, name)
+
+
 def _collected(experiment: Experiment, study: Study, folders: Folders) -> Collected:
     """Current results; stale ones only if there are no others."""
     current: list[Result] = []

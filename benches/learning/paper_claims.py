@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from benches.learning import cells
-from benches.learning.collection import Collected, find
+from benches.learning.collection import Collected, find_task
 from benches.learning.curves import mean_until
-from benches.learning.statistics import Estimate, probability_of_improvement
+from benches.learning.statistics import Estimate, comparison
 from tools.markdown import table
 
 Scores = Callable[[Collected, Collected], tuple[list[float], list[float]]]
@@ -31,7 +31,7 @@ def _in_the_end(first: Collected, second: Collected) -> tuple[list[float], list[
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper says about two algorithms."""
+    """Statement of the paper about two algorithms on some tasks."""
 
     text: str
     better: str
@@ -76,24 +76,19 @@ def order(collected: Sequence[Collected]) -> str:
 
 def _row(claim: Claim, task: str, collected: Sequence[Collected]) -> tuple[str, ...] | None:
     """Cells of a claim about a task; None without results of both algorithms."""
-    first, second = (_find(name, task, collected) for name in (claim.better, claim.worse))
+    first, second = (find_task(collected, task, name) for name in (claim.better, claim.worse))
     if first is None or second is None:
         return None
     scores = claim.scores(first, second)
     means = (cells.number(sum(part) / len(part)) for part in scores)
-    if min(map(len, scores)) == 1:
-        return f"`{task}`", claim.text, *means, "", "one seed"
-    estimate = probability_of_improvement(*scores)
+    estimate = comparison(*scores)
     return f"`{task}`", claim.text, *means, cells.probability(estimate), _verdict(estimate)
 
 
-def _find(algorithm: str, task: str, collected: Sequence[Collected]) -> Collected | None:
-    key = f"ppo/{task}" if algorithm == "ppo" else f"baselines/{task}-{algorithm}"
-    return find(collected, key)
-
-
-def _verdict(estimate: Estimate) -> str:
-    """Whether the seeds agree with the claim; open where the interval contains even odds."""
+def _verdict(estimate: Estimate | None) -> str:
+    """Agreement of the seeds with the claim; open where the interval contains even odds."""
+    if estimate is None:
+        return "one seed"
     if estimate.low > 0.5:
         return "agrees"
     return "the reverse" if estimate.high < 0.5 else "open"

@@ -53,9 +53,7 @@ def results() -> str:
 
 def baselines() -> str:
     """Return DDPG and SAC beside PPO, and the paper's order of them; empty without results."""
-    text = _section("PPO, DDPG and SAC", tables.baselines)
-    order = paper_claims.order(_collected())
-    return f"{text}\n\n### The order of the algorithms\n\n{order}" if order else text
+    return _section("PPO, DDPG and SAC", _baselines_and_order)
 
 
 def ablation() -> str:
@@ -86,6 +84,12 @@ def headline() -> str:
         "failed in the paper."
     )
     return "\n\n".join(part for part in (text, explained, picture) if part)
+
+
+def _baselines_and_order(collected: list[Collected]) -> str:
+    """Both tables; empty without results."""
+    text, order = tables.baselines(collected), paper_claims.order(collected)
+    return f"{text}\n\n### The order of the algorithms\n\n{order}" if order else text
 
 
 def _section(title: str, write: Callable[[list[Collected]], str]) -> str:

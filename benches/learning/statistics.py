@@ -58,6 +58,11 @@ def probability_of_improvement(x: Sequence[float], y: Sequence[float]) -> Estima
     return _bootstrap([x, y], _improvement)
 
 
+def comparison(x: Sequence[float], y: Sequence[float]) -> Estimate | None:
+    """Return `probability_of_improvement`; None where one side has a single run."""
+    return probability_of_improvement(x, y) if min(len(x), len(y)) > 1 else None
+
+
 def _improvement(parts: list[Doubles]) -> Doubles:
     x, y = (part[..., None, :] for part in parts)
     difference = x.swapaxes(-1, -2) - y

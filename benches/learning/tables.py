@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
-from benches.learning.collection import Collected, find, finished
+from benches.learning.collection import Collected, find_task, finished
 from tools.markdown import table
 
 Studied = Sequence[Collected]
@@ -59,7 +59,7 @@ def baselines(collected: Studied) -> str:
 
 def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     experiment, estimate = part.experiment, part.estimate()
-    ppo = find(collected, f"ppo/{experiment.task}")
+    ppo = find_task(collected, experiment.task)
     label = f"{experiment.algorithm.upper()}{', paper sizes' if 'paper' in experiment.name else ''}"
     opponent = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
     steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
@@ -131,7 +131,7 @@ def cooperation(collected: Studied) -> str:
 
 def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tuple[str, ...]:
     estimate = part.estimate(opponent)
-    ppo = find(collected, f"ppo/{part.experiment.task}")
+    ppo = find_task(collected, part.experiment.task)
     # Clones play the task of a team: their comparison with it is the same.
     comparable = ppo is not None and opponent in ppo.opponents
     return (
@@ -170,7 +170,7 @@ def headline(collected: Studied) -> str:
     rows = []
     for part in finished(collected, "ppo"):
         task = part.experiment.task
-        others = (find(collected, f"baselines/{task}-{name}") for name in ("ddpg", "sac"))
+        others = (find_task(collected, task, name) for name in ("ddpg", "sac"))
         against = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
         metric = part.rows()[0]["metric"].replace("_", " ")
         rows.append(

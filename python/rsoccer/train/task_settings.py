@@ -29,7 +29,8 @@ _SSL: Final[dict[str, Any]] = {
 """Settings of all SSL tasks with one learning team."""
 
 _VSSS: Final[dict[str, Any]] = {
-    # Twice as much is learned from a sample at first, and a little more in the end.
+    # Twice as much is learned from a sample at first. In the end VSSMulti-v0 is a little better,
+    # VSSSelfPlay-v0 is not.
     "mirror_augmentation": True,
 }
 """Settings of all VSSS tasks."""
