@@ -10,15 +10,24 @@ from benches.learning import clones, ppo_run, sb3_run
 from benches.learning.experiments import CLONES, PPO, SB3, Run
 from benches.learning.learned import Learned
 from benches.learning.run_files import Folders
+from rsoccer.registry import make_task
 
 
 def settings(run: Run) -> dict[str, Any]:
     """Return all settings that decide the result of a run, as JSON values.
 
+    `observation`, the blocks of the observation and their shapes, is not set but compared.
+
     Raises:
         TypeError: The algorithm has no such setting.
         ValueError: A setting outside its range.
     """
+    values = _settings_of_algorithm(run)
+    task = make_task(run.experiment.task, **values.get("task_options", {}))
+    return {**values, "observation": task.layout}
+
+
+def _settings_of_algorithm(run: Run) -> dict[str, Any]:
     algorithm = run.experiment.algorithm
     if algorithm == PPO:
         return ppo_run.settings(run)

@@ -75,6 +75,18 @@ def test_stale_results_are_marked_until_there_is_a_current_one(tmp_path: Path) -
     assert mixed.missing == 1
 
 
+def test_results_with_another_observation_are_stale(tmp_path: Path) -> None:
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+    store(study_of(), folders)
+    old = load(folders, "ppo/VSS-v0/seed-0")
+    assert old is not None
+    assert old["settings"]["observation"].startswith("ball 4, ego 7, ")
+    old["settings"]["observation"] = "ball 4, ego 7"
+    for seed in range(2):
+        save(folders, f"ppo/VSS-v0/seed-{seed}", old)
+    assert collect(study_of(), folders)[0].stale
+
+
 def test_the_result_of_a_setting_that_is_gone_is_stale(tmp_path: Path) -> None:
     folders = Folders(tmp_path / "results", tmp_path / "work")
     store(study_of(), folders)
