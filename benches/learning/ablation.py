@@ -51,7 +51,8 @@ CHANGES: Final = (
         "the own action and features in the robot's coordinates observed",
         {
             "masked_observations": (
-                *("ball_polar", "goal_polar", "shot", "body_velocities", "body_positions"),
+                *("ball_polar", "goal_polar", "shot", "own_goal_polar", "own_goal_shot"),
+                *("body_velocities", "body_positions"),
                 "action",
             )
         },

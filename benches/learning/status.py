@@ -23,6 +23,9 @@ UNAVAILABLE: Final = "unavailable"
 SAMPLES_PER_SECOND: Final = 8_000.0
 """Guess for algorithms of which no run has finished yet."""
 
+MAX_CHANGE: Final = 120
+"""Most characters of a change that are listed with both values."""
+
 
 @dataclass(frozen=True)
 class Status:
@@ -67,7 +70,7 @@ def status(run: Run, study: Study, folders: Folders) -> Status:
 def differences(
     run: Run, study: Study, settings: Mapping[str, Any], result: Mapping[str, Any]
 ) -> list[str]:
-    """Return the settings that differ from those of a result, one text each.
+    """Return the settings that differ from those of a result, a text of a line each.
 
     A setting that is newer than the result counts as its default.
 
@@ -86,10 +89,15 @@ def differences(
     missing = {n: v for n, v in algorithms.defaults(run).items() if n in now and n not in kept}
     before = {**missing, **kept}
     return [
-        f"{name} was {before.get(name)!r}, now {now.get(name)!r}"
+        _change(name, before.get(name), now.get(name))
         for name in {**now, **before}
         if now.get(name) != before.get(name)
     ]
+
+
+def _change(name: str, before: object, now: object) -> str:
+    text = f"{name} was {before!r}, now {now!r}"
+    return text if len(text) <= MAX_CHANGE else f"{name} has changed"
 
 
 def _after_needs(entry: Status, found: Mapping[str, Status]) -> Status:

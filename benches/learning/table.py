@@ -97,6 +97,16 @@ COOPERATION: Final = (
     ),
     Experiment(
         "cooperation",
+        "team-against-clones-with-free-balls",
+        "VSSSelfPlay-v0",
+        "clones",
+        settings={"policy": f"@ppo/{TEAM}"},
+        opponents=("@ppo/VSS-v0",),
+        needs=(f"ppo/{TEAM}", "ppo/VSS-v0"),
+        text="the same policies where a ball that is stuck leads to a free ball",
+    ),
+    Experiment(
+        "cooperation",
         "one-learner-against-team",
         "VSS-v0",
         "clones",

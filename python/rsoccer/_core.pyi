@@ -1046,6 +1046,8 @@ class EgoFeatures:
     | `shot` | (4,) | cosine and sine of the bearing from ball to goal, -1 to 1 | 1 |
     | | | nearness of the ball, exp(-8 d) at d metres, 0 to 1 | 1 |
     | | | nearness times alignment, -1 to 1 | 1 |
+    | `own_goal_polar` | (3,) | `goal_polar` of the defended goal, without a mouth | as there |
+    | `own_goal_shot` | (3,) | `shot` at it, less the nearness alone, without a mouth | 1 |
     | `body_velocities` | (2, 2) | own velocity and the ball's, forward and left | top speed |
     | `body_positions` | (slots, 2) | offsets of ball, teammates, opponents | half length |
 

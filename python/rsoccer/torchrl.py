@@ -3,7 +3,7 @@
 >>> from rsoccer.torchrl import SoccerEnv  # doctest: +SKIP
 >>> env = SoccerEnv("VSSSelfPlay-v0", worlds=64, state=True)  # doctest: +SKIP
 >>> env.rollout(100, break_when_any_done=False)["blue", "observation"].shape  # doctest: +SKIP
-torch.Size([64, 100, 3, 74])
+torch.Size([64, 100, 3, 80])
 
 It needs TorchRL: `pip install "torchrl>=0.14"`.
 """

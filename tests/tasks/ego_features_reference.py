@@ -28,6 +28,7 @@ def blocks(view: View, config: SimConfig) -> dict[str, Array]:
         "teammates": robots[:, :, 1 : 1 + view.n_teammates],
         "opponents": robots[:, :, 1 + view.n_teammates :],
         **body_frame_blocks(view, goal, scales.per_metre, scales.per_speed),
+        **({} if has_mouth else own_goal_blocks(view, -goal, scales.per_metre)),
     }
 
 
@@ -45,6 +46,16 @@ def body_frame_blocks(
         "shot": _shot(ego, offsets[:, :, 0], goal - ball.position),  # (n, observers, 4)
         "body_velocities": _to_body(ego, velocities) * per_speed,  # (n, observers, 2, 2)
         "body_positions": _to_body(ego, offsets) * per_metre,  # (n, observers, ball and others, 2)
+    }
+
+
+def own_goal_blocks(view: View, own_goal: Floats, per_metre: np.float32) -> dict[str, Array]:
+    """Blocks of the middle of the defended goal, (2,), m, in body coordinates."""
+    ego, ball = view.ego, view.ball
+    shot = _shot(ego, ball.position - ego.position, own_goal - ball.position)
+    return {
+        "own_goal_polar": _polar(ego, own_goal - ego.position, per_metre),  # (n, observers, 3)
+        "own_goal_shot": shot[..., [0, 1, 3]],  # (n, observers, 3)
     }
 
 

@@ -106,7 +106,7 @@ def test_wrong_arrays_are_refused_by_name() -> None:
         encoded(rows, actions[:, :5])
     with pytest.raises(TypeError, match="rows must be an array of float32, got float64"):
         encoded(rows.astype(np.float64), actions)
-    with pytest.raises(ValueError, match=r"out must have shape \(2, 4, 74\), got \(2, 3, 74\)"):
+    with pytest.raises(ValueError, match=r"out must have shape \(2, 4, 80\), got \(2, 3, 80\)"):
         encoded(rows, actions, observers=3)
     with pytest.raises(ValueError, match="bounds must be 0 or above, got -1"):
         encoded(rows, actions, bounds=-np.ones(SIZE, np.float32))

@@ -47,6 +47,14 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
         Part(1, "nearness of the ball: 1 at the robot, 0.38 at 12 cm, 0 far away", "1"),
         Part(1, "nearness times the cosine between ball and goal directions", "1"),
     ),
+    "own_goal_polar": (
+        Part(1, "distance from the robot to the middle of its own goal", LENGTH),
+        Part(2, "bearing of that goal from the robot's heading: cosine, sine", "1"),
+    ),
+    "own_goal_shot": (
+        Part(2, "bearing of the own goal from the ball, in the robot's frame: cosine, sine", "1"),
+        Part(1, "nearness of the ball times the cosine between ball and own goal directions", "1"),
+    ),
     "body_velocities": (
         Part(2, "own velocity forward, left", SPEED),
         Part(2, "velocity of the ball forward, left", SPEED),

@@ -22,6 +22,8 @@ OBSERVATION_LIMITS: Final = {
     "ball_polar": 3.0,
     "goal_polar": 3.0,
     "shot": 1.0,
+    "own_goal_polar": 3.0,
+    "own_goal_shot": 1.0,
     "body_velocities": 4.0,
     "body_positions": 3.0,
 }
@@ -34,6 +36,8 @@ REFLECTIONS: Final = {
     "ball_polar": Reflection.of([1, 1, -1]),
     "goal_polar": Reflection.of([1, 1, -1]),
     "shot": Reflection.of([1, -1, 1, 1]),
+    "own_goal_polar": Reflection.of([1, 1, -1]),
+    "own_goal_shot": Reflection.of([1, -1, 1]),
     "body_velocities": Reflection.of([1, -1]),
     "body_positions": Reflection.of([1, -1]),
 }
@@ -70,6 +74,9 @@ class Soccer(Task):
                                 at distance d; nearness times the cosine of
                                 the angle between the directions to the ball
                                 and from ball to goal
+    own_goal_polar   (3,)       VSSS: as `goal_polar`, of the own goal           L; 1    3
+    own_goal_shot    (3,)       VSSS: as `shot`, of the own goal, without the    1       1
+                                nearness alone
     body_velocities  (2, 2)     own velocity; velocity of the ball               V       4
     body_positions   (1 + t +   offset to the ball, to each teammate and to      L       3
                      o, 2)      each opponent

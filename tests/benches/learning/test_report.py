@@ -9,6 +9,7 @@ from benches.learning.collection import collect, find
 from benches.learning.curves import band, value_at
 from benches.learning.experiments import Experiment, Study
 from benches.learning.run_files import Folders, load, save
+from benches.learning.status import statuses
 from benches.learning.table import STUDY
 from tests.benches.learning.made_up import store
 
@@ -34,7 +35,8 @@ def test_tables_have_a_row_for_each_experiment_with_results(folders: Folders) ->
     assert "Missing runs: VSS-v0 (1), SSLStaticDefenders-v0 (5)." in text
     assert "| `SSLGoToBall-v0` | SAC |" in tables.baselines(collected)
     assert tables.ablation(collected).count("missing") == 1
-    assert tables.cooperation(collected).count("| policy of VSS-v0 |") == 1
+    # Matches against clones, without and with free balls.
+    assert tables.cooperation(collected).count("| policy of VSS-v0 |") == 2
     assert "| .300 met |" in tables.cooperation(collected)
     assert tables.headline(collected).count("\n") == 10  # nine tasks
     assert tables.compute(collected).count("\n") == 5
@@ -85,6 +87,9 @@ def test_results_with_another_observation_are_stale(tmp_path: Path) -> None:
     for seed in range(2):
         save(folders, f"ppo/VSS-v0/seed-{seed}", old)
     assert collect(study_of(), folders)[0].stale
+    assert [entry.reason for entry in statuses(study_of(), folders)] == [
+        "observation has changed"
+    ] * 2
 
 
 def test_the_result_of_a_setting_that_is_gone_is_stale(tmp_path: Path) -> None:
