@@ -178,12 +178,15 @@ impl EgoFeatures {
         let to_ball = ball.position - frame.position;
         writer.write(frame.polar(to_ball, self.position_scale));
         writer.write(frame.polar(self.goal - frame.position, self.position_scale));
-        writer.write(shot(&frame, to_ball, self.goal - ball.position));
+        // Not the system's `exp`, whose last bit differs between platforms.
+        let nearness = libm::expf(to_ball.length().max(MIN_LENGTH) * -NEARNESS_DECAY);
+        let [cos, sin, alignment] = shot(&frame, to_ball, self.goal - ball.position);
+        writer.write([cos, sin, nearness, nearness * alignment]);
         if self.observe_own_goal() {
             let own_goal = Vector::new(-self.goal.x, self.goal.y);
             writer.write(frame.polar(own_goal - frame.position, self.position_scale));
-            let [cos, sin, _, aligned] = shot(&frame, to_ball, own_goal - ball.position);
-            writer.write([cos, sin, aligned]);
+            let [cos, sin, alignment] = shot(&frame, to_ball, own_goal - ball.position);
+            writer.write([cos, sin, nearness * alignment]);
         }
         for velocity in [own.velocity, ball.velocity] {
             writer.write((frame.rotate(velocity) * self.velocity_scale).to_array());
@@ -196,16 +199,14 @@ impl EgoFeatures {
     }
 }
 
-/// Cosine and sine of the bearing from the ball to the goal, nearness of the ball, and alignment of robot,
-/// ball and goal.
-fn shot(frame: &BodyFrame, to_ball: Vector, to_goal: Vector) -> [f32; 4] {
+/// Cosine and sine of the bearing from the ball to a goal, and cosine of the angle between the directions
+/// from robot to ball and from ball to goal.
+fn shot(frame: &BodyFrame, to_ball: Vector, to_goal: Vector) -> [f32; 3] {
     let goal_distance = to_goal.length().max(MIN_LENGTH);
     let ball_distance = to_ball.length().max(MIN_LENGTH);
     let bearing = frame.rotate(to_goal) / goal_distance;
-    // Not the system's `exp`, whose last bit differs between platforms.
-    let nearness = libm::expf(ball_distance * -NEARNESS_DECAY);
     let along = to_ball.x * to_goal.x + to_ball.y * to_goal.y;
-    [bearing.x, bearing.y, nearness, nearness * (along / (goal_distance * ball_distance))]
+    [bearing.x, bearing.y, along / (goal_distance * ball_distance)]
 }
 
 #[cfg(test)]
