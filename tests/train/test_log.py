@@ -37,6 +37,13 @@ def test_the_mean_without_episodes_is_nan() -> None:
     assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["goals_for"] == 0
 
 
+def test_a_log_shorter_than_its_checkpoint_says_stays_readable(tmp_path: Path) -> None:
+    args = Args(out=tmp_path, progress=False)
+    size = write_rows(Logger(args, 0, 0), 0, 2)
+    write_rows(Logger(args, 200, size + 100), 2, 3)
+    assert read_progress(tmp_path)["samples"].tolist() == [0, 100, 200]
+
+
 def test_a_resumed_log_continues_at_the_checkpoint(tmp_path: Path) -> None:
     args = Args(out=tmp_path, samples=1000, progress=False)
     size = write_rows(Logger(args, 0, 0), 0, 3)

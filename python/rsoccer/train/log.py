@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 import sys
 from collections import deque
 from pathlib import Path
@@ -78,14 +77,15 @@ class Logger:
         Args:
             args: settings of the run; `progress` shows the bar.
             samples: samples at the checkpoint; 0 for a new run.
-            size: bytes that the CSV file is truncated to; 0 for a new run.
+            size: bytes that the CSV file is truncated to, if it is longer; 0 for a new run.
         """
         from torch.utils.tensorboard import SummaryWriter
         from tqdm import tqdm
 
         self._path = args.out / FILE_NAME
-        with self._path.open("ab"):
-            os.truncate(self._path, size)
+        with self._path.open("ab") as file:
+            # After a power failure the file may be shorter than its checkpoint says.
+            file.truncate(min(size, file.tell()))
         self._tensorboard = SummaryWriter(str(args.out / "tensorboard"), purge_step=samples + 1)
         self._bar = tqdm(
             total=args.samples,
