@@ -9,17 +9,19 @@ the policy `best` of its task.
 import argparse
 import json
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
 import rsoccer
+from benches.learning.evaluation import opponents_of
 from rsoccer.evaluate import evaluate, table
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
 from rsoccer.task import Task
-from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE, Args
+from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
 from rsoccer.train.log import read_progress
 
 STARTS: Final = 500
@@ -28,11 +30,6 @@ SEED: Final = 0
 """Seed of the starts, the same for every policy."""
 MAX_SIZE: Final = 144 * 1024
 """Greatest size of a file, bytes, so that the package stays small."""
-OPPONENTS: Final = {
-    "differential": ("ou", "zero", "chase", "scripted"),
-    "omni": ("ou", "zero", "strike"),
-}
-"""Opponents in two-sided tasks by the drive of the robots; other tasks have their own."""
 
 
 def main() -> None:
@@ -93,9 +90,9 @@ def _scores(
     policy: Path, task: Task, opponents: list[str] | None, starts: int, threads: int | None
 ) -> list[Score]:
     """Scores against each opponent, printed as a table."""
-    chosen: list[str | None] = [None]
-    if task.two_sided:
-        chosen = list(opponents or OPPONENTS[task.config.robots[0].drive])
+    chosen: Sequence[str | None] = opponents_of(task.name)
+    if task.two_sided and opponents:
+        chosen = opponents
     matches = starts * (2 if task.two_sided else 1)
     results = [
         evaluate(policy, opponent, matches, SEED, task=task, threads=threads) for opponent in chosen
@@ -121,19 +118,14 @@ def _training(run: Path) -> dict[str, Any]:
 
 
 def command_of(settings: dict[str, Any]) -> str:
-    """Return the command of a run: task, samples, and what is not both default and recommended.
-
-    Recommended settings are listed, too, as the table of them may change.
+    """Return the command of a run with all its settings, as defaults and recommended ones change.
 
     Args:
         settings: settings of the run, from `Args.to_json`.
     """
     words = ["rsoccer", "train"]
-    defaults, recommended = Args().to_json(), Args.for_task(settings["task"]).to_json()
     for name, value in settings.items():
-        always = name in ("task", "samples")
-        usual = value == defaults.get(name) == recommended.get(name)
-        if not always and (name in CHANGEABLE_ON_RESUME or usual):
+        if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue
         option = name.replace("_", "-")
         if isinstance(value, bool):
