@@ -2,7 +2,6 @@
 
 import csv
 import datetime
-import os
 import platform
 import re
 import subprocess
@@ -11,6 +10,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from rsoccer._core import build_info
+from rsoccer.evaluate.schedule import processors
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benches" / "results"
@@ -55,10 +55,9 @@ class Machine:
 def this_machine() -> Machine:
     """Return this machine, today's date and the installed build."""
     build = build_info()
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return Machine(
         machine=_processor(),
-        cores=cores or 1,
+        cores=processors(),
         date=datetime.datetime.now(datetime.UTC).date().isoformat(),
         commit=_commit(),
         version=str(build["version"]),

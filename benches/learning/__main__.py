@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import fnmatch
 import importlib
-import os
 import sys
 import time
 from collections.abc import Sequence
@@ -30,6 +29,7 @@ from benches.learning.status import (
     Status,
     statuses,
 )
+from rsoccer.evaluate.schedule import processors
 
 TABLE = "benches.learning.table"
 
@@ -52,6 +52,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     known = statuses(study, folders)
     chosen = [entry for entry in known if selected(entry.run, options)]
+    if not chosen:
+        sys.stderr.write("--group, --only and --seeds: expected a run of the study, got none\n")
+        return 2
     if options.list:
         sys.stdout.write(listing(chosen, known, options.jobs) + "\n")
         return 0
@@ -105,7 +108,7 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--group", action="append", help="only this group; may be repeated")
     add("--only", action="append", help="only runs whose name contains this; may be repeated")
     add("--seeds", type=int, help="only the first seeds")
-    add("--jobs", type=int, default=_processors(), help="processes at once (default: one a core)")
+    add("--jobs", type=int, default=processors(), help="processes at once (default: one a core)")
     add("--budget-minutes", type=float, help="start no run after this time")
     add("--rerun-stale", action="store_true", help="run again what has other settings now")
     add("--table", default=TABLE, help="module with the STUDY (default: %(default)s)")
@@ -114,13 +117,14 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--worker", help=argparse.SUPPRESS)
     add("--core", type=int, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
-    if options.jobs < 1:
-        parser.error(f"--jobs must be at least 1, got {options.jobs}")
+    for name, least in (("jobs", 1), ("seeds", 1), ("budget_minutes", 0.0)):
+        value = getattr(options, name)
+        if value is not None and not value >= least:
+            parser.error(f"--{name.replace('_', '-')} must be at least {least}, got {value}")
+    own = (options.table, options.results, options.work) == (TABLE, default.results, default.work)
+    if options.report and not own:
+        parser.error("--report writes the pages of this study: no --table, --results or --work")
     return options
-
-
-def _processors() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 if __name__ == "__main__":

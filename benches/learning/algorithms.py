@@ -6,10 +6,11 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from benches.learning import clones, ppo_run, sb3_run
+from benches.learning import clones, ppo_run, run_files, sb3_run
 from benches.learning.experiments import CLONES, PPO, SB3, Run
-from benches.learning.learned import Learned
+from benches.learning.learned import Learned, restart_clock
 from benches.learning.run_files import Folders
+from rsoccer._core import build_info
 from rsoccer.registry import make_task
 
 
@@ -60,7 +61,7 @@ def samples_so_far(run: Run, folder: Path) -> int | None:
 
 
 def learn(run: Run, folder: Path, folders: Folders) -> Learned:
-    """Learn a policy.
+    """Learn a policy, from the checkpoint of an interrupted run with the same settings.
 
     Args:
         run: The run.
@@ -71,6 +72,11 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         The policy, and how it was learned.
     """
     algorithm = run.experiment.algorithm
+    identity = {"settings": settings(run), "physics": build_info()["physics"]}
+    if not run_files.is_same(folder, identity):
+        ppo_run.forget(folder)
+        restart_clock(folder)
+        run_files.set_identity(folder, identity)
     if algorithm == PPO:
         return ppo_run.learn(run, folder, folders)
     if algorithm == CLONES:

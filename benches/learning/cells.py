@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from collections.abc import Sequence
+from typing import Final
 
 from benches.learning.collection import Collected
 from benches.learning.curves import value_at
 from benches.learning.evaluation import OFFICIAL
-from benches.learning.statistics import Estimate, comparison
-from benches.learning.targets import FULL_SUCCESS, TARGETS
+from benches.learning.statistics import Estimate, probability_of_improvement
+from benches.learning.targets import FULL_SUCCESS, PASSES, TARGETS
 
 STALE_MARK: Final = "\\*"
 
 
-def name_of(part: Collected, text: str) -> str:
-    """Return the name of a task in a cell, with a mark for stale results."""
-    task = part.experiment.task
-    return text.replace(task, f"`{task}`", 1) + (STALE_MARK if part.stale else "")
+def mark(part: Collected) -> str:
+    """Return the mark of stale results; empty for current ones."""
+    return STALE_MARK if part.stale else ""
+
+
+def task_and_opponent(part: Collected) -> str:
+    """Return the task, and the first opponent unless it is the task's own."""
+    opponent = against(part.opponents[0])
+    return f"`{part.experiment.task}`{opponent and f' against {opponent}'}"
 
 
 def against(opponent: str) -> str:
@@ -30,17 +35,19 @@ def against(opponent: str) -> str:
 
 
 def with_interval(part: Collected | None) -> str:
-    """Return the score with its interval, or a dash without results."""
+    """Return the score with its interval and the mark of stale results; a dash without results."""
     if part is None:
         return "-"
     estimate = part.estimate()
-    return f"{number(estimate.value)} ({interval(estimate)})"
+    return f"{number(estimate.value)}{mark(part)} ({interval(estimate)})"
 
 
 def better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
     """Return the probability that a run of the first is better; empty for a single seed."""
     opponent = opponent or part.opponents[0]
-    return probability(comparison(part.scores(opponent), reference.scores(opponent)))
+    return probability(
+        probability_of_improvement(part.scores(opponent), reference.scores(opponent))
+    )
 
 
 def probability(estimate: Estimate | None) -> str:
@@ -58,19 +65,26 @@ def on_curve(part: Collected, samples: float) -> str:
 
 
 def target(part: Collected, opponent: str) -> str:
-    """Return the target, and whether the lower end of the interval reaches it."""
+    """Return the targets, and whether the lower end of the interval reaches them."""
     task = part.experiment.task
     if task in FULL_SUCCESS:
-        estimate, share = part.full_success(), FULL_SUCCESS[task]
-        return f"full success {number(share)} {_met(estimate, share)}"
-    if (task, opponent) not in TARGETS:
-        return ""
-    score = TARGETS[task, opponent]
-    return f"{number(score)} {_met(part.estimate(opponent), score)}"
+        share = FULL_SUCCESS[task]
+        return f"full success in {number(share)} {_met(part, part.full_success(), share)}"
+    found = []
+    if (task, opponent) in TARGETS:
+        score = TARGETS[task, opponent]
+        found.append(f"{number(score)} {_met(part, part.estimate(opponent), score)}")
+    if (task, opponent) in PASSES:
+        passes = PASSES[task, opponent]
+        made = part.metric("own_passes", opponent)
+        found.append(f"{number(passes)} passes {_met(part, made, passes)}")
+    return ", ".join(found)
 
 
-def _met(estimate: Estimate, target: float) -> str:
-    return "met" if estimate.low >= target else "missed"
+def _met(part: Collected, estimate: Estimate, target: float) -> str:
+    """Verdict on a target, which is provisional as long as seeds are missing."""
+    verdict = "met" if estimate.low >= target else "missed"
+    return f"{verdict} so far" if part.missing or part.stale else verdict
 
 
 def outcomes(part: Collected, opponent: str) -> str:
@@ -84,17 +98,14 @@ def outcomes(part: Collected, opponent: str) -> str:
     total = sum(row["matches"] for row in rows)
     names = ("wins", "draws", "losses", "own_goals")
     *counts, own = (sum(row[name] for row in rows) / total for name in names)
-    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%}){_passes(rows)}"
+    text = f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
+    if "own_passes" in rows[0]["metrics"]:
+        text += f", {number(part.metric('own_passes', opponent).value)} passes"
+    return text
 
 
-def _passes(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Passes per match of all seeds, with a comma before; empty where none are counted."""
-    passes = [row["metrics"]["own_passes"] for row in rows if "own_passes" in row["metrics"]]
-    return f", {number(sum(passes) / len(passes))} passes" if passes else ""
-
-
-def time_to_success(part: Collected, opponent: str) -> str:
-    """Return the mean time of decided matches; empty without any."""
+def time_to_decision(part: Collected, opponent: str) -> str:
+    """Return the mean time of the matches that a goal or the task's success ended."""
     times = [row["seconds_to_decision"] for row in part.rows(opponent)]
     known = [float(seconds) for seconds in times if seconds is not None]
     return f"{sum(known) / len(known):.1f} s" if known else ""

@@ -54,11 +54,15 @@ class Collected:
 
     def estimate(self, opponent: str | None = None, mode: str | None = None) -> Estimate:
         """Return the interquartile mean over the seeds."""
-        return iqm([self.scores(opponent, mode)])
+        return iqm(self.scores(opponent, mode))
 
     def full_success(self) -> Estimate:
         """Return the interquartile mean of the share of episodes with full success."""
-        return iqm([[row["decided"] / row["matches"] for row in self.rows()]])
+        return iqm([row["decided"] / row["matches"] for row in self.rows()])
+
+    def metric(self, name: str, opponent: str | None = None) -> Estimate:
+        """Return the interquartile mean of another metric of the task, a mean over the matches."""
+        return iqm([float(row["metrics"][name]) for row in self.rows(opponent)])
 
     def core_seconds(self) -> float:
         """Return the processor time of learning, a mean over the seeds."""
@@ -108,16 +112,16 @@ def _collected(experiment: Experiment, study: Study, folders: Folders) -> Collec
         run = Run(experiment, seed)
         result = run_files.load(folders, run.key)
         if result is not None:
-            (stale if _changed(run, study, result) else current).append(result)
-    # Stale results may be of several settings: those of the newest remain.
+            (stale if _changed(run, study, folders, result) else current).append(result)
+    # Stale results may be of several settings, which must not mix: those of the last seed stay.
     stale = [r for r in stale if r["settings"] == stale[-1]["settings"]]
     return Collected(experiment, tuple(current or stale), bool(stale and not current))
 
 
-def _changed(run: Run, study: Study, result: Result) -> bool:
+def _changed(run: Run, study: Study, folders: Folders, result: Result) -> bool:
     """Whether a result is of other settings than the run has now."""
     try:
         settings = algorithms.settings(run)
     except (TypeError, ValueError):
         return True
-    return bool(differences(run, study, settings, result))
+    return bool(differences(run, study, folders, settings, result))

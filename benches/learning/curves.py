@@ -24,15 +24,15 @@ def value_at(curve: Curve, samples: float) -> float | None:
     return float(np.interp(samples, curve["samples"], curve["values"]))
 
 
-def mean_until(curve: Curve, samples: float) -> float:
-    """Return the mean of a curve from its first point to a number of samples.
+def mean_between(curve: Curve, start: float, end: float) -> float:
+    """Return the mean of a curve between two numbers of samples.
 
     Args:
-        curve: Curve with at least one point.
-        samples: At least those of the first point.
+        curve: Curve with at least one point, which goes on horizontally beyond its ends.
+        start: First samples.
+        end: Last samples; where they are fewer, the value at the start is returned.
     """
-    first = float(curve["samples"][0])
-    grid = np.linspace(first, max(samples, first), GRID)
+    grid = np.linspace(start, max(start, end), GRID)
     return float(np.interp(grid, curve["samples"], curve["values"]).mean())
 
 

@@ -63,8 +63,8 @@ def evaluate_run(
 def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str, Any]:
     """Return the numbers of a policy on all official scenarios of a task, with equal weights.
 
-    Each begins in one state, so matches differ by the noise of the actions alone, and those of a
-    policy without noise not at all.
+    Each begins in one state, so matches differ by the noise of the actions. Those of a policy
+    without noise differ by rounding alone, which changes with a match's place in the batch.
     """
     count = SCENARIOS[task]
     parts = [

@@ -11,6 +11,8 @@ PPO: Final = "ppo"
 SB3: Final = ("ddpg", "sac")
 CLONES: Final = "clones"
 ALGORITHMS: Final = (PPO, *SB3, CLONES)
+PAPER_SIZES: Final = "-paper"
+"""End of the name of a baseline in the paper's setting, whose time is not that of PPO."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,9 @@ class Experiment:
     opponents: tuple[str | None, ...] | None = None
     """Opponents of the evaluation: names, or the policy of another experiment as "@group/name", of
     the same seed. None is the task's own; by default those of `evaluation.opponents_of`."""
-    needs: tuple[str, ...] = ()
-    """Experiments, as "group/name", of which the same seed has to be finished before."""
+    needs: tuple[Experiment, ...] = ()
+    """Experiments of which the same seed has to be finished before. A change of their settings
+    makes the runs of this one stale, too."""
     text: str = ""
     """Description for tables."""
 
@@ -71,9 +74,9 @@ class Run:
         return f"{self.experiment.key}/seed-{self.seed}"
 
     @property
-    def needs(self) -> tuple[str, ...]:
-        """Keys of the runs that have to be finished before."""
-        return tuple(f"{key}/seed-{self.seed}" for key in self.experiment.needs)
+    def needs(self) -> tuple[Run, ...]:
+        """Runs that have to be finished before."""
+        return tuple(Run(experiment, self.seed) for experiment in self.experiment.needs)
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,7 @@ class Study:
     """Experiments and the protocol of their evaluation.
 
     Raises:
-        ValueError: Two experiments of the same key, or an unknown one that another needs.
+        ValueError: Two experiments of the same key, or one that another needs is not in the study.
     """
 
     experiments: tuple[Experiment, ...]
@@ -103,7 +106,7 @@ class Study:
         keys = [experiment.key for experiment in self.experiments]
         if twice := sorted({key for key in keys if keys.count(key) > 1}):
             raise ValueError(f"expected experiments of different keys, got twice: {twice}")
-        needed = {key for experiment in self.experiments for key in experiment.needs}
+        needed = {need.key for experiment in self.experiments for need in experiment.needs}
         if unknown := sorted(needed - set(keys)):
             raise ValueError(f"expected needs from the study's experiments, got {unknown}")
 

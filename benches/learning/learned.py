@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,11 +14,14 @@ from typing import Any, Final
 import numpy as np
 
 from rsoccer.arrays import Array
+from rsoccer.files import write_atomically
 from rsoccer.policies import PolicyLike
 
 POINTS: Final = 50
 """Most points of a stored curve."""
 TIME_FILE: Final = "time.json"
+TIME_INTERVAL: Final = 5.0
+"""Time between two writings of the time of a run, s: what a run that is killed may lose."""
 
 
 @dataclass(frozen=True)
@@ -36,22 +40,37 @@ class Learned:
 
 @contextmanager
 def timed(folder: Path) -> Iterator[dict[str, float]]:
-    """Add the time within the block to that of earlier attempts, also if it is interrupted.
+    """Add the time within the block to that of earlier attempts.
+
+    A thread writes it every few seconds, so that a process that is killed leaves it, too.
 
     Yields:
         Seconds before this attempt: `wall`, `cpu` and the number of `attempts`.
     """
     before = spent(folder)
     wall, cpu = time.monotonic(), time.process_time()
-    try:
-        yield before
-    finally:
+    ended = threading.Event()
+
+    def write() -> None:
         after = {
             "wall": before["wall"] + time.monotonic() - wall,
             "cpu": before["cpu"] + time.process_time() - cpu,
             "attempts": before["attempts"] + 1,
         }
-        (folder / TIME_FILE).write_text(json.dumps(after) + "\n")
+        write_atomically(folder / TIME_FILE, (json.dumps(after) + "\n").encode())
+
+    def write_until_ended() -> None:
+        while not ended.wait(TIME_INTERVAL):
+            write()
+
+    writer = threading.Thread(target=write_until_ended, daemon=True)
+    writer.start()
+    try:
+        yield before
+    finally:
+        ended.set()
+        writer.join()
+        write()
 
 
 def restart_clock(folder: Path) -> None:

@@ -106,9 +106,9 @@ def sentences(folders: Folders) -> str:
         return ""
     lines = (
         f"Against `{row['opponent']}`, {row['lost_by_all']:.1%} of the {row['starts']} starts are "
-        f"lost within {SECONDS:g} s by all of {row['policies']} policies, scripts among them, and "
-        f"{row['least_lost_by_one']:.1%} by the best of them. A score above "
-        f"{row['highest_score']:.2f} would have to win starts that all lose."
+        f"lost within {SECONDS:g} s by all of {row['policies']} policies (learned ones with and "
+        f"without noise, and scripts), and {row['least_lost_by_one']:.1%} by the best of them. A "
+        f"score above {row['highest_score']:.2f} would have to win starts that all lose."
         for row in json.loads(path.read_text())
     )
     return " ".join(lines) + " (`python -m benches.learning.lost_starts`)"

@@ -11,6 +11,7 @@ import numpy as np
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, finished
 from benches.learning.curves import band
+from benches.learning.experiments import PAPER_SIZES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +31,7 @@ def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
     from matplotlib.figure import Figure
 
     shown = [*finished(collected, "ppo"), *finished(collected, "baselines")]
-    shown = [part for part in shown if not part.experiment.name.endswith("-paper")]
+    shown = [part for part in shown if not part.experiment.name.endswith(PAPER_SIZES)]
     shown = [part for part in shown if band([result["curve"] for result in part.results])]
     tasks = list(dict.fromkeys(part.experiment.task for part in shown))
     if not tasks:
@@ -74,9 +75,8 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         lowest = min(float(values.min(initial=0.0)) for values in lines)
         axes.set_ylim(lowest - 0.04, 1.04)
         axes.axhline(0.0, color="black", linewidth=0.6)
-    opponent = parts[0].opponents[0]
-    against = "" if opponent == "-" else f" against {opponent}"
-    axes.set_title(f"{task}: {metric.replace('_', ' ')}{against}", fontsize=9)
+    stale = "*" if any(part.stale for part in parts) else ""
+    axes.set_title(f"{task}{stale}: {_measured(metric, parts[0].opponents[0])}", fontsize=9)
     axes.tick_params(labelsize=8)
     axes.grid(alpha=0.25)
     for side in ("top", "right"):
@@ -116,16 +116,24 @@ def draw_ablation(collected: Sequence[Collected], path: Path) -> Path | None:
         axes.set_xlim(min(lowest, 0.0) - 0.05, 1.05)
         axes.set_title(title, fontsize=10)
     score = next(iter(parts.values())).rows()[0]
-    metric = score["metric"].replace("_", " ")
-    against = "" if score["opponent"] == "-" else f" against {score['opponent']}"
-    caption = f"{metric}{against}: interquartile mean, 95% interval, and each seed"
+    measured = _measured(score["metric"], score["opponent"])
+    caption = f"{measured}: interquartile mean, 95% interval, and each seed"
     figure.supxlabel(caption, fontsize=9)
     figure.savefig(path)
     return path
 
 
+def _measured(metric: str, opponent: str) -> str:
+    """Metric in words, and its opponent unless it is the task's own."""
+    return metric.replace("_", " ") + ("" if opponent == "-" else f" against {opponent}")
+
+
 def _draw_bars(axes: Axes, labels: Sequence[str], parts: Sequence[Collected | None]) -> None:
     """A bar for each experiment, with its interval and a point for each seed."""
+    labels = [
+        f"{label}*" if part is not None and part.stale else label
+        for label, part in zip(labels, parts, strict=True)
+    ]
     for height, part in enumerate(parts):
         if part is None:
             axes.text(0.02, height, "missing", va="center", fontsize=8, color="#777777")

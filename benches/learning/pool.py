@@ -84,7 +84,7 @@ class Pool:
     ) -> None:
         """Start runs that are ready on the free slots."""
         for slot in slots:
-            run = next((run for run in left if done.issuperset(run.needs)), None)
+            run = next((run for run in left if done >= {need.key for need in run.needs}), None)
             if slot in active or run is None:
                 continue
             left.remove(run)
@@ -115,9 +115,12 @@ class Pool:
 
 
 def _slots(jobs: int) -> list[Slot]:
-    """Places for processes: numbers of processors if there are enough, else names."""
+    """Places for processes: the processors if there are as many, else names.
+
+    Fewer processes are not bound to processors: another program may bind its own to the same ones.
+    """
     if hasattr(os, "sched_getaffinity"):
         available = sorted(os.sched_getaffinity(0))
-        if jobs <= len(available):
-            return list(available[-jobs:])
+        if jobs == len(available):
+            return list(available)
     return [f"job {index}" for index in range(jobs)]

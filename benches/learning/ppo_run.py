@@ -10,9 +10,8 @@ from typing import Any, Final
 import numpy as np
 
 from benches.learning.experiments import Run
-from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.learned import Learned, curve, timed
 from benches.learning.run_files import Folders, with_policies
-from rsoccer._core import build_info
 from rsoccer.arrays import Array
 from rsoccer.frame import team_of
 from rsoccer.registry import make_task
@@ -22,7 +21,6 @@ from rsoccer.train.log import ladder_column
 
 NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
-PHYSICS_FILE: Final = "physics.txt"
 LADDER_POINTS: Final = 20
 """Measurements against fixed opponents in a run."""
 LADDER_MATCHES: Final = 200
@@ -90,26 +88,20 @@ def defaults() -> dict[str, Any]:
 
 
 def samples_so_far(folder: Path) -> int | None:
-    """Return the samples of the checkpoint in a folder; None without one."""
+    """Return the samples of the checkpoint in a folder; None without one that can be read."""
     from rsoccer.train import checkpoint
 
-    path = folder / checkpoint.FILE_NAME
-    return int(checkpoint.load(path).info["samples"]) if path.is_file() else None
+    try:
+        return int(checkpoint.load(folder / checkpoint.FILE_NAME).info["samples"])
+    except ValueError:
+        return None
 
 
-def _continues(wanted: Args, folder: Path) -> bool:
-    """Whether the folder has a checkpoint of a run with the same settings and physics."""
+def forget(folder: Path) -> None:
+    """Remove the checkpoint in a folder, if there is one."""
     from rsoccer.train import checkpoint
 
-    path, physics = folder / checkpoint.FILE_NAME, folder / PHYSICS_FILE
-    if not path.is_file() or not physics.is_file() or physics.read_text() != _physics():
-        return False
-    return not wanted.differences(checkpoint.load(path).info["args"])
-
-
-def _physics() -> str:
-    """Version of the physics, which a checkpoint does not hold."""
-    return str(build_info()["physics"])
+    (folder / checkpoint.FILE_NAME).unlink(missing_ok=True)
 
 
 def learn(run: Run, folder: Path, folders: Folders) -> Learned:
@@ -130,10 +122,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     from rsoccer.train.log import read_progress
 
     wanted = args(run, folder, folders)
-    resume = _continues(wanted, folder)
-    if not resume:
-        restart_clock(folder)
-        (folder / PHYSICS_FILE).write_text(_physics())
+    resume = samples_so_far(folder) is not None
     with timed(folder):
         policy = str(train(dataclasses.replace(wanted, resume=resume, overwrite=not resume)))
     progress = read_progress(folder)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -15,6 +16,8 @@ from benches.result_files import RESULTS, ROOT
 from rsoccer.files import write_atomically
 
 POLICY: Final = "policy.safetensors"
+IDENTITY_FILE: Final = "identity.json"
+DIGEST_DIGITS: Final = 12
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,36 @@ def _json(value: dict[str, Any]) -> str:
             text = json.dumps(part)
         lines.append(f" {json.dumps(name)}: {text}")
     return "{\n" + ",\n".join(lines) + "\n}"
+
+
+def needs(folders: Folders, run: Run) -> dict[str, str]:
+    """Return digests of what decided the results that a run needs, by key.
+
+    Without such a result the digest is empty.
+    """
+    found = {need.key: load(folders, need.key) for need in run.needs}
+    return {key: "" if result is None else _digest(result) for key, result in found.items()}
+
+
+def _digest(result: Mapping[str, Any]) -> str:
+    text = json.dumps([result["settings"], result["physics"]], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:DIGEST_DIGITS]
+
+
+def is_same(folder: Path, identity: Mapping[str, Any]) -> bool:
+    """Return whether the files in a run's folder are of a run with the same identity.
+
+    Args:
+        folder: Folder of the run.
+        identity: All that decides the result, as JSON values.
+    """
+    path = folder / IDENTITY_FILE
+    return path.is_file() and json.loads(path.read_text()) == json.loads(json.dumps(identity))
+
+
+def set_identity(folder: Path, identity: Mapping[str, Any]) -> None:
+    """Write what decides the result of the run whose files the folder will hold."""
+    write_atomically(folder / IDENTITY_FILE, (json.dumps(identity) + "\n").encode())
 
 
 @contextmanager

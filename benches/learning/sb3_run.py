@@ -23,7 +23,7 @@ from rsoccer.train.args import Args
 DEFAULTS: Final[dict[str, Any]] = {
     "seconds": "as PPO",
     "task_options": {},
-    "rows": 48,
+    "rows": 60,
     "samples_per_gradient_step": 10,
     "action_repeat": Args.action_repeat,
     "gamma": Args.gamma,
@@ -39,9 +39,10 @@ DEFAULTS: Final[dict[str, Any]] = {
 """Settings and their defaults.
 
 Discount, decision rate and network size are those of PPO; `gamma` is per control step. `seconds` is
-the processor time of learning. `rows` is the least number of robots that act at once.
-`samples_per_gradient_step` is that of the paper. `noise` of DDPG is an Ornstein-Uhlenbeck process:
-theta, and sigma at the start and at the end of the run, as in the paper; its time is match time.
+the processor time of learning. `rows` is the least number of robots that act at once; it is a
+multiple of `samples_per_gradient_step`, which is that of the paper, for teams of any size. `noise`
+of DDPG is an Ornstein-Uhlenbeck process: theta, and sigma at the start and at the end of the run,
+as in the paper; its time is match time.
 """
 FILE: Final = "actor.npz"
 SNAPSHOT: Final = Protocol(starts=50, seed=32)
@@ -72,10 +73,10 @@ def budget(run: Run, folders: Folders) -> float:
     seconds = settings(run)["seconds"]
     if seconds != DEFAULTS["seconds"]:
         return float(seconds)
-    key = f"{run.experiment.needs[0]}/seed-{run.seed}"
-    result = run_files.load(folders, key)
+    ppo = run.needs[0].key
+    result = run_files.load(folders, ppo)
     if result is None:
-        raise ValueError(f"{run.key} takes the time of {key}, which has not finished")
+        raise ValueError(f"{run.key} takes the time of {ppo}, which has not finished")
     return float(result["seconds"]["cpu"])
 
 
@@ -88,7 +89,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         folders: Folders of the study.
 
     Returns:
-        The policy: deterministic actions, and for SAC drawn ones too.
+        The policy: for SAC drawn actions, as in training, and for both deterministic ones.
     """
     values, seconds = settings(run), budget(run, folders)
     opponent = opponents_of(run.experiment.task)[0]
@@ -102,9 +103,8 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
 
         actor, log = train(run.experiment.task, values, run.seed, seconds, measure)
     actor.save(folder / FILE)
-    policies: dict[str, Any] = {"mean": actor.mean()}
-    if actor.log_std is not None:
-        policies["sample"] = actor
+    drawn: dict[str, Any] = {} if actor.log_std is None else {"sample": actor}
+    policies = {**drawn, "mean": actor.mean()}
     metric = make_task(run.experiment.task).success or "return"
     samples, times, scores = map(np.array, (log.samples, log.seconds, log.scores))
     extra = {"learning_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps}

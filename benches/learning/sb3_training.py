@@ -53,9 +53,18 @@ def train(
 
     Returns:
         The actor, and the progress.
+
+    Raises:
+        ValueError: Rows that are no multiple of the samples of a gradient step.
     """
     torch.set_num_threads(1)
     envs = environments(task_name, values)
+    gradient_steps, rest = divmod(envs.num_envs, values["samples_per_gradient_step"])
+    if rest:
+        raise ValueError(
+            f"rows: expected a multiple of samples_per_gradient_step, got {envs.num_envs} rows "
+            f"for {values['samples_per_gradient_step']}"
+        )
     arguments: dict[str, Any] = {
         "learning_rate": values["learning_rate"],
         "buffer_size": values["buffer_size"],
@@ -64,7 +73,7 @@ def train(
         "tau": values["tau"],
         "gamma": values["gamma"] ** values["action_repeat"],
         "train_freq": 1,
-        "gradient_steps": max(1, envs.num_envs // values["samples_per_gradient_step"]),
+        "gradient_steps": gradient_steps,
         "n_steps": values["n_steps"],
         "policy_kwargs": {"net_arch": list(values["hidden_sizes"])},
         "seed": seed,

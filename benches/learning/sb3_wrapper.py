@@ -11,7 +11,7 @@ from rsoccer.arrays import Floats, Mask
 
 
 class ActionRepeat(VecEnvWrapper):  # type: ignore[misc]
-    """Holds every action for some control steps, as the package's trainer does.
+    """Holds every action for some control steps.
 
     The reward of a decision is the discounted sum over its steps. A match that ends within a
     decision has begun its next episode; its robots stand still for the rest of the decision, and

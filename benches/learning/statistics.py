@@ -1,4 +1,7 @@
-"""Statistics over seeds, by the definitions of rliable (Agarwal et al., arXiv 2108.13264)."""
+"""Statistics over seeds, by the definitions of rliable (Agarwal et al., arXiv 2108.13264).
+
+SciPy computes them: rliable itself would bring ten more packages.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +10,14 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from scipy import stats
 
 from rsoccer.arrays import Doubles
 
 RESAMPLES: Final = 20_000
 SEED: Final = 0
 LEVEL: Final = 0.95
-
-Statistic = Callable[[list[Doubles]], Doubles]
-"""Statistic of scores by stratum, each (resamples, runs), for each resample."""
+QUARTER: Final = 0.25
 
 
 @dataclass(frozen=True)
@@ -30,52 +32,46 @@ class Estimate:
     """Number of scores."""
 
 
-def interquartile_mean(scores: Doubles) -> Doubles:
-    """Return the mean of the middle half of the scores (..., runs), (...,).
+def iqm(scores: Sequence[float]) -> Estimate:
+    """Return the interquartile mean of the scores of the seeds: the mean of their middle half.
 
-    A quarter of the scores, rounded down, is left out at each end.
+    A quarter of the scores, rounded down, is left out at each end. The interval is that of a
+    percentile bootstrap which draws seeds with replacement.
     """
-    count = scores.shape[-1]
-    cut = count // 4
-    mean: Doubles = np.sort(scores, axis=-1)[..., cut : count - cut].mean(axis=-1)
-    return mean
+    return _bootstrap([scores], lambda x, axis: stats.trim_mean(x, QUARTER, axis=axis))
 
 
-def iqm(strata: Sequence[Sequence[float]]) -> Estimate:
-    """Return the interquartile mean over the scores of all strata.
+def probability_of_improvement(x: Sequence[float], y: Sequence[float]) -> Estimate | None:
+    """Return the probability that a run of x scores higher than a run of y; a tie counts half.
 
-    Args:
-        strata: Scores of the seeds, one sequence per task.
-
-    Returns:
-        Estimate with the interval of a percentile bootstrap that draws seeds within each task.
+    The bootstrap draws the runs of each side on their own, as strata. None where one side has a
+    single run.
     """
-    return _bootstrap(strata, lambda parts: interquartile_mean(np.concatenate(parts, axis=-1)))
+    return _bootstrap([x, y], _improvement) if min(len(x), len(y)) > 1 else None
 
 
-def probability_of_improvement(x: Sequence[float], y: Sequence[float]) -> Estimate:
-    """Return the probability that a run of x scores higher than a run of y; a tie counts half."""
-    return _bootstrap([x, y], _improvement)
-
-
-def comparison(x: Sequence[float], y: Sequence[float]) -> Estimate | None:
-    """Return `probability_of_improvement`; None where one side has a single run."""
-    return probability_of_improvement(x, y) if min(len(x), len(y)) > 1 else None
-
-
-def _improvement(parts: list[Doubles]) -> Doubles:
-    x, y = (part[..., None, :] for part in parts)
-    difference = x.swapaxes(-1, -2) - y
+def _improvement(x: Doubles, y: Doubles, axis: int) -> Doubles:
+    """Share of the pairs of runs that x wins; the runs are on the last axis."""
+    assert axis == -1
+    difference = x[..., :, None] - y[..., None, :]
     share: Doubles = ((difference > 0) + 0.5 * (difference == 0)).mean(axis=(-1, -2))
     return share
 
 
-def _bootstrap(strata: Sequence[Sequence[float]], statistic: Statistic) -> Estimate:
+def _bootstrap(samples: Sequence[Sequence[float]], statistic: Callable[..., Doubles]) -> Estimate:
     """A statistic with the interval of a stratified percentile bootstrap."""
-    rng = np.random.default_rng(SEED)
-    arrays = [np.array(scores, float) for scores in strata]
-    drawn = [a[rng.integers(len(a), size=(RESAMPLES, len(a)))] for a in arrays]
-    tail = (1.0 - LEVEL) / 2.0
-    low, high = np.quantile(statistic(drawn), (tail, 1.0 - tail)).tolist()
-    value = float(statistic([array[None] for array in arrays])[0])
-    return Estimate(value, low, high, sum(map(len, arrays)))
+    arrays = [np.array(scores, float) for scores in samples]
+    value = float(statistic(*arrays, axis=-1))
+    runs = sum(map(len, arrays))
+    if runs == 1:
+        return Estimate(value, value, value, runs)
+    low, high = stats.bootstrap(
+        arrays,
+        statistic,
+        n_resamples=RESAMPLES,
+        confidence_level=LEVEL,
+        method="percentile",
+        vectorized=True,
+        rng=SEED,
+    ).confidence_interval
+    return Estimate(value, float(low), float(high), runs)

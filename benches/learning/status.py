@@ -61,22 +61,27 @@ def status(run: Run, study: Study, folders: Folders) -> Status:
         return Status(run, RUNNING, _progress(run, folders))
     result = run_files.load(folders, run.key)
     if result is not None:
-        changed = differences(run, study, settings, result)
+        changed = differences(run, study, folders, settings, result)
         return Status(run, STALE if changed else DONE, "; ".join(changed), result)
     progress = _progress(run, folders)
     return Status(run, UNFINISHED if progress else OPEN, progress)
 
 
 def differences(
-    run: Run, study: Study, settings: Mapping[str, Any], result: Mapping[str, Any]
+    run: Run,
+    study: Study,
+    folders: Folders,
+    settings: Mapping[str, Any],
+    result: Mapping[str, Any],
 ) -> list[str]:
-    """Return the settings that differ from those of a result, a text of a line each.
+    """Return what differs from the settings of a result and of the runs that it needed, in lines.
 
     A setting that is newer than the result counts as its default.
 
     Args:
         run: The run.
         study: Its study.
+        folders: Folders with the results of the runs that it needs.
         settings: Present settings of the run.
         result: The result in its file.
     """
@@ -88,10 +93,14 @@ def differences(
     kept = {**settings_then, **kept_protocol, "physics": result["physics"]}
     missing = {n: v for n, v in algorithms.defaults(run).items() if n in now and n not in kept}
     before = {**missing, **kept}
-    return [
+    changes = [
         _change(name, before.get(name), now.get(name))
         for name in {**now, **before}
         if now.get(name) != before.get(name)
+    ]
+    needed = run_files.needs(folders, run)
+    return changes + [
+        f"{key} has changed" for key, digest in needed.items() if result["needs"][key] != digest
     ]
 
 
@@ -102,7 +111,7 @@ def _change(name: str, before: object, now: object) -> str:
 
 def _after_needs(entry: Status, found: Mapping[str, Status]) -> Status:
     """The status, or that of a run that waits for others."""
-    missing = [k for k in entry.run.needs if k not in found or found[k].state != DONE]
+    missing = [need.key for need in entry.run.needs if found[need.key].state != DONE]
     if entry.state in (OPEN, UNFINISHED) and missing:
         return Status(entry.run, WAITING, f"needs {', '.join(missing)}")
     return entry
@@ -129,8 +138,7 @@ def expected_seconds(run: Run, known: Sequence[Status]) -> float:
     if isinstance(settings.get("seconds"), int | float):
         return float(settings["seconds"])
     if settings.get("seconds") is not None:
-        ppo = next(entry.run for entry in known if entry.run.key == run.needs[0])
-        return expected_seconds(ppo, known)
+        return expected_seconds(run.needs[0], known)
     samples = settings.get("samples", 0)
     for name, value in (("task", run.experiment.task), ("algorithm", run.experiment.algorithm)):
         rates = [r["samples"] / _seconds(r) for r in results if r[name] == value and r["samples"]]

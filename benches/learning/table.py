@@ -1,42 +1,33 @@
-"""The experiments of the study: tasks, algorithms and variants with their settings.
+"""The experiments of the study: tasks, algorithms and variants.
 
-Change a line, and `python -m benches.learning --list` shows the runs that it makes stale.
+Settings of PPO are those that the package recommends, `rsoccer/train/task_settings.py`. After a
+change there or here `python -m benches.learning --list` shows the runs that it makes stale.
 """
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
 from benches.learning import ablation
-from benches.learning.experiments import SB3, Experiment, Study
+from benches.learning.evaluation import VSSS
+from benches.learning.experiments import PAPER_SIZES, SB3, Experiment, Study
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
 M: Final = 1_000_000
 
-SAMPLES: Final = {
-    "VSS-v0": 10 * M,
-    "VSSMulti-v0": 20 * M,
-    "VSSSelfPlay-v0": 20 * M,
-    "SSLGoToBall-v0": 3 * M,
-    "SSLPassEndurance-v0": 5 * M,
-    "SSLContestedPossession-v0": 10 * M,
-    "SSLStaticDefenders-v0": 10 * M,
-    "SSLDribbling-v0": 10 * M,
-    "SSLPassEnduranceMulti-v0": 20 * M,
-    "SSLSelfPlay-v0": 20 * M,
-}
-"""Samples of a PPO run, where the recommended settings of the task set no number."""
-
-PPO_SETTINGS: Final[dict[str, dict[str, Any]]] = {
-    task: {"samples": samples, **recommended_settings(task)} for task, samples in SAMPLES.items()
-}
-"""Settings of each task: those that the package recommends, `rsoccer.train.task_settings`."""
-
-PPO_RUNS: Final = tuple(
-    Experiment("ppo", task, task, settings=settings, text=f"PPO on {task}")
-    for task, settings in PPO_SETTINGS.items()
+TASKS: Final = (
+    *("VSS-v0", "VSSMulti-v0", "VSSSelfPlay-v0"),
+    *("SSLGoToBall-v0", "SSLPassEndurance-v0", "SSLContestedPossession-v0"),
+    *("SSLStaticDefenders-v0", "SSLDribbling-v0", "SSLPassEnduranceMulti-v0", "SSLSelfPlay-v0"),
 )
+"""Tasks in the order of the tables."""
+
+PPO: Final = {
+    task: Experiment("ppo", task, task, settings=recommended_settings(task), text=f"PPO on {task}")
+    for task in TASKS
+}
+"""The experiment of PPO by task."""
 
 SHARED_WITH_PPO: Final = ("hidden_sizes", "gamma", "action_repeat", "task_options")
 
@@ -48,9 +39,9 @@ BASELINES: Final = tuple(
         algorithm,
         settings={name: Args.for_task(task).to_json()[name] for name in SHARED_WITH_PPO},
         seeds=3,
-        needs=(f"ppo/{task}",),
+        needs=(PPO[task],),
     )
-    for task in PPO_SETTINGS
+    for task in TASKS
     if "SelfPlay" not in task
     for algorithm in SB3
 )
@@ -59,7 +50,7 @@ BASELINES: Final = tuple(
 CALIBRATION: Final = tuple(
     Experiment(
         "baselines",
-        f"VSS-v0-{algorithm}-paper",
+        f"VSS-v0-{algorithm}{PAPER_SIZES}",
         "VSS-v0",
         algorithm,
         settings={
@@ -82,7 +73,6 @@ ABLATION: Final = ablation.experiments("VSS-v0", samples=3 * M, seeds=3)
 
 TEAM: Final = "VSSMulti-v0"
 PASSES: Final = "SSLPassEnduranceMulti-v0"
-VSSS_OPPONENTS: Final = ("ou", "zero", "chase", "scripted")
 
 COOPERATION: Final = (
     Experiment(
@@ -92,7 +82,7 @@ COOPERATION: Final = (
         "clones",
         settings={"policy": f"@ppo/{TEAM}"},
         opponents=("@ppo/VSS-v0",),
-        needs=(f"ppo/{TEAM}", "ppo/VSS-v0"),
+        needs=(PPO[TEAM], PPO["VSS-v0"]),
         text="shared policy, learned as a team, against three clones of one robot's policy",
     ),
     Experiment(
@@ -102,7 +92,7 @@ COOPERATION: Final = (
         "clones",
         settings={"policy": f"@ppo/{TEAM}"},
         opponents=("@ppo/VSS-v0",),
-        needs=(f"ppo/{TEAM}", "ppo/VSS-v0"),
+        needs=(PPO[TEAM], PPO["VSS-v0"]),
         text="the same policies where a ball that is stuck leads to a free ball",
     ),
     Experiment(
@@ -112,7 +102,7 @@ COOPERATION: Final = (
         "clones",
         settings={"policy": "@ppo/VSS-v0"},
         opponents=(f"@ppo/{TEAM}",),
-        needs=(f"ppo/{TEAM}", "ppo/VSS-v0"),
+        needs=(PPO[TEAM], PPO["VSS-v0"]),
         text="one robot's policy and two robots of noise against the shared policy",
     ),
     Experiment(
@@ -121,8 +111,8 @@ COOPERATION: Final = (
         TEAM,
         "clones",
         settings={"policy": "@ppo/VSS-v0"},
-        opponents=VSSS_OPPONENTS,
-        needs=("ppo/VSS-v0",),
+        opponents=VSSS,
+        needs=(PPO["VSS-v0"],),
         text="three clones of one robot's policy",
     ),
     *(
@@ -130,9 +120,8 @@ COOPERATION: Final = (
             "cooperation",
             f"{task}-central-critic",
             task,
-            settings={**PPO_SETTINGS[task], "central_critic": True},
+            settings={**PPO[task].settings, "central_critic": True},
             seeds=3,
-            opponents=VSSS_OPPONENTS if task == TEAM else None,
             text="a central critic on the state of the match",
         )
         for task in (TEAM, PASSES)
@@ -141,10 +130,10 @@ COOPERATION: Final = (
         "cooperation",
         f"{TEAM}-team-only",
         TEAM,
-        settings={**PPO_SETTINGS[TEAM], "solo_fraction": 0.0},
+        settings={**PPO[TEAM].settings, "solo_fraction": 0.0},
         seeds=3,
         text="all learn as a team from the start, without a part with one learner",
     ),
 )
 
-STUDY: Final = Study((*PPO_RUNS, *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION))
+STUDY: Final = Study((*PPO.values(), *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION))

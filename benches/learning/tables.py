@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, find_task, finished
+from benches.learning.experiments import PAPER_SIZES
 from tools.markdown import table
 
 Studied = Sequence[Collected]
@@ -19,7 +20,7 @@ def results(collected: Studied) -> str:
         *("task", "against", "score", "95% interval", "target", "seeds", "mean action"),
         *(
             "won, drawn, lost (own goals), passes per match",
-            "time to success",
+            "time to a goal or success",
             "samples",
             "core time",
         ),
@@ -29,10 +30,9 @@ def results(collected: Studied) -> str:
 
 
 def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
-    task = part.experiment.task
     estimate = part.estimate(opponent)
     return (
-        cells.name_of(part, task),
+        f"`{part.experiment.task}`{cells.mark(part)}",
         cells.against(opponent),
         cells.number(estimate.value),
         cells.interval(estimate),
@@ -40,7 +40,7 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
         cells.seeds(part.scores(opponent)),
         cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
         cells.outcomes(part, opponent),
-        cells.time_to_success(part, opponent),
+        cells.time_to_decision(part, opponent),
         cells.millions(part.samples()),
         cells.minutes(part.core_seconds()),
     )
@@ -49,9 +49,9 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
 def baselines(collected: Studied) -> str:
     """Return the scores of DDPG and SAC beside those of PPO."""
     header = (
-        *("task", "algorithm", "score", "95% interval", "seeds", "PPO, same time"),
-        *("PPO better", "PPO, as many samples", "samples", "gradient steps"),
-        "core time",
+        *("task", "algorithm", "score", "95% interval", "seeds", "mean action"),
+        *("PPO, same time", "P(PPO better)", "PPO, as many samples"),
+        *("samples", "gradient steps", "core time"),
     )
     rows = [_baseline_row(part, collected) for part in finished(collected, "baselines")]
     return _with_notes(header, rows, collected, "baselines")
@@ -59,18 +59,21 @@ def baselines(collected: Studied) -> str:
 
 def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     experiment, estimate = part.experiment, part.estimate()
+    calibrates = experiment.name.endswith(PAPER_SIZES)
+    label = experiment.algorithm.upper() + (", the paper's setting" if calibrates else "")
+    # A run of the paper's setting has more time than PPO's, so only their samples compare.
     ppo = find_task(collected, experiment.task)
-    label = f"{experiment.algorithm.upper()}{', paper sizes' if 'paper' in experiment.name else ''}"
-    opponent = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
+    rival = None if calibrates else ppo
     steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
     return (
-        cells.name_of(part, f"{experiment.task}{opponent}"),
+        f"{cells.task_and_opponent(part)}{cells.mark(part)}",
         label,
         cells.number(estimate.value),
         cells.interval(estimate),
         cells.seeds(part.scores()),
-        cells.number(ppo.estimate(part.opponents[0]).value) if ppo else "",
-        cells.better(ppo, part) if ppo else "",
+        cells.number(part.estimate(mode="mean").value),
+        cells.number(rival.estimate(part.opponents[0]).value) if rival else "",
+        cells.better(rival, part) if rival else "",
         cells.on_curve(ppo, part.samples()) if ppo else "",
         cells.millions(part.samples()),
         cells.millions(steps),
@@ -111,8 +114,7 @@ def _ablation_cells(
     better = ""
     if reference is not None:
         better = cells.better(reference, part) if swap else cells.better(part, reference)
-    mark = cells.STALE_MARK if part.stale else ""
-    return f"{cells.number(estimate.value)}{mark}", cells.interval(estimate), better
+    return f"{cells.number(estimate.value)}{cells.mark(part)}", cells.interval(estimate), better
 
 
 def cooperation(collected: Studied) -> str:
@@ -135,7 +137,7 @@ def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tupl
     # Clones play the task of a team: their comparison with it is the same.
     comparable = ppo is not None and opponent in ppo.opponents
     return (
-        cells.name_of(part, part.experiment.task),
+        f"`{part.experiment.task}`{cells.mark(part)}",
         part.experiment.text,
         cells.against(opponent),
         cells.number(estimate.value),
@@ -171,19 +173,22 @@ def headline(collected: Studied) -> str:
     for part in finished(collected, "ppo"):
         task = part.experiment.task
         others = (find_task(collected, task, name) for name in ("ddpg", "sac"))
-        against = "" if part.opponents[0] == "-" else f" against `{part.opponents[0]}`"
+        opponent = cells.against(part.opponents[0])
         metric = part.rows()[0]["metric"].replace("_", " ")
         rows.append(
             (
                 f"`{task}`",
-                f"{metric}{against}",
+                f"{metric}{opponent and f' against {opponent}'}",
                 cells.with_interval(part),
                 *(cells.with_interval(other) for other in others),
                 f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",
             )
         )
     header = ("task", "score", "PPO", "DDPG", "SAC", "PPO's samples, time of one core")
-    return table(header, rows) if rows else ""
+    if not rows:
+        return ""
+    text = table(header, rows)
+    return f"{text}{_stale_note(text)}"
 
 
 def _with_notes(
@@ -198,6 +203,11 @@ def _with_notes(
     if missing:
         names = ", ".join(f"{name} ({count})" for name, count in missing.items())
         notes.append(f"Missing runs: {names}.")
-    if any(part.stale for part in parts):
-        notes.append(f"{cells.STALE_MARK} Settings in the table have changed since this run.")
-    return "\n\n".join([table(header, rows), *notes])
+    text = "\n\n".join([table(header, rows), *notes])
+    return f"{text}{_stale_note(text)}"
+
+
+def _stale_note(text: str) -> str:
+    """Explanation of the mark of stale results, as a paragraph; empty where the text has none."""
+    found = cells.STALE_MARK in text
+    return f"\n\n{cells.STALE_MARK} Settings have changed since this run." if found else ""

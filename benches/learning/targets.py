@@ -24,5 +24,8 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
 }
 """Score by task and opponent; "-" is the task's own, "@ppo/TASK" a policy of another task."""
 
+PASSES: Final[dict[tuple[str, str], float]] = {("SSLSelfPlay-v0", "strike"): 1.0}
+"""Passes per match by task and opponent: a side that plays passes makes one at least."""
+
 FULL_SUCCESS: Final[dict[str, float]] = {"SSLDribbling-v0": 0.9}
 """Share of episodes with full success, by task, where the target is not a score."""

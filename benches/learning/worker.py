@@ -10,13 +10,14 @@ from importlib import metadata
 from pathlib import Path
 from typing import Final
 
-from benches.learning import algorithms
+from benches.learning import algorithms, run_files
 from benches.learning.evaluation import evaluate_run
 from benches.learning.experiments import Run, Study
 from benches.learning.learned import spent
 from benches.learning.run_files import Folders, lock, save
 from benches.result_files import this_machine
 from rsoccer._core import build_info
+from rsoccer.evaluate.schedule import processors
 
 PACKAGES: Final = ("numpy", "torch", "gymnasium", "stable-baselines3")
 
@@ -36,7 +37,7 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
     with lock(folders, run.key) as held:
         if not held:
             return None
-        machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": _cores()}
+        machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": processors()}
         learned = algorithms.learn(run, folder, folders)
         start = time.monotonic()
         evaluations = evaluate_run(run, learned, study.protocol, folders)
@@ -48,6 +49,7 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
             "settings": algorithms.settings(run),
             "protocol": asdict(study.protocol),
             "physics": build_info()["physics"],
+            "needs": run_files.needs(folders, run),
             "machine": machine,
             "libraries": libraries(),
             "samples": learned.samples,
@@ -69,11 +71,6 @@ def libraries() -> dict[str, str]:
         except metadata.PackageNotFoundError:
             continue
     return versions
-
-
-def _cores() -> int:
-    """Processors that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
 
 
 def pin(core: int | None) -> None:

@@ -8,10 +8,11 @@ import numpy as np
 from benches.learning import algorithms, evaluation
 from benches.learning.experiments import Experiment, Run, Study
 from benches.learning.run_files import Folders, save
+from benches.learning.run_files import needs as run_needs
 from rsoccer._core import build_info
 from rsoccer.registry import make_task
 
-MODES = {"ppo": ("sample", "mean"), "ddpg": ("mean",), "sac": ("mean", "sample")}
+MODES = {"ppo": ("sample", "mean"), "ddpg": ("mean",), "sac": ("sample", "mean")}
 
 
 def store(study: Study, folders: Folders, *, missing: tuple[str, ...] = ()) -> None:
@@ -22,10 +23,12 @@ def store(study: Study, folders: Folders, *, missing: tuple[str, ...] = ()) -> N
         except TypeError:
             continue
         if not any(name in run.key for name in missing):
-            save(folders, run.key, result(run, study, settings))
+            save(folders, run.key, result(run, study, settings, run_needs(folders, run)))
 
 
-def result(run: Run, study: Study, settings: dict[str, Any]) -> dict[str, Any]:
+def result(
+    run: Run, study: Study, settings: dict[str, Any], needs: dict[str, str]
+) -> dict[str, Any]:
     """Return a result with a score between .5 and 1, worse in the paper's setting."""
     experiment = run.experiment
     rng = np.random.default_rng([run.seed, *experiment.key.encode()])
@@ -43,6 +46,7 @@ def result(run: Run, study: Study, settings: dict[str, Any]) -> dict[str, Any]:
         "settings": settings,
         "protocol": asdict(study.protocol),
         "physics": build_info()["physics"],
+        "needs": needs,
         "machine": {"machine": "Some CPU", "cores": 2},
         "libraries": {},
         "samples": samples,

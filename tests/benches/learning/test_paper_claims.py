@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from benches.learning.collection import collect
-from benches.learning.curves import mean_until
+from benches.learning.curves import mean_between
 from benches.learning.experiments import Experiment, Study
 from benches.learning.paper_claims import CLAIMS, order
 from benches.learning.run_files import Folders, load, save
@@ -58,8 +58,8 @@ def test_claims_are_compared_with_the_seeds(
     assert rows[1].endswith(f" {late} |")
 
 
-def test_equal_scores_and_single_seeds_decide_nothing(folders: Folders) -> None:
-    for seeds, verdict in ((3, "open"), (1, "one seed")):
+def test_equal_scores_and_few_seeds_decide_nothing(folders: Folders) -> None:
+    for seeds, verdict in ((3, "open"), (2, "too few seeds"), (1, "too few seeds")):
         made = study(seeds)
         store_scores(folders, made, 0.5, 0.5)
         assert order(collect(made, folders)).count(f"| {verdict} |") == 2
@@ -83,6 +83,7 @@ def test_each_claim_is_about_experiments_of_the_study() -> None:
 
 def test_the_mean_of_a_curve_is_over_samples() -> None:
     curve = {"samples": [100, 200, 400], "seconds": [1, 2, 4], "values": [0.0, 1.0, 1.0]}
-    assert mean_until(curve, 200) == pytest.approx(0.5)
-    assert mean_until(curve, 400) == pytest.approx(5 / 6, abs=0.01)
-    assert mean_until(curve, 100) == 0.0
+    assert mean_between(curve, 100, 200) == pytest.approx(0.5)
+    assert mean_between(curve, 100, 400) == pytest.approx(5 / 6, abs=0.01)
+    assert mean_between(curve, 200, 400) == 1.0
+    assert mean_between(curve, 100, 50) == 0.0

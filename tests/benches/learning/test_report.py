@@ -92,6 +92,25 @@ def test_results_with_another_observation_are_stale(tmp_path: Path) -> None:
     ] * 2
 
 
+def test_results_are_stale_if_a_run_that_they_needed_has_changed(tmp_path: Path) -> None:
+    def made(gamma: float) -> Study:
+        learned = Experiment("ppo", "VSS-v0", "VSS-v0", settings={"gamma": gamma}, seeds=1)
+        policy = {"policy": "@ppo/VSS-v0"}
+        clones = Experiment("a", "x", "VSSMulti-v0", "clones", policy, 1, needs=(learned,))
+        return Study((learned, clones))
+
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+
+    def reasons(study: Study) -> list[str]:
+        return [entry.reason for entry in statuses(study, folders)]
+
+    store(made(0.9), folders)
+    assert reasons(made(0.9)) == ["", ""]
+    store(made(0.8), folders, missing=("a/x",))
+    assert reasons(made(0.8)) == ["", "ppo/VSS-v0/seed-0 has changed"]
+    assert collect(made(0.8), folders)[1].stale
+
+
 def test_the_result_of_a_setting_that_is_gone_is_stale(tmp_path: Path) -> None:
     folders = Folders(tmp_path / "results", tmp_path / "work")
     store(study_of(), folders)

@@ -71,6 +71,31 @@ def test_a_finished_run_is_not_repeated(
     assert "start" not in capsys.readouterr().out
 
 
+def test_a_selection_without_runs_is_refused(
+    folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    for options in (["--only", "typo"], ["--group", "typo"]):
+        assert main([*folders, *options]) == 2
+        assert "expected a run of the study, got none" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--jobs", "0"], "--jobs must be at least 1, got 0"),
+        (["--seeds", "0"], "--seeds must be at least 1, got 0"),
+        (["--budget-minutes", "nan"], "--budget-minutes must be at least 0.0, got nan"),
+        (["--report"], "--report writes the pages of this study"),
+    ],
+)
+def test_wrong_options_are_refused(
+    folders: list[str], options: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main([*folders, *options])
+    assert message in capsys.readouterr().err
+
+
 def test_changed_settings_make_a_run_stale(
     folders: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -12,7 +12,7 @@ from rsoccer.rng import WorldRng
 
 pytest.importorskip("stable_baselines3")
 
-QUICK = {"seconds": 2.0, "rows": 12, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
+QUICK = {"seconds": 2.0, "rows": 10, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
 
 
 def experiment(algorithm: str, task: str = "SSLPassEndurance-v0") -> Experiment:
@@ -32,7 +32,7 @@ def test_a_run_leaves_its_result(algorithm: str, tmp_path: Path) -> None:
     assert result["learning_seconds"] == 2.0
     assert 1 <= len(result["curve"]["samples"]) <= 12
     assert result["curve"]["samples"][-1] == result["samples"]
-    modes = {"ddpg": ["mean"], "sac": ["mean", "sample"]}[algorithm]
+    modes = {"ddpg": ["mean"], "sac": ["sample", "mean"]}[algorithm]
     assert [row["mode"] for row in result["evaluations"]] == modes
 
 

@@ -15,9 +15,10 @@ TINY: Final[dict[str, Any]] = {
 }
 LONGER: Final = {**TINY, "samples": 6_000}
 PROTOCOL: Final = Protocol(starts=2)
+VSS: Final = Experiment("ppo", "VSS-v0", "VSS-v0", settings=TINY, seeds=2, opponents=("ou", "zero"))
 STUDY: Final = Study(
     (
-        Experiment("ppo", "VSS-v0", "VSS-v0", settings=TINY, seeds=2, opponents=("ou", "zero")),
+        VSS,
         Experiment("ppo", "SSLGoToBall-v0", "SSLGoToBall-v0", settings=TINY, seeds=1),
         Experiment(
             "cooperation",
@@ -27,7 +28,7 @@ STUDY: Final = Study(
             settings={"policy": "@ppo/VSS-v0"},
             seeds=1,
             opponents=("@ppo/VSS-v0",),
-            needs=("ppo/VSS-v0",),
+            needs=(VSS,),
         ),
         Experiment("interrupted", "run", "SSLPassEndurance-v0", settings=LONGER, seeds=1),
     ),
