@@ -78,6 +78,7 @@ def test_watch_plays_a_replay_in_a_window(tmp_path: Path) -> None:
         (["--save", "match.html"], "save: expected a name ending in .rsr, got match.html"),
         (["--save", "absent/match.rsr"], "save: expected a file in a folder that exists"),
         (["--save", "match.rsr", "--snapshots", "0"], "snapshot_interval: expected a positive"),
+        (["--snapshots", "5"], "snapshots: expected none without --save, got 5.0"),
     ],
 )
 def test_watch_refuses_files_that_it_cannot_write(

@@ -66,12 +66,15 @@ class Watch:
         """Show the match, or write the files.
 
         Raises:
-            ValueError: the speed is not positive and finite, or another option is refused.
+            ValueError: the speed is not positive and finite, snapshots without a replay to save, or
+                another option is refused.
         """
         if not 0.0 < self.speed < math.inf:
             raise ValueError(f"speed: expected a positive number, got {self.speed}")
         check_output("html", self.html, ".html")
         check_output("save", self.save, SUFFIX)
+        if self.snapshots is not None and self.save is None:
+            raise ValueError(f"snapshots: expected none without --save, got {self.snapshots}")
         if self.subject is not None and self.subject.endswith(SUFFIX):
             self._play_replay(self._load(self.subject))
         elif self.html or self.save:
