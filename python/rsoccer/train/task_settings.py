@@ -133,6 +133,8 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         # Both robots learn from the start: beside the script `passer`, which goes to any pass, a
         # robot learns passes that a copy of itself never receives.
         "solo_fraction": 0.0,
+        # With the default of 1 for the distance the robots walk up to each other instead of
+        # passing, and with -1 for a failure the first passes, which fail, are not worth a try.
         "task_options": {"reward_weights": {"failed": -0.2, "ball_to_teammate": 0.2}},
     },
     "SSLSelfPlay-v0": {
