@@ -220,6 +220,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "learning_cooperation": learning.cooperation,
     "learning_headline": learning.headline,
     "learning_results": learning.results,
+    "learning_tournament": learning.tournament,
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,

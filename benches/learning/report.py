@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
 
-from benches.learning import lost_starts, paper_claims, tables
+from benches.learning import lost_starts, paper_claims, tables, trained_tournament
 from benches.learning.collection import Collected, collect
 from benches.learning.pictures import draw_ablation, draw_curves
 from benches.learning.run_files import Folders
@@ -65,6 +65,12 @@ def ablation() -> str:
 def cooperation() -> str:
     """Return the table of teams, clones and critics; empty without results."""
     return _section("Cooperation", tables.cooperation)
+
+
+def tournament() -> str:
+    """Return the tournament of the trained policies; empty without a result."""
+    text = trained_tournament.section(Folders())
+    return f"## Tournament\n\n{text}" if text else ""
 
 
 def compute() -> str:

@@ -1,0 +1,19 @@
+import json
+from pathlib import Path
+
+from benches.learning import trained_tournament
+from benches.learning.run_files import Folders
+
+
+def test_the_trained_policies_play_the_scripts(tmp_path: Path) -> None:
+    folders = Folders(tmp_path, tmp_path)
+    assert trained_tournament.section(folders) == ""
+    result = trained_tournament.measure(2, tmp_path / "picture.png")
+    assert (tmp_path / "picture.png").is_file()
+    labels = [row["label"] for row in result["standings"]]
+    assert len(labels) == len(set(labels)) == 3 + len(trained_tournament.SCRIPTS)
+    text = json.dumps(result)
+    assert str(Path(__file__).parents[3]) not in text, "no path of this machine"
+    (tmp_path / trained_tournament.FILE).write_text(text)
+    lines = trained_tournament.section(folders).splitlines()
+    assert [line.split("`")[1] for line in lines[2:9]] == labels
