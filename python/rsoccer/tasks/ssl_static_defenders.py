@@ -49,7 +49,8 @@ class SslStaticDefenders(SslAttack):
     """Opponents in random initial states, 0 to 6; must be 6 with scenarios."""
     scenario_fraction: float = 0.0
     """Fraction of the random initial states, 0 to 1, that are near an official scenario: any of
-    them, mirrored or not, ball and opponents shifted by up to 0.15 m. For training."""
+    them, mirrored or not, ball and opponents shifted by up to 0.15 m, by little more often than by
+    much. For training."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
@@ -114,8 +115,10 @@ class SslStaticDefenders(SslAttack):
         chosen = rng.uniform(0.0, 1.0) < self.scenario_fraction
         scenario = np.floor(rng.uniform(0.0, scenarios.N_STATIC_DEFENDERS)).astype(np.int64)
         mirror = np.where(rng.uniform(0.0, 1.0) < 0.5, np.float32(-1.0), np.float32(1.0))
-        ball_shift = rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
-        shift = rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
+        # A random scale makes states close to the official ones frequent.
+        scale = rng.uniform(0.0, 1.0)[:, None]
+        ball_shift = scale * rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
+        shift = scale * rng.uniform(-MAX_SHIFT, MAX_SHIFT, (2,))
         shift[:, 0] = -np.abs(shift[:, 0])  # a goalkeeper has no space behind it
         field = self.config.field
         low = np.array([BALL_START_X, MAX_SHIFT - field.half_width], np.float32)
