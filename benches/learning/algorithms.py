@@ -72,7 +72,11 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         The policy, and how it was learned.
     """
     algorithm = run.experiment.algorithm
-    identity = {"settings": settings(run), "physics": build_info()["physics"]}
+    identity = {
+        "settings": settings(run),
+        "physics": build_info()["physics"],
+        "needs": run_files.needs(folders, run),
+    }
     if not run_files.is_same(folder, identity):
         ppo_run.forget(folder)
         restart_clock(folder)

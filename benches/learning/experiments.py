@@ -11,7 +11,7 @@ PPO: Final = "ppo"
 SB3: Final = ("ddpg", "sac")
 CLONES: Final = "clones"
 ALGORITHMS: Final = (PPO, *SB3, CLONES)
-PAPER_SIZES: Final = "-paper"
+PAPER_SETTING: Final = "-paper"
 """End of the name of a baseline in the paper's setting, whose time is not that of PPO."""
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, find_task, finished
-from benches.learning.experiments import PAPER_SIZES
+from benches.learning.experiments import PAPER_SETTING
 from tools.markdown import table
 
 Studied = Sequence[Collected]
@@ -59,7 +59,7 @@ def baselines(collected: Studied) -> str:
 
 def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     experiment, estimate = part.experiment, part.estimate()
-    calibrates = experiment.name.endswith(PAPER_SIZES)
+    calibrates = experiment.name.endswith(PAPER_SETTING)
     label = experiment.algorithm.upper() + (", the paper's setting" if calibrates else "")
     # A run of the paper's setting has more time than PPO's, so only their samples compare.
     ppo = find_task(collected, experiment.task)
