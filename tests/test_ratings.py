@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from rsoccer.evaluate.cycles import cycles
+from rsoccer.evaluate.cycles import cycles, in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING, ELO_SCALE, PRIOR_DRAWS, rate, strengths
 
 
@@ -131,3 +131,10 @@ def test_cycles_are_found_once() -> None:
     assert cycles(beats(*longer, k=5)) == [(0, 3, 1, 4)]
     both = beats((0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 2), k=5)
     assert cycles(both) == [(0, 1, 2), (2, 3, 4)]
+
+
+def test_cycles_in_words() -> None:
+    assert in_words([]) == "none"
+    assert in_words([("a", "b", "c"), ("c", "d", "e")]) == (
+        "a beats b beats c beats a; c beats d beats e beats c"
+    )

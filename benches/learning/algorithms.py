@@ -60,6 +60,20 @@ def samples_so_far(run: Run, folder: Path) -> int | None:
     return ppo_run.samples_so_far(folder) if run.experiment.algorithm == PPO else None
 
 
+def conditions(run: Run, folders: Folders) -> dict[str, Any]:
+    """Return all that decides what a run learns, as JSON values, for its result.
+
+    Args:
+        run: The run.
+        folders: Folders with the results of the runs that it needs.
+    """
+    return {
+        "settings": settings(run),
+        "physics": build_info()["physics"],
+        "needs": run_files.needs(folders, run),
+    }
+
+
 def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     """Learn a policy, from the checkpoint of an interrupted run with the same settings.
 
@@ -72,11 +86,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         The policy, and how it was learned.
     """
     algorithm = run.experiment.algorithm
-    identity = {
-        "settings": settings(run),
-        "physics": build_info()["physics"],
-        "needs": run_files.needs(folders, run),
-    }
+    identity = conditions(run, folders)
     if not run_files.is_same(folder, identity):
         ppo_run.forget(folder)
         restart_clock(folder)

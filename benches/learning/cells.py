@@ -19,10 +19,10 @@ def mark(part: Collected) -> str:
     return STALE_MARK if part.stale else ""
 
 
-def task_and_opponent(part: Collected) -> str:
-    """Return the task, and the first opponent unless it is the task's own."""
+def against_first(part: Collected) -> str:
+    """Return words for the first opponent, with a space before; empty for the task's own."""
     opponent = against(part.opponents[0])
-    return f"`{part.experiment.task}`{opponent and f' against {opponent}'}"
+    return opponent and f" against {opponent}"
 
 
 def against(opponent: str) -> str:

@@ -66,7 +66,7 @@ def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     rival = None if calibrates else ppo
     steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
     return (
-        f"{cells.task_and_opponent(part)}{cells.mark(part)}",
+        f"`{experiment.task}`{cells.against_first(part)}{cells.mark(part)}",
         label,
         cells.number(estimate.value),
         cells.interval(estimate),
@@ -173,12 +173,11 @@ def headline(collected: Studied) -> str:
     for part in finished(collected, "ppo"):
         task = part.experiment.task
         others = (find_task(collected, task, name) for name in ("ddpg", "sac"))
-        opponent = cells.against(part.opponents[0])
         metric = part.rows()[0]["metric"].replace("_", " ")
         rows.append(
             (
                 f"`{task}`",
-                f"{metric}{opponent and f' against {opponent}'}",
+                f"{metric}{cells.against_first(part)}",
                 cells.with_interval(part),
                 *(cells.with_interval(other) for other in others),
                 f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",

@@ -13,6 +13,7 @@ from typing import Any, Final
 
 from benches.learning.run_files import Folders
 from benches.result_files import ROOT
+from rsoccer.evaluate.cycles import in_words
 from rsoccer.evaluate.tournament import tournament
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained
@@ -61,10 +62,9 @@ def section(folders: Folders) -> str:
         for row in result["standings"]
     ]
     header = ("policy", "rating", "95% interval", "won, drawn, lost", "goal score")
-    cycles = "; ".join(" beats ".join((*cycle, cycle[0])) for cycle in result["cycles"])
     return (
         f"{table(header, rows)}\n\n{TASK}, {result['matches']} matches of each pair, half from "
-        f"each side; `ou` has 1000. Cycles of wins: {cycles or 'none'}. "
+        f"each side; `ou` has 1000. Cycles of wins: {in_words(result['cycles'])}. "
         "(`python -m benches.learning.trained_tournament`)\n\n"
         f"![Goal scores of each pair, and ratings]({PICTURE.name})"
     )

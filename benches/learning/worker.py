@@ -10,13 +10,12 @@ from importlib import metadata
 from pathlib import Path
 from typing import Final
 
-from benches.learning import algorithms, run_files
+from benches.learning import algorithms
 from benches.learning.evaluation import evaluate_run
 from benches.learning.experiments import Run, Study
 from benches.learning.learned import spent
 from benches.learning.run_files import Folders, lock, save
 from benches.result_files import this_machine
-from rsoccer._core import build_info
 from rsoccer.evaluate.schedule import processors
 
 PACKAGES: Final = ("numpy", "torch", "gymnasium", "stable-baselines3")
@@ -38,6 +37,7 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
         if not held:
             return None
         machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": processors()}
+        conditions = algorithms.conditions(run, folders)
         learned = algorithms.learn(run, folder, folders)
         start = time.monotonic()
         evaluations = evaluate_run(run, learned, study.protocol, folders)
@@ -46,10 +46,8 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
             "task": run.experiment.task,
             "algorithm": run.experiment.algorithm,
             "text": run.experiment.text,
-            "settings": algorithms.settings(run),
+            **conditions,
             "protocol": asdict(study.protocol),
-            "physics": build_info()["physics"],
-            "needs": run_files.needs(folders, run),
             "machine": machine,
             "libraries": libraries(),
             "samples": learned.samples,

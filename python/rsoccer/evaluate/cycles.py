@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 from rsoccer.arrays import Mask
 
 Cycle = tuple[int, ...]
 """Indices of policies, of which each beats the next and the last beats the first."""
+
+
+def in_words(found: Iterable[Sequence[str]]) -> str:
+    """Return cycles as text: "a beats b beats c beats a; ...", or "none".
+
+    Args:
+        found: labels of the policies of each cycle.
+    """
+    return "; ".join(" beats ".join((*cycle, cycle[0])) for cycle in found) or "none"
 
 
 def cycles(beats: Mask) -> list[Cycle]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rsoccer.evaluate.cycles import in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING
 from rsoccer.evaluate.tables import align
 
@@ -25,13 +26,12 @@ def report(result: Tournament) -> str:
         result: the tournament.
     """
     title = f"{result.task}, {result.matches} matches a pair, half from each side"
-    cycles = [" beats ".join((*cycle, cycle[0])) for cycle in result.cycles] or ["none"]
     return "\n\n".join(
         (
             title,
             align(_ratings(result), 1),
             "goal score of the row against the column\n" + align(_matrix(result), 1),
-            "cycles of wins (95% intervals above 0): " + "; ".join(cycles),
+            f"cycles of wins (95% intervals above 0): {in_words(result.cycles)}",
         )
     )
 
