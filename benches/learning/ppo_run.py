@@ -13,7 +13,7 @@ from benches.learning.experiments import Run
 from benches.learning.learned import Learned, curve, timed
 from benches.learning.run_files import Folders, with_policies
 from rsoccer.arrays import Array
-from rsoccer.frame import team_of
+from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
 from rsoccer.train.ladder import OPPONENTS
@@ -58,9 +58,8 @@ def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -
         "ladder_matches": LADDER_MATCHES,
     }
     wanted = Args.for_task(**{**given, **fixed})
-    agents = wanted.make_task().agents
-    learners = sum(team_of(name) == team_of(agents[0]) for name in agents)
-    per_update = wanted.worlds * wanted.horizon * learners
+    learners = learning_team(wanted.make_task())
+    per_update = wanted.worlds * wanted.horizon * len(learners)
     interval = max(1, round(wanted.samples / per_update / LADDER_POINTS))
     return dataclasses.replace(wanted, ladder_interval=interval)
 
@@ -73,11 +72,12 @@ def settings(run: Run) -> dict[str, Any]:
 
 def without_effect(run: Run) -> frozenset[str]:
     """Return the names of settings that leave the result of a run as it is."""
-    agents = make_task(run.experiment.task).agents
+    task = make_task(run.experiment.task)
+    learners = learning_team(task)
     names = [*NOT_COMPARED]
-    if len({team_of(name) for name in agents}) == 1:
+    if len(learners) == len(task.agents):
         names += SELF_PLAY_ONLY
-    if len(agents) == 1:
+    if len(learners) == 1:
         names += ("solo_fraction", "solo_partners", "solo_copies")
     return frozenset(names)
 

@@ -16,7 +16,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from benches.learning.relu_actor import Layer, ReluActor
 from benches.learning.sb3_wrapper import ActionRepeat
-from rsoccer.frame import team_of
+from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.registry import make_task
 from rsoccer.sb3 import SoccerVecEnv
 
@@ -95,13 +95,12 @@ def train(
 def environments(task_name: str, values: dict[str, Any]) -> VecEnv:
     """Return a vector environment with at least `rows` rows.
 
-    Where both teams learn, blue learns against `ou`.
+    Where both teams learn, blue learns against `DEFAULT_OPPONENT`.
     """
     task = make_task(task_name, **values["task_options"])
-    teams = {team_of(name) for name in task.agents}
-    controllers = {"yellow": "ou"} if len(teams) == 2 else None
-    learners = len(task.agents) // len(teams)
-    matches = -(-values["rows"] // learners)
+    learners = learning_team(task)
+    controllers = {"yellow": DEFAULT_OPPONENT} if len(learners) < len(task.agents) else None
+    matches = -(-values["rows"] // len(learners))
     envs = SoccerVecEnv(task, matches, threads=1, controllers=controllers)
     return ActionRepeat(envs, values["action_repeat"], values["gamma"])
 

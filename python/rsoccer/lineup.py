@@ -75,11 +75,28 @@ def opponents_of(task: Task) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
-    """Default controllers by robot: of the first learner's team, and of the other team."""
+def learning_team(task: Task) -> tuple[str, ...]:
+    """Return the names of the robots that learn in the first learner's team: blue's if both learn.
+
+    Args:
+        task: the task that is played.
+
+    Raises:
+        ValueError: a task without learners.
+    """
+    team = team_of(_first_learner(task))
+    return tuple(name for name in task.agents if team_of(name) == team)
+
+
+def _first_learner(task: Task) -> str:
     if not task.agents:
         raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
-    team = team_of(task.agents[0])
+    return task.agents[0]
+
+
+def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
+    """Default controllers by robot: of the first learner's team, and of the other team."""
+    team = team_of(_first_learner(task))
     defaults = task.default_controllers()
     home = {robot: defaults[robot] for robot in task.robots if team_of(robot) == team}
     return home, {robot: defaults[robot] for robot in task.robots if robot not in home}

@@ -9,6 +9,7 @@ learned. The second part has the opponents and teammates that the settings name.
 from __future__ import annotations
 
 from rsoccer.frame import team_of
+from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.task import LEARN, Learn, Task
@@ -19,8 +20,6 @@ from rsoccer.train.timing import Clock, TimedSimulator
 
 Controllers = dict[str, str | Learn | Policy]
 """Controllers by robot or team, as `Matches` takes them."""
-DEFAULT_OPPONENT = "ou"
-"""Fixed policy of opponents in a task where both teams learn."""
 
 
 class Curriculum:
@@ -48,16 +47,12 @@ class Curriculum:
                 matches for them.
         """
         self._args, self._task, self._clock = args, task, clock
-        defaults = task.default_controllers()
-        learners = [name for name in task.robots if defaults[name] is LEARN]
-        if not learners:
-            raise ValueError(f"task: expected one with a robot that learns, {task.name} has none")
-        home = team_of(learners[0])
-        self.learners = [name for name in learners if team_of(name) == home]
+        self.learners = learning_team(task)
+        home = team_of(self.learners[0])
         self.pool: OpponentPool | None = None
         self.opponents: PolicyMix | None = None
         self._rivals = [name for name in task.robots if team_of(name) != home]
-        if len(self.learners) < len(learners):
+        if len(self.learners) < len(task.agents):
             self.opponents = self.pool = self._create_opponent_pool()
         elif args.opponents:
             shares = self._with_solo_policy(args.opponents)
