@@ -6,6 +6,7 @@ python -m benches.learning.trained_tournament
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import json
 import sys
 from pathlib import Path
@@ -35,14 +36,27 @@ def measure(matches: int, picture: Path) -> dict[str, Any]:
         matches: matches of each pair, even.
         picture: the PNG file to write.
     """
-    files = [path for name, path in trained.list_trained().items() if name.startswith("VSS")]
-    result = tournament([*files, *SCRIPTS], matches, SEED, task=TASK)
+    result = tournament([*_files().values(), *SCRIPTS], matches, SEED, task=TASK)
     result.save_picture(picture)
     # A policy is named by its label: its path is one of this machine.
     standings = [
         {**dataclasses.asdict(standing), "policy": standing.label} for standing in result.standings
     ]
-    return {"matches": matches, "standings": standings, "cycles": result.cycles}
+    return {
+        "matches": matches,
+        "files": file_digests(),
+        "standings": standings,
+        "cycles": result.cycles,
+    }
+
+
+def file_digests() -> dict[str, str]:
+    """Return the SHA-256 digests of the trained policies' files, by task."""
+    return {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in _files().items()}
+
+
+def _files() -> dict[str, Path]:
+    return {name: path for name, path in trained.list_trained().items() if name.startswith("VSS")}
 
 
 def section(folders: Folders) -> str:

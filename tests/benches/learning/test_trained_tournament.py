@@ -5,11 +5,20 @@ from benches.learning import trained_tournament
 from benches.learning.run_files import Folders
 
 
+def test_the_published_tournament_is_of_the_policies_in_the_package() -> None:
+    """After another policy, play it again: `python -m benches.learning.trained_tournament`."""
+    published = json.loads((Folders().results / trained_tournament.FILE).read_text())
+    files = trained_tournament.file_digests()
+    assert len(files) == 3
+    assert published["files"] == files
+
+
 def test_the_trained_policies_play_the_scripts(tmp_path: Path) -> None:
     folders = Folders(tmp_path, tmp_path)
     assert trained_tournament.section(folders) == ""
     result = trained_tournament.measure(2, tmp_path / "picture.png")
     assert (tmp_path / "picture.png").is_file()
+    assert result["files"] == trained_tournament.file_digests()
     labels = [row["label"] for row in result["standings"]]
     assert len(labels) == len(set(labels)) == 3 + len(trained_tournament.SCRIPTS)
     text = json.dumps(result)
