@@ -42,6 +42,7 @@ def test_metrics_of_a_task_do_not_replace_columns_of_the_run(tmp_path: Path) -> 
         worlds=3,
         horizon=4,
         hidden_sizes=(8,),
+        n_minibatches=1,
         random_truncation=0.0,
         ladder_interval=0,
     )

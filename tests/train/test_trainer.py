@@ -10,7 +10,7 @@ import torch
 
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
-from rsoccer.train import checkpoint, train
+from rsoccer.train import Args, checkpoint, train
 from rsoccer.train.run_state import capture
 from rsoccer.train.stop_signal import StopSignal
 from rsoccer.train.trainer import Trainer
@@ -142,6 +142,13 @@ def test_an_initial_action_of_another_size_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"initial_action must have 2 numbers.*got 3"):
         train(tiny(tmp_path / "run", initial_action=(0.0, 0.0, 0.0)))
     assert not (tmp_path / "run" / "args.json").exists()
+
+
+def test_a_minibatch_has_two_samples_or_more(tmp_path: Path) -> None:
+    message = r"n_minibatches must be at most half of the 6 samples of an update.*got 4"
+    with pytest.raises(ValueError, match=message):
+        train(Args("VSS-v0", out=tmp_path / "run", worlds=2, horizon=3, n_minibatches=4))
+    assert not (tmp_path / "run").exists()
 
 
 def test_training_raises_the_reward(tmp_path: Path) -> None:

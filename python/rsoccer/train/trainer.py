@@ -64,6 +64,9 @@ class Trainer:
 
         Args:
             args: settings of the run.
+
+        Raises:
+            ValueError: settings that do not fit the task or each other.
         """
         torch.set_num_threads(args.torch_threads)
         words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
@@ -74,6 +77,12 @@ class Trainer:
             check_symmetric(self.task)
         self.generator = torch.Generator().manual_seed(torch_seed)
         self.curriculum = Curriculum(args, self.task, self.clock)
+        samples = args.worlds * args.horizon * len(self.curriculum.learners)
+        if samples < 2 * args.n_minibatches:  # advantages are normalised within a minibatch
+            raise ValueError(
+                f"n_minibatches must be at most half of the {samples} samples of an update "
+                f"(worlds x horizon x learners), got {args.n_minibatches}"
+            )
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.self_play
         matches = create(self._first_seed)
