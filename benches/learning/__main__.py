@@ -14,7 +14,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from benches.learning import worker
+from benches.learning import algorithms, worker
 from benches.learning.experiments import Run, Study
 from benches.learning.listing import best, listing
 from benches.learning.pool import BUSY, Pool
@@ -65,23 +65,37 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Namespace) -> int:
-    """Work on the open runs among the chosen ones; return the exit status."""
+    """Work on the open runs among the chosen ones; return the exit status.
+
+    Args:
+        chosen: States of the selected runs.
+        known: States of all runs.
+        options: Options of the command line.
+    """
+    folders = Folders(options.results.resolve(), options.work.resolve())
     for entry in chosen:
         if entry.state == STALE and not options.rerun_stale:
             sys.stdout.write(f"stale, kept as it is: {entry.run.key}: {entry.reason}\n")
     wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
-    runs = [entry.run for entry in chosen if entry.state in wanted]
+    again = {
+        entry.run.key
+        for entry in chosen
+        if options.again and entry.state == DONE and not algorithms.keeps_policy(entry.run, folders)
+    }
+    runs = [entry.run for entry in chosen if entry.state in wanted or entry.run.key in again]
+    if not runs:
+        sys.stdout.write("nothing to do; --list shows the state of the runs\n")
 
     def command(run: Run, core: int | None) -> list[str]:
-        folders = ["--results", str(options.results), "--work", str(options.work)]
+        places = ["--results", str(options.results), "--work", str(options.work)]
         place = [] if core is None else ["--core", str(core)]
         module = [sys.executable, "-m", "benches.learning", "--table", options.table]
-        return [*module, *folders, *place, "--worker", run.key]
+        return [*module, *places, *place, "--worker", run.key]
 
     minutes = options.budget_minutes
     deadline = float("inf") if minutes is None else time.monotonic() + 60.0 * minutes
     pool = Pool(options.jobs, command, deadline)
-    pool.work(runs, {entry.run.key for entry in known if entry.state == DONE})
+    pool.work(runs, {entry.run.key for entry in known if entry.state == DONE} - again)
     if pool.failed:
         sys.stdout.write(f"failed: {', '.join(pool.failed)}\n")
     return 1 if pool.failed else 0
@@ -111,6 +125,7 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--jobs", type=int, default=processors(), help="processes at once (default: one a core)")
     add("--budget-minutes", type=float, help="start no run after this time")
     add("--rerun-stale", action="store_true", help="run again what has other settings now")
+    add("--again", action="store_true", help="repeat finished runs whose policy is not here")
     add("--table", default=TABLE, help="module with the STUDY (default: %(default)s)")
     add("--results", type=Path, default=default.results, help="folder of the results")
     add("--work", type=Path, default=default.work, help="folder of checkpoints and policies")

@@ -71,6 +71,12 @@ CHANGES: Final = (
 """The learner itself is the same in all runs: the paper does not name the settings of its PPO."""
 
 
+PAPER_MASK: Final = tuple(
+    part for change in CHANGES for part in change.paper.get("masked_observations", ())
+)
+"""Parts of the observation that the paper's task does not have."""
+
+
 def experiments(task: str, samples: int, seeds: int) -> tuple[Experiment, ...]:
     """Return both settings, the paper's with one change each, and the package's without one each.
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from benches.learning import clones, ppo_run, run_files, sb3_run
+from benches.learning.clock import restart_clock
 from benches.learning.experiments import CLONES, PPO, SB3, Run
-from benches.learning.learned import Learned, restart_clock
+from benches.learning.learned import Learned
 from benches.learning.run_files import Folders
 from rsoccer._core import build_info
 from rsoccer.registry import make_task
@@ -74,19 +76,38 @@ def conditions(run: Run, folders: Folders) -> dict[str, Any]:
     }
 
 
-def learn(run: Run, folder: Path, folders: Folders) -> Learned:
+def keeps_policy(run: Run, folders: Folders) -> bool:
+    """Return whether the work folder holds the policy that a finished run has learned.
+
+    Clones learn none, so they lack none.
+
+    Args:
+        run: The run.
+        folders: Folders of the study.
+    """
+    folder, algorithm = folders.workplace(run.key), run.experiment.algorithm
+    if algorithm == CLONES:
+        return True
+    if not run_files.is_same(folder, conditions(run, folders)):
+        return False
+    if algorithm == PPO:
+        return ppo_run.keeps_policy(run, folder)
+    return (folder / sb3_run.FILE).is_file()
+
+
+def learn(run: Run, folder: Path, folders: Folders, identity: Mapping[str, Any]) -> Learned:
     """Learn a policy, from the checkpoint of an interrupted run with the same settings.
 
     Args:
         run: The run.
         folder: Folder for its files.
         folders: Folders of the study.
+        identity: Conditions of the run, from `conditions`.
 
     Returns:
         The policy, and how it was learned.
     """
     algorithm = run.experiment.algorithm
-    identity = conditions(run, folders)
     if not run_files.is_same(folder, identity):
         ppo_run.forget(folder)
         restart_clock(folder)

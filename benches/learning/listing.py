@@ -7,8 +7,9 @@ from itertools import groupby
 from typing import Final
 
 from benches.learning import status as states
+from benches.learning.estimate import expected_seconds
 from benches.learning.run_files import Folders
-from benches.learning.status import DONE, STALE, UNAVAILABLE, Status, expected_seconds
+from benches.learning.status import DONE, STALE, UNAVAILABLE, Status
 
 HEADLINE_DIGITS: Final = 3
 
@@ -37,7 +38,8 @@ def listing(entries: Sequence[Status], known: Sequence[Status], jobs: int) -> st
     }
     summary = ", ".join(f"{count} {state}" for state, count in counts.items() if count)
     hours = f"{left / 3600.0:.1f} core-hours left, {left / 3600.0 / jobs:.1f} h with {jobs} jobs"
-    return "\n".join([*lines, f"{summary or 'no runs'}; {hours}"])
+    note = " without the unavailable ones" if counts[states.UNAVAILABLE] else ""
+    return "\n".join([*lines, f"{summary or 'no runs'}; {hours}{note}"])
 
 
 def _state(entry: Status, known: Sequence[Status]) -> str:

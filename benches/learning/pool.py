@@ -51,7 +51,7 @@ class Pool:
     command: Command
     deadline: float = float("inf")
     """Time of `time.monotonic` after which no run starts."""
-    log: Callable[[str], object] = sys.stdout.write
+    log: Callable[[str], object] = field(default_factory=lambda: sys.stdout.write)
     failed: list[str] = field(default_factory=list)
     """Keys of the runs whose process failed."""
 
@@ -75,9 +75,13 @@ class Pool:
                     for job in active.values():
                         job.ask_to_stop()
                 time.sleep(POLL)
-        if stop.signal is not None or left:
+        if stop.signal is not None or (left and time.monotonic() >= self.deadline):
             ended = f"{stop.name}: " if stop.signal is not None else ""
             self.log(f"{ended}{len(left)} runs not started; the same command continues\n")
+            return
+        for run in left:
+            missing = ", ".join(need.key for need in run.needs if need.key not in done)
+            self.log(f"not started: {run.key} needs {missing}\n")
 
     def _fill(
         self, slots: list[Slot], left: list[Run], active: dict[Slot, _Job], done: set[str]

@@ -9,9 +9,11 @@ from typing import Any, Final
 
 import numpy as np
 
+from benches.learning.clock import timed
+from benches.learning.curves import thinned
 from benches.learning.experiments import Run
-from benches.learning.learned import Learned, curve, timed
-from benches.learning.run_files import Folders, with_policies
+from benches.learning.learned import Learned
+from benches.learning.run_files import POLICY, Folders, with_policies
 from rsoccer.arrays import Array
 from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
@@ -97,6 +99,13 @@ def samples_so_far(folder: Path) -> int | None:
         return None
 
 
+def keeps_policy(run: Run, folder: Path) -> bool:
+    """Return whether a folder holds the policy of a finished run, not of one under way."""
+    samples = samples_so_far(folder)
+    finished = samples is not None and samples >= args(run).samples
+    return finished and (folder / POLICY).is_file()
+
+
 def forget(folder: Path) -> None:
     """Remove the checkpoint in a folder, if there is one."""
     from rsoccer.train import checkpoint
@@ -133,7 +142,7 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     return Learned(
         policies={"sample": policy, "mean": f"{policy}:mean"},
         samples=int(samples[-1]),
-        curve=curve(metric, samples, seconds, values, weights),
+        curve=thinned(metric, samples, seconds, values, weights),
         extra={**extra, "ladder": ladder_curves(progress, metric)},
     )
 
@@ -150,7 +159,7 @@ def ladder_curves(progress: Mapping[str, Array], metric: str) -> dict[str, Any]:
         values = progress.get(ladder_column(metric, opponent))
         if values is not None:
             weights = np.ones(len(values))
-            found[opponent] = curve(
+            found[opponent] = thinned(
                 metric, progress["samples"], progress["seconds"], values, weights
             )
     return found

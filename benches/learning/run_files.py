@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import hashlib
 import json
+import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from rsoccer.files import write_atomically
 POLICY: Final = "policy.safetensors"
 IDENTITY_FILE: Final = "identity.json"
 DIGEST_DIGITS: Final = 12
+LOCK_SECONDS: Final = 1.0
 
 
 @dataclass(frozen=True)
@@ -108,12 +110,19 @@ def set_identity(folder: Path, identity: Mapping[str, Any]) -> None:
 def lock(folders: Folders, key: str) -> Iterator[bool]:
     """Hold the lock of a run, which the system releases if the process dies.
 
+    `is_running` holds it for a moment, so this tries for `LOCK_SECONDS`.
+
     Yields:
         True if the lock is held; False if another process has it.
     """
     folders.workplace(key).mkdir(parents=True, exist_ok=True)
     with _lock_file(folders, key).open("w") as file:
-        yield _try_lock(file)
+        deadline = time.monotonic() + LOCK_SECONDS
+        held = _try_lock(file)
+        while not held and time.monotonic() < deadline:
+            time.sleep(LOCK_SECONDS / 20)
+            held = _try_lock(file)
+        yield held
 
 
 def is_running(folders: Folders, key: str) -> bool:
@@ -121,7 +130,7 @@ def is_running(folders: Folders, key: str) -> bool:
     path = _lock_file(folders, key)
     if not path.exists():
         return False
-    with path.open("w") as file:
+    with path.open() as file:
         return not _try_lock(file)
 
 
@@ -143,9 +152,13 @@ def reference(folders: Folders, name: str, run: Run) -> Path:
     Raises:
         ValueError: It is not in the work folder.
     """
-    path = folders.policy(f"{name.removeprefix('@')}/seed-{run.seed}")
+    key = f"{name.removeprefix('@')}/seed-{run.seed}"
+    path = folders.policy(key)
     if not path.is_file():
-        raise ValueError(f"{run.key} needs the policy {path}; run its experiment on this machine")
+        raise ValueError(
+            f"{run.key} needs the policy of {key} in {folders.work}, got none; "
+            f"`python -m benches.learning --again --only {key}` learns it"
+        )
     return path
 
 

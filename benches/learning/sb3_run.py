@@ -12,9 +12,11 @@ from typing import Any, Final
 import numpy as np
 
 from benches.learning import run_files
+from benches.learning.clock import restart_clock, timed
+from benches.learning.curves import thinned
 from benches.learning.evaluation import evaluated, opponents_of
 from benches.learning.experiments import Protocol, Run
-from benches.learning.learned import Learned, curve, restart_clock, timed
+from benches.learning.learned import Learned
 from benches.learning.relu_actor import ReluActor
 from benches.learning.run_files import Folders
 from rsoccer.registry import make_task
@@ -35,6 +37,7 @@ DEFAULTS: Final[dict[str, Any]] = {
     "tau": 0.005,
     "n_steps": 1,
     "noise": [0.15, 0.8, 0.15],
+    "masked_observations": [],
 }
 """Settings and their defaults.
 
@@ -42,7 +45,8 @@ Discount, decision rate and network size are those of PPO; `gamma` is per contro
 the processor time of learning. `rows` is the least number of robots that act at once; it is a
 multiple of `samples_per_gradient_step`, which is that of the paper, for teams of any size. `noise`
 of DDPG is an Ornstein-Uhlenbeck process: theta, and sigma at the start and at the end of the run,
-as in the paper; its time is match time.
+as in the paper; its time is match time. `masked_observations` are parts that the networks do not
+read, as in the settings of PPO.
 """
 FILE: Final = "actor.npz"
 SNAPSHOT: Final = Protocol(starts=50, seed=32)
@@ -108,5 +112,5 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
     metric = make_task(run.experiment.task).success or "return"
     samples, times, scores = map(np.array, (log.samples, log.seconds, log.scores))
     extra = {"learning_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps}
-    points = curve(metric, samples, times, scores, np.ones(len(scores)))
+    points = thinned(metric, samples, times, scores, np.ones(len(scores)))
     return Learned(policies, log.total, points, extra)

@@ -15,10 +15,12 @@ from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, Vectori
 from stable_baselines3.common.vec_env import VecEnv
 
 from benches.learning.relu_actor import Layer, ReluActor
-from benches.learning.sb3_wrapper import ActionRepeat
+from benches.learning.sb3_wrapper import ActionRepeat, MaskedObservations
+from rsoccer.arrays import Floats
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.registry import make_task
 from rsoccer.sb3 import SoccerVecEnv
+from rsoccer.train.observation_mask import observation_mask
 
 SNAPSHOTS: Final = np.geomspace(0.03, 1.0, 12)
 """Shares of the time after which the actor is measured."""
@@ -79,7 +81,12 @@ def train(
         "seed": seed,
         "device": "cpu",
     }
-    progress = Progress(seconds, values["action_repeat"], measure)
+    mask = mask_of(task_name, values)
+
+    def actor() -> ReluActor:
+        return actor_of(model, values["action_repeat"], mask)
+
+    progress = Progress(seconds, lambda: measure(actor()))
     if values["algorithm"] == "ddpg":
         progress.noise = Noise(envs, values)
         model: Any = DDPG("MlpPolicy", envs, action_noise=progress.noise.process, **arguments)
@@ -89,7 +96,7 @@ def train(
     log = progress.log
     log.total, log.gradient_steps = int(model.num_timesteps), int(model._n_updates)
     envs.close()
-    return actor_of(model, values["action_repeat"]), log
+    return actor(), log
 
 
 def environments(task_name: str, values: dict[str, Any]) -> VecEnv:
@@ -101,8 +108,16 @@ def environments(task_name: str, values: dict[str, Any]) -> VecEnv:
     learners = learning_team(task)
     controllers = {"yellow": DEFAULT_OPPONENT} if len(learners) < len(task.agents) else None
     matches = -(-values["rows"] // len(learners))
-    envs = SoccerVecEnv(task, matches, threads=1, controllers=controllers)
+    envs: VecEnv = SoccerVecEnv(task, matches, threads=1, controllers=controllers)
+    if values["masked_observations"]:
+        envs = MaskedObservations(envs, mask_of(task_name, values))
     return ActionRepeat(envs, values["action_repeat"], values["gamma"])
+
+
+def mask_of(task_name: str, values: dict[str, Any]) -> Floats:
+    """Return the mask of the observation, (o,): 0 for numbers that the networks do not read."""
+    task = make_task(task_name, **values["task_options"])
+    return observation_mask(task, values["masked_observations"])
 
 
 class Noise:
@@ -129,17 +144,16 @@ class Progress(BaseCallback):  # type: ignore[misc]
 
     noise: Noise | None = None
 
-    def __init__(self, seconds: float, action_repeat: int, measure: Measure) -> None:
+    def __init__(self, seconds: float, measure: Callable[[], float]) -> None:
         """Prepare a run; its time begins with the first step.
 
         Args:
             seconds: Processor time of the run.
-            action_repeat: Control steps per decision.
-            measure: Measures an actor.
+            measure: Measures the present actor.
         """
         super().__init__()
         self.log = Log()
-        self._limit, self._action_repeat, self._measure = seconds, action_repeat, measure
+        self._limit, self._measure = seconds, measure
 
     def _on_training_start(self) -> None:
         self._began = time.process_time()
@@ -158,12 +172,18 @@ class Progress(BaseCallback):  # type: ignore[misc]
         before = time.process_time()
         self.log.samples.append(self.num_timesteps)
         self.log.seconds.append(spent)
-        self.log.scores.append(self._measure(actor_of(self.model, self._action_repeat)))
+        self.log.scores.append(self._measure())
         self._began += time.process_time() - before
 
 
-def actor_of(model: Any, action_repeat: int) -> ReluActor:  # noqa: ANN401
-    """Return the actor of a model of Stable-Baselines3 as a policy in NumPy."""
+def actor_of(model: Any, action_repeat: int, mask: Floats) -> ReluActor:  # noqa: ANN401
+    """Return the actor of a model of Stable-Baselines3 as a policy in NumPy.
+
+    Args:
+        model: The model.
+        action_repeat: Control steps per decision.
+        mask: (o,) 0 for numbers of the observation that the actor does not read, 1 for others.
+    """
 
     def arrays(layer: Any) -> Layer:  # noqa: ANN401
         return layer.weight.detach().numpy().copy(), layer.bias.detach().numpy().copy()
@@ -171,8 +191,12 @@ def actor_of(model: Any, action_repeat: int) -> ReluActor:  # noqa: ANN401
     def linear(sequence: Any) -> list[Layer]:  # noqa: ANN401
         return [arrays(layer) for layer in sequence if isinstance(layer, torch.nn.Linear)]
 
+    def masked(layers: list[Layer]) -> list[Layer]:
+        (weight, bias), *others = layers
+        return [(weight * mask, bias), *others]
+
     actor = model.policy.actor
     if hasattr(actor, "latent_pi"):
         layers = [*linear(actor.latent_pi), arrays(actor.mu)]
-        return ReluActor(layers, action_repeat, arrays(actor.log_std))
-    return ReluActor(linear(actor.mu), action_repeat)
+        return ReluActor(masked(layers), action_repeat, arrays(actor.log_std))
+    return ReluActor(masked(linear(actor.mu)), action_repeat)

@@ -1,4 +1,4 @@
-"""Action repeat for the vector environment of Stable-Baselines3."""
+"""Action repeat and masked observations for the vector environment of Stable-Baselines3."""
 
 from __future__ import annotations
 
@@ -52,3 +52,29 @@ class ActionRepeat(VecEnvWrapper):  # type: ignore[misc]
             ended |= ends
             self._actions[ended] = 0.0
         return observations, total, ended, infos
+
+
+class MaskedObservations(VecEnvWrapper):  # type: ignore[misc]
+    """Sets some numbers of every observation to 0."""
+
+    def __init__(self, envs: VecEnv, mask: Floats) -> None:
+        """Wrap environments.
+
+        Args:
+            envs: The environments.
+            mask: (o,) 0 for the numbers that become 0, 1 for others.
+        """
+        super().__init__(envs)
+        self._mask = mask
+
+    def reset(self) -> Floats:
+        """Begin new episodes."""
+        observations: Floats = self.venv.reset()
+        return observations * self._mask
+
+    def step_wait(self) -> tuple[Floats, Floats, Mask, list[dict[str, Any]]]:
+        """Play one control step; final observations are masked, too."""
+        observations, rewards, ended, infos = self.venv.step_wait()
+        for row in np.flatnonzero(ended):
+            infos[row]["terminal_observation"] = infos[row]["terminal_observation"] * self._mask
+        return observations * self._mask, rewards, ended, infos

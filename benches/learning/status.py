@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import statistics
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
@@ -19,9 +18,6 @@ UNFINISHED: Final = "unfinished"
 OPEN: Final = "open"
 WAITING: Final = "waiting"
 UNAVAILABLE: Final = "unavailable"
-
-SAMPLES_PER_SECOND: Final = 8_000.0
-"""Guess for algorithms of which no run has finished yet."""
 
 MAX_CHANGE: Final = 120
 """Most characters of a change that are listed with both values."""
@@ -121,31 +117,3 @@ def _progress(run: Run, folders: Folders) -> str:
     """Progress of an unfinished run; empty for a new one."""
     samples = algorithms.samples_so_far(run, folders.workplace(run.key))
     return "" if samples is None else f"{samples:,} samples so far"
-
-
-def expected_seconds(run: Run, known: Sequence[Status]) -> float:
-    """Return the expected seconds of a run, evaluation included, from finished runs.
-
-    Args:
-        run: The run.
-        known: States of all runs.
-    """
-    results = [entry.result for entry in known if entry.result and entry.run != run]
-    same = [r for r in results if r["run"].startswith(f"{run.experiment.key}/")]
-    if same:
-        return statistics.median(_seconds(result) for result in same)
-    settings = algorithms.settings(run)
-    if isinstance(settings.get("seconds"), int | float):
-        return float(settings["seconds"])
-    if settings.get("seconds") is not None:
-        return expected_seconds(run.needs[0], known)
-    samples = settings.get("samples", 0)
-    for name, value in (("task", run.experiment.task), ("algorithm", run.experiment.algorithm)):
-        rates = [r["samples"] / _seconds(r) for r in results if r[name] == value and r["samples"]]
-        if rates:
-            return float(samples / statistics.median(rates))
-    return float(samples / SAMPLES_PER_SECOND)
-
-
-def _seconds(result: Mapping[str, Any]) -> float:
-    return float(max(result["seconds"]["wall"] + result["evaluation_seconds"], 1.0))

@@ -62,12 +62,13 @@ CALIBRATION: Final = tuple(
             "action_repeat": 1,
             "n_steps": 3,
             "task_options": {"reward_weights": "paper"},
+            "masked_observations": list(ablation.PAPER_MASK),
         },
         seeds=1,
     )
     for algorithm, sizes in (("ddpg", [400, 300]), ("sac", [256, 256]))
 )
-"""The paper's sizes and settings, for an hour; its runs had 2 M gradient steps."""
+"""The paper's sizes, settings and observations, for an hour; its runs had 2 M gradient steps."""
 
 ABLATION: Final = ablation.experiments("VSS-v0", samples=3 * M, seeds=3)
 

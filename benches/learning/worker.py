@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import os
 import platform
+import sys
 import time
+from collections.abc import Mapping
 from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from benches.learning import algorithms
+from benches.learning.clock import spent
 from benches.learning.evaluation import evaluate_run
 from benches.learning.experiments import Run, Study
-from benches.learning.learned import spent
-from benches.learning.run_files import Folders, lock, save
+from benches.learning.run_files import Folders, load, lock, save
 from benches.result_files import this_machine
 from rsoccer.evaluate.schedule import processors
 
@@ -38,7 +40,7 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
             return None
         machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": processors()}
         conditions = algorithms.conditions(run, folders)
-        learned = algorithms.learn(run, folder, folders)
+        learned = algorithms.learn(run, folder, folders, conditions)
         start = time.monotonic()
         evaluations = evaluate_run(run, learned, study.protocol, folders)
         result = {
@@ -57,7 +59,21 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
             "curve": learned.curve,
             "evaluations": evaluations,
         }
+        if (before := load(folders, run.key)) is not None:
+            sys.stdout.write(f"{run.key}: {comparison(before, result)}\n")
         return save(folders, run.key, result)
+
+
+def comparison(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
+    """Return in words whether a run has repeated an earlier result."""
+    if before["evaluations"] == now["evaluations"]:
+        return "the same evaluations as in the earlier result"
+    return f"other evaluations than in the earlier result: {_first(before)}, now {_first(now)}"
+
+
+def _first(result: Mapping[str, Any]) -> str:
+    row = result["evaluations"][0]
+    return f"{row['metric']} {row['score']} against {row['opponent']}"
 
 
 def libraries() -> dict[str, str]:

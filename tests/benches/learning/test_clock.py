@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from benches.learning import learned
-from benches.learning.learned import TIME_FILE, restart_clock, spent, timed
+from benches.learning import clock
+from benches.learning.clock import TIME_FILE, restart_clock, spent, timed
 
 
 def test_attempts_add_up_until_the_clock_starts_again(tmp_path: Path) -> None:
@@ -22,7 +22,7 @@ def test_attempts_add_up_until_the_clock_starts_again(tmp_path: Path) -> None:
 def test_the_time_is_on_disk_before_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(learned, "TIME_INTERVAL", 0.01)
+    monkeypatch.setattr(clock, "TIME_INTERVAL", 0.01)
     path = tmp_path / TIME_FILE
     with timed(tmp_path):
         deadline = time.monotonic() + 60.0

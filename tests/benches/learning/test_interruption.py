@@ -5,7 +5,9 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -44,6 +46,16 @@ def test_an_interrupted_run_continues(tmp_path: Path, capsys: pytest.CaptureFixt
     result = json.loads((results / "runs" / f"{KEY}.json").read_text())
     assert result["seconds"]["attempts"] == 2
     assert result["samples"] == 6_000
+
+
+def test_a_look_at_the_lock_takes_no_run_away(tmp_path: Path) -> None:
+    """`--list` holds the lock for a moment."""
+    folders = Folders(tmp_path / "results", tmp_path / "work")
+    with ExitStack() as look:
+        assert look.enter_context(lock(folders, KEY))
+        threading.Timer(0.2, look.pop_all().close).start()
+        with lock(folders, KEY) as held:
+            assert held
 
 
 def test_two_processes_do_not_work_on_one_run(tmp_path: Path) -> None:

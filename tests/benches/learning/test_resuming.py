@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from benches.learning import algorithms
+from benches.learning.clock import spent
 from benches.learning.experiments import Experiment, Run
-from benches.learning.learned import spent
 from benches.learning.run_files import IDENTITY_FILE, Folders
 from rsoccer.train import checkpoint
 from tests.benches.learning.tiny_table import TINY
@@ -18,7 +18,8 @@ def learn(folder: Path, **changes: float) -> tuple[int, float]:
     """Run in a folder with changed settings; return the samples and the number of attempts."""
     task = "SSLGoToBall-v0"
     experiment = Experiment("ppo", task, task, settings={**TINY, **changes})
-    learned = algorithms.learn(Run(experiment, 0), folder, Folders(folder, folder))
+    run, folders = Run(experiment, 0), Folders(folder, folder)
+    learned = algorithms.learn(run, folder, folders, algorithms.conditions(run, folders))
     return learned.samples, spent(folder)["attempts"]
 
 

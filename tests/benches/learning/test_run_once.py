@@ -1,4 +1,5 @@
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -68,7 +69,31 @@ def test_a_finished_run_is_not_repeated(
     before = path.read_bytes()
     assert main([*folders, "--only", "ppo/VSS-v0", "--seeds", "1"]) == 0
     assert path.read_bytes() == before
-    assert "start" not in capsys.readouterr().out
+    assert capsys.readouterr().out.startswith("nothing to do")
+
+
+def test_a_finished_run_is_repeated_where_its_policy_is_missing(
+    folders: list[str], capfd: pytest.CaptureFixture[str]
+) -> None:
+    policy = Path(folders[5]) / "ppo/VSS-v0/seed-0/policy.safetensors"
+    weights = policy.read_bytes()
+    again = [*folders, "--again", "--only", "ppo/VSS-v0", "--seeds", "1", "--jobs", "1"]
+    assert main(again) == 0
+    assert "nothing to do" in capfd.readouterr().out
+    shutil.rmtree(policy.parent)
+    assert main([*folders, "--only", "cooperation/clones", "--jobs", "1", "--list"]) == 0
+    assert main(again) == 0
+    assert "the same evaluations as in the earlier result" in capfd.readouterr().out
+    assert policy.read_bytes() == weights
+
+
+def test_runs_that_need_others_say_so(
+    folders: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    options = [*folders[:2], "--results", f"{tmp_path}/results", "--work", f"{tmp_path}/work"]
+    assert main([*options, "--only", "cooperation/clones"]) == 0
+    needed = "not started: cooperation/clones/seed-0 needs ppo/VSS-v0/seed-0"
+    assert needed in capsys.readouterr().out
 
 
 def test_a_selection_without_runs_is_refused(

@@ -1,5 +1,6 @@
 """Baselines through Stable-Baselines3."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -47,8 +48,39 @@ def test_the_actor_acts_as_the_model(algorithm: str) -> None:
     model = {"ddpg": DDPG, "sac": SAC}[algorithm]("MlpPolicy", envs, seed=0, device="cpu")
     observations = envs.reset()
     expected, _ = model.predict(observations, deterministic=True)
-    actor = actor_of(model, 3).mean()
+    mask = np.ones(observations.shape[1], np.float32)
+    actor = actor_of(model, 3, mask).mean()
     actions = actor.choose(observations[:, None], WorldRng.seeded(0, len(observations)))
+    np.testing.assert_allclose(actions[:, 0], expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("algorithm", ["ddpg", "sac"])
+def test_masked_observations_are_not_read(algorithm: str) -> None:
+    from stable_baselines3 import DDPG, SAC
+
+    from benches.learning.sb3_training import actor_of, environments, mask_of
+
+    masked = {**QUICK, "masked_observations": ["ball_polar", "teammates:0"]}
+    one = replace(experiment(algorithm, "VSS-v0"), settings=masked)
+    values = sb3_run.settings(Run(one, 0))
+    envs, mask = environments("VSS-v0", values), mask_of("VSS-v0", values)
+    hidden = mask == 0.0
+    assert 0 < hidden.sum() < len(mask)
+    envs.reset()
+    actions = np.ones((envs.num_envs, 2), np.float32)
+    ends = 0
+    for _ in range(500):
+        observations, _, ended, infos = envs.step(actions)
+        assert not observations[:, hidden].any()
+        for row in np.flatnonzero(ended):
+            assert not infos[row]["terminal_observation"][hidden].any()
+        ends += ended.sum()
+    assert ends > 0
+    model = {"ddpg": DDPG, "sac": SAC}[algorithm]("MlpPolicy", envs, seed=0, device="cpu")
+    actor = actor_of(model, 3, mask).mean()
+    expected, _ = model.predict(observations, deterministic=True)
+    noise = np.where(hidden, np.float32(7.0), observations)
+    actions = actor.choose(noise[:, None], WorldRng.seeded(0, len(noise)))
     np.testing.assert_allclose(actions[:, 0], expected, atol=1e-5)
 
 

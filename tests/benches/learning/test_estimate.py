@@ -1,0 +1,57 @@
+from typing import Any
+
+import pytest
+
+from benches.learning.estimate import SAMPLES_PER_SECOND, expected_seconds
+from benches.learning.experiments import Experiment, Run
+from benches.learning.listing import listing
+from benches.learning.status import DONE, OPEN, UNAVAILABLE, Status
+
+FIRST = Experiment("ppo", "VSS-v0", "VSS-v0", settings={"samples": 36_000_000}, seeds=2)
+LONGER = Experiment("ablation", "long", "VSS-v0", settings={"samples": 72_000_000}, seeds=1)
+OTHER = Experiment("ppo", "b", "SSLGoToBall-v0", settings={"samples": 8_000}, seeds=1)
+AS_PPO = Experiment("baselines", "sac", "VSS-v0", "sac", seeds=1, needs=(FIRST,))
+AN_HOUR = Experiment("baselines", "hour", "VSS-v0", "sac", settings={"seconds": 3600}, seeds=1)
+
+
+def result(run: Run) -> dict[str, Any]:
+    """Return a result of 1 h of learning and 30 min of evaluation."""
+    settings = run.experiment.settings
+    return {
+        "run": run.key,
+        "task": run.experiment.task,
+        "algorithm": run.experiment.algorithm,
+        "samples": settings["samples"],
+        "seconds": {"wall": 3600.0},
+        "evaluation_seconds": 1800.0,
+        "evaluations": [{"metric": "goal_score", "score": 0.5, "opponent": "ou"}],
+    }
+
+
+DONE_RUN = Run(FIRST, 0)
+KNOWN = [
+    Status(DONE_RUN, DONE, result=result(DONE_RUN)),
+    *(Status(Run(FIRST, 1), OPEN), Status(Run(LONGER, 0), OPEN)),
+    *(Status(Run(AS_PPO, 0), OPEN), Status(Run(AN_HOUR, 0), UNAVAILABLE, "no library")),
+]
+
+
+@pytest.mark.parametrize(
+    ("experiment", "hours"), [(FIRST, 1.5), (LONGER, 3.0), (AS_PPO, 1.5), (AN_HOUR, 1.0)]
+)
+def test_the_time_of_a_run_follows_from_finished_ones(experiment: Experiment, hours: float) -> None:
+    run = Run(experiment, experiment.seeds - 1)
+    assert expected_seconds(run, KNOWN[:1]) == pytest.approx(hours * 3600.0)
+
+
+def test_without_a_finished_run_it_is_a_guess() -> None:
+    assert expected_seconds(Run(OTHER, 0), []) == 8_000 / SAMPLES_PER_SECOND
+
+
+def test_the_list_adds_up_the_open_runs() -> None:
+    lines = listing(KNOWN, KNOWN, 2).splitlines()
+    assert len(lines) == len(KNOWN) + 1
+    assert lines[-1] == (
+        "1 done, 3 open, 1 unavailable; 6.0 core-hours left, 3.0 h with 2 jobs "
+        "without the unavailable ones"
+    )
