@@ -14,6 +14,8 @@ from rsoccer.evaluate.schedule import processors
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "benches" / "results"
+WRITTEN = (":!benches/results", ":!docs", ":!README.md")
+"""Files that benchmarks and reports write: a change of them is none of the code."""
 
 
 @dataclass(frozen=True)
@@ -133,12 +135,12 @@ def _processor() -> str:
 
 
 def _commit() -> str:
-    """Return the short commit id, marked if the tree is dirty; "unknown" outside git."""
-    ran = subprocess.run(
-        ["git", "describe", "--always", "--dirty", "--exclude", "*"],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return ran.stdout.strip() or "unknown"
+    """Return the short commit id, marked if the code has changed since; "unknown" outside git."""
+    commit = _git("rev-parse", "--short", "HEAD")
+    changed = _git("status", "--porcelain", "--untracked-files=no", "--", ".", *WRITTEN)
+    return f"{commit}-dirty" if commit and changed else commit or "unknown"
+
+
+def _git(*arguments: str) -> str:
+    ran = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
+    return ran.stdout.strip()

@@ -1,6 +1,9 @@
 """Starts that every policy loses at once: a bound on the score against an opponent.
 
+    python -m benches.learning --again --group ppo --only VSSMulti --only VSSSelfPlay
     python -m benches.learning.lost_starts
+
+The first command learns the policies that are not in `out/learning`.
 
 A start is a random state, and in some the opponent has the ball in front of the empty goal. The
 study's policies for whole teams and the scripts play the same starts. What all of them lose within
@@ -11,7 +14,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benches.learning.experiments import Run
-from benches.learning.run_files import Folders
+from benches.learning.run_files import Folders, digest, load
 from benches.learning.table import STUDY
 from rsoccer.evaluate import first_seed
 from rsoccer.evaluate.episodes import EpisodeRunner
@@ -78,25 +81,32 @@ def _lost(policy: str, opponent: str, starts: int, seed: int) -> NDArray[np.bool
     return np.concatenate(lost)
 
 
-def policies_of(folders: Folders) -> list[str]:
-    """Return the policies of the runs on this machine, with and without noise, and the scripts.
+def runs_of(folders: Folders) -> dict[str, str]:
+    """Return the finished runs whose policies are in the work folder: digests by key.
 
     Raises:
-        FileNotFoundError: There are no policies of runs.
+        FileNotFoundError: There are no such runs.
     """
-    found: list[str] = []
+    found = {}
     for experiment in STUDY.experiments:
         if experiment.key in EXPERIMENTS:
-            runs = (Run(experiment, seed) for seed in range(experiment.seeds))
-            files = (folders.policy(run.key) for run in runs if folders.result(run.key).is_file())
-            kept = [path for path in files if path.is_file()]
-            found += [f"{path}:{mode}" for path in kept for mode in ("sample", "mean")]
+            for run in (Run(experiment, seed) for seed in range(experiment.seeds)):
+                result = load(folders, run.key)
+                if result is not None and folders.policy(run.key).is_file():
+                    found[run.key] = digest(result)
     if not found:
         raise FileNotFoundError(
             f"expected policies of {', '.join(EXPERIMENTS)} in {folders.work}, got none; "
-            "`python -m benches.learning` learns them"
+            "`python -m benches.learning --again --group ppo --only VSSMulti --only VSSSelfPlay` "
+            "learns them"
         )
-    return [*found, *SCRIPTS]
+    return found
+
+
+def policies_of(folders: Folders, runs: Iterable[str]) -> list[str]:
+    """Return the policies of runs, with and without noise, and the scripts."""
+    files = (folders.policy(key) for key in runs)
+    return [*(f"{path}:{mode}" for path in files for mode in ("sample", "mean")), *SCRIPTS]
 
 
 def sentences(folders: Folders) -> str:
@@ -109,7 +119,7 @@ def sentences(folders: Folders) -> str:
         f"lost within {SECONDS:g} s by all of {row['policies']} policies (learned ones with and "
         f"without noise, and scripts), and {row['least_lost_by_one']:.1%} by the best of them. A "
         f"score above {row['highest_score']:.2f} would have to win starts that all lose."
-        for row in json.loads(path.read_text())
+        for row in json.loads(path.read_text())["rows"]
     )
     return " ".join(lines) + " (`python -m benches.learning.lost_starts`)"
 
@@ -117,8 +127,10 @@ def sentences(folders: Folders) -> str:
 def main() -> int:
     """Measure, write the result and print it."""
     folders = Folders()
-    rows = measure(policies_of(folders), STUDY.protocol.starts, STUDY.protocol.seed)
-    write_atomically(_path(folders), (json.dumps(rows, indent=1) + "\n").encode())
+    runs = runs_of(folders)
+    rows = measure(policies_of(folders, runs), STUDY.protocol.starts, STUDY.protocol.seed)
+    result = {"runs": runs, "rows": rows}
+    write_atomically(_path(folders), (json.dumps(result, indent=1) + "\n").encode())
     sys.stdout.write(sentences(folders) + "\n")
     return 0
 

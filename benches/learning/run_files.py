@@ -82,10 +82,11 @@ def needs(folders: Folders, run: Run) -> dict[str, str]:
     Without such a result the digest is empty.
     """
     found = {need.key: load(folders, need.key) for need in run.needs}
-    return {key: "" if result is None else _digest(result) for key, result in found.items()}
+    return {key: "" if result is None else digest(result) for key, result in found.items()}
 
 
-def _digest(result: Mapping[str, Any]) -> str:
+def digest(result: Mapping[str, Any]) -> str:
+    """Return a digest of the settings and the physics of a result, 12 hexadecimal digits."""
     text = json.dumps([result["settings"], result["physics"]], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:DIGEST_DIGITS]
 

@@ -5,7 +5,7 @@ import pytest
 
 from benches.learning import lost_starts
 from benches.learning.experiments import Run
-from benches.learning.run_files import Folders, save
+from benches.learning.run_files import Folders, digest, load, save
 from benches.learning.table import STUDY
 
 
@@ -23,17 +23,20 @@ def test_a_start_counts_if_all_policies_lose_it_at_once() -> None:
 def test_policies_are_those_of_finished_runs_of_whole_teams(tmp_path: Path) -> None:
     folders = Folders(tmp_path / "results", tmp_path / "work")
     with pytest.raises(FileNotFoundError, match="expected policies of ppo/VSSSelfPlay-v0"):
-        lost_starts.policies_of(folders)
+        lost_starts.runs_of(folders)
     assert not lost_starts.sentences(folders)
     experiment = next(e for e in STUDY.experiments if e.key == lost_starts.EXPERIMENTS[0])
     run = Run(experiment, 1)
-    save(folders, run.key, {"run": run.key})
+    result = {"run": run.key, "settings": {}, "physics": 1}
+    save(folders, run.key, result)
     with pytest.raises(FileNotFoundError):  # as in a fresh clone: results without policies
-        lost_starts.policies_of(folders)
+        lost_starts.runs_of(folders)
     policy = str(folders.policy(run.key))
     Path(policy).parent.mkdir(parents=True)
     Path(policy).touch()
-    found = lost_starts.policies_of(folders)
+    runs = lost_starts.runs_of(folders)
+    assert runs == {run.key: digest(result)}
+    found = lost_starts.policies_of(folders, runs)
     assert found == [f"{policy}:sample", f"{policy}:mean", *lost_starts.SCRIPTS]
 
 
@@ -41,8 +44,19 @@ def test_the_result_in_words(tmp_path: Path) -> None:
     folders = Folders(tmp_path, tmp_path)
     row = {"opponent": "chase", "policies": 4, "starts": 80, "lost_by_all": 0.031}
     rows = [row | {"least_lost_by_one": 0.08, "highest_score": 0.938}]
-    (tmp_path / lost_starts.FILE).write_text(json.dumps(rows))
+    (tmp_path / lost_starts.FILE).write_text(json.dumps({"runs": {}, "rows": rows}))
     text = lost_starts.sentences(folders)
     assert "`chase`, 3.1% of the 80 starts" in text
     assert "by all of 4 policies" in text
     assert "above 0.94" in text
+
+
+def test_the_published_result_is_of_runs_of_today() -> None:
+    """After a change of settings or physics: `python -m benches.learning.lost_starts`."""
+    folders = Folders()
+    published = json.loads((folders.results / lost_starts.FILE).read_text())["runs"]
+    assert {key.split("/seed")[0] for key in published} == set(lost_starts.EXPERIMENTS)
+    for key, kept in published.items():
+        result = load(folders, key)
+        assert result is not None
+        assert digest(result) == kept
