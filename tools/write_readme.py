@@ -38,6 +38,8 @@ WRITTEN = (
     DOCS / "tutorials" / "new-task.md",
 )
 DEMO = DOCS / "demo.json"
+DEMO_PARTS = {"ladder": "evaluation", "tasks": "observations and rewards"}
+"""Names of parts of the training's time where they differ from those of the log."""
 PICTURES = {
     "match": ("docs/match.gif", "A match after a few minutes of training"),
     "curve": ("docs/curve.png", "Goal score over training"),
@@ -145,14 +147,15 @@ def demo() -> str:
     header = ("against", "matches", "won", "drawn", "lost", "goal score", "95% interval")
     rows = [_evaluation_row(evaluation) for evaluation in kept["evaluations"]]
     training, machine = kept["training"], kept["machine"]
-    shares = ", ".join(f"{name} {share:.0%}" for name, share in training["shares"].items())
+    parts = sorted(training["shares"].items(), key=lambda part: -part[1])
+    shares = ", ".join(f"{DEMO_PARTS.get(name, name)} {share:.0%}" for name, share in parts)
     return (
         f"{kept['samples']:,} decisions in {kept['seconds']['training']:.0f} s on "
         f"{machine['machine']}, {machine['cores']} cores, {machine['date']}:\n\n"
         f"{table(header, rows)}\n\n"
-        f"Learning took {_thousands(training['samples_per_second'])} decisions, "
-        f"{_thousands(training['agent_steps_per_second'])} agent-steps, a second; "
-        f"the time went to {shares}."
+        f"A second of training makes {_thousands(training['samples_per_second'])} decisions, which "
+        f"are {_thousands(training['agent_steps_per_second'])} control steps of robots. Its time: "
+        f"{shares}."
     )
 
 

@@ -136,7 +136,7 @@ COOPERATION: Final = (
             task,
             settings={**PPO[task].settings, "central_critic": True},
             seeds=3,
-            text="a central critic on the state of the match",
+            text="a centralized critic, on the state of the match",
         )
         for task in (TEAM, PASSES)
     ),

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
@@ -121,7 +122,7 @@ def cooperation(collected: Studied) -> str:
     """Return the comparisons of teams, clones and critics."""
     header = (
         *("task", "policy", "against", "score", "95% interval", "target"),
-        *("PPO, decentral critic", "P(better than that)", "seeds"),
+        *("PPO of the first table", "P(better than it)", "seeds"),
     )
     rows = [
         _cooperation_row(part, opponent, collected)
@@ -160,11 +161,18 @@ def compute(collected: Studied) -> str:
             wall = sum(float(result["seconds"]["wall"]) for result in found) / 3600.0
             evaluation = sum(float(result["evaluation_seconds"]) for result in found) / 3600.0
             samples = cells.millions(sum(float(result["samples"]) for result in found))
-            machines = sorted({str(result["machine"]["machine"]) for result in found})
+            machines = sorted({_machine(result["machine"]) for result in found})
             hours = (f"{hours:.1f} h" for hours in (learning, wall, evaluation))
             rows.append((group, str(len(found)), samples, *hours, ", ".join(machines)))
-    header = ("group", "runs", "samples", "core time", "wall clock", "evaluation", "machine")
+    header = (
+        *("group", "runs", "samples", "core time of learning", "its wall clock"),
+        *("wall clock of evaluation", "machine, one core of it for each run"),
+    )
     return table(header, rows) if rows else ""
+
+
+def _machine(found: Mapping[str, Any]) -> str:
+    return f"{found['machine']}, {found['cores']} cores"
 
 
 def headline(collected: Studied) -> str:

@@ -53,7 +53,7 @@ class SoccerEnv(EnvBase):
     | `("next", group, "reward")` | (n, k, 1) float32 | rewards |
     | `(group, "done")`, also `terminated`, `truncated` | (n, k, 1) bool | ends, as below |
     | `done`, `terminated`, `truncated` | (n, 1) bool | ends of the matches |
-    | `state` | (n, s) float32 | the global state for central critics; only with `state=True` |
+    | `state` | (n, s) float32 | the global state for centralized critics; only with `state=True` |
     | `("metrics", name)` | (n, 1) float32 | metrics of the task; valid where `done` |
 
     Ends: `terminated` is the task's end, such as a goal, and `truncated` the time limit, whose

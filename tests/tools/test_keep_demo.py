@@ -50,5 +50,5 @@ def test_the_readme_shows_the_kept_results(tmp_path: Path, monkeypatch: pytest.M
     path.write_text(json.dumps(kept))
     text = write_readme.demo()
     assert "| untrained | 400 | 300 | 60 | 40 | +0.65 | +0.60 to +0.70 |" in text
-    assert "26,500 decisions, 79,600 agent-steps, a second" in text
+    assert "26,500 decisions, which are 79,600 control steps of robots" in text
     assert "physics 31%" in text

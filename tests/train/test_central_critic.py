@@ -83,7 +83,7 @@ def test_inputs_are_the_state_and_the_robots_observation(
     assert any(ended), "no episode ended"
 
 
-def test_the_policy_stays_decentral(tmp_path: Path, finished: Path) -> None:
+def test_the_policy_stays_decentralized(tmp_path: Path, finished: Path) -> None:
     policy = Network.load(train(tiny(tmp_path, **CENTRAL)))
     task = rsoccer.make_task(NAME)
     policy.check_fits(task, task.observation_size)

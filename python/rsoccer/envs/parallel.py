@@ -253,7 +253,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         return self._action_spaces[agent]
 
     def state(self) -> Floats:
-        """Return the global state for centralised critics.
+        """Return the global state for centralized critics.
 
         Returns:
             (state,) float32 in `state_space`: ball, blue robots, yellow robots, in absolute

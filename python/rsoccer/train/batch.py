@@ -24,7 +24,7 @@ class Batch:
     returns: Tensor
     """(size,) targets of the value network: advantages + values."""
     central_inputs: Tensor | None = None
-    """(size, s + o) inputs of a central critic; None if the critic reads the observations."""
+    """(size, s + o) inputs of a centralized critic; None if the critic reads the observations."""
 
     @property
     def critic_inputs(self) -> Tensor:

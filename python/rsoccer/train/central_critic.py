@@ -1,4 +1,4 @@
-"""Inputs of a central critic: the global state of the match with the observation of the robot.
+"""Inputs of a centralized critic: the global state of the match with the observation of the robot.
 
 Multi-agent PPO (MAPPO), Yu et al., "The Surprising Effectiveness of PPO in Cooperative Multi-Agent
 Games" (2022): only training needs the value network, so it may read more than one robot observes.
@@ -21,7 +21,7 @@ from rsoccer.train.running_mean_std import RunningMeanStd
 
 
 class CentralInputs:
-    """Inputs (..., s + o) of a central critic: a normalised state, then a normalised observation.
+    """Inputs (..., s + o) of a centralized critic: a normalised state and observation.
 
     Attributes:
         rms: running mean and standard deviation of the states.

@@ -108,7 +108,8 @@ class ActorCritic(nn.Module):
         """Return the expected discounted return, in scaled rewards, (...).
 
         Args:
-            inputs: (..., s + o) normalised states and observations; without a central critic s = 0.
+            inputs: (..., s + o) normalised states and observations; s is 0 unless the critic is
+                centralized.
         """
         values: Tensor = self.critic(inputs)
         return values.squeeze(-1)

@@ -32,8 +32,8 @@ class RolloutCollector:
         observations: (n, agents, o) current observations, not normalised.
         discounted_returns: (n, agents) discounted sums of past rewards; their standard deviation
             scales the rewards.
-        states: (n, s) current global states; None without a central critic.
-        central: inputs of a central critic; None if the critic reads the observations.
+        states: (n, s) current global states; None without a centralized critic.
+        central: inputs of a centralized critic; None if the critic reads the observations.
         obs_rms: running mean and standard deviation of the observations.
         return_rms: running standard deviation of `discounted_returns`.
         gamma: discount factor per decision, which the trainer may change between rollouts.
@@ -204,7 +204,7 @@ class RolloutCollector:
             return Batch(*(part.flatten(0, 1) for part in batch))
 
     def _update_states(self) -> None:
-        """Read the current global states, if a central critic needs them."""
+        """Read the current global states, if a centralized critic needs them."""
         if self.central is not None:
             self.states = self.matches.states()
 

@@ -20,7 +20,7 @@ BEST: Final = "best"
 TEAM_TASK: Final = "VSSMulti-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
-These are `VSSSelfPlay-v0` and tasks derived from it, in which whole teams play.
+These are tasks derived from `VSSSelfPlay-v0`, in which whole teams play.
 """
 FOLDER = Path(__file__).parent
 """Folder of the files."""
