@@ -17,7 +17,7 @@ from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Task
 from rsoccer.train.args import Args
-from rsoccer.train.log import Row, ladder_column
+from rsoccer.train.log import Row, ladder_column, mean_or_nan
 from rsoccer.train.policy_mix import PolicyMix
 from rsoccer.train.timing import Clock
 
@@ -75,7 +75,7 @@ class Ladder:
         runner = EpisodeRunner(self._task, controllers, network, count, threads, before_step)
         scores = runner.run(count, SEED).scores
         step = len(self.columns)
-        return {name: _mean(scores[first::step]) for first, name in enumerate(self.columns)}
+        return {name: mean_or_nan(scores[first::step]) for first, name in enumerate(self.columns)}
 
     def skip(self) -> Row:
         """Return the columns of an update without a measurement, NaN."""
@@ -113,8 +113,3 @@ def _fits(name: str, task: Task) -> bool:
     except ValueError:
         return False
     return True
-
-
-def _mean(values: Array) -> float:
-    """Mean of values (k,); NaN for k = 0."""
-    return float(values.mean()) if len(values) else float("nan")

@@ -58,9 +58,9 @@ class EpisodeStats:
         row: Row = {"episodes": len(kinds)}
         for name in self._ended[0][1]:
             values = np.concatenate([metrics[name] for _, metrics in self._ended])
-            row[EPISODE_PREFIX + name] = _mean(values)
+            row[EPISODE_PREFIX + name] = mean_or_nan(values)
             for index, kind in enumerate(self._kinds):
-                row[opponent_column(kind, name)] = _mean(values[kinds == index])
+                row[opponent_column(kind, name)] = mean_or_nan(values[kinds == index])
             if name == GOAL_SCORE:
                 row["goals_for"] = float((values > 0).sum())
                 row["goals_against"] = float((values < 0).sum())
@@ -177,6 +177,6 @@ def read_progress(folder: Path) -> dict[str, Array]:
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
-def _mean(values: Array) -> float:
-    """Mean of values (k,); NaN for k = 0."""
+def mean_or_nan(values: Array) -> float:
+    """Return the mean of values (k,); NaN for k = 0."""
     return float(values.mean()) if len(values) else float("nan")
