@@ -17,7 +17,7 @@ DEFAULT_OPPONENT: Final = "ou"
 
 
 def task_for(*players: Controller | os.PathLike[str]) -> Task:
-    """Return the task that the first trained policy was trained on.
+    """Return the task that the first trained policy was trained on, see `policies.trained_on`.
 
     Args:
         players: policies, names or files; `LEARN` and scripts are skipped.
@@ -25,8 +25,8 @@ def task_for(*players: Controller | os.PathLike[str]) -> Task:
     Returns:
         A new task; `DEFAULT_TASK` if none of the policies was trained.
     """
-    names = (policies.trained_on(player) for player in players if not isinstance(player, Learn))
-    return make_task(next(filter(None, names), DEFAULT_TASK))
+    tasks = (policies.trained_on(player) for player in players if not isinstance(player, Learn))
+    return next(filter(None, tasks), None) or make_task(DEFAULT_TASK)
 
 
 def lineup(

@@ -84,6 +84,9 @@ class Task(ABC):
     """Teams whose robots may observe. The views have slots for the largest of these teams."""
     success: ClassVar[str | None] = None
     """Metric that measures the success of an episode; None for the return."""
+    training_options: ClassVar[tuple[str, ...]] = ("reward_weights",)
+    """Options that change how a policy learns, not how it plays. The task on which a policy was
+    trained is evaluated and shown without them."""
 
     @property
     @abstractmethod
@@ -329,10 +332,19 @@ class Task(ABC):
         return sum(block.size for block in self.blocks.values())
 
     @property
+    def action_meaning(self) -> str:
+        """What actions mean where options change it, as text; empty for the default meaning."""
+        return ""
+
+    @property
     def layout(self) -> str:
-        """Blocks of the observation and their shapes as text; networks save it."""
+        """Blocks of the observation, their shapes, and `action_meaning` as text.
+
+        Networks save it, and fit only tasks with the same.
+        """
         sizes = {name: "x".join(map(str, block.shape)) for name, block in self.blocks.items()}
-        return ", ".join(f"{name} {size}" for name, size in sizes.items())
+        blocks = ", ".join(f"{name} {size}" for name, size in sizes.items())
+        return f"{blocks}; {self.action_meaning}" if self.action_meaning else blocks
 
     @cached_property
     def observation_high(self) -> Floats:

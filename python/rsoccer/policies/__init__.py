@@ -34,6 +34,7 @@ from rsoccer.policies.ssl.strike import Strike
 from rsoccer.policies.ssl.weave import Weave
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.policies.vss.scripted import Scripted
+from rsoccer.registry import make_task
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
@@ -124,18 +125,36 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
     return policy
 
 
-def trained_on(policy: PolicyLike) -> str | None:
-    """Return the name of the task that a policy was trained on.
+def trained_on(policy: PolicyLike) -> Task | None:
+    """Return the task that a policy was trained on, without options that matter in training alone.
 
     It is None for scripts and noise, and for `best`, which has a policy for each of several tasks.
 
     Args:
         policy: a policy, its name, or the path of its file.
+
+    Raises:
+        FileNotFoundError: no such policy file.
+        TypeError: not a `PolicyLike`.
+        ValueError: an unknown name, or a task or an option of it that does not exist.
     """
-    if isinstance(policy, Policy):
-        return policy.task_name
-    text = _text(policy)
-    return None if text.partition(":")[0] in _MAKERS else _load(text).task_name
+    if not isinstance(policy, Policy):
+        text = _text(policy)
+        if text.partition(":")[0] in _MAKERS:
+            return None
+        policy = _load(text)
+    if policy.task_name is None:
+        return None
+    task = make_task(policy.task_name)
+    options = {
+        name: value
+        for name, value in policy.task_options.items()
+        if name not in task.training_options
+    }
+    try:
+        return make_task(policy.task_name, **options)
+    except TypeError as error:
+        raise ValueError(f"policy: trained on a task with other options: {error}") from error
 
 
 def name_of(policy: PolicyLike) -> str:

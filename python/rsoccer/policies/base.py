@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats
@@ -82,6 +82,11 @@ class Policy(ABC):
     def task_name(self) -> str | None:
         """Name of the task that it was trained on, for `make_task`; None if it was not trained."""
         return None
+
+    @property
+    def task_options(self) -> dict[str, Any]:
+        """Options of that task, for `make_task`; {} for the defaults."""
+        return {}
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Check that the policy can play a task.

@@ -61,6 +61,7 @@ class Network(HeldActions):
         """
         self.metadata = dict(metadata)
         self.clip, self.action_repeat = policy_file.read_metadata(self.metadata)
+        policy_file.read_task_options(self.metadata)  # refuses wrong ones before they are needed
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normaliser(arrays, self.observation_size)
         self.action_std = policy_file.read_action_std(arrays, self.action_size)
@@ -147,6 +148,11 @@ class Network(HeldActions):
     def task_name(self) -> str:
         """Name of the task that it was trained on, for `make_task`."""
         return self.metadata["task"]
+
+    @property
+    def task_options(self) -> dict[str, Any]:
+        """Options of that task in the training, for `make_task`; {} for the defaults."""
+        return policy_file.read_task_options(self.metadata)
 
     def choose(self, observations: Floats, rng: WorldRng) -> Floats:
         """Choose actions as the mode says, without holding them.

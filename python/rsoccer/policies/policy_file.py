@@ -48,7 +48,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -212,6 +212,28 @@ def _read_array(arrays: Mapping[str, Array], name: str, shape: tuple[int | None,
     if not np.isfinite(array).all():
         raise ValueError(f"array {name!r} has NaN or infinite numbers")
     return array.copy()
+
+
+def read_task_options(metadata: Mapping[str, str]) -> dict[str, Any]:
+    """Read the options of the task of the training.
+
+    Args:
+        metadata: text by key.
+
+    Returns:
+        Options by name; none if it names none.
+
+    Raises:
+        ValueError: other values than a JSON object.
+    """
+    text = metadata.get("task_options", "{}")
+    try:
+        options = json.loads(text)
+    except ValueError:
+        options = None
+    if not isinstance(options, dict):
+        raise ValueError(f"metadata 'task_options' should be a JSON object, got {text!r}")
+    return options
 
 
 def read_scores(metadata: Mapping[str, str]) -> list[Score]:

@@ -122,6 +122,11 @@ class Ssl(Soccer):
         )
 
     @property
+    def action_meaning(self) -> str:
+        """The axes of the velocity where they are the robot's."""
+        return "velocity in the robot's axes" if self.velocity_frame == "robot" else ""
+
+    @property
     def action_reflection(self) -> Reflection:
         """Reflection of actions, (5,): velocity to the left and turn rate change sign."""
         return Reflection.of([1, -1, -1, 1, 1])

@@ -65,6 +65,8 @@ class SslAttack(Ssl):
     """True: start with the ball in half of the episodes, which teaches shots before the way to
     the ball is known."""
 
+    training_options = (*Ssl.training_options, "random_start")
+    """Options that change how a policy learns, not how it plays."""
     half_only = True
     """The attacker must stay in the opponents' half and out of their goal area."""
     success = "goal_score"

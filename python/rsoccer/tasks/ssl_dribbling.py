@@ -67,6 +67,8 @@ class SslDribbling(Ssl):
     random_start: bool = False
     """True: start before a random gate in half of the episodes, as training needs all gates."""
 
+    training_options = (*Ssl.training_options, "random_start")
+    """Options that change how a policy learns, not how it plays."""
     success = "gates"
     """Metric that measures the success of an episode."""
 

@@ -54,6 +54,8 @@ class SslPassEnduranceMulti(SslPass):
     random_holder: bool = False
     """True: either robot starts with the ball, so that one learner sees both parts in training."""
 
+    training_options = (*SslPass.training_options, "random_holder")
+    """Options that change how a policy learns, not how it plays."""
     success = "passes"
     """Metric that measures the success of an episode."""
     full_success = None

@@ -52,6 +52,9 @@ class SslStaticDefenders(SslAttack):
     them, mirrored or not, ball and opponents shifted by up to 0.15 m, by little more often than by
     much. For training."""
 
+    training_options = (*SslAttack.training_options, "scenario_fraction")
+    """Options that change how a policy learns, not how it plays."""
+
     def __post_init__(self) -> None:
         """Validate the options."""
         checks.integer_in_range("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
