@@ -37,7 +37,7 @@ def test_options_of_play_are_those_of_the_training(tmp_path: Path) -> None:
     assert isinstance(found, SslStaticDefenders)
     assert (found.n_opponents, found.velocity_frame) == (2, "robot")
     assert not found.random_start
-    assert found.reward_weights == task.reward_weights
+    assert found.reward_weights == SslStaticDefenders().reward_weights
     assert rsoccer.evaluate(path, matches=2, worlds=2).matches == 2
 
 

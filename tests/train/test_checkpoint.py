@@ -19,7 +19,7 @@ SAVED = Checkpoint(
         "adam.step": np.array(3.0, np.float32),
         "empty": np.zeros((0, 3), np.float32),
     },
-    info={"samples": 12, "args": {"task": "x", "gamma": 0.995}},
+    info={"samples": 12, "log_size": 0, "args": {"task": "x", "gamma": 0.995}},
 )
 
 

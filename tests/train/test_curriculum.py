@@ -110,3 +110,8 @@ def test_clones_of_a_single_learner_are_opponents_of_a_team(tmp_path: Path) -> N
     assert Trainer(Args(**{**args.to_json(), "opponents": {clone: 1}})).curriculum.kinds == (
         "single",
     )
+
+
+def test_wrong_solo_partners_are_refused_even_where_none_plays() -> None:
+    with pytest.raises(ValueError, match="unknown policy 'nonsense'"):
+        curriculum("VSS-v0", solo_partners="nonsense")

@@ -1,5 +1,6 @@
 """The folder of a run: the match at its end, and refused settings and files."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +52,17 @@ def test_an_incomplete_checkpoint_is_refused(missing: str, finished: Path, tmp_p
     del saved.arrays[missing]
     checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
     with pytest.raises(ValueError, match="does not fit"):
+        train(tiny(tmp_path, resume=True))
+
+
+@pytest.mark.parametrize("info", ["[]", "{}", '{"args": 3, "log_size": 0}', '{"args": {}}'])
+def test_a_checkpoint_without_its_settings_is_refused(
+    info: str, finished: Path, tmp_path: Path
+) -> None:
+    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
+    wrong = checkpoint.Checkpoint(saved.arrays, json.loads(info))
+    checkpoint.save(tmp_path / checkpoint.FILE_NAME, wrong)
+    with pytest.raises(ValueError, match="is damaged or not a checkpoint"):
         train(tiny(tmp_path, resume=True))
 
 

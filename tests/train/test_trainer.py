@@ -1,6 +1,7 @@
 """Training runs: equal for equal seeds, equal after a resume, and rewards rise."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import torch
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.train import Args, checkpoint, train
+from rsoccer.train.batch import Batch
 from rsoccer.train.run_state import capture
 from rsoccer.train.stop_signal import StopSignal
 from rsoccer.train.trainer import Trainer
@@ -149,6 +151,24 @@ def test_a_minibatch_has_two_samples_or_more(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=message):
         train(Args("VSS-v0", out=tmp_path / "run", worlds=2, horizon=3, n_minibatches=4))
     assert not (tmp_path / "run").exists()
+
+
+def test_a_run_that_diverges_keeps_its_last_checkpoint(tmp_path: Path) -> None:
+    args = tiny(tmp_path, checkpoint_interval=1e-9)
+    trainer = Trainer(args)
+    run = trainer.update
+
+    def diverge(batch: Batch, check_stop: Callable[[], None]) -> None:
+        if trainer.updates == 2:
+            trainer.model.log_std.data[0] = torch.nan
+        run(batch, check_stop)
+
+    trainer.update = diverge  # type: ignore[method-assign]
+    with pytest.raises(ValueError, match=r"training diverged after 432 samples.*learning_rate"):
+        trainer.run(StopSignal(), 0)
+    saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
+    assert saved.info["updates"] == 2
+    assert all(np.isfinite(part).all() for part in saved.arrays.values() if part.dtype.kind == "f")
 
 
 def test_training_raises_the_reward(tmp_path: Path) -> None:

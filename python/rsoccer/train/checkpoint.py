@@ -68,7 +68,12 @@ def load(path: Path) -> Checkpoint:
             metadata = file.metadata() or {}
             _expect_format(path, metadata)
             arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
-        return Checkpoint(arrays, json.loads(metadata["info"]))
+            info = json.loads(metadata["info"])
+        if not isinstance(info, dict) or not isinstance(info["args"], dict):
+            raise TypeError("no settings")
+        if not isinstance(info["log_size"], int):
+            raise TypeError("no size of the log")
+        return Checkpoint(arrays, info)
     except (SafetensorError, KeyError, TypeError, json.JSONDecodeError) as error:
         raise ValueError(f"{path} is damaged or not a checkpoint: {error}") from error
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from rsoccer.frame import team_of
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.matches import Matches
+from rsoccer.policies import make_policy
 from rsoccer.policies.base import Policy
 from rsoccer.task import LEARN, Learn, Task
 from rsoccer.train.args import Args
@@ -47,6 +48,7 @@ class Curriculum:
                 matches for them.
         """
         self._args, self._task, self._clock = args, task, clock
+        make_policy(args.solo_partners, task)  # refuses a wrong one, even where none plays
         self.learners = learning_team(task)
         home = team_of(self.learners[0])
         self.pool: OpponentPool | None = None

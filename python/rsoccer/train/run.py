@@ -1,23 +1,20 @@
-"""A training run: its folder, its end by a signal, and the match of its policy."""
+"""A training run in its folder: its end by a signal, and the match of its policy."""
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
-from rsoccer.files import write_atomically
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.replay.recorder import record_replay
-from rsoccer.train import checkpoint
-from rsoccer.train.args import SETTINGS_FILE, Args
+from rsoccer.train import run_folder
+from rsoccer.train.args import Args
 from rsoccer.train.checkpoint import Checkpoint
+from rsoccer.train.run_folder import MATCH_FILES, POLICY_FILE
 from rsoccer.train.run_state import restore
 from rsoccer.train.stop_signal import Interrupted, Stopped, StopSignal
-from rsoccer.train.trainer import POLICY_FILE, Trainer
+from rsoccer.train.trainer import Trainer
 
-MATCH = "match"
-"""Name, without a suffix, of the files of a match in a run's folder."""
 MATCH_SECONDS = 30.0
 """Duration of that match, s."""
 UNTRAINED_FILE = "untrained.safetensors"
@@ -37,8 +34,17 @@ def run(args: Args) -> Path:
         ValueError: a task, an option of it, or a folder that cannot be used; see `train`.
         Interrupted: a signal ended the run after it was saved.
     """
-    trainer, log_size = Trainer(args), 0  # refuses the task or its options before a file changes
-    saved = _open_run(args)
+    trainer = Trainer(args)  # refuses the task or its options before a file changes
+    with run_folder.opened(args, trainer.policy_files) as saved:
+        _train(trainer, saved)
+        if args.match_page:
+            _write_match(trainer)
+    return args.out / POLICY_FILE
+
+
+def _train(trainer: Trainer, saved: Checkpoint | None) -> None:
+    """Train until the samples are used up; a signal saves the run and raises `Interrupted`."""
+    args, log_size = trainer.args, 0
     if saved is None:
         trainer.network().save(args.out / UNTRAINED_FILE)
     else:
@@ -53,9 +59,6 @@ def run(args: Args) -> Path:
                 f"{args.out}; continue with --resume\n"
             )
             raise Interrupted(stop.exit_status) from None
-    if args.match_page:
-        _write_match(trainer)
-    return args.out / POLICY_FILE
 
 
 def _write_match(trainer: Trainer) -> None:
@@ -64,19 +67,6 @@ def _write_match(trainer: Trainer) -> None:
     names = ("TRAINED", " ".join(opponents_of(task)).upper())
     controllers = lineup(task, trainer.network())
     replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
-    replay.save(args.out / f"{MATCH}.rsr")
-    replay.save_html(args.out / f"{MATCH}.html")
-
-
-def _open_run(args: Args) -> Checkpoint | None:
-    """Check and prepare the folder of a run; the checkpoint to continue from, if any."""
-    path = args.out / checkpoint.FILE_NAME
-    saved = checkpoint.load(path) if args.resume else None
-    if saved is not None and (changed := args.differences(saved.info["args"])):
-        raise ValueError(f"{path} is of a run with other settings: {'; '.join(changed)}")
-    checkpoint.prepare_folder(args.out)
-    if path.exists() and not (args.resume or args.overwrite):
-        raise ValueError(f"out: {args.out} holds a run; set resume, overwrite, or another folder")
-    settings = json.dumps(args.to_json(), indent=2)
-    write_atomically(args.out / SETTINGS_FILE, settings.encode())
-    return saved
+    replay_name, page_name = MATCH_FILES
+    replay.save(args.out / replay_name)
+    replay.save_html(args.out / page_name)

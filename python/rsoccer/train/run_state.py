@@ -41,6 +41,7 @@ def capture(trainer: Trainer, log_size: int) -> Checkpoint:
     }
     info = {
         "args": trainer.args.to_json(),
+        "policy_files": trainer.policy_files,
         "samples": trainer.samples,
         "updates": trainer.updates,
         "elapsed": trainer.elapsed,

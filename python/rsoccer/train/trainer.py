@@ -28,13 +28,11 @@ from rsoccer.train.networks import ActorCritic
 from rsoccer.train.observation_mask import observation_mask
 from rsoccer.train.ppo import PPO
 from rsoccer.train.rollout import RolloutCollector
+from rsoccer.train.run_folder import POLICY_FILE, policy_digests
 from rsoccer.train.run_state import capture, restore
 from rsoccer.train.stop_signal import Stopped, StopSignal
 from rsoccer.train.timing import Clock
 from rsoccer.train.weight_sharing import WeightSharing, robot_slots
-
-POLICY_FILE = "policy.safetensors"
-"""Name of the policy in a run's folder."""
 
 
 class Trainer:
@@ -54,6 +52,7 @@ class Trainer:
         ppo: updates the model.
         learning_rate: step size of the updates.
         update_stats: columns of the log from the last update of the model.
+        policy_files: digests of the policy files that play beside the learners, by name.
         samples: decisions that were learned from.
         updates: number of updates.
         elapsed: seconds of training, summed over resumed runs.
@@ -112,6 +111,7 @@ class Trainer:
         self.ladder = Ladder(args, self.task)
         self.ppo = PPO(args, self.model, self.generator, sharing)
         self.learning_rate = LearningRate(args)
+        self.policy_files = policy_digests(args)
         self.update_stats: Row = {}
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
         self.show_policy()
@@ -159,12 +159,16 @@ class Trainer:
         Args:
             batch: samples from `collect_rollout`.
             check_stop: called before each minibatch; an exception that it raises ends the update.
+
+        Raises:
+            ValueError: the networks have NaN or infinite weights now.
         """
         learning_rate = self.learning_rate.start_update(self.progress)
         with self.clock.measure("learning"):
             if self.args.mirror_augmentation:
                 batch = with_reflections(batch, self.task, self.model)
             self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
+        self._check_finite()
         stats = self.update_stats
         self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
         self.updates += 1
@@ -172,6 +176,15 @@ class Trainer:
             ratio = self.args.final_action_std / self.args.action_std
             self.model.set_action_std(self.args.action_std * ratio**self.progress)
         self._update_pool()
+
+    def _check_finite(self) -> None:
+        """Raise ValueError if training has diverged, before it replaces the last checkpoint."""
+        if not all(bool(part.isfinite().all()) for part in self.model.state_dict().values()):
+            raise ValueError(
+                f"training diverged after {self.samples:,} samples: weights are NaN or infinite; "
+                f"lower learning_rate ({self.args.learning_rate:g}) or max_grad_norm "
+                f"({self.args.max_grad_norm:g}); the last checkpoint is kept"
+            )
 
     def _update_pool(self) -> None:
         """Make the new policy the latest one, and freeze it every `pool_interval` updates."""
