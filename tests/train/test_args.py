@@ -1,11 +1,13 @@
 """Settings of a run: invalid values raise errors that name the field."""
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from rsoccer.train.args import Args
@@ -46,6 +48,28 @@ INVALID: list[tuple[str, Any]] = [
     ("task_options", {"ball_speed": float("nan")}),
     ("task_options", ["n_blue"]),
     ("pfsp_power", -1.0),
+    ("worlds", "64"),
+    ("worlds", 64.5),
+    ("worlds", True),
+    ("seed", 1.5),
+    ("n_epochs", 2.5),
+    ("gamma", None),
+    ("gamma", "0.9"),
+    ("final_gamma", "0.9"),
+    ("resume", "no"),
+    ("progress", 1),
+    ("task", 3),
+    ("out", 3),
+    ("device", None),
+    ("opponents", "ou"),
+    ("opponents", ["ou"]),
+    ("opponents", None),
+    ("opponents", {"ou": "1"}),
+    ("opponents", {3: 1.0}),
+    ("hidden_sizes", 64),
+    ("hidden_sizes", (64.5,)),
+    ("masked_observations", "ball"),
+    ("initial_action", (None,)),
 ]
 
 
@@ -53,6 +77,34 @@ INVALID: list[tuple[str, Any]] = [
 def test_an_invalid_value_is_refused_by_name(name: str, value: Any) -> None:  # noqa: ANN401
     with pytest.raises(ValueError, match=name):
         Args(**{name: value})
+
+
+def test_numbers_and_arrays_of_numpy_are_converted() -> None:
+    values: dict[str, Any] = {
+        "worlds": np.int64(8),
+        "gamma": np.float64(0.5),
+        "progress": np.bool_(False),
+        "hidden_sizes": np.array([8, 16]),
+        "initial_action": [0, np.float32(0.5)],
+        "opponents": {"ou": np.float64(2.0)},
+        "out": "out/some",
+    }
+    args = Args(**values)
+    assert (args.worlds, args.gamma, args.progress) == (8, 0.5, False)
+    assert (args.hidden_sizes, args.initial_action) == ((8, 16), (0, 0.5))
+    assert args.out == Path("out/some")
+    assert Args(**json.loads(json.dumps(args.to_json()))) == args
+
+
+def test_the_error_says_what_was_expected() -> None:
+    for changes, message in (
+        ({"worlds": "64"}, "worlds must be an integer, got '64'"),
+        ({"final_gamma": "1"}, "final_gamma must be a number or None, got '1'"),
+        ({"hidden_sizes": 64}, "hidden_sizes must be a sequence, each an integer, got 64"),
+        ({"opponents": "ou"}, "opponents must be a mapping from names, each a number, got 'ou'"),
+    ):
+        with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+            Args(**changes)
 
 
 def test_resume_and_overwrite_exclude_each_other() -> None:

@@ -10,11 +10,13 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
-from typing import Any, Literal, Self, get_args
+from typing import Any, Literal, Self, get_args, get_type_hints
 
 from rsoccer.registry import make_task
 from rsoccer.task import Task
+from rsoccer.train.setting_types import converted
 from rsoccer.train.task_settings import recommended_settings
 
 SETTINGS_FILE = "args.json"
@@ -49,9 +51,9 @@ class Args:
     """Settings of one training run. A sample is one decision of one learning robot.
 
     Raises:
-        ValueError: a value outside its range, fractions of opponents whose sum is above 1, options
-            of the task that are not JSON values, `resume` together with `overwrite`, or an adaptive
-            learning rate with one epoch.
+        ValueError: a value of another type or outside its range, fractions of opponents whose sum
+            is above 1, options of the task that are not JSON values, `resume` together with
+            `overwrite`, or an adaptive learning rate with one epoch.
     """
 
     task: str = "VSSSelfPlay-v0"
@@ -189,11 +191,9 @@ class Args:
     `ou` and the scripts for a whole team; tasks for one team are played as they are"""
 
     def __post_init__(self) -> None:
-        """Convert paths and sizes, and check every value."""
-        object.__setattr__(self, "out", Path(self.out))
-        object.__setattr__(self, "hidden_sizes", tuple(self.hidden_sizes))
-        object.__setattr__(self, "initial_action", tuple(self.initial_action))
-        object.__setattr__(self, "masked_observations", tuple(self.masked_observations))
+        """Convert every value to the type of its field, and check it."""
+        for name, kind in _types().items():
+            object.__setattr__(self, name, converted(name, getattr(self, name), kind))
         object.__setattr__(self, "task_options", _as_json(self.task_options))
         for name in _MIXES:  # sorted, so that equal mixes give equal runs
             object.__setattr__(self, name, dict(sorted(getattr(self, name).items())))
@@ -216,15 +216,10 @@ class Args:
         for name, kind in (("device", Device), ("learning_rate_schedule", Schedule)):
             choices = get_args(kind)
             _expect(self, name, getattr(self, name) in choices, f"one of {', '.join(choices)}")
-        self._check_hidden_sizes()
+        valid = bool(self.hidden_sizes) and min(self.hidden_sizes) >= 1
+        _expect(self, "hidden_sizes", valid, "one or more widths of at least 1")
         self._check_mixes()
         self._check_combinations()
-
-    def _check_hidden_sizes(self) -> None:
-        """Check the type and the range of every width."""
-        valid = all(isinstance(width, int) and width >= 1 for width in self.hidden_sizes)
-        valid = valid and bool(self.hidden_sizes)
-        _expect(self, "hidden_sizes", valid, "one or more widths of at least 1")
 
     def _check_mixes(self) -> None:
         """Check the shares of policies."""
@@ -308,6 +303,12 @@ class Args:
             for name in names
             if current.get(name) != saved.get(name)
         ]
+
+
+@cache
+def _types() -> dict[str, Any]:
+    """Types of the fields by name."""
+    return get_type_hints(Args)
 
 
 _COUNTS = (
