@@ -22,8 +22,10 @@ from benches.learning.report import report
 from benches.learning.run_files import Folders
 from benches.learning.status import (
     DONE,
+    INVALID,
     OPEN,
     STALE,
+    UNAVAILABLE,
     UNFINISHED,
     WAITING,
     Status,
@@ -41,7 +43,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: Command line without the program name; default: that of the process.
     """
     options = parse_arguments(arguments)
-    study: Study = importlib.import_module(options.table).STUDY
+    try:
+        study = load_study(options.table)
+    except ValueError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2
     folders = Folders(options.results.resolve(), options.work.resolve())
     if options.worker:
         worker.pin(options.core)
@@ -50,7 +56,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.report:
         sys.stdout.write("".join(f"{path}\n" for path in report()))
         return 0
-    known = statuses(study, folders)
+    try:
+        known = statuses(study, folders)
+    except ValueError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2
     chosen = [entry for entry in known if selected(entry.run, options)]
     if not chosen:
         sys.stderr.write("--group, --only and --seeds: expected a run of the study, got none\n")
@@ -62,6 +72,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.write(best(chosen, folders) + "\n")
         return 0
     return work(chosen, known, options)
+
+
+def load_study(table: str) -> Study:
+    """Return the study of a module.
+
+    Raises:
+        ValueError: There is no such module, or it has no `STUDY`.
+    """
+    try:
+        study = getattr(importlib.import_module(table), "STUDY", None)
+    except ModuleNotFoundError as error:
+        raise ValueError(
+            f"--table: expected a module with a STUDY, got {table}: {error}"
+        ) from error
+    if not isinstance(study, Study):
+        raise ValueError(f"--table: expected a module with a STUDY, got {table}, which has none")
+    return study
 
 
 def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Namespace) -> int:
@@ -76,6 +103,8 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
     for entry in chosen:
         if entry.state == STALE and not options.rerun_stale:
             sys.stdout.write(f"stale, kept as it is: {entry.run.key}: {entry.reason}\n")
+        if entry.state in (UNAVAILABLE, INVALID):
+            sys.stderr.write(f"{entry.state}: {entry.run.key}: {entry.reason}\n")
     wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
     again = {
         entry.run.key
@@ -98,7 +127,8 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
     pool.work(runs, {entry.run.key for entry in known if entry.state == DONE} - again)
     if pool.failed:
         sys.stdout.write(f"failed: {', '.join(pool.failed)}\n")
-    return 1 if pool.failed else 0
+    invalid = any(entry.state == INVALID for entry in chosen)
+    return 1 if pool.failed or invalid else 0
 
 
 def selected(run: Run, options: argparse.Namespace) -> bool:

@@ -9,7 +9,7 @@ from typing import Final
 from benches.learning import status as states
 from benches.learning.estimate import expected_seconds
 from benches.learning.run_files import Folders
-from benches.learning.status import DONE, STALE, UNAVAILABLE, Status
+from benches.learning.status import DONE, INVALID, STALE, UNAVAILABLE, Status
 
 HEADLINE_DIGITS: Final = 3
 
@@ -27,13 +27,13 @@ def listing(entries: Sequence[Status], known: Sequence[Status], jobs: int) -> st
     left = sum(
         expected_seconds(entry.run, known)
         for entry in entries
-        if entry.state not in (DONE, STALE, UNAVAILABLE)
+        if entry.state not in (DONE, STALE, UNAVAILABLE, INVALID)
     )
     counts = {
         state: sum(entry.state == state for entry in entries)
         for state in (
             *(states.DONE, states.STALE, states.RUNNING, states.UNFINISHED),
-            *(states.OPEN, states.WAITING, states.UNAVAILABLE),
+            *(states.OPEN, states.WAITING, states.UNAVAILABLE, states.INVALID),
         )
     }
     summary = ", ".join(f"{count} {state}" for state, count in counts.items() if count)
@@ -49,7 +49,7 @@ def _state(entry: Status, known: Sequence[Status]) -> str:
         text = f"{first['metric']} {first['score']:.{HEADLINE_DIGITS}f}"
         against = "" if first["opponent"] == "-" else f" against {first['opponent']}"
         return f"done  {text}{against}, {entry.result['seconds']['wall'] / 60.0:.1f} min"
-    if entry.state in (STALE, UNAVAILABLE):
+    if entry.state in (STALE, UNAVAILABLE, INVALID):
         return f"{entry.state}  {entry.reason}"
     minutes = expected_seconds(entry.run, known) / 60.0
     reason = f", {entry.reason}" if entry.reason else ""

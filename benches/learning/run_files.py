@@ -20,6 +20,11 @@ POLICY: Final = "policy.safetensors"
 IDENTITY_FILE: Final = "identity.json"
 DIGEST_DIGITS: Final = 12
 LOCK_SECONDS: Final = 1.0
+FIELDS: Final = {
+    *("run", "task", "algorithm", "settings", "physics", "needs", "protocol", "machine"),
+    *("samples", "seconds", "evaluation_seconds", "curve", "evaluations"),
+}
+"""Fields that every result has; `worker.execute` writes them."""
 
 
 @dataclass(frozen=True)
@@ -45,11 +50,21 @@ class Folders:
 
 
 def load(folders: Folders, key: str) -> dict[str, Any] | None:
-    """Return the result of a run; None if it has not finished."""
+    """Return the result of a run; None if it has not finished.
+
+    Raises:
+        ValueError: The file is damaged.
+    """
     path = folders.result(key)
     if not path.is_file():
         return None
-    result: dict[str, Any] = json.loads(path.read_text())
+    try:
+        result = json.loads(path.read_text())
+    except ValueError as error:
+        raise ValueError(f"{path} is damaged: {error}") from error
+    if not isinstance(result, dict) or (missing := sorted(FIELDS - set(result))):
+        lacks = "no JSON object" if not isinstance(result, dict) else f"without {missing}"
+        raise ValueError(f"{path} is damaged: {lacks}")
     return result
 
 

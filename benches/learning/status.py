@@ -18,6 +18,9 @@ UNFINISHED: Final = "unfinished"
 OPEN: Final = "open"
 WAITING: Final = "waiting"
 UNAVAILABLE: Final = "unavailable"
+"""A library of the run is missing."""
+INVALID: Final = "invalid"
+"""The task or its settings do not exist, or have wrong values."""
 
 MAX_CHANGE: Final = 120
 """Most characters of a change that are listed with both values."""
@@ -48,8 +51,8 @@ def status(run: Run, study: Study, folders: Folders) -> Status:
     """Return the state of a run, whatever the runs that it needs."""
     try:
         settings = algorithms.settings(run)
-    except (TypeError, ValueError, ImportError) as error:
-        return Status(run, UNAVAILABLE, str(error), run_files.load(folders, run.key))
+    except (TypeError, ValueError) as error:
+        return Status(run, INVALID, str(error), run_files.load(folders, run.key))
     missing = algorithms.missing_library(run)
     if missing and run_files.load(folders, run.key) is None:
         return Status(run, UNAVAILABLE, f"{missing} is not installed")

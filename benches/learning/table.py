@@ -98,19 +98,6 @@ COOPERATION: Final = (
     ),
     Experiment(
         "cooperation",
-        "team-trained-against-clones",
-        TEAM,
-        settings={
-            **PPO[TEAM].settings,
-            "opponents": {**Args.for_task(TEAM).opponents, "@ppo/VSS-v0": 3.0},
-        },
-        seeds=3,
-        opponents=("@ppo/VSS-v0", *VSSS),
-        needs=(PPO["VSS-v0"],),
-        text="shared policy, learned as a team, the clones among its opponents",
-    ),
-    Experiment(
-        "cooperation",
         "one-learner-against-team",
         "VSS-v0",
         "clones",

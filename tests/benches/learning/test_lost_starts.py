@@ -1,11 +1,12 @@
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from benches.learning import lost_starts
 from benches.learning.experiments import Run
-from benches.learning.run_files import Folders, digest, load, save
+from benches.learning.run_files import FIELDS, Folders, digest, load, save
 from benches.learning.table import STUDY
 
 
@@ -27,7 +28,7 @@ def test_policies_are_those_of_finished_runs_of_whole_teams(tmp_path: Path) -> N
     assert not lost_starts.sentences(folders)
     experiment = next(e for e in STUDY.experiments if e.key == lost_starts.EXPERIMENTS[0])
     run = Run(experiment, 1)
-    result = {"run": run.key, "settings": {}, "physics": 1}
+    result: dict[str, Any] = dict.fromkeys(FIELDS) | {"settings": {}, "physics": 1}
     save(folders, run.key, result)
     with pytest.raises(FileNotFoundError):  # as in a fresh clone: results without policies
         lost_starts.runs_of(folders)

@@ -104,6 +104,40 @@ def test_a_selection_without_runs_is_refused(
         assert "expected a run of the study, got none" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("only", ["misspelt", "unknown"])
+def test_experiments_with_wrong_settings_are_named(
+    only: str, folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = ["--table", "tests.benches.learning.wrong_table"]
+    assert main([*table, *folders[2:], "--only", only]) == 1
+    printed = capsys.readouterr()
+    reason = {"misspelt": "'gama'", "unknown": "'VSS-v9'"}[only]
+    assert f"invalid: a/{only}/seed-0: " in printed.err
+    assert reason in printed.err
+
+
+@pytest.mark.parametrize("table", ["no_such_module", "json"])
+def test_a_table_without_a_study_is_refused(
+    table: str, folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["--table", table, *folders[2:], "--list"]) == 2
+    assert f"--table: expected a module with a STUDY, got {table}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("text", ["{", "[]", "{}"])
+def test_a_damaged_result_is_named(
+    text: str, folders: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = result_of(folders, "ppo/VSS-v0/seed-0")
+    before = path.read_text()
+    path.write_text(text)
+    try:
+        assert main([*folders, "--list"]) == 2
+        assert f"{path} is damaged" in capsys.readouterr().err
+    finally:
+        path.write_text(before)
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
