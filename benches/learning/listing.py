@@ -71,7 +71,7 @@ def best(entries: Sequence[Status], folders: Folders) -> str:
     for _, seeds in groupby(finished, key=lambda entry: entry.run.experiment.key):
         score, entry = max(((_mean_score(e), e) for e in seeds), key=lambda pair: pair[0])
         path = folders.policy(entry.run.key)
-        kept = str(path) if path.is_file() else "policy not in the work folder"
+        kept = str(path) if path.is_file() else "policy not here; --again learns it"
         lines.append(f"{entry.run.key}  {score:.{HEADLINE_DIGITS}f}  {kept}")
     return "\n".join(lines)
 
