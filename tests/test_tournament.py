@@ -78,6 +78,17 @@ def test_equal_seeds_give_equal_results_for_any_threads() -> None:
     assert {s.label: s.rating for s in first.standings}["ou"] == 1000.0
 
 
+def test_a_file_named_as_the_anchor_is_not_the_anchor(tmp_path: Path) -> None:
+    """Formerly the label chose the policy whose rating is 1000."""
+    file = write_network(tmp_path / "ou" / "policy.safetensors")
+    result = rsoccer.tournament([file, "chase", "zero"], 2, task=TASK, threads=1)
+    assert result.anchor is None
+    assert {standing.label for standing in result.standings} == {file, "chase", "zero"}
+    with_noise = rsoccer.tournament([file, "ou"], 2, task=TASK, threads=1)
+    assert with_noise.anchor == "ou"
+    assert {s.policy: s.rating for s in with_noise.standings}["ou"] == 1000.0
+
+
 def test_ssl_teams_play_tournaments() -> None:
     task = rsoccer.make_task("SSLSelfPlay-v0", max_steps=40)
     result = rsoccer.tournament(["strike", "zero"], 2, task=task, threads=1)

@@ -19,7 +19,7 @@ from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.evaluate.ratings import rate
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.lineup import task_for
-from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
+from rsoccer.policies import PolicyLike, check_policy_like, is_built_in, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
 from rsoccer.policies.policy_file import SUFFIX
@@ -37,7 +37,7 @@ class Standing:
     policy: str
     """name or file of the policy, or its class"""
     label: str
-    """short name, different from all others"""
+    """short name, different from all others; never a name of the package for a file"""
     rating: float
     """Bradley-Terry rating on the Elo scale"""
     low: float
@@ -163,21 +163,25 @@ def tournament(
             counts[blue, yellow] = [(np.sign(scores) == sign).sum() for sign in (1, 0, -1)]
         if on_pair is not None:
             on_pair(done, len(pairs))
-    return summarise([name_of(policy) for policy in policies], counts, task.name, seed)
+    return summarise(policies, counts, task.name, seed)
 
 
-def summarise(names: Sequence[str], counts: NDArray[np.int64], task: str, seed: int) -> Tournament:
+def summarise(
+    policies: Sequence[PolicyLike], counts: NDArray[np.int64], task: str, seed: int
+) -> Tournament:
     """Return the ratings, scores and cycles of counted results.
 
     Args:
-        names: (k,) names or files of the policies.
+        policies: (k,) policies, names or paths of files.
         counts: (k, k, 3) wins, draws and losses of the row as blue against the column as yellow,
             equally many matches for all pairs; zeros on the diagonal.
         task: name of the task.
         seed: seed of the tournament, at least 0; it also draws the resamples of the bootstrap.
     """
-    short = labels(names)
-    anchor = short.index(ANCHOR) if ANCHOR in short else None
+    names, short = [name_of(policy) for policy in policies], labels(policies)
+    # A file or a class may have the anchor's name, too.
+    anchors = [is_built_in(policy) and name_of(policy) == ANCHOR for policy in policies]
+    anchor = anchors.index(True) if any(anchors) else None
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(names))))
     rated = rate(counts, anchor, rng)
     order = np.argsort(-rated.ratings, kind="stable")

@@ -41,7 +41,8 @@ if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
-__all__ += ["PolicyLike", "check_policy_like", "make_policy", "name_of", "trained_on"]
+__all__ += ["PolicyLike", "check_policy_like", "is_built_in", "make_policy", "name_of"]
+__all__ += ["trained_on"]
 
 PolicyLike = str | os.PathLike[str] | Policy
 """A policy, its name (`zero`, `ou`, ...), or the path of its file."""
@@ -91,6 +92,15 @@ def check_policy_like(name: str, value: object) -> None:
         raise TypeError(f"{name}: expected a policy, its name or its file, got {value!r}")
 
 
+def is_built_in(policy: PolicyLike) -> bool:
+    """Return whether a policy is given by a name that `make_policy` takes, with or without a skill.
+
+    Args:
+        policy: a policy, its name, or the path of its file.
+    """
+    return not isinstance(policy, Policy) and _text(policy).partition(":")[0] in _MAKERS
+
+
 def make_policy(policy: PolicyLike, task: Task) -> Policy:
     """Make a policy for the robots of a task.
 
@@ -138,11 +148,10 @@ def trained_on(policy: PolicyLike) -> Task | None:
         TypeError: not a `PolicyLike`.
         ValueError: an unknown name, or a task or an option of it that does not exist.
     """
+    if is_built_in(policy):
+        return None
     if not isinstance(policy, Policy):
-        text = _text(policy)
-        if text.partition(":")[0] in _MAKERS:
-            return None
-        policy = _load(text)
+        policy = _load(_text(policy))
     if policy.task_name is None:
         return None
     task = make_task(policy.task_name)

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from itertools import count
 from pathlib import Path
 
-from rsoccer.policies import PolicyLike, name_of
+from rsoccer.policies import PolicyLike, is_built_in, list_policies, name_of
 from rsoccer.policies.policy_file import SUFFIX
 
 GENERIC = "policy"
 """Name of the policy file in every run's folder, which the folder's name replaces."""
 
 
-def labels(policies: Iterable[PolicyLike]) -> list[str]:
+def labels(policies: Iterable[PolicyLike], reserved: Collection[str] = ()) -> list[str]:
     """Return a short name for each policy, different from all others.
 
     Example:
@@ -23,21 +24,33 @@ def labels(policies: Iterable[PolicyLike]) -> list[str]:
 
     Args:
         policies: policies, names or paths of files. A script keeps its name. A file has its own
-            name, or that of its folder if it is `policy.safetensors`; files whose names are then
-            equal keep their whole path. Equal names that remain get numbers.
+            name, or that of its folder if it is `policy.safetensors`. It keeps its whole path if
+            another policy has the same name, or if the name is reserved or that of a policy of the
+            package, whether that one is there or not. Equal names that remain get numbers.
+        reserved: further names that no file gets.
     """
+    policies = list(policies)
     names = [name_of(policy) for policy in policies]
-    short = _where_unique([_short(name) for name in names], names)
-    return [
-        name if short.count(name) == 1 else f"{name} {short[: index + 1].count(name)}"
-        for index, name in enumerate(short)
+    given = Counter(name_of(policy) for policy in policies if is_built_in(policy))
+    short = [_short(name) for name in names]
+    used = Counter(short)
+    short = [
+        text if _is_free(text, used, reserved) else name
+        for text, name in zip(short, names, strict=True)
     ]
+    used = Counter(short)
+    for index, (policy, text) in enumerate(zip(policies, short, strict=True)):
+        unique = given[text] == 1 if is_built_in(policy) else _is_free(text, used, reserved)
+        if not unique:
+            numbered = (f"{text} {number}" for number in count(1))
+            short[index] = next(name for name in numbered if name not in short)
+    return short
 
 
-def _where_unique(short: list[str], names: list[str]) -> list[str]:
-    """The short name where no other policy has it, else the whole one."""
-    counts = Counter(short)
-    return [a if counts[a] == 1 else b for a, b in zip(short, names, strict=True)]
+def _is_free(label: str, used: Counter[str], reserved: Collection[str]) -> bool:
+    """Whether one policy alone has the label, which no policy of the package has as its name."""
+    is_name = label.partition(":")[0] in list_policies()
+    return used[label] == 1 and label not in reserved and not is_name
 
 
 def _short(name: str) -> str:
