@@ -10,9 +10,10 @@ from rsoccer import Matches
 from rsoccer.registry import make_task
 from rsoccer.train import Args, train
 from rsoccer.train.curriculum import Curriculum
-from rsoccer.train.log import read_progress
+from rsoccer.train.log import EpisodeStats, opponent_column, read_progress
 from rsoccer.train.timing import Clock
 from rsoccer.train.trainer import Trainer
+from tests.test_tournament import write_network
 from tests.train.one_update import one_update
 from tests.train.short_task import tiny
 
@@ -57,6 +58,23 @@ def test_the_first_part_is_logged_under_its_own_policy() -> None:
         *("ou", "chase"),
         *("latest", "past"),
     )
+
+
+def test_files_never_share_the_columns_of_the_runs_own_kinds(tmp_path: Path) -> None:
+    """Formerly files in folders `latest`, `past` and `ou` did."""
+    latest, past, noise, mine = (
+        write_network(tmp_path / name / "policy.safetensors")
+        for name in ("latest", "past", "ou", "mine")
+    )
+    opponents = {latest: 1, past: 1, noise: 1, mine: 1, "ou": 1}
+    kinds = curriculum("VSSSelfPlay-v0", opponents=opponents).kinds
+    assert kinds == ("ou", latest, "mine", noise, past, "latest", "past")
+    stats = EpisodeStats(kinds)
+    stats.add(np.arange(len(kinds)), {"goal_score": np.arange(len(kinds)) / 10.0})
+    row = stats.take()
+    columns = [row[opponent_column(kind, "goal_score")] for kind in kinds]
+    assert columns == [index / 10.0 for index in range(len(kinds))]
+    assert curriculum("VSSMulti-v0", opponents={latest: 1}, solo_fraction=0).kinds == (latest,)
 
 
 @pytest.mark.parametrize(

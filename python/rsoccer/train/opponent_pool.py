@@ -17,12 +17,9 @@ from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.train.checkpoint import add_prefix, select_prefix
-from rsoccer.train.policy_mix import PolicyMix
+from rsoccer.train.policy_mix import SELVES, PolicyMix
 from rsoccer.train.pool_slots import PoolSlots, draw
 from rsoccer.train.timing import Clock
-
-SELVES = ("latest", "past")
-"""Kinds of opponents after the fixed policies; all past policies are one kind."""
 
 
 class OpponentPool(PolicyMix):

@@ -18,6 +18,9 @@ from rsoccer.train.checkpoint import add_prefix, select_prefix
 from rsoccer.train.pool_slots import draw
 from rsoccer.train.timing import Clock
 
+SELVES: Final = ("latest", "past")
+"""Kinds of opponents in self-play after the fixed policies; all past policies are one kind. No file
+has one of these names."""
 _INPUTS: Final[tuple[Observes, ...]] = ("nothing", "view", "observation")
 
 
@@ -44,7 +47,7 @@ class PolicyMix(Policy):
             ValueError: an unknown policy, or one that does not fit the task.
         """
         super().__init__()
-        self.kinds = tuple(labels(shares))
+        self.kinds = tuple(labels(shares, SELVES))
         self.drawn: Array = np.zeros(0, np.int64)
         self.observes = "nothing"
         self._policies = [make_policy(name, task) for name in shares]
