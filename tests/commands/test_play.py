@@ -76,6 +76,15 @@ def test_play_begins_with_the_first_learner(played: list[Any]) -> None:
     assert controllers == {"blue_0": "strike", "yellow_0": "zero"}
 
 
+def test_play_refuses_two_controllers_of_one_name(capsys: pytest.CaptureFixture[str]) -> None:
+    """Formerly only the last one drove."""
+    pytest.importorskip("pygame")
+    entries = ["yellow_0=zero", "blue_1=ou", "yellow_0=ou"]
+    assert cli.main(["play", "VSSSelfPlay-v0", "--controllers", *entries]) == 2
+    message = "controllers: expected each name once, got 'yellow_0' 2 times"
+    assert message in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("entry", ["blue_0", "blue_0=", "=zero"])
 def test_play_refuses_a_controller_without_a_name_or_policy(
     entry: str, capsys: pytest.CaptureFixture[str]

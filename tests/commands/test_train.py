@@ -69,6 +69,26 @@ def test_train_refuses_policies_without_shares(capsys: pytest.CaptureFixture[str
     assert "pairs of POLICY and SHARE" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "option", "name"),
+    [
+        (["--opponents", "ou", "1", "zero", "1", "ou", "5"], "--opponents", "'ou'"),
+        (["--teammates", "zero", "1", "zero", "1", "zero", "1"], "--teammates", "'zero'"),
+        (["--task-options", "max_steps=100", "max_steps=200"], "--task-options", "'max_steps'"),
+    ],
+)
+def test_train_refuses_repeated_names(
+    words: list[str], option: str, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Formerly only the last one counted."""
+    with pytest.raises(SystemExit) as exit_:
+        cli.main(["train", *words])
+    assert exit_.value.code == 2
+    printed = capsys.readouterr().err
+    assert option in printed
+    assert f"expected each name once, got {name}" in " ".join(printed.replace("│", "").split())
+
+
 @pytest.mark.parametrize("words", [["--task", "VSS-v0"], ["--task=VSS-v0"]])
 def test_train_starts_from_the_recommended_settings(
     words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -9,6 +9,7 @@ from typing import Annotated
 from tyro.conf import Positional, arg
 
 from rsoccer import registry
+from rsoccer.commands.entries import check_entries
 from rsoccer.commands.subject import team_name
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
@@ -54,7 +55,8 @@ class Play:
         """Open the window and play.
 
         Raises:
-            ValueError: a controller without "=", or another option is refused.
+            ValueError: a controller without "=", two of the same name, or another option is
+                refused.
         """
         from rsoccer.human.session import Session
 
@@ -75,6 +77,7 @@ class Play:
     def _controllers(self, task: Task, robot: str) -> dict[str, Controller]:
         """Policies of all robots: the task's own, then the options, the most specific last."""
         chosen = team_controllers(task, robot, self.policy, self.opponent)
+        check_entries("controllers", (entry.partition("=")[0] for entry in self.controllers))
         # A team's name overrules the names above it, and a robot's name that of its team.
         for entry in sorted(self.controllers, key=_rank):
             name, equals, policy = entry.partition("=")

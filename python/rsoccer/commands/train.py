@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from tyro.constructors import PrimitiveConstructorSpec
 
+from rsoccer.commands.entries import check_entries
 from rsoccer.commands.output import write
 from rsoccer.train import Args, train
 
@@ -16,14 +17,17 @@ from rsoccer.train import Args, train
 def _parse_options(words: list[str]) -> dict[str, Any]:
     """Options given as NAME=VALUE; values as `rsoccer list` prints them, or text without quotes."""
     options: dict[str, Any] = {}
+    names = []
     for word in words:
         name, separator, value = word.partition("=")
         if not name or not separator:
             raise ValueError(f"task_options: expected NAME=VALUE, got {word!r}")
+        names.append(name)
         try:
             options[name] = ast.literal_eval(value)
         except (SyntaxError, ValueError):
             options[name] = value
+    check_entries("task_options", names)
     return options
 
 
@@ -40,6 +44,7 @@ def _parse_mix(words: list[str]) -> dict[str, float]:
     """Policies with their shares, given as POLICY SHARE in turn."""
     if len(words) % 2:
         raise ValueError(f"expected pairs of POLICY and SHARE, got {' '.join(words)!r}")
+    check_entries("policies", words[::2])
     return {name: float(share) for name, share in zip(words[::2], words[1::2], strict=True)}
 
 
