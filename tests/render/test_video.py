@@ -196,3 +196,6 @@ def test_a_folder_that_cannot_be_written_to_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(NotADirectoryError, match=r"path: cannot write to .*file"):
         write_video(tmp_path / "file" / "a.mp4", never(), 20)
+    (tmp_path / "folder.gif").mkdir()
+    with pytest.raises(IsADirectoryError, match=r"path: expected a file, got a folder.*gif"):
+        write_video(tmp_path / "folder.gif", never(), 20)

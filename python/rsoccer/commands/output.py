@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from tempfile import NamedTemporaryFile
 
 
-def check_output(option: str, path: Path | None, suffix: str = "") -> None:
-    """Refuse a file in a folder that does not exist, or with another suffix.
+def check_output(option: str, path: Path | None, *suffixes: str) -> None:
+    """Refuse a file that cannot be written, before there is anything to write.
 
     Args:
         option: name of the option.
         path: its value; None if it was not given.
-        suffix: suffix of its files, with the point; "" for any.
+        *suffixes: suffixes of its files, with the point; none for any.
 
     Raises:
-        ValueError: the file cannot be written there, or has another suffix.
+        ValueError: a folder or a device, a file in a folder that does not exist or cannot be
+            written, or another suffix.
     """
-    if path is not None and not path.parent.is_dir():
-        raise ValueError(f"{option}: expected a file in a folder that exists, got {path}")
-    if path is not None and suffix and path.suffix != suffix:
-        raise ValueError(f"{option}: expected a name ending in {suffix}, got {path}")
+    if path is None:
+        return
+    try:
+        if path.exists() and not path.is_file():
+            raise ValueError(f"{option}: expected a file, got {path}")
+        if not path.parent.is_dir():
+            raise ValueError(f"{option}: expected a file in a folder that exists, got {path}")
+        if suffixes and path.suffix not in suffixes:
+            expected = " or ".join(suffixes)
+            raise ValueError(f"{option}: expected a name ending in {expected}, got {path}")
+        with NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}."):
+            pass
+    except OSError as error:
+        raise ValueError(f"{option}: cannot write {path}: {error.strerror}") from error
 
 
 def write(text: str) -> None:

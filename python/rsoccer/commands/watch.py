@@ -21,6 +21,7 @@ from rsoccer.commands.subject import (
 )
 from rsoccer.controllers import Controller
 from rsoccer.lineup import lineup, opponents_of
+from rsoccer.render.video import VIDEO_SUFFIXES
 from rsoccer.replay.recorder import record_replay
 from rsoccer.replay.replay import SUFFIX, Replay
 from rsoccer.task import Task
@@ -71,6 +72,7 @@ class Watch:
         """
         if not 0.0 < self.speed < math.inf:
             raise ValueError(f"speed: expected a positive number, got {self.speed}")
+        check_output("video", self.video, *VIDEO_SUFFIXES)
         check_output("html", self.html, ".html")
         check_output("save", self.save, SUFFIX)
         if self.snapshots is not None and self.save is None:

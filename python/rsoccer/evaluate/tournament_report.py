@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,7 @@ import numpy as np
 from rsoccer.evaluate.cycles import in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING
 from rsoccer.evaluate.tables import align
+from rsoccer.files import write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -80,7 +82,9 @@ def draw(result: Tournament, path: Path) -> Path:
     _draw_matrix(matrix, result)
     _draw_ratings(bars, result)
     figure.suptitle(f"{result.task}: {result.matches} matches a pair, half from each side")
-    figure.savefig(path, format="png")
+    content = BytesIO()
+    figure.savefig(content, format="png")
+    write_atomically(path, content.getvalue())
     return path
 
 

@@ -8,6 +8,7 @@ import tempfile
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from errno import EISDIR
 from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
     from rsoccer.render.image import Image
 
+VIDEO_SUFFIXES = (".mp4", ".gif")
+"""Endings of the names of video files."""
 MAX_GIF_FPS = 50.0
 """Largest frame rate of a gif: browsers show faster ones at 10 images per second."""
 
@@ -42,12 +45,14 @@ def write_video(path: Path | str, frames: Iterable[Image], fps: float) -> Path:
     Raises:
         ValueError: another suffix or rate, no images, or an image of another type or shape.
         ModuleNotFoundError: neither imageio-ffmpeg nor Pillow is installed.
-        OSError: the folder cannot be written to.
+        OSError: the folder cannot be written to, or `path` is a folder.
         RuntimeError: ffmpeg failed; the text has its messages.
     """
     path = Path(path)
-    if path.suffix not in (".mp4", ".gif"):
-        raise ValueError(f"path: expected a name ending in .mp4 or .gif, got {str(path)!r}")
+    if path.suffix not in VIDEO_SUFFIXES:
+        raise ValueError(
+            f"path: expected a name ending in {' or '.join(VIDEO_SUFFIXES)}, got {str(path)!r}"
+        )
     if not (math.isfinite(fps) and fps > 0):
         raise ValueError(f"fps: expected a positive number, got {fps}")
     ffmpeg = _find_ffmpeg() if path.suffix == ".mp4" else None
@@ -66,6 +71,8 @@ def write_video(path: Path | str, frames: Iterable[Image], fps: float) -> Path:
 
 def _write_atomically(path: Path, frames: Iterable[Image], fps: float, ffmpeg: str | None) -> None:
     """Write under another name first, so that `path` is never an incomplete video."""
+    if path.is_dir():
+        raise IsADirectoryError(EISDIR, "path: expected a file, got a folder", str(path))
     partial = path.with_name(f".{path.name}.partial")
     try:
         partial.touch()
