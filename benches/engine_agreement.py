@@ -21,6 +21,7 @@ from benches.result_files import RESULTS, ROOT, this_machine
 from benches.scenarios import SCENARIOS, Scenario
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Evaluation
+from rsoccer.evaluate.results import MIN_PER_SIDE
 from tools.solvers import SOLVERS
 
 FILE: Final = RESULTS / "engine_agreement.json"
@@ -217,6 +218,15 @@ def policies(policy: Path, matches: int) -> Iterator[Comparison]:
         yield _compare_policy(task, script, None, matches, f"`{script}`")
 
 
+def _half_width(evaluation: Evaluation) -> float:
+    """Half of the width of a score's interval."""
+    if evaluation.low is None or evaluation.high is None:
+        raise ValueError(
+            f"matches: expected at least {MIN_PER_SIDE} a side, got {evaluation.matches} in all"
+        )
+    return (evaluation.high - evaluation.low) / 2
+
+
 def _compare_policy(
     task: str, policy: str, opponent: str | None, matches: int, name: str
 ) -> Comparison:
@@ -227,7 +237,7 @@ def _compare_policy(
         found.append(rsoccer.evaluate(policy, opponent, matches, seed=0, task=made))
     reference, compared = found
     difference = reference.score - compared.score
-    half = math.hypot(*((each.high - each.low) / 2 for each in found))
+    half = math.hypot(*map(_half_width, found))
     against = "" if reference.opponent == "-" else f" against `{reference.opponent}`"
     return Comparison(
         scene=f"{task}, {name}{against}",

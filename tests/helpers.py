@@ -8,6 +8,7 @@ import numpy as np
 from rsoccer import SimConfig
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
+from rsoccer.evaluate import Interval, Results
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches
 from rsoccer.rng import WorldRng
@@ -89,6 +90,12 @@ def begun(
     matches = Matches(task, worlds, seed, threads, controllers=controllers, autoreset=autoreset)
     matches.reset()
     return matches
+
+
+def bounds(found: Results | Interval) -> tuple[float, float]:
+    """Return the interval of a mean, which must have one."""
+    assert found.low is not None and found.high is not None, "too few matches"
+    return found.low, found.high
 
 
 def comparable(value: Any) -> Any:  # noqa: ANN401

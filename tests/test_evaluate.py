@@ -20,6 +20,7 @@ from rsoccer.policies.vss.chase import Chase
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
+from tests.helpers import bounds
 
 module = sys.modules["rsoccer.evaluate.episodes"]
 
@@ -45,7 +46,7 @@ def untrained_network(seed: int = 0) -> Network:
 WINNERS = [
     ("VSSSelfPlay-v0", "chase", 60, 0.72),
     ("VSS-v0", "chase", 60, 0.3),  # its teammates follow `ou`
-    ("SSLSelfPlay-v0", "strike", 10, 0.72),
+    ("SSLSelfPlay-v0", "strike", 20, 0.72),
 ]
 
 
@@ -58,12 +59,12 @@ def test_a_better_policy_wins_on_either_side(
     assert result.sides["blue"].matches == result.sides["yellow"].matches == count // 2
     assert result.sides["blue"].wins >= share * count / 2
     assert result.sides["yellow"].wins >= share * count / 2
-    assert result.low > share - 0.25
+    assert bounds(result)[0] > share - 0.25
     assert result.seconds_to_decision is not None
     assert 1.0 < result.seconds_to_decision < 20.0
     assert (result.policy, result.opponent, result.task) == (winner, "zero", task)
     mirrored = evaluate("zero", winner, matches=count, seed=1, task=task)
-    assert mirrored.high < 0.25 - share or task == "VSS-v0", (
+    assert bounds(mirrored)[1] < 0.25 - share or task == "VSS-v0", (
         "zero's teammates, which follow ou, may score"
     )
 
@@ -73,7 +74,8 @@ def test_counts_add_up() -> None:
     for part in (result, result.sides["blue"], result.sides["yellow"]):
         assert part.wins + part.draws + part.losses == part.matches
         assert part.score == (part.wins - part.losses) / part.matches
-        assert part.low <= part.score <= part.high
+        low, high = bounds(part)
+        assert low <= part.score <= high
     assert result.wins == result.sides["blue"].wins + result.sides["yellow"].wins
     assert result.losses == result.sides["blue"].losses + result.sides["yellow"].losses
     assert result.wins * result.losses > 0, "one policy won all, so signs are not compared"
@@ -107,8 +109,8 @@ def test_each_match_has_its_own_initial_state(monkeypatch: pytest.MonkeyPatch) -
 
 def test_matches_without_a_goal_are_draws() -> None:
     task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=5)
-    result = evaluate("zero", "zero", matches=4, task=task)
-    assert (result.wins, result.draws, result.losses) == (0, 4, 0)
+    result = evaluate("zero", "zero", matches=20, task=task)
+    assert (result.wins, result.draws, result.losses) == (0, 20, 0)
     assert (result.score, result.low, result.high) == (0.0, 0.0, 0.0)
     assert result.seconds_to_decision is None
     assert str(result).splitlines()[1].split()[-2:] == ["-", "0.00"], "goal after, free balls"

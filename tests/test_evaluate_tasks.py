@@ -17,6 +17,7 @@ from rsoccer.evaluate import evaluate, table
 from rsoccer.lineup import lineup
 from rsoccer.task import Play
 from rsoccer.tasks import SslGoToBall, VssSelfPlay
+from tests.helpers import bounds
 from tests.policies.networks import network_for
 
 module = sys.modules["rsoccer.evaluate.episodes"]
@@ -25,7 +26,7 @@ SOLVED = [
     ("SSLGoToBall-v0", "fetch", "reached", 0.9, 1.0, 15),
     ("SSLStaticDefenders-v0", "strike", "goal_score", 0.6, 1.0, 15),
     ("SSLContestedPossession-v0", "strike", "goal_score", 0.4, 1.0, 11),
-    ("SSLDribbling-v0", "weave", "gates", 4.0, 7.0, 1),  # every start is the same
+    ("SSLDribbling-v0", "weave", "gates", 4.0, 7.0, 10),  # every start is the same
     ("SSLPassEndurance-v0", "passer", "received", 0.8, 1.0, 15),
     ("SSLPassEnduranceMulti-v0", "passer", "passes", 1.0, 30.0, 11),
 ]
@@ -37,14 +38,17 @@ def test_a_script_solves_its_task_and_zero_does_not(
 ) -> None:
     result = evaluate(solver, matches=count, seed=1, task=task)
     assert (result.matches, result.task, result.metric) == (count, task, metric)
-    assert lowest <= result.low <= result.score <= result.high <= highest
-    assert result.low < result.high or result.score == highest or count == 1
-    assert result.returns.low <= result.returns.mean <= result.returns.high
-    assert 0.0 < result.seconds.low <= result.seconds.mean <= result.seconds.high
+    low, high = bounds(result)
+    assert lowest <= low <= result.score <= high <= highest
+    assert low < high or result.score == highest
+    low_return, high_return = bounds(result.returns)
+    assert low_return <= result.returns.mean <= high_return
+    low_seconds, high_seconds = bounds(result.seconds)
+    assert 0.0 < low_seconds <= result.seconds.mean <= high_seconds
     assert result.sides == {}
     idle = evaluate("zero", matches=count, seed=1, task=task)
-    assert idle.high < 0.2 * lowest
-    assert idle.returns.high < result.returns.low
+    assert bounds(idle)[1] < 0.2 * lowest
+    assert bounds(idle.returns)[1] < low_return
     assert idle.seconds_to_decision is None
 
 

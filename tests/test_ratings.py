@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from rsoccer.evaluate.cycles import cycles, in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING, ELO_SCALE, PRIOR_DRAWS, rate, strengths
+from rsoccer.evaluate.results import MIN_PER_SIDE
 
 
 def generator() -> np.random.Generator:
@@ -106,6 +107,15 @@ def test_intervals_cover_the_true_ratings() -> None:
         expected = ANCHOR_RATING + ELO_SCALE * true[2]
         covered += bool(rated.low[2] <= expected <= rated.high[2])
     assert 33 <= covered <= 40
+
+
+def test_equal_policies_seldom_beat_each_other_in_the_fewest_matches_with_intervals() -> None:
+    k, rng = 30, generator()
+    for per_side, lowest, highest in ((MIN_PER_SIDE, 0.01, 0.045), (1, 0.25, 0.4)):
+        counts = rng.multinomial(per_side, (0.35, 0.3, 0.35), size=(k, k))
+        counts[np.arange(k), np.arange(k)] = 0
+        beats = rate(counts, None, rng).scores_low > 0.0
+        assert lowest < beats.sum() / (k * (k - 1)) < highest, per_side
 
 
 def test_scores_are_of_the_row_against_the_column() -> None:

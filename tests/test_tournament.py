@@ -156,6 +156,36 @@ def test_the_report_names_cycles() -> None:
     assert "+0.70" in text and "-0.70" in text
 
 
+def test_few_matches_have_neither_intervals_nor_cycles(tmp_path: Path) -> None:
+    """Formerly one match a side had intervals of width 0, and cycles of them."""
+    names = ["rock", "scissors", "paper"]
+    one = np.zeros((3, 3, 3), np.int64)
+    for a in range(3):
+        one[a, (a + 1) % 3, 0] = one[(a + 1) % 3, a, 2] = 1
+    for per_side in (1, 9, 10):
+        result = summarise(names, one * per_side, "VSSSelfPlay-v0", 0)
+        assert result.matches == 2 * per_side and result.scores[0][1] == 1.0
+        assert result.save_picture(tmp_path / "result.png").stat().st_size > 1000
+        text, loaded = str(result), json.loads(json.dumps(result.as_dict(), allow_nan=False))
+        bounds = {standing[bound] for standing in loaded["standings"] for bound in ("low", "high")}
+        if per_side == 10:
+            assert result.cycles == (("rock", "scissors", "paper"),)
+            assert None not in bounds and loaded["low"][0][1] == 1.0 and "[1000, 1000]" in text
+            continue
+        assert result.cycles == () and result.low is None and result.high is None
+        assert bounds == {None}
+        row = (str(2 * per_side), "0", str(2 * per_side), "+0.000")
+        assert text.splitlines()[3].split() == ["rock", "1000", "-", *row]
+        assert text.endswith("intervals and cycles of wins need 20 matches a pair or more")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_teams_of_nearly_equal_skill_have_no_cycle_after_two_matches(seed: int) -> None:
+    policies = [f"scripted:{skill}" for skill in (0.9, 0.91, 0.92, 0.93)]
+    result = rsoccer.tournament(policies, matches=2, seed=seed, task=TASK, threads=1)
+    assert result.cycles == ()
+
+
 def test_the_command_prints_and_writes_the_result(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -167,7 +197,8 @@ def test_the_command_prints_and_writes_the_result(
     printed = capsys.readouterr().out
     assert "goal score of the row against the column" in printed
     assert f"picture: {paths[1]}" in printed
-    assert json.loads(paths[0].read_text())["matches"] == 2
+    written = json.loads(paths[0].read_text())
+    assert written["matches"] == 2 and written["standings"][0]["low"] is None
     assert paths[1].read_bytes().startswith(b"\x89PNG")
     assert main([*words, "--picture", str(tmp_path / "result.jpg")]) == 2
     assert ".png" in capsys.readouterr().err

@@ -15,7 +15,9 @@ from typing import Any, Final
 
 import rsoccer
 from benches.learning.evaluation import opponents_of
-from rsoccer.evaluate import evaluate, table
+from rsoccer import checks
+from rsoccer.evaluate import Evaluation, evaluate, table
+from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
@@ -55,7 +57,7 @@ def ship(
     Args:
         run: folder of a training run.
         opponents: policies of the other team; None for those of the protocol.
-        starts: starts for each side, at least 1.
+        starts: starts for each side, at least 10, without which scores have no interval.
         threads: threads of the simulator; None for all.
 
     Returns:
@@ -63,8 +65,10 @@ def ship(
 
     Raises:
         FileNotFoundError: no policy or no settings in the folder.
-        ValueError: a file that is too large, or a policy of a task that is not registered.
+        ValueError: a file that is too large, too few starts, or a policy of a task that is not
+            registered.
     """
+    checks.integer("starts", starts, MIN_PER_SIDE)
     network = Network.load(run / f"policy{SUFFIX}")
     task = rsoccer.make_task(network.task_name)
     if task.name != network.task_name:
@@ -98,10 +102,13 @@ def _scores(
         evaluate(policy, opponent, matches, SEED, task=task, threads=threads) for opponent in chosen
     ]
     print(table(results))
-    return [
-        Score(each.opponent, each.metric, each.matches, each.score, each.low, each.high)
-        for each in results
-    ]
+    return list(map(_score, results))
+
+
+def _score(found: Evaluation) -> Score:
+    """The score of an evaluation."""
+    assert found.low is not None and found.high is not None, "enough starts for an interval"
+    return Score(found.opponent, found.metric, found.matches, found.score, found.low, found.high)
 
 
 def _training(run: Path) -> dict[str, Any]:

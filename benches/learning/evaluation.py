@@ -110,7 +110,6 @@ def evaluated(
 def numbers(evaluation: Evaluation) -> dict[str, Any]:
     """Return the numbers that a study keeps: counts, means and intervals."""
     sides = {side: round(part.score, DIGITS) for side, part in evaluation.sides.items()}
-    after = evaluation.seconds_to_decision
     return {
         "metric": evaluation.metric,
         "matches": evaluation.matches,
@@ -118,12 +117,17 @@ def numbers(evaluation: Evaluation) -> dict[str, Any]:
         "draws": evaluation.draws,
         "losses": evaluation.losses,
         "score": round(evaluation.score, DIGITS),
-        "low": round(evaluation.low, DIGITS),
-        "high": round(evaluation.high, DIGITS),
+        "low": _rounded(evaluation.low),
+        "high": _rounded(evaluation.high),
         "sides": sides,
         "seconds": round(evaluation.seconds.mean, DIGITS),
         "decided": evaluation.decided,
         "own_goals": evaluation.own_goals,
-        "seconds_to_decision": None if after is None else round(after, DIGITS),
+        "seconds_to_decision": _rounded(evaluation.seconds_to_decision),
         "metrics": {name: round(value, DIGITS) for name, value in evaluation.metrics.items()},
     }
+
+
+def _rounded(value: float | None) -> float | None:
+    """A number that may be missing."""
+    return None if value is None else round(value, DIGITS)

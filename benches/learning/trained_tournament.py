@@ -69,7 +69,7 @@ def section(folders: Folders) -> str:
         (
             f"`{row['label']}`",
             f"{row['rating']:.0f}",
-            f"{row['low']:.0f} to {row['high']:.0f}",
+            "-" if row["low"] is None else f"{row['low']:.0f} to {row['high']:.0f}",
             f"{row['wins']}, {row['draws']}, {row['losses']}",
             f"{row['score']:.2f}",
         )

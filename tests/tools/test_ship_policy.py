@@ -33,11 +33,11 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     pytest.importorskip("torch")
     options = {"opponent": "zero", "max_steps": 300}
     train(replace(one_update("VSS-v0", tmp_path / "run"), task_options=options))
-    path = ship(tmp_path / "run", ["zero", "ou"], starts=2, threads=1)
+    path = ship(tmp_path / "run", ["zero", "ou"], starts=10, threads=1)
     assert path == folder / "VSS-v0.safetensors"
     first, second = trained.list_scores(path)
     assert (first.opponent, second.opponent) == ("zero", "ou")
-    assert (first.matches, first.metric) == (4, "goal_score"), "two starts from each side"
+    assert (first.matches, first.metric) == (20, "goal_score"), "ten starts from each side"
     best = trained.load_best(rsoccer.make_task("VSS-v0"))
     made = json.loads(best.metadata["training"])
     command = shlex.split(made["command"])
@@ -52,7 +52,7 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     for name, array in trained_network.arrays().items():
         np.testing.assert_allclose(best.arrays()[name], array, rtol=1e-3, atol=1e-7)
     capsys.readouterr()
-    assert ship(tmp_path / "run", ["zero"], starts=1, threads=1) == path
+    assert ship(tmp_path / "run", ["zero"], starts=10, threads=1) == path
     assert "before:\n    Score(opponent='zero'" in capsys.readouterr().out
 
 
@@ -61,6 +61,8 @@ def test_other_policies_are_refused(
 ) -> None:
     network = network_for(rsoccer.make_task("SSLGoToBall-v0"))
     network.save(tmp_path / "policy.safetensors")
+    with pytest.raises(ValueError, match="starts: expected at least 10, got 9"):
+        ship(tmp_path, starts=9)
     with pytest.raises(ValueError, match="run: expected a policy with its layout"):
         ship(tmp_path)
     network.metadata["layout"] = rsoccer.make_task("SSLGoToBall-v0").layout
@@ -71,11 +73,11 @@ def test_other_policies_are_refused(
     (tmp_path / "progress.csv").write_text("update,samples\n1,5\n")
     monkeypatch.setattr("tools.ship_policy.MAX_SIZE", 100)
     with pytest.raises(ValueError, match="run: expected a policy of at most 100 bytes"):
-        ship(tmp_path, starts=1, threads=1)
+        ship(tmp_path, starts=10, threads=1)
     assert list(folder.iterdir()) == []
     monkeypatch.setattr("tools.ship_policy.MAX_SIZE", MAX_SIZE)
-    (score,) = trained.list_scores(ship(tmp_path, starts=1, threads=1))
-    assert (score.opponent, score.metric, score.matches) == ("-", "reached", 1)
+    (score,) = trained.list_scores(ship(tmp_path, starts=10, threads=1))
+    assert (score.opponent, score.metric, score.matches) == ("-", "reached", 10)
 
 
 @pytest.mark.parametrize("task", ["VSS-v0", "SSLDribbling-v0", "SSLGoToBall-v0"])

@@ -25,6 +25,7 @@ def main() -> None:
 def measured(task: str, policy: str) -> dict[str, Any]:
     """Return the evaluation of a policy at a task, as numbers and texts for JSON."""
     found = rsoccer.evaluate(policy, matches=MATCHES, task=task, seed=0)
+    assert found.low is not None and found.high is not None, "enough matches for an interval"
     return {
         "policy": policy,
         "opponent": found.opponent,

@@ -37,7 +37,8 @@ class Evaluate:
     opponents: Annotated[tuple[str, ...], arg(help_behavior_hint=DEFAULT_OPPONENT_HINT)] = ()
     """policies of the other team, names or paths; one row of the table for each"""
     matches: int = 200
-    """matches against each opponent; in two-sided tasks half of them as blue, half as yellow"""
+    """matches against each opponent; in two-sided tasks half of them as blue, half as yellow.
+    Intervals need 10 or more for each side"""
     seed: int = 0
     """random seed; equal seeds give equal tables"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None

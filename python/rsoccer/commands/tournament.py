@@ -29,7 +29,7 @@ class Tournament:
     policies: Annotated[tuple[str, ...], Positional, _POLICIES]
     """policies that play, at least two"""
     matches: int = 100
-    """matches between each two policies, half of them on either side"""
+    """matches between each two policies, half of them on either side; intervals need 20 or more"""
     seed: int = 0
     """random seed; equal seeds give equal tables"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None

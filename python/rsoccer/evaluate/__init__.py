@@ -57,7 +57,8 @@ def evaluate(
         policy: a policy, its name, or the path of its file. It controls the robots that learn.
         opponent: a policy for all robots of the other team. By default the task's own, and "ou"
             for robots that learn.
-        matches: number of matches, at least 1; even and at least 2 in two-sided tasks.
+        matches: number of matches, at least 1; even and at least 2 in two-sided tasks. With fewer
+            than 10, or 20 in two-sided tasks, there are no intervals.
         seed: at least 0; equal seeds give equal results for any `threads`.
         task: a task or its name; by default the one that the policy was trained on, and
             VSSSelfPlay-v0 for scripts.

@@ -15,6 +15,8 @@ _INTERVAL = "95% interval"
 def table(evaluations: Iterable[Evaluation]) -> str:
     """Return evaluations as lines of text: a header, one line each, aligned columns.
 
+    Intervals of fewer than 10 matches a side are left out.
+
     Args:
         evaluations: the rows, in order. Consecutive ones of the same metrics share a table.
 
@@ -67,12 +69,12 @@ def _row(evaluation: Evaluation) -> Cells:
 
 
 def _mean(interval: Interval, sign: str) -> Cells:
-    """Cells of a mean and its interval: three decimals below 10, else two."""
-    places = 3 if abs(interval.mean) < 10.0 else 2
-    mean, low, high = (
-        f"{value:{sign}.{places}f}" for value in (interval.mean, interval.low, interval.high)
-    )
-    return mean, f"[{low}, {high}]"
+    """Cells of a mean and its interval, "-" without one: three decimals below 10, else two."""
+    style = f"{sign}.{3 if abs(interval.mean) < 10.0 else 2}f"
+    mean = f"{interval.mean:{style}}"
+    if interval.low is None or interval.high is None:
+        return mean, "-"
+    return mean, f"[{interval.low:{style}}, {interval.high:{style}}]"
 
 
 def _score(results: Results) -> str:

@@ -17,6 +17,7 @@ from rsoccer.controllers import Controller
 from rsoccer.evaluate.cycles import cycles
 from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.evaluate.ratings import rate
+from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_built_in, make_policy, name_of
@@ -40,10 +41,12 @@ class Standing:
     """short name, different from all others; never a name of the package for a file"""
     rating: float
     """Bradley-Terry rating on the Elo scale"""
-    low: float
-    """lower bound of the rating's 95% bootstrap interval"""
-    high: float
-    """upper bound of the rating's interval"""
+    low: float | None
+    """lower bound of the rating's 95% bootstrap interval; None with fewer than 20 matches between
+    each two policies, which are too few for one"""
+    high: float | None
+    """upper bound of the rating's interval, or None; both bounds are the rating if all matches of
+    each pair end alike"""
     wins: int
     """matches won"""
     draws: int
@@ -70,13 +73,13 @@ class Tournament:
     """results of each policy, best rating first"""
     scores: tuple[tuple[float, ...], ...]
     """goal score of the row against the column, in the order of the standings"""
-    low: tuple[tuple[float, ...], ...]
-    """lower bounds of the scores' 95% bootstrap intervals"""
-    high: tuple[tuple[float, ...], ...]
-    """upper bounds of the scores' intervals"""
+    low: tuple[tuple[float, ...], ...] | None
+    """lower bounds of the scores' 95% bootstrap intervals; None with fewer than 20 matches"""
+    high: tuple[tuple[float, ...], ...] | None
+    """upper bounds of the scores' intervals, or None"""
     cycles: tuple[tuple[str, ...], ...]
     """labels of policies of which each beats the next, and the last the first: the lower bounds of
-    these scores are above 0"""
+    these scores are above 0. None are named without intervals"""
 
     def as_dict(self) -> dict[str, object]:
         """Return the fields as numbers, texts, lists and dictionaries, ready for JSON."""
@@ -126,7 +129,8 @@ def tournament(
 
     Args:
         policies: at least two policies, names, or paths of files.
-        matches: matches between each two policies, even and at least 2.
+        matches: matches between each two policies, even and at least 2. With fewer than 20 there
+            are no intervals, see `rsoccer.evaluate.results`, and no cycles.
         seed: at least 0; equal seeds give equal results for any `threads`.
         task: a task that two teams play, or its name; by default the one that the first policy
             file was trained on, and VSSSelfPlay-v0 for scripts.
@@ -189,11 +193,14 @@ def summarise(
     scores, low, high = (
         part[np.ix_(order, order)] for part in (rated.scores, rated.scores_low, rated.scores_high)
     )
+    has_intervals = min(counts[0, 1].sum(), counts[1, 0].sum()) >= MIN_PER_SIDE
+    found = cycles(low > 0.0) if has_intervals else []
     standings = []
     for i in order.tolist():
-        rating, low_i, high_i = (float(part[i]) for part in (rated.ratings, rated.low, rated.high))
+        bounds = (rated.low[i], rated.high[i])
+        low_i, high_i = map(float, bounds) if has_intervals else (None, None)
         wins, draws, losses = results[i].tolist()
-        score = (wins - losses) / (wins + draws + losses)
+        score, rating = (wins - losses) / (wins + draws + losses), float(rated.ratings[i])
         standings.append(
             Standing(names[i], short[i], rating, low_i, high_i, wins, draws, losses, score)
         )
@@ -204,9 +211,9 @@ def summarise(
         anchor=None if anchor is None else short[anchor],
         standings=tuple(standings),
         scores=_rows(scores),
-        low=_rows(low),
-        high=_rows(high),
-        cycles=tuple(tuple(standings[i].label for i in cycle) for cycle in cycles(low > 0.0)),
+        low=_rows(low) if has_intervals else None,
+        high=_rows(high) if has_intervals else None,
+        cycles=tuple(tuple(standings[i].label for i in cycle) for cycle in found),
     )
 
 

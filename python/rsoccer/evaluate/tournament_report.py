@@ -10,6 +10,7 @@ import numpy as np
 
 from rsoccer.evaluate.cycles import in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING
+from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.tables import align
 from rsoccer.files import write_atomically
 
@@ -28,12 +29,15 @@ def report(result: Tournament) -> str:
         result: the tournament.
     """
     title = f"{result.task}, {result.matches} matches a pair, half from each side"
+    found = f"cycles of wins (95% intervals above 0): {in_words(result.cycles)}"
+    if result.low is None:
+        found = f"intervals and cycles of wins need {2 * MIN_PER_SIDE} matches a pair or more"
     return "\n\n".join(
         (
             title,
             align(_ratings(result), 1),
             "goal score of the row against the column\n" + align(_matrix(result), 1),
-            f"cycles of wins (95% intervals above 0): {in_words(result.cycles)}",
+            found,
         )
     )
 
@@ -45,7 +49,7 @@ def _ratings(result: Tournament) -> list[tuple[str, ...]]:
         (
             standing.label,
             f"{standing.rating:.0f}",
-            f"[{standing.low:.0f}, {standing.high:.0f}]",
+            "-" if standing.low is None else f"[{standing.low:.0f}, {standing.high:.0f}]",
             *(str(count) for count in (standing.wins, standing.draws, standing.losses)),
             f"{standing.score:+.3f}",
         )
@@ -108,16 +112,16 @@ def _draw_ratings(axes: Axes, result: Tournament) -> None:
     """Bars of the ratings with their intervals, beside the rows of the heat map."""
     ratings = np.array([standing.rating for standing in result.standings])
     low, high = (
-        np.array([getattr(standing, name) for standing in result.standings])
+        np.array([getattr(standing, name) for standing in result.standings], np.float64)
         for name in ("low", "high")
-    )
+    )  # NaN without intervals, and the bars then have no caps
     # A percentile interval may leave out the rating of an unbeaten policy.
     errors = np.maximum([ratings - low, high - ratings], 0.0)
     rows = range(len(ratings))
     axes.barh(rows, ratings - ANCHOR_RATING, left=ANCHOR_RATING, color=BAR_COLOUR, height=0.6)
     axes.axvline(ANCHOR_RATING, color="black", linewidth=0.8)
     axes.errorbar(ratings, rows, xerr=errors, fmt="none", ecolor="black", capsize=3, linewidth=1.2)
-    end = np.maximum(high, ratings)
+    end = np.fmax(high, ratings)
     for row, (x, rating) in enumerate(zip(end, ratings, strict=True)):
         axes.annotate(
             f"{rating:.0f}", (x, row), (5, 0), textcoords="offset points", va="center", fontsize=9
@@ -126,7 +130,8 @@ def _draw_ratings(axes: Axes, result: Tournament) -> None:
     axes.set_ylim(len(ratings) - 0.5, -0.5)
     axes.set_yticks(rows, [standing.label for standing in result.standings])
     anchor = "mean" if result.anchor is None else result.anchor
-    title = f"rating with 95% interval ({anchor} = {ANCHOR_RATING:.0f})"
+    interval = "" if result.low is None else " with 95% interval"
+    title = f"rating{interval} ({anchor} = {ANCHOR_RATING:.0f})"
     axes.set_title(title, fontsize=10)
     axes.grid(axis="x", alpha=0.25)
     axes.set_axisbelow(True)
