@@ -333,7 +333,7 @@ class Task(ABC):
 
     @property
     def action_meaning(self) -> str:
-        """What actions mean where options change it, as text; empty for the default meaning."""
+        """Meaning of the actions where options change it, as text; empty for the default one."""
         return ""
 
     @property

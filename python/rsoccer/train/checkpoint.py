@@ -69,13 +69,14 @@ def load(path: Path) -> Checkpoint:
             _expect_format(path, metadata)
             arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
             info = json.loads(metadata["info"])
-        if not isinstance(info, dict) or not isinstance(info["args"], dict):
-            raise TypeError("no settings")
-        if not isinstance(info["log_size"], int):
-            raise TypeError("no size of the log")
-        return Checkpoint(arrays, info)
     except (SafetensorError, KeyError, TypeError, json.JSONDecodeError) as error:
         raise ValueError(f"{path} is damaged or not a checkpoint: {error}") from error
+    needed = {"args": dict, "log_size": int}
+    if not isinstance(info, dict) or any(
+        not isinstance(info.get(name), kind) for name, kind in needed.items()
+    ):
+        raise ValueError(f"{path} is damaged or not a checkpoint: expected {', '.join(needed)}")
+    return Checkpoint(arrays, info)
 
 
 def _expect_format(path: Path, metadata: Mapping[str, str]) -> None:

@@ -178,5 +178,9 @@ def read_progress(folder: Path) -> dict[str, Array]:
 
 
 def mean_or_nan(values: Array) -> float:
-    """Return the mean of values (k,); NaN for k = 0."""
+    """Return the mean of values, NaN without any.
+
+    Args:
+        values: (k,) numbers.
+    """
     return float(values.mean()) if len(values) else float("nan")
