@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
@@ -18,6 +19,7 @@ from rsoccer.commands.subject import (
     policy_and_task,
     team_name,
 )
+from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.evaluate import evaluate, table
 from rsoccer.files import write_atomically
 from rsoccer.lineup import opponents_of
@@ -43,6 +45,8 @@ class Evaluate:
     """random seed; equal seeds give equal tables"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
     """task to play"""
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task that is named (`rsoccer list` prints them), such as n_opponents=2"""
     worlds: int = 50
     """matches played at once"""
     threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
@@ -66,7 +70,7 @@ class Evaluate:
         check_output("save", self.save, SUFFIX)
         if (self.subject, self.policy, self.task) == (None, None, None):
             raise ValueError("policy: expected a policy or a task, got none")
-        policy, task = policy_and_task(self.subject, self.policy, self.task)
+        policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         evaluations = [
             evaluate(
                 policy,

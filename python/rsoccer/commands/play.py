@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Annotated
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
-from rsoccer import registry
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.subject import team_name
+from rsoccer.commands.task_options import TASK_OPTIONS, make_task
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
 from rsoccer.human.teams import team_controllers
@@ -28,6 +29,8 @@ class Play:
 
     task: Annotated[str, Positional, arg(metavar="TASK")] = DEFAULT_TASK
     """task to play"""
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task that is named (`rsoccer list` prints them), such as n_opponents=2"""
     robot: Annotated[str | None, arg(metavar="ROBOT", help_behavior_hint=_FIRST_ROBOT)] = None
     """robot to drive first, such as blue_0 or yellow_1"""
     policy: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = None
@@ -60,7 +63,7 @@ class Play:
         """
         from rsoccer.human.session import Session
 
-        task = registry.make_task(self.task)
+        task = make_task(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)
         session = Session(

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from tyro.conf import arg
 
 from rsoccer import policies, registry
+from rsoccer.commands.task_options import named_task
 from rsoccer.human.teams import SCRIPTS
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
@@ -29,16 +32,20 @@ DEFAULT_TASK_HINT = "(default: the one that the policy was trained on, or VSSSel
 DEFAULT_OPPONENT_HINT = "(default: the task's own, or ou where that team learns)"
 
 
-def policy_and_task(subject: str | None, policy: str | None, task: str | None) -> tuple[str, Task]:
+def policy_and_task(
+    subject: str | None, policy: str | None, task: str | None, options: Mapping[str, Any]
+) -> tuple[str, Task]:
     """Return the policy and the task of a command, whose first word names either.
 
     Args:
         subject: first word: a policy or a task.
         policy: value of `--policy`.
         task: value of `--task`.
+        options: value of `--task-options`.
 
     Raises:
-        ValueError: two policies, two tasks, or an unknown task.
+        ValueError: two policies, two tasks, an unknown task, or options without a task or that it
+            refuses.
     """
     if subject is not None and registry.is_task_name(subject) and not Path(subject).exists():
         if task is not None:
@@ -48,9 +55,8 @@ def policy_and_task(subject: str | None, policy: str | None, task: str | None) -
         if policy is not None:
             raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
         policy = subject
-    if task is not None:
-        made = registry.make_task(task)
-    else:
+    made = named_task(task, options)
+    if made is None:
         made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
     return policy or _default_policy(made), made
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import DEFAULT_TASK_HINT
+from rsoccer.commands.task_options import TASK_OPTIONS, named_task
 from rsoccer.evaluate import tournament
 from rsoccer.files import write_atomically
 
@@ -34,6 +36,8 @@ class Tournament:
     """random seed; equal seeds give equal tables"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
     """task to play, one that two teams play; each policy controls all robots of its team"""
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task that is named (`rsoccer list` prints them), such as n_opponents=2"""
     worlds: int = 50
     """matches played at once"""
     threads: Annotated[int | None, arg(metavar="INT", help_behavior_hint="(default: all)")] = None
@@ -57,7 +61,7 @@ class Tournament:
             self.policies,
             self.matches,
             self.seed,
-            task=self.task,
+            task=named_task(self.task, self.task_options),
             worlds=self.worlds,
             threads=self.threads,
             on_pair=_show_pairs,

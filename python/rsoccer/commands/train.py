@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any
@@ -11,33 +10,8 @@ from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.output import write
+from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.train import Args, train
-
-
-def _parse_options(words: list[str]) -> dict[str, Any]:
-    """Options given as NAME=VALUE; values as `rsoccer list` prints them, or text without quotes."""
-    options: dict[str, Any] = {}
-    names = []
-    for word in words:
-        name, separator, value = word.partition("=")
-        if not name or not separator:
-            raise ValueError(f"task_options: expected NAME=VALUE, got {word!r}")
-        names.append(name)
-        try:
-            options[name] = ast.literal_eval(value)
-        except (SyntaxError, ValueError):
-            options[name] = value
-    check_entries("task_options", names)
-    return options
-
-
-_TASK_OPTIONS = PrimitiveConstructorSpec[Mapping[str, Any]](
-    nargs="*",
-    metavar="[NAME=VALUE [NAME=VALUE ...]]",
-    instance_from_str=_parse_options,
-    is_instance=lambda value: isinstance(value, Mapping),
-    str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
-)
 
 
 def _parse_mix(words: list[str]) -> dict[str, float]:
@@ -62,7 +36,7 @@ _MIX = PrimitiveConstructorSpec[dict[str, float]](
 class Train(Args):
     """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
 
-    task_options: Annotated[Mapping[str, Any], _TASK_OPTIONS] = field(default_factory=dict)
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
     """options of the task (`rsoccer list` prints them), such as reward_weights=paper or
     opponent=chase"""
     opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import Positional, arg
 
@@ -19,6 +19,7 @@ from rsoccer.commands.subject import (
     policy_and_task,
     team_name,
 )
+from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.render.video import VIDEO_SUFFIXES
@@ -44,6 +45,8 @@ class Watch:
     """policy of the yellow team, a name or path, against the policy in blue"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
     """task to play"""
+    task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
+    """options of the task that is named (`rsoccer list` prints them), such as n_opponents=2"""
     seed: int = 0
     """random seed; each seed gives another match"""
     seconds: float = 60.0
@@ -86,8 +89,8 @@ class Watch:
 
     def _load(self, path: str) -> Replay:
         """The replay that is named in the place of a policy."""
-        for name in ("policy", "opponent", "task", "snapshots"):
-            if getattr(self, name) is not None:
+        for name in ("policy", "opponent", "task", "task_options", "snapshots"):
+            if getattr(self, name) not in (None, {}):
                 raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
         return Replay.load(path)
 
@@ -127,7 +130,7 @@ class Watch:
 
     def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
         """The task, the controllers, and the names of the teams."""
-        policy, task = policy_and_task(self.subject, self.policy, self.task)
+        policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         opponents = opponents_of(task) if self.opponent is None else [self.opponent]
         names = (team_name(policy), " ".join(map(team_name, opponents)))
         return task, lineup(task, policy, self.opponent), names

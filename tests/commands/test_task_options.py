@@ -1,0 +1,70 @@
+"""`--task-options` of the commands that play a task."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from rsoccer import cli
+from rsoccer.commands.task_options import named_task
+from rsoccer.replay import Replay
+from rsoccer.tasks import SslGoToBall
+
+TURNED = ["--task-options", "velocity_frame=robot"]
+PLAYED: dict[str, list[str]] = {
+    "evaluate": ["best", "--task", "SSLGoToBall-v0", "--matches", "2", *TURNED],
+    "watch": ["SSLGoToBall-v0", "--policy", "best", "--save", "match.rsr", *TURNED],
+    "tournament": ["best", "ou", "--task", "SSLSelfPlay-v0", "--matches", "2", *TURNED],
+}
+
+
+def test_a_named_task_has_its_options() -> None:
+    task = named_task("SSLGoToBall-v0", {"n_opponents": 2})
+    assert isinstance(task, SslGoToBall)
+    assert task.n_opponents == 2
+    assert named_task(None, {}) is None
+
+
+@pytest.mark.parametrize("command", PLAYED)
+def test_a_command_plays_the_task_with_its_options(
+    command: str,
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The trained policy fits the default axes alone."""
+    monkeypatch.chdir(tmp_path)
+    assert cli.main([command, *PLAYED[command]]) != 0
+    assert "velocity in the robot's axes" in capsys.readouterr().err
+
+
+def test_a_recorded_match_has_them(tmp_path: Path) -> None:
+    path = tmp_path / "match.rsr"
+    watch = ["watch", "SSLGoToBall-v0", "--policy", "fetch", "--seconds", "0.5"]
+    sizes = []
+    for options in ([], ["--task-options", "n_opponents=2"]):
+        assert cli.main([*watch, *options, "--save", str(path)]) == 0
+        sizes.append(Replay.load(path).rows.shape[1])
+    assert sizes[0] < sizes[1], "the state of two more robots"
+    assert cli.main(["watch", str(path), "--task-options", "n_opponents=2"]) != 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--task-options", "n_opponents=2"], "task_options: expected --task with them"),
+        (["--task", "SSLGoToBall-v0", "--task-options", "no_such=2"], "task_options: .*'no_such'"),
+        (["--task", "SSLGoToBall-v0", "--task-options", "n_opponents"], "NAME=VALUE"),
+        (["--task", "SSLGoToBall-v0", "--task-options", "n_opponents=99"], "n_opponents"),
+    ],
+)
+def test_wrong_options_are_refused(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    try:
+        status = cli.main(["evaluate", "fetch", "--matches", "2", *arguments])
+    except SystemExit as error:  # of the parser
+        status = int(error.code or 0)
+    assert status != 0
+    output = capsys.readouterr()
+    assert re.search(message, output.err + output.out)
