@@ -14,8 +14,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from benches.learning import algorithms, worker
-from benches.learning.experiments import Run, Study
+from benches.learning import run_files, worker
+from benches.learning.experiments import CLONES, Run, Study
 from benches.learning.listing import best, listing
 from benches.learning.pool import BUSY, Pool
 from benches.learning.report import report
@@ -103,14 +103,15 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
     for entry in chosen:
         if entry.state == STALE and not options.rerun_stale:
             sys.stdout.write(f"stale, kept as it is: {entry.run.key}: {entry.reason}\n")
+            sys.stdout.write("--rerun-stale repeats it\n")
         if entry.state in (UNAVAILABLE, INVALID):
             sys.stderr.write(f"{entry.state}: {entry.run.key}: {entry.reason}\n")
     wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
-    again = {
-        entry.run.key
-        for entry in chosen
-        if options.again and entry.state == DONE and not algorithms.keeps_policy(entry.run, folders)
-    }
+    # Clones learn nothing, so they lack no policy.
+    learned = [entry.run for entry in chosen if entry.run.experiment.algorithm != CLONES]
+    lacking = {run.key for run in learned if not run_files.keeps_policy(folders, run.key)}
+    done = {entry.run.key for entry in known if entry.state == DONE}
+    again = done & lacking if options.again else set()
     runs = [entry.run for entry in chosen if entry.state in wanted or entry.run.key in again]
     if not runs:
         sys.stdout.write("nothing to do; --list shows the state of the runs\n")
@@ -124,7 +125,7 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
     minutes = options.budget_minutes
     deadline = float("inf") if minutes is None else time.monotonic() + 60.0 * minutes
     pool = Pool(options.jobs, command, deadline)
-    pool.work(runs, {entry.run.key for entry in known if entry.state == DONE} - again)
+    pool.work(runs, done - again)
     if pool.failed:
         sys.stdout.write(f"failed: {', '.join(pool.failed)}\n")
     invalid = any(entry.state == INVALID for entry in chosen)

@@ -14,6 +14,7 @@ from benches.learning.learned import Learned
 from benches.learning.run_files import Folders
 from rsoccer._core import build_info
 from rsoccer.registry import make_task
+from rsoccer.train.observation_mask import observation_mask
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -27,6 +28,7 @@ def settings(run: Run) -> dict[str, Any]:
     """
     values = _settings_of_algorithm(run)
     task = make_task(run.experiment.task, **values.get("task_options", {}))
+    observation_mask(task, values.get("masked_observations", ()))  # refuses unknown parts
     return {**values, "observation": task.layout}
 
 
@@ -76,25 +78,6 @@ def conditions(run: Run, folders: Folders) -> dict[str, Any]:
     }
 
 
-def keeps_policy(run: Run, folders: Folders) -> bool:
-    """Return whether the work folder holds the policy that a finished run has learned.
-
-    Clones learn none, so they lack none.
-
-    Args:
-        run: The run.
-        folders: Folders of the study.
-    """
-    folder, algorithm = folders.workplace(run.key), run.experiment.algorithm
-    if algorithm == CLONES:
-        return True
-    if not run_files.is_same(folder, conditions(run, folders)):
-        return False
-    if algorithm == PPO:
-        return ppo_run.keeps_policy(run, folder)
-    return (folder / sb3_run.FILE).is_file()
-
-
 def learn(run: Run, folder: Path, folders: Folders, identity: Mapping[str, Any]) -> Learned:
     """Learn a policy, from the checkpoint of an interrupted run with the same settings.
 
@@ -109,6 +92,7 @@ def learn(run: Run, folder: Path, folders: Folders, identity: Mapping[str, Any])
     """
     algorithm = run.experiment.algorithm
     if not run_files.is_same(folder, identity):
+        (folder / run_files.LEARNED_FILE).unlink(missing_ok=True)
         ppo_run.forget(folder)
         restart_clock(folder)
         run_files.set_identity(folder, identity)

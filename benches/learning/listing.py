@@ -8,7 +8,7 @@ from typing import Final
 
 from benches.learning import status as states
 from benches.learning.estimate import expected_seconds
-from benches.learning.run_files import Folders
+from benches.learning.run_files import Folders, keeps_policy
 from benches.learning.status import DONE, INVALID, STALE, UNAVAILABLE, Status
 
 HEADLINE_DIGITS: Final = 3
@@ -70,8 +70,9 @@ def best(entries: Sequence[Status], folders: Folders) -> str:
     lines = []
     for _, seeds in groupby(finished, key=lambda entry: entry.run.experiment.key):
         score, entry = max(((_mean_score(e), e) for e in seeds), key=lambda pair: pair[0])
-        path = folders.policy(entry.run.key)
-        kept = str(path) if path.is_file() else "policy not here; --again learns it"
+        kept = "policy not here; --again learns it"
+        if keeps_policy(folders, entry.run.key):
+            kept = str(folders.policy(entry.run.key))
         lines.append(f"{entry.run.key}  {score:.{HEADLINE_DIGITS}f}  {kept}")
     return "\n".join(lines)
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benches.learning.experiments import Run
-from benches.learning.run_files import Folders, digest, load
+from benches.learning.run_files import Folders, digest, keeps_policy, load
 from benches.learning.table import STUDY
 from rsoccer.evaluate import first_seed
 from rsoccer.evaluate.episodes import EpisodeRunner
@@ -92,7 +92,7 @@ def runs_of(folders: Folders) -> dict[str, str]:
         if experiment.key in EXPERIMENTS:
             for run in (Run(experiment, seed) for seed in range(experiment.seeds)):
                 result = load(folders, run.key)
-                if result is not None and folders.policy(run.key).is_file():
+                if result is not None and keeps_policy(folders, run.key):
                     found[run.key] = digest(result)
     if not found:
         raise FileNotFoundError(

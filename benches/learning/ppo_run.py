@@ -13,7 +13,7 @@ from benches.learning.clock import timed
 from benches.learning.curves import thinned
 from benches.learning.experiments import Run
 from benches.learning.learned import Learned
-from benches.learning.run_files import POLICY, Folders, with_policies
+from benches.learning.run_files import Folders, with_policies
 from rsoccer.arrays import Array
 from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
@@ -97,13 +97,6 @@ def samples_so_far(folder: Path) -> int | None:
         return int(checkpoint.load(folder / checkpoint.FILE_NAME).info["samples"])
     except ValueError:
         return None
-
-
-def keeps_policy(run: Run, folder: Path) -> bool:
-    """Return whether a folder holds the policy of a finished run, not of one under way."""
-    samples = samples_so_far(folder)
-    finished = samples is not None and samples >= args(run).samples
-    return finished and (folder / POLICY).is_file()
 
 
 def forget(folder: Path) -> None:

@@ -18,8 +18,12 @@ from rsoccer.files import write_atomically
 
 POLICY: Final = "policy.safetensors"
 IDENTITY_FILE: Final = "identity.json"
+LEARNED_FILE: Final = "learned"
+"""Empty file in the folder of a run whose learning has ended."""
 DIGEST_DIGITS: Final = 12
 LOCK_SECONDS: Final = 1.0
+IDENTITY: Final = ("settings", "physics", "needs")
+"""Fields of a result that decide what a run learns."""
 FIELDS: Final = {
     *("run", "task", "algorithm", "settings", "physics", "needs", "protocol", "machine"),
     *("samples", "seconds", "evaluation_seconds", "curve", "evaluations"),
@@ -122,6 +126,19 @@ def set_identity(folder: Path, identity: Mapping[str, Any]) -> None:
     write_atomically(folder / IDENTITY_FILE, (json.dumps(identity) + "\n").encode())
 
 
+def keeps_policy(folders: Folders, key: str) -> bool:
+    """Return whether the work folder has the policy of a finished run, not one under way.
+
+    Args:
+        folders: Folders of the study.
+        key: Key of the run.
+    """
+    result, folder = load(folders, key), folders.workplace(key)
+    if result is None or not (folder / LEARNED_FILE).is_file():
+        return False
+    return is_same(folder, {name: result[name] for name in IDENTITY})
+
+
 @contextmanager
 def lock(folders: Folders, key: str) -> Iterator[bool]:
     """Hold the lock of a run, which the system releases if the process dies.
@@ -169,13 +186,12 @@ def reference(folders: Folders, name: str, run: Run) -> Path:
         ValueError: It is not in the work folder.
     """
     key = f"{name.removeprefix('@')}/seed-{run.seed}"
-    path = folders.policy(key)
-    if not path.is_file():
+    if not keeps_policy(folders, key):
         raise ValueError(
-            f"{run.key} needs the policy of {key} in {folders.work}, got none; "
+            f"{run.key} needs the policy of {key} in {folders.work}, got none of a finished run; "
             f"`python -m benches.learning --again --only {key}` learns it"
         )
-    return path
+    return folders.policy(key)
 
 
 def with_policies(value: Any, folders: Folders, run: Run) -> Any:  # noqa: ANN401

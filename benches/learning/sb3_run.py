@@ -21,6 +21,7 @@ from benches.learning.relu_actor import ReluActor
 from benches.learning.run_files import Folders
 from rsoccer.registry import make_task
 from rsoccer.train.args import Args
+from rsoccer.train.setting_types import converted
 
 DEFAULTS: Final[dict[str, Any]] = {
     "seconds": "as PPO",
@@ -58,10 +59,14 @@ def settings(run: Run) -> dict[str, Any]:
 
     Raises:
         TypeError: An unknown setting.
+        ValueError: A number of another type.
     """
     given = run.experiment.settings
     if unknown := sorted(set(given) - set(DEFAULTS)):
         raise TypeError(f"expected settings of {sorted(DEFAULTS)}, got {unknown}")
+    for name, value in given.items():
+        if type(DEFAULTS[name]) in (int, float):
+            converted(name, value, type(DEFAULTS[name]))
     values = {**DEFAULTS, **given, "algorithm": run.experiment.algorithm}
     if run.experiment.algorithm != "ddpg":
         del values["noise"]

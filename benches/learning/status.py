@@ -110,6 +110,9 @@ def _change(name: str, before: object, now: object) -> str:
 
 def _after_needs(entry: Status, found: Mapping[str, Status]) -> Status:
     """The status, or that of a run that waits for others."""
+    invalid = [need.key for need in entry.run.needs if found[need.key].state == INVALID]
+    if invalid and entry.result is None:
+        return Status(entry.run, INVALID, f"needs {', '.join(invalid)}")
     missing = [need.key for need in entry.run.needs if found[need.key].state != DONE]
     if entry.state in (OPEN, UNFINISHED) and missing:
         return Status(entry.run, WAITING, f"needs {', '.join(missing)}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import sys
@@ -9,6 +10,7 @@ import time
 from collections.abc import Mapping
 from dataclasses import asdict
 from importlib import metadata
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, Final
 
@@ -16,7 +18,7 @@ from benches.learning import algorithms
 from benches.learning.clock import spent
 from benches.learning.evaluation import evaluate_run
 from benches.learning.experiments import Run, Study
-from benches.learning.run_files import Folders, load, lock, save
+from benches.learning.run_files import LEARNED_FILE, Folders, load, lock, save
 from benches.result_files import this_machine
 from rsoccer.evaluate.schedule import processors
 
@@ -41,6 +43,7 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
         machine = {**asdict(this_machine()), "cores": os.cpu_count(), "cores_used": processors()}
         conditions = algorithms.conditions(run, folders)
         learned = algorithms.learn(run, folder, folders, conditions)
+        (folder / LEARNED_FILE).touch()
         start = time.monotonic()
         evaluations = evaluate_run(run, learned, study.protocol, folders)
         result = {
@@ -66,14 +69,11 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
 
 def comparison(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
     """Return in words whether a run has repeated an earlier result."""
-    if before["evaluations"] == now["evaluations"]:
-        return "the same evaluations as in the earlier result"
-    return f"other evaluations than in the earlier result: {_first(before)}, now {_first(now)}"
-
-
-def _first(result: Mapping[str, Any]) -> str:
-    row = result["evaluations"][0]
-    return f"{row['metric']} {row['score']} against {row['opponent']}"
+    rows = zip_longest(before["evaluations"], now["evaluations"])
+    for earlier, later in ((json.dumps(row) for row in pair) for pair in rows):
+        if earlier != later:
+            return f"other evaluations than in the earlier result: {earlier}, now {later}"
+    return "the same evaluations as in the earlier result"
 
 
 def libraries() -> dict[str, str]:

@@ -67,3 +67,11 @@ def test_wrong_options_are_refused(options: str, message: str, tmp_path: Path) -
     network.save(path)
     with pytest.raises(ValueError, match=message):
         policies.trained_on(path)
+
+
+def test_a_missing_policy_of_the_training_is_named(tmp_path: Path) -> None:
+    lost = str(tmp_path / "lost.safetensors")
+    path = save(tmp_path / "policy.safetensors", rsoccer.make_task("VSS-v0"), opponent=lost)
+    with pytest.raises(ValueError, match=r"trained beside the policy .*lost.safetensors.*a task"):
+        rsoccer.evaluate(path, matches=2)
+    assert rsoccer.evaluate(path, matches=2, task="VSS-v0", worlds=2).matches == 2

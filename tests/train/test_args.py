@@ -70,6 +70,8 @@ INVALID: list[tuple[str, Any]] = [
     ("hidden_sizes", (64.5,)),
     ("masked_observations", "ball"),
     ("initial_action", (None,)),
+    ("hidden_sizes", np.array(64)),
+    ("value_coef", 10**400),
 ]
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
-from rsoccer.train import checkpoint, run_folder, train
+from rsoccer.train import Args, checkpoint, run_folder, train
 from rsoccer.train.run_folder import MATCH_FILES, opened, policy_digests
 from tests.policies.networks import network_for
 from tests.train.runs import digest
@@ -66,6 +66,22 @@ def test_another_policy_at_the_same_path_is_refused(tmp_path: Path) -> None:
     other.save(opponent)
     with pytest.raises(ValueError, match=r"other policies: the content of .*opponent.safetensors"):
         train(tiny(folder, resume=True, **args))
+
+
+@pytest.mark.parametrize("option", ["opponent", "teammates"])
+def test_a_policy_in_an_option_of_the_task_counts(option: str, tmp_path: Path) -> None:
+    path = tmp_path / "policy.safetensors"
+    network_for(make_task("VSS-v0")).save(path)
+    args = Args("VSS-v0", task_options={option: str(path)})
+    assert list(policy_digests(args)) == [str(path)]
+
+
+def test_a_file_with_the_name_of_a_policy_of_the_package_does_not_count(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("ou").touch()
+    assert policy_digests(Args("VSS-v0", opponents={"ou": 1.0, "best:mean": 1.0})) == {}
 
 
 def test_a_system_without_locks_trains(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

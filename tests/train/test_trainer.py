@@ -151,6 +151,7 @@ def test_a_minibatch_has_two_samples_or_more(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=message):
         train(Args("VSS-v0", out=tmp_path / "run", worlds=2, horizon=3, n_minibatches=4))
     assert not (tmp_path / "run").exists()
+    Trainer(Args("VSS-v0", worlds=2, horizon=3, n_minibatches=6, mirror_augmentation=True))
 
 
 def test_a_run_that_diverges_keeps_its_last_checkpoint(tmp_path: Path) -> None:

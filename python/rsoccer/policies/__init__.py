@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from rsoccer.policies.base import Policy, PolicyInput
@@ -35,13 +36,13 @@ from rsoccer.policies.ssl.weave import Weave
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.policies.vss.scripted import Scripted
 from rsoccer.registry import make_task
-from rsoccer.task import Task
+from rsoccer.task import Learn, Task
 
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
-__all__ += ["PolicyLike", "check_policy_like", "is_built_in", "make_policy", "name_of"]
+__all__ += ["PolicyLike", "check_policy_like", "file_of", "is_built_in", "make_policy", "name_of"]
 __all__ += ["trained_on"]
 
 PolicyLike = str | os.PathLike[str] | Policy
@@ -161,9 +162,17 @@ def trained_on(policy: PolicyLike) -> Task | None:
         if name not in task.training_options
     }
     try:
-        return make_task(policy.task_name, **options)
+        task = make_task(policy.task_name, **options)
     except TypeError as error:
         raise ValueError(f"policy: trained on a task with other options: {error}") from error
+    for player in task.default_controllers().values():
+        path = None if isinstance(player, Learn) else file_of(player)
+        if path is not None and not path.exists():
+            raise ValueError(
+                f"policy: trained beside the policy {player}, which does not exist here; name a "
+                "task for it to play"
+            )
+    return task
 
 
 def name_of(policy: PolicyLike) -> str:
@@ -205,6 +214,15 @@ def _with_skill(name: str, skill: str, task: Task) -> Policy:
     except ValueError:
         raise ValueError(f"{name}: expected a skill from 0 to 1, got {skill!r}") from None
     return _MAKERS_WITH_SKILL[name](task, number)
+
+
+def file_of(policy: str) -> Path | None:
+    """Return the file that a name stands for; None for a policy of the package.
+
+    Args:
+        policy: a name, or the path of a file, which a mode may follow.
+    """
+    return None if is_built_in(policy) else Path(_split_mode(policy)[0])
 
 
 def _load(text: str) -> Network:

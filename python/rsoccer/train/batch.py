@@ -52,10 +52,12 @@ class Batch:
         return self._map(lambda part: part.to(device))
 
     def chunk(self, n: int) -> Iterator[Batch]:
-        """Return n consecutive parts of about equal size, without copying.
+        """Return at most n consecutive parts, without copying.
+
+        Their size is that of an n-th of the batch, rounded up; the last one may be smaller.
 
         Args:
-            n: number of parts.
+            n: greatest number of parts.
         """
         names, parts = zip(*self.parts().items(), strict=True)
         for chunk in zip(*(part.chunk(n) for part in parts), strict=True):

@@ -60,7 +60,7 @@ class Ladder:
         return interval > 0 and (updates % interval == 0 or samples >= self._args.samples)
 
     def measure(self, network: Network) -> Row:
-        """Play the matches.
+        """Play the matches, on the task with its options for training.
 
         Args:
             network: the current policy, which plays as in training.

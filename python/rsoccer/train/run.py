@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from rsoccer.lineup import lineup, opponents_of
+from rsoccer.policies import trained_on
 from rsoccer.replay.recorder import record_replay
 from rsoccer.train import run_folder
 from rsoccer.train.args import Args
@@ -63,9 +64,10 @@ def _train(trainer: Trainer, saved: Checkpoint | None) -> None:
 
 def _write_match(trainer: Trainer) -> None:
     """Play a match of the trained policy, and write its replay and its page."""
-    args, task = trainer.args, trainer.task
+    args, network = trainer.args, trainer.network()
+    task = trained_on(network) or trainer.task  # without options for training alone
     names = ("TRAINED", " ".join(opponents_of(task)).upper())
-    controllers = lineup(task, trainer.network())
+    controllers = lineup(task, network)
     replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
     replay_name, page_name = MATCH_FILES
     replay.save(args.out / replay_name)

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import IO, Any
 
 from rsoccer.files import write_atomically
-from rsoccer.policies.network import MODES
+from rsoccer.policies import file_of
+from rsoccer.task import Learn
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
@@ -70,13 +71,15 @@ def policy_digests(args: Args) -> dict[str, str]:
     Args:
         args: settings of the run.
     """
-    found = {}
-    for name in (*args.opponents, *args.teammates, args.solo_partners):
-        text, _, mode = name.rpartition(":")
-        path = Path(text if mode in MODES else name)
-        if path.is_file():
-            found[name] = hashlib.sha256(path.read_bytes()).hexdigest()
-    return found
+    players = args.make_task().default_controllers().values()
+    own = (player for player in players if not isinstance(player, Learn))
+    names = {*args.opponents, *args.teammates, args.solo_partners, *own}
+    files = {name: file_of(name) for name in sorted(names)}
+    return {
+        name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for name, path in files.items()
+        if path is not None
+    }
 
 
 def _check_same(args: Args, policy_files: dict[str, str], path: Path, info: dict[str, Any]) -> None:

@@ -66,7 +66,7 @@ def _convert_one(value: Any, kind: Any) -> Any:  # noqa: ANN401
     if kind is int and isinstance(value, numbers.Integral) and not is_bool:
         return int(value)
     if kind is float and isinstance(value, numbers.Real) and not is_bool:
-        return float(value) if not isinstance(value, int) else value
+        return _as_number(value)
     if kind is str and isinstance(value, str):
         return str(value)
     if kind is Path and isinstance(value, str | os.PathLike):
@@ -74,8 +74,18 @@ def _convert_one(value: Any, kind: Any) -> Any:  # noqa: ANN401
     return _WRONG
 
 
+def _as_number(value: numbers.Real) -> Any:  # noqa: ANN401
+    try:
+        number = float(value)
+    except OverflowError:
+        return _WRONG
+    return value if isinstance(value, int) else number  # 1 stays 1 in files
+
+
 def _convert_sequence(value: Any, kind: Any) -> Any:  # noqa: ANN401
-    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str | bytes):
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if not isinstance(value, Sequence) or isinstance(value, str | bytes):
         return _WRONG
     items = tuple(_convert(item, kind) for item in value)
     return _WRONG if any(item is _WRONG for item in items) else items

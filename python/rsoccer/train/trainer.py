@@ -77,6 +77,7 @@ class Trainer:
         self.generator = torch.Generator().manual_seed(torch_seed)
         self.curriculum = Curriculum(args, self.task, self.clock)
         samples = args.worlds * args.horizon * len(self.curriculum.learners)
+        samples *= 2 if args.mirror_augmentation else 1
         if samples < 2 * args.n_minibatches:  # advantages are normalised within a minibatch
             raise ValueError(
                 f"n_minibatches must be at most half of the {samples} samples of an update "

@@ -6,9 +6,10 @@ import pytest
 from benches.learning import ablation, algorithms
 from benches.learning.experiments import Experiment, Run, Study
 from benches.learning.ppo_run import NOT_COMPARED, SELF_PLAY_ONLY, defaults
-from benches.learning.run_files import Folders, with_policies
+from benches.learning.run_files import LEARNED_FILE, Folders, with_policies
 from benches.learning.table import STUDY
 from rsoccer.train import Args
+from tests.benches.learning.finished import finish
 
 
 def test_the_study_has_all_groups_and_runs() -> None:
@@ -61,11 +62,11 @@ def test_settings_without_effect_on_a_task_do_not_count() -> None:
 def test_settings_name_the_policies_of_other_experiments(tmp_path: Path) -> None:
     folders = Folders(tmp_path, tmp_path)
     run = Run(Experiment("a", "x", "VSSMulti-v0", settings={"solo_partners": "@b/y"}), 3)
-    with pytest.raises(ValueError, match="a/x/seed-3 needs the policy"):
+    path = finish(folders, "b/y/seed-3")
+    (path.parent / LEARNED_FILE).unlink()  # as while the run is repeated
+    with pytest.raises(ValueError, match=r"a/x/seed-3 needs the policy of b/y/seed-3.*--again"):
         with_policies(run.experiment.settings, folders, run)
-    path = folders.policy("b/y/seed-3")
-    path.parent.mkdir(parents=True)
-    path.touch()
+    finish(folders, "b/y/seed-3")
     assert with_policies(run.experiment.settings, folders, run) == {"solo_partners": str(path)}
     mix = {"opponents": {"@b/y": 0.5, "ou": 0.5}, "sizes": (8, 8)}
     expected = {"opponents": {str(path): 0.5, "ou": 0.5}, "sizes": (8, 8)}

@@ -1,13 +1,13 @@
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from benches.learning import lost_starts
 from benches.learning.experiments import Run
-from benches.learning.run_files import FIELDS, Folders, digest, load, save
+from benches.learning.run_files import Folders, digest, load
 from benches.learning.table import STUDY
+from tests.benches.learning.finished import finish
 
 
 def test_a_start_counts_if_all_policies_lose_it_at_once() -> None:
@@ -28,13 +28,13 @@ def test_policies_are_those_of_finished_runs_of_whole_teams(tmp_path: Path) -> N
     assert not lost_starts.sentences(folders)
     experiment = next(e for e in STUDY.experiments if e.key == lost_starts.EXPERIMENTS[0])
     run = Run(experiment, 1)
-    result: dict[str, Any] = dict.fromkeys(FIELDS) | {"settings": {}, "physics": 1}
-    save(folders, run.key, result)
+    policy = finish(folders, run.key)
+    policy.parent.rename(tmp_path / "elsewhere")
     with pytest.raises(FileNotFoundError):  # as in a fresh clone: results without policies
         lost_starts.runs_of(folders)
-    policy = str(folders.policy(run.key))
-    Path(policy).parent.mkdir(parents=True)
-    Path(policy).touch()
+    finish(folders, run.key)
+    result = load(folders, run.key)
+    assert result is not None
     runs = lost_starts.runs_of(folders)
     assert runs == {run.key: digest(result)}
     found = lost_starts.policies_of(folders, runs)

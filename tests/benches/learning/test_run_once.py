@@ -104,16 +104,26 @@ def test_a_selection_without_runs_is_refused(
         assert "expected a run of the study, got none" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("only", ["misspelt", "unknown"])
+WRONG = {
+    "misspelt": "'gama'",
+    "unknown": "'VSS-v9'",
+    "dependent": "needs a/misspelt/seed-0",
+    "mask": "expected blocks of",
+    "rows": "rows must be an integer, got 'x'",
+}
+
+
+@pytest.mark.parametrize("only", WRONG)
 def test_experiments_with_wrong_settings_are_named(
     only: str, folders: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     table = ["--table", "tests.benches.learning.wrong_table"]
     assert main([*table, *folders[2:], "--only", only]) == 1
     printed = capsys.readouterr()
-    reason = {"misspelt": "'gama'", "unknown": "'VSS-v9'"}[only]
     assert f"invalid: a/{only}/seed-0: " in printed.err
-    assert reason in printed.err
+    assert WRONG[only] in printed.err
+    assert main([*table, *folders[2:], "--list"]) == 0
+    assert f"{len(WRONG)} invalid; 0.0 core-hours left" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("table", ["no_such_module", "json"])
