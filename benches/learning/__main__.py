@@ -107,11 +107,12 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
         if entry.state in (UNAVAILABLE, INVALID):
             sys.stderr.write(f"{entry.state}: {entry.run.key}: {entry.reason}\n")
     wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
-    # Clones learn nothing, so they lack no policy.
-    learned = [entry.run for entry in chosen if entry.run.experiment.algorithm != CLONES]
-    lacking = {run.key for run in learned if not run_files.keeps_policy(folders, run.key)}
     done = {entry.run.key for entry in known if entry.state == DONE}
-    again = done & lacking if options.again else set()
+    again = set()
+    if options.again:  # clones learn nothing, so they lack no policy
+        learned = (entry.run for entry in chosen if entry.run.experiment.algorithm != CLONES)
+        keys = done & {run.key for run in learned}
+        again = {key for key in keys if not run_files.keeps_policy(folders, key)}
     runs = [entry.run for entry in chosen if entry.state in wanted or entry.run.key in again]
     if not runs:
         sys.stdout.write("nothing to do; --list shows the state of the runs\n")

@@ -152,6 +152,25 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
     return task_class(**options)
 
 
+def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
+    """Create a task by name, with options that a user gave as one mapping `task_options`.
+
+    Args:
+        name: a registered name or an alias.
+        options: options of the task, by name.
+
+    Returns:
+        The task.
+
+    Raises:
+        ValueError: an unknown name, or options that the task refuses.
+    """
+    try:
+        return make_task(name, **options)
+    except TypeError as error:
+        raise ValueError(f"task_options: {error}") from error
+
+
 def as_task(task: object) -> Task:
     """Return a task given as an instance or by name.
 

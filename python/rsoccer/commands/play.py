@@ -11,11 +11,12 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.subject import team_name
-from rsoccer.commands.task_options import TASK_OPTIONS, make_task
+from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
 from rsoccer.human.teams import team_controllers
 from rsoccer.lineup import DEFAULT_TASK
+from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 from rsoccer.view import SIDES
 
@@ -63,7 +64,7 @@ class Play:
         """
         from rsoccer.human.session import Session
 
-        task = make_task(self.task, self.task_options)
+        task = task_with_options(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)
         session = Session(

@@ -8,8 +8,8 @@ from typing import Any
 
 from tyro.constructors import PrimitiveConstructorSpec
 
-from rsoccer import registry
 from rsoccer.commands.entries import check_entries
+from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 
 
@@ -54,20 +54,4 @@ def named_task(name: str | None, options: Mapping[str, Any]) -> Task | None:
         if options:
             raise ValueError(f"task_options: expected --task with them, got {dict(options)} alone")
         return None
-    return make_task(name, options)
-
-
-def make_task(name: str, options: Mapping[str, Any]) -> Task:
-    """Return a task with options.
-
-    Args:
-        name: a registered name or an alias.
-        options: options of the task, by name.
-
-    Raises:
-        ValueError: an unknown task, or options that it refuses.
-    """
-    try:
-        return registry.make_task(name, **options)
-    except TypeError as error:
-        raise ValueError(f"task_options: {error}") from error
+    return task_with_options(name, options)

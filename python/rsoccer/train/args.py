@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_type_hints
 
-from rsoccer.registry import make_task
+from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 from rsoccer.train.setting_types import converted
 from rsoccer.train.task_settings import recommended_settings
@@ -269,10 +269,7 @@ class Args:
         Raises:
             ValueError: an unknown task, or options that it refuses.
         """
-        try:
-            return make_task(self.task, **self.task_options)
-        except TypeError as error:
-            raise ValueError(f"task_options: {error}") from error
+        return task_with_options(self.task, self.task_options)
 
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON values by field name; `Args(**values)` restores them."""
