@@ -87,21 +87,30 @@ def _met(part: Collected, estimate: Estimate, target: float) -> str:
     return f"{verdict} so far" if part.missing or part.stale else verdict
 
 
+def measure(part: Collected) -> str:
+    """Return what the scores of a task measure."""
+    return str(part.rows()[0]["metric"]).replace("_", " ")
+
+
 def outcomes(part: Collected, opponent: str) -> str:
-    """Return the shares of matches won, drawn and lost, of all seeds; or that of full success."""
-    if part.experiment.task in FULL_SUCCESS:
-        estimate = part.full_success()
-        return f"full success {number(estimate.value)}, {interval(estimate)}"
+    """Return the shares of matches won, drawn and lost, of all seeds; empty for one-sided tasks."""
     rows = part.rows(opponent)
     if not rows[0]["sides"]:
         return ""
     total = sum(row["matches"] for row in rows)
     names = ("wins", "draws", "losses", "own_goals")
     *counts, own = (sum(row[name] for row in rows) / total for name in names)
-    text = f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
-    if "own_passes" in rows[0]["metrics"]:
-        text += f", {number(part.metric('own_passes', opponent).value)} passes"
-    return text
+    return f"{', '.join(f'{share:.1%}' for share in counts)} ({own:.1%})"
+
+
+def second_measure(part: Collected, opponent: str) -> str:
+    """Return the share of full success or the passes per match of tasks that have them."""
+    if part.experiment.task in FULL_SUCCESS:
+        estimate = part.full_success()
+        return f"full success {number(estimate.value)}, {interval(estimate)}"
+    if "own_passes" in part.rows(opponent)[0]["metrics"]:
+        return f"{number(part.metric('own_passes', opponent).value)} passes per match"
+    return ""
 
 
 def time_to_decision(part: Collected, opponent: str) -> str:

@@ -18,13 +18,9 @@ def results(collected: Studied) -> str:
     """Return the results of PPO on each task against each opponent."""
     parts = finished(collected, "ppo")
     header = (
-        *("task", "against", "score", "95% interval", "target", "seeds", "mean action"),
-        *(
-            "won, drawn, lost (own goals), passes per match",
-            "time to a goal or success",
-            "samples",
-            "core time",
-        ),
+        *("task", "against", "measure", "score", "95% interval", "target", "seeds"),
+        *("mean action", "won, drawn, lost (own goals)", "measured beside it"),
+        *("time to a goal or success", "samples", "core time"),
     )
     rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
     return _with_notes(header, rows, collected, "ppo")
@@ -35,12 +31,14 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
     return (
         f"`{part.experiment.task}`{cells.mark(part)}",
         cells.against(opponent),
+        cells.measure(part),
         cells.number(estimate.value),
         cells.interval(estimate),
         cells.target(part, opponent),
         cells.seeds(part.scores(opponent)),
         cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
         cells.outcomes(part, opponent),
+        cells.second_measure(part, opponent),
         cells.time_to_decision(part, opponent),
         cells.millions(part.samples()),
         cells.minutes(part.core_seconds()),
@@ -181,11 +179,10 @@ def headline(collected: Studied) -> str:
     for part in finished(collected, "ppo"):
         task = part.experiment.task
         others = (find_task(collected, task, name) for name in ("ddpg", "sac"))
-        metric = part.rows()[0]["metric"].replace("_", " ")
         rows.append(
             (
                 f"`{task}`",
-                f"{metric}{cells.against_first(part)}",
+                f"{cells.measure(part)}{cells.against_first(part)}",
                 cells.with_interval(part),
                 *(cells.with_interval(other) for other in others),
                 f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",
