@@ -91,17 +91,11 @@ def finished(collected: Sequence[Collected], group: str) -> list[Collected]:
     return [part for part in collected if part.results and part.experiment.group == group]
 
 
-def find(collected: Sequence[Collected], key: str) -> Collected | None:
-    """Return the experiment of a key if it has results."""
-    return next((part for part in collected if part.results and part.experiment.key == key), None)
-
-
-def find_task(
-    collected: Sequence[Collected], task: str, algorithm: str = "ppo"
-) -> Collected | None:
+def find(collected: Sequence[Collected], task: str, algorithm: str = "ppo") -> Collected | None:
     """Return the experiment of an algorithm on a task, PPO or a baseline, if it has results."""
-    name = f"ppo/{task}" if algorithm == "ppo" else f"baselines/{task}-{algorithm}"
-    return find(collected, name)
+    parts = [*finished(collected, "ppo"), *finished(collected, "baselines")]
+    wanted = (task, algorithm)
+    return next((p for p in parts if (p.experiment.task, p.experiment.algorithm) == wanted), None)
 
 
 def _collected(experiment: Experiment, study: Study, folders: Folders) -> Collected:

@@ -11,8 +11,6 @@ PPO: Final = "ppo"
 SB3: Final = ("ddpg", "sac")
 CLONES: Final = "clones"
 ALGORITHMS: Final = (PPO, *SB3, CLONES)
-PAPER_SETTING: Final = "-paper"
-"""End of the name of a baseline in the paper's setting, whose time is not that of PPO."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +22,7 @@ class Experiment:
     """
 
     group: str
-    """Part of the study: ppo, baselines, ablation or cooperation."""
+    """Part of the study: ppo, baselines, calibration, ablation or cooperation."""
     name: str
     """Name, unique in its group; also that of the folder with its runs."""
     task: str

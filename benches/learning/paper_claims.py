@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from benches.learning import cells
-from benches.learning.collection import Collected, find_task
+from benches.learning.collection import Collected, find
 from benches.learning.curves import mean_between
 from benches.learning.statistics import Estimate, probability_of_improvement
 from tools.markdown import table
@@ -80,7 +80,7 @@ def order(collected: Sequence[Collected]) -> str:
 
 def _row(claim: Claim, task: str, collected: Sequence[Collected]) -> tuple[str, ...] | None:
     """Cells of a claim about a task; None without results of both algorithms."""
-    first, second = (find_task(collected, task, name) for name in (claim.better, claim.worse))
+    first, second = (find(collected, task, name) for name in (claim.better, claim.worse))
     if first is None or second is None:
         return None
     scores = claim.scores(first, second)

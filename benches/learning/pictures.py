@@ -11,7 +11,6 @@ import numpy as np
 from benches.learning.ablation import CHANGES, OURS, PAPER
 from benches.learning.collection import Collected, finished
 from benches.learning.curves import band
-from benches.learning.experiments import PAPER_SETTING
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +30,6 @@ def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
     from matplotlib.figure import Figure
 
     shown = [*finished(collected, "ppo"), *finished(collected, "baselines")]
-    shown = [part for part in shown if not part.experiment.name.endswith(PAPER_SETTING)]
     shown = [part for part in shown if band([result["curve"] for result in part.results])]
     tasks = list(dict.fromkeys(part.experiment.task for part in shown))
     if not tasks:

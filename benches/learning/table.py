@@ -10,7 +10,7 @@ from typing import Final
 
 from benches.learning import ablation
 from benches.learning.evaluation import VSSS
-from benches.learning.experiments import PAPER_SETTING, SB3, Experiment, Study
+from benches.learning.experiments import SB3, Experiment, Study
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
@@ -49,8 +49,8 @@ BASELINES: Final = tuple(
 
 CALIBRATION: Final = tuple(
     Experiment(
-        "baselines",
-        f"VSS-v0-{algorithm}{PAPER_SETTING}",
+        "calibration",
+        f"VSS-v0-{algorithm}",
         "VSS-v0",
         algorithm,
         settings={

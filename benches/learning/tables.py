@@ -7,8 +7,7 @@ from typing import Any
 
 from benches.learning import cells
 from benches.learning.ablation import CHANGES, OURS, PAPER
-from benches.learning.collection import Collected, find_task, finished
-from benches.learning.experiments import PAPER_SETTING
+from benches.learning.collection import Collected, find, finished
 from tools.markdown import table
 
 Studied = Sequence[Collected]
@@ -52,16 +51,18 @@ def baselines(collected: Studied) -> str:
         *("PPO, same time", "P(PPO better)", "PPO, as many samples"),
         *("samples", "gradient steps", "core time"),
     )
-    rows = [_baseline_row(part, collected) for part in finished(collected, "baselines")]
-    return _with_notes(header, rows, collected, "baselines")
+    groups = ("baselines", "calibration")
+    parts = [part for group in groups for part in finished(collected, group)]
+    rows = [_baseline_row(part, collected) for part in parts]
+    return _with_notes(header, rows, collected, *groups)
 
 
 def _baseline_row(part: Collected, collected: Studied) -> tuple[str, ...]:
     experiment, estimate = part.experiment, part.estimate()
-    calibrates = experiment.name.endswith(PAPER_SETTING)
+    calibrates = experiment.group == "calibration"
     label = experiment.algorithm.upper() + (", the paper's setting" if calibrates else "")
     # A run of the paper's setting has more time than PPO's, so only their samples compare.
-    ppo = find_task(collected, experiment.task)
+    ppo = find(collected, experiment.task)
     rival = None if calibrates else ppo
     steps = sum(float(r["gradient_steps"]) for r in part.results) / len(part.results)
     return (
@@ -132,7 +133,7 @@ def cooperation(collected: Studied) -> str:
 
 def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tuple[str, ...]:
     estimate = part.estimate(opponent)
-    ppo = find_task(collected, part.experiment.task)
+    ppo = find(collected, part.experiment.task)
     # Clones play the task of a team: their comparison with it is the same.
     comparable = ppo is not None and opponent in ppo.opponents
     return (
@@ -178,7 +179,7 @@ def headline(collected: Studied) -> str:
     rows = []
     for part in finished(collected, "ppo"):
         task = part.experiment.task
-        others = (find_task(collected, task, name) for name in ("ddpg", "sac"))
+        others = (find(collected, task, name) for name in ("ddpg", "sac"))
         rows.append(
             (
                 f"`{task}`",
@@ -196,13 +197,13 @@ def headline(collected: Studied) -> str:
 
 
 def _with_notes(
-    header: tuple[str, ...], rows: Sequence[tuple[str, ...]], collected: Studied, group: str
+    header: tuple[str, ...], rows: Sequence[tuple[str, ...]], collected: Studied, *groups: str
 ) -> str:
     """A table with a line about missing and stale runs; empty without rows."""
     if not rows:
         return ""
-    parts = [part for part in collected if part.experiment.group == group]
-    missing = {part.experiment.name: part.missing for part in parts if part.missing}
+    parts = [part for part in collected if part.experiment.group in groups and part.missing]
+    missing = {part.experiment.key.removeprefix(f"{groups[0]}/"): part.missing for part in parts}
     notes = []
     if missing:
         names = ", ".join(f"{name} ({count})" for name, count in missing.items())

@@ -14,7 +14,8 @@ from tests.benches.learning.finished import finish
 
 def test_the_study_has_all_groups_and_runs() -> None:
     assert len(STUDY.runs()) == sum(e.seeds for e in STUDY.experiments)
-    assert {e.group for e in STUDY.experiments} == {"ppo", "baselines", "ablation", "cooperation"}
+    groups = {"ppo", "baselines", "calibration", "ablation", "cooperation"}
+    assert {e.group for e in STUDY.experiments} == groups
 
 
 def test_runs_of_a_group_go_by_seed() -> None:

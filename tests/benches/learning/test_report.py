@@ -34,12 +34,13 @@ def test_tables_have_a_row_for_each_experiment_with_results(folders: Folders) ->
     assert text.count("| `SSLContestedPossession-v0` | the official scenarios |") == 1
     assert "Missing runs: VSS-v0 (1), SSLStaticDefenders-v0 (5)." in text
     assert "| `SSLGoToBall-v0` | SAC |" in tables.baselines(collected)
+    assert tables.baselines(collected).count("the paper's setting |") == 2
     assert tables.ablation(collected).count("missing") == 1
     # Matches against clones, without and with free balls.
     assert tables.cooperation(collected).count("| policy of VSS-v0 |") == 2
     assert "| .300 met |" in tables.cooperation(collected)
     assert tables.headline(collected).count("\n") == 10  # nine tasks
-    assert tables.compute(collected).count("\n") == 5
+    assert tables.compute(collected).count("\n") == 6  # five groups
 
 
 def test_an_empty_study_has_empty_tables(tmp_path: Path) -> None:
@@ -122,7 +123,7 @@ def test_equal_samples_are_read_from_the_curve(folders: Folders) -> None:
     assert value_at(curve, 150) == 0.5
     assert value_at(curve, 50) is None
     assert value_at(curve, 500) == 1.0
-    part = find(collect(STUDY, folders), "ppo/SSLGoToBall-v0")
+    part = find(collect(STUDY, folders), "SSLGoToBall-v0")
     assert part is not None
     drawn = band([result["curve"] for result in part.results])
     assert drawn is not None
