@@ -24,7 +24,7 @@ class Figure:
 
     group: str
     """Group of benchmarks: core, threads, scaling, batched, single, libraries, training, memory,
-    capacity, startup or rust."""
+    capacity, startup, rust or pace."""
     scenario: str
     """Physics scenario or id of a task."""
     variant: str

@@ -100,4 +100,4 @@ def learn(run: Run, folder: Path, folders: Folders, identity: Mapping[str, Any])
         return ppo_run.learn(run, folder, folders)
     if algorithm == CLONES:
         return clones.learn(run, folders)
-    return sb3_run.learn(run, folder, folders)
+    return sb3_run.learn(run, folder)

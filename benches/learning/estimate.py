@@ -25,14 +25,14 @@ def expected_seconds(run: Run, known: Sequence[Status]) -> float:
     same = [r for r in results if r["run"].startswith(f"{run.experiment.key}/")]
     if same:
         return statistics.median(_seconds(result) for result in same)
-    settings = algorithms.settings(run)
-    if isinstance(settings.get("seconds"), int | float):
-        return float(settings["seconds"])
-    if settings.get("seconds") is not None:
-        return expected_seconds(run.needs[0], known)
-    samples = settings.get("samples", 0)
-    for name, value in (("task", run.experiment.task), ("algorithm", run.experiment.algorithm)):
-        rates = [r["samples"] / _seconds(r) for r in results if r[name] == value and r["samples"]]
+    samples = algorithms.settings(run).get("samples", 0)
+    task, algorithm = run.experiment.task, run.experiment.algorithm
+    alike = (
+        [r for r in results if (r["task"], r["algorithm"]) == (task, algorithm)],
+        [r for r in results if r["algorithm"] == algorithm],
+    )
+    for group in alike:
+        rates = [r["samples"] / _seconds(r) for r in group if r["samples"]]
         if rates:
             return float(samples / statistics.median(rates))
     return float(samples / SAMPLES_PER_SECOND)

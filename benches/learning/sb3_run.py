@@ -1,7 +1,6 @@
 """Runs of DDPG and SAC through Stable-Baselines3, the algorithms of the paper.
 
-A run has a budget of processor time, by default that of the PPO run of the same task and seed. It
-is short, and an interrupted one starts again.
+An interrupted run starts again.
 """
 
 from __future__ import annotations
@@ -11,20 +10,18 @@ from typing import Any, Final
 
 import numpy as np
 
-from benches.learning import run_files
 from benches.learning.clock import restart_clock, timed
 from benches.learning.curves import thinned
 from benches.learning.evaluation import evaluated, opponents_of
 from benches.learning.experiments import Protocol, Run
 from benches.learning.learned import Learned
 from benches.learning.relu_actor import ReluActor
-from benches.learning.run_files import Folders
 from rsoccer.registry import make_task
 from rsoccer.train.args import Args
 from rsoccer.train.setting_types import converted
 
 DEFAULTS: Final[dict[str, Any]] = {
-    "seconds": "as PPO",
+    "samples": 1_000_000,
     "task_options": {},
     "rows": 60,
     "samples_per_gradient_step": 10,
@@ -42,12 +39,11 @@ DEFAULTS: Final[dict[str, Any]] = {
 }
 """Settings and their defaults.
 
-Discount, decision rate and network size are those of PPO; `gamma` is per control step. `seconds` is
-the processor time of learning. `rows` is the least number of robots that act at once; it is a
-multiple of `samples_per_gradient_step`, which is that of the paper, for teams of any size. `noise`
-of DDPG is an Ornstein-Uhlenbeck process: theta, and sigma at the start and at the end of the run,
-as in the paper; its time is match time. `masked_observations` are parts that the networks do not
-read, as in the settings of PPO.
+Discount, decision rate and network size are those of PPO; `gamma` is per control step. `rows` is
+the least number of robots that act at once; it is a multiple of `samples_per_gradient_step`, which
+is that of the paper, for teams of any size. `noise` of DDPG is an Ornstein-Uhlenbeck process:
+theta, and sigma at the start and at the end of the run, as in the paper; its time is match time.
+`masked_observations` are parts that the networks do not read, as in the settings of PPO.
 """
 FILE: Final = "actor.npz"
 SNAPSHOT: Final = Protocol(starts=50, seed=32)
@@ -73,34 +69,17 @@ def settings(run: Run) -> dict[str, Any]:
     return values
 
 
-def budget(run: Run, folders: Folders) -> float:
-    """Return the processor seconds of a run.
-
-    Raises:
-        ValueError: The PPO run whose time it takes has not finished.
-    """
-    seconds = settings(run)["seconds"]
-    if seconds != DEFAULTS["seconds"]:
-        return float(seconds)
-    ppo = run.needs[0].key
-    result = run_files.load(folders, ppo)
-    if result is None:
-        raise ValueError(f"{run.key} takes the time of {ppo}, which has not finished")
-    return float(result["seconds"]["cpu"])
-
-
-def learn(run: Run, folder: Path, folders: Folders) -> Learned:
-    """Train an actor for the time of its budget.
+def learn(run: Run, folder: Path) -> Learned:
+    """Train an actor.
 
     Args:
         run: The run.
         folder: Folder for its files.
-        folders: Folders of the study.
 
     Returns:
         The policy: for SAC drawn actions, as in training, and for both deterministic ones.
     """
-    values, seconds = settings(run), budget(run, folders)
+    values = settings(run)
     opponent = opponents_of(run.experiment.task)[0]
     restart_clock(folder)
     with timed(folder):
@@ -110,12 +89,15 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
             row = evaluated(run.experiment.task, actor.mean(), opponent, SNAPSHOT)
             return float(row["score"])
 
-        actor, log = train(run.experiment.task, values, run.seed, seconds, measure)
+        actor, log = train(run.experiment.task, values, run.seed, measure)
     actor.save(folder / FILE)
     drawn: dict[str, Any] = {} if actor.log_std is None else {"sample": actor}
     policies = {**drawn, "mean": actor.mean()}
     metric = make_task(run.experiment.task).success or "return"
     samples, times, scores = map(np.array, (log.samples, log.seconds, log.scores))
-    extra = {"learning_seconds": round(seconds, 1), "gradient_steps": log.gradient_steps}
+    extra = {
+        "learning_seconds": round(log.learning_seconds, 1),
+        "gradient_steps": log.gradient_steps,
+    }
     points = thinned(metric, samples, times, scores, np.ones(len(scores)))
     return Learned(policies, log.total, points, extra)

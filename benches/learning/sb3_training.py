@@ -1,4 +1,4 @@
-"""Training of DDPG and SAC with Stable-Baselines3, for a given processor time."""
+"""Training of DDPG and SAC with Stable-Baselines3."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from rsoccer.sb3 import SoccerVecEnv
 from rsoccer.train.observation_mask import observation_mask
 
 SNAPSHOTS: Final = np.geomspace(0.03, 1.0, 12)
-"""Shares of the time after which the actor is measured."""
+"""Shares of the samples after which the actor is measured."""
 
 Measure = Callable[[ReluActor], float]
 """Score of an actor."""
@@ -35,26 +35,55 @@ class Log:
 
     samples: list[int] = field(default_factory=list)
     seconds: list[float] = field(default_factory=list)
+    """Processor time of learning until then, without that of the measurements."""
     scores: list[float] = field(default_factory=list)
     total: int = 0
     """Samples of the whole run."""
     gradient_steps: int = 0
+    learning_seconds: float = 0.0
+    """Processor time of the whole run, without that of the measurements."""
 
 
 def train(
-    task_name: str, values: dict[str, Any], seed: int, seconds: float, measure: Measure
+    task_name: str, values: dict[str, Any], seed: int, measure: Measure
 ) -> tuple[ReluActor, Log]:
-    """Train until the processor time is used up.
+    """Train for the samples of the settings, rounded up to whole steps of the environment.
 
     Args:
         task_name: Registered task.
         values: Settings of `sb3_run`, with the algorithm.
         seed: Seed of the run.
-        seconds: Processor time of this process, without that of the measurements.
         measure: Measures an actor.
 
     Returns:
         The actor, and the progress.
+
+    Raises:
+        ValueError: Rows that are no multiple of the samples of a gradient step.
+    """
+    model, noise = create_model(task_name, values, seed)
+    mask = mask_of(task_name, values)
+
+    def actor() -> ReluActor:
+        return actor_of(model, values["action_repeat"], mask)
+
+    progress = Progress(values["samples"], noise, lambda: measure(actor()))
+    model.learn(values["samples"], callback=progress, log_interval=None)
+    log = progress.log
+    log.total, log.gradient_steps = int(model.num_timesteps), int(model._n_updates)
+    model.get_env().close()
+    return actor(), log
+
+
+def create_model(
+    task_name: str, values: dict[str, Any], seed: int
+) -> tuple[DDPG | SAC, Noise | None]:
+    """Return an untrained model with its environments, and the noise that explores for DDPG.
+
+    Args:
+        task_name: Registered task.
+        values: Settings of `sb3_run`, with the algorithm.
+        seed: Seed of weights, environments and actions.
 
     Raises:
         ValueError: Rows that are no multiple of the samples of a gradient step.
@@ -81,22 +110,10 @@ def train(
         "seed": seed,
         "device": "cpu",
     }
-    mask = mask_of(task_name, values)
-
-    def actor() -> ReluActor:
-        return actor_of(model, values["action_repeat"], mask)
-
-    progress = Progress(seconds, lambda: measure(actor()))
     if values["algorithm"] == "ddpg":
-        progress.noise = Noise(envs, values)
-        model: Any = DDPG("MlpPolicy", envs, action_noise=progress.noise.process, **arguments)
-    else:
-        model = SAC("MlpPolicy", envs, **arguments)
-    model.learn(10**12, callback=progress, log_interval=None)
-    log = progress.log
-    log.total, log.gradient_steps = int(model.num_timesteps), int(model._n_updates)
-    envs.close()
-    return actor(), log
+        noise = Noise(envs, values)
+        return DDPG("MlpPolicy", envs, action_noise=noise.process, **arguments), noise
+    return SAC("MlpPolicy", envs, **arguments), None
 
 
 def environments(task_name: str, values: dict[str, Any]) -> VecEnv:
@@ -140,38 +157,40 @@ class Noise:
 
 
 class Progress(BaseCallback):  # type: ignore[misc]
-    """Ends the run after its time, lowers the noise, and measures the actor."""
+    """Lowers the noise over a run, and measures the actor."""
 
-    noise: Noise | None = None
-
-    def __init__(self, seconds: float, measure: Callable[[], float]) -> None:
-        """Prepare a run; its time begins with the first step.
+    def __init__(self, samples: int, noise: Noise | None, measure: Callable[[], float]) -> None:
+        """Prepare a run.
 
         Args:
-            seconds: Processor time of the run.
+            samples: Samples of the run.
+            noise: The noise that explores, if there is some.
             measure: Measures the present actor.
         """
         super().__init__()
         self.log = Log()
-        self._limit, self._measure = seconds, measure
+        self._samples, self._noise, self._measure = samples, noise, measure
 
     def _on_training_start(self) -> None:
         self._began = time.process_time()
 
     def _on_step(self) -> bool:
-        spent = time.process_time() - self._began
-        if self.noise is not None:
-            self.noise.anneal(min(spent / self._limit, 1.0))
+        share = self.num_timesteps / self._samples
+        if self._noise is not None:
+            self._noise.anneal(min(share, 1.0))
         done = len(self.log.scores)
-        if done < len(SNAPSHOTS) and spent >= SNAPSHOTS[done] * self._limit:
-            self._add_point(spent)
-        return spent < self._limit
+        if done < len(SNAPSHOTS) and share >= SNAPSHOTS[done]:
+            self._add_point()
+        return True
 
-    def _add_point(self, spent: float) -> None:
+    def _on_training_end(self) -> None:
+        self.log.learning_seconds = time.process_time() - self._began
+
+    def _add_point(self) -> None:
         """Measure the actor, while the clock of the run stands still."""
         before = time.process_time()
         self.log.samples.append(self.num_timesteps)
-        self.log.seconds.append(spent)
+        self.log.seconds.append(before - self._began)
         self.log.scores.append(self._measure())
         self._began += time.process_time() - before
 

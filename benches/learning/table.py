@@ -10,7 +10,7 @@ from typing import Final
 
 from benches.learning import ablation
 from benches.learning.evaluation import VSSS
-from benches.learning.experiments import SB3, Experiment, Study
+from benches.learning.experiments import Experiment, Study
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
@@ -31,19 +31,36 @@ PPO: Final = {
 
 SHARED_WITH_PPO: Final = ("hidden_sizes", "gamma", "action_repeat", "task_options")
 
+IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
+    "VSS-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "VSSMulti-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLGoToBall-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLPassEndurance-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLContestedPossession-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLStaticDefenders-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLDribbling-v0": {"ddpg": 1_400_000, "sac": 800_000},
+    "SSLPassEnduranceMulti-v0": {"ddpg": 1_400_000, "sac": 800_000},
+}
+"""Samples of DDPG and SAC in the time of PPO's run, by task.
+
+Products of PPO's samples and the ratio of the speeds, from `python -m benches.learning.pace`, which
+measures them in turn. A limit in seconds would depend on what else the machine does.
+"""
+
 BASELINES: Final = tuple(
     Experiment(
         "baselines",
         f"{task}-{algorithm}",
         task,
         algorithm,
-        settings={name: Args.for_task(task).to_json()[name] for name in SHARED_WITH_PPO},
+        settings={
+            "samples": samples,
+            **{name: Args.for_task(task).to_json()[name] for name in SHARED_WITH_PPO},
+        },
         seeds=3,
-        needs=(PPO[task],),
     )
-    for task in TASKS
-    if "SelfPlay" not in task
-    for algorithm in SB3
+    for task, budgets in IN_TIME_OF_PPO.items()
+    for algorithm, samples in budgets.items()
 )
 """The time of PPO's run, and PPO's network, discount and decision rate."""
 
@@ -54,7 +71,7 @@ CALIBRATION: Final = tuple(
         "VSS-v0",
         algorithm,
         settings={
-            "seconds": 3600,
+            "samples": 2 * M,
             "hidden_sizes": sizes,
             "learning_rate": 1e-4,
             "tau": 1e-3,
@@ -68,7 +85,8 @@ CALIBRATION: Final = tuple(
     )
     for algorithm, sizes in (("ddpg", [400, 300]), ("sac", [256, 256]))
 )
-"""The paper's sizes, settings and observations, for an hour; its runs had 2 M gradient steps."""
+"""The paper's sizes, settings and observations, for .2 M gradient steps, about an hour; the paper's
+runs had 2 M."""
 
 ABLATION: Final = ablation.experiments("VSS-v0", samples=3 * M, seeds=3)
 

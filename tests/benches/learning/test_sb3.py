@@ -13,7 +13,7 @@ from rsoccer.rng import WorldRng
 
 pytest.importorskip("stable_baselines3")
 
-QUICK = {"seconds": 2.0, "rows": 10, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
+QUICK = {"samples": 1_000, "rows": 10, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
 
 
 def experiment(algorithm: str, task: str = "SSLPassEndurance-v0") -> Experiment:
@@ -28,13 +28,27 @@ def test_a_run_leaves_its_result(algorithm: str, tmp_path: Path) -> None:
     assert worker.execute(run, study, folders) is not None
     result = load(folders, run.key)
     assert result is not None
-    assert result["samples"] > 100
-    assert result["gradient_steps"] > 1
-    assert result["learning_seconds"] == 2.0
-    assert 1 <= len(result["curve"]["samples"]) <= 12
-    assert result["curve"]["samples"][-1] == result["samples"]
+    assert result["samples"] == 1_000
+    assert result["gradient_steps"] == (1_000 - 100) // 10
+    assert 0.0 < result["learning_seconds"] < result["seconds"]["cpu"]
+    assert 10 <= len(result["curve"]["samples"]) <= 12  # close ones are merged
+    assert result["curve"]["samples"][-1] == 1_000
+    assert result["curve"]["seconds"][-1] <= result["learning_seconds"]
     modes = {"ddpg": ["mean"], "sac": ["sample", "mean"]}[algorithm]
     assert [row["mode"] for row in result["evaluations"]] == modes
+
+
+@pytest.mark.parametrize("algorithm", ["ddpg", "sac"])
+def test_a_repeated_run_is_the_same(algorithm: str, tmp_path: Path) -> None:
+    study = Study((experiment(algorithm),), Protocol(starts=2))
+    run, found = study.runs()[0], []
+    for attempt in ("first", "second"):
+        folders = Folders(tmp_path / attempt / "results", tmp_path / attempt / "work")
+        assert worker.execute(run, study, folders) is not None
+        result = load(folders, run.key)
+        assert result is not None
+        found.append((result["curve"]["values"], result["evaluations"]))
+    assert found[0] == found[1]
 
 
 @pytest.mark.parametrize("algorithm", ["ddpg", "sac"])
