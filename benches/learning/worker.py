@@ -69,6 +69,8 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
 
 def comparison(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
     """Return in words whether a run has repeated an earlier result."""
+    if any(before[name] != now[name] for name in ("settings", "protocol", "physics", "needs")):
+        return "replaces a result of other settings"
     rows = zip_longest(before["evaluations"], now["evaluations"])
     for earlier, later in ((json.dumps(row) for row in pair) for pair in rows):
         if earlier != later:
