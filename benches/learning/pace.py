@@ -18,9 +18,12 @@ from benches.learning.run_files import Folders
 from benches.learning.table import BASELINES, PPO
 from benches.measuring import Benchmark, Measure, Quantity, Variant, measure, select
 from benches.result_files import Figure, format_number, store, this_machine
+from rsoccer.registry import make_task
 
 FOLDER: Final = "pace"
 """Folder of the figures, in that of the study's results."""
+SOURCE: Final = "amd-epyc-2-cores.csv"
+"""The figures in it from which the table of the study has its samples."""
 GROUP: Final = "pace"
 SPEED: Final = Quantity("speed", "samples/s")
 SECONDS: Final = 4.0
@@ -47,22 +50,29 @@ def samples_in_time_of_ppo(ratio: Figure) -> float:
 
 def _benchmark(experiments: list[Experiment]) -> Benchmark:
     def variant(experiment: Experiment) -> Variant:
-        start = _start_ppo if experiment.algorithm == "ppo" else _start_baseline
-        return Variant(experiment.algorithm, 0, 1, lambda: start(experiment))
+        run = Run(experiment, 0)
+        if experiment.algorithm == "ppo":
+            worlds = ppo_run.args(run).worlds
+            start = _start_ppo
+        else:
+            task = make_task(experiment.task)
+            worlds = sb3_run.number_of_matches(task, sb3_run.settings(run)["rows"])
+            start = _start_baseline
+        return Variant(experiment.algorithm, worlds, 1, lambda: start(run))
 
     variants = tuple(map(variant, experiments))
     pairs = tuple((i, 0) for i in range(1, len(variants)))
     return Benchmark(GROUP, experiments[0].task, variants, pairs)
 
 
-def _start_ppo(experiment: Experiment) -> Measure:
+def _start_ppo(run: Run) -> Measure:
     """Return a measure of updates in which all learn, as in most of a run."""
     import torch
 
     from rsoccer.train.trainer import Trainer
 
     # `Trainer.run` alone writes to the folder, so it stays empty here.
-    trainer = Trainer(ppo_run.args(Run(experiment, 0), Path("nowhere")))
+    trainer = Trainer(ppo_run.args(run, Path("nowhere")))
     if trainer.is_solo:
         trainer.start_self_play()
 
@@ -75,12 +85,12 @@ def _start_ppo(experiment: Experiment) -> Measure:
     return _measured(update)
 
 
-def _start_baseline(experiment: Experiment) -> Measure:
+def _start_baseline(run: Run) -> Measure:
     """Return a measure of steps with gradient steps, without the random ones at the start."""
     from benches.learning.sb3_training import create_model
 
-    values = sb3_run.settings(Run(experiment, 0))
-    model, _ = create_model(experiment.task, values, seed=0)
+    values = sb3_run.settings(run)
+    model, _ = create_model(run.experiment.task, values, seed=0)
     model.learn(values["learning_starts"])
 
     def learn() -> int:

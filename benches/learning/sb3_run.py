@@ -16,7 +16,9 @@ from benches.learning.evaluation import evaluated, opponents_of
 from benches.learning.experiments import Protocol, Run
 from benches.learning.learned import Learned
 from benches.learning.relu_actor import ReluActor
+from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
+from rsoccer.task import Task
 from rsoccer.train.args import Args
 from rsoccer.train.setting_types import converted
 
@@ -67,6 +69,11 @@ def settings(run: Run) -> dict[str, Any]:
     if run.experiment.algorithm != "ddpg":
         del values["noise"]
     return values
+
+
+def number_of_matches(task: Task, rows: int) -> int:
+    """Return the least number of matches in which that many robots learn."""
+    return -(-rows // len(learning_team(task)))
 
 
 def learn(run: Run, folder: Path) -> Learned:

@@ -15,6 +15,7 @@ from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, Vectori
 from stable_baselines3.common.vec_env import VecEnv
 
 from benches.learning.relu_actor import Layer, ReluActor
+from benches.learning.sb3_run import number_of_matches
 from benches.learning.sb3_wrapper import ActionRepeat, MaskedObservations
 from rsoccer.arrays import Floats
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
@@ -124,7 +125,7 @@ def environments(task_name: str, values: dict[str, Any]) -> VecEnv:
     task = make_task(task_name, **values["task_options"])
     learners = learning_team(task)
     controllers = {"yellow": DEFAULT_OPPONENT} if len(learners) < len(task.agents) else None
-    matches = -(-values["rows"] // len(learners))
+    matches = number_of_matches(task, values["rows"])
     envs: VecEnv = SoccerVecEnv(task, matches, threads=1, controllers=controllers)
     if values["masked_observations"]:
         envs = MaskedObservations(envs, mask_of(task_name, values))

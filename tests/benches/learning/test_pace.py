@@ -1,36 +1,23 @@
 """Samples of DDPG and SAC in the time of PPO."""
 
-from pathlib import Path
-
 import pytest
 
 from benches.learning import pace
 from benches.learning.experiments import SB3
 from benches.learning.run_files import Folders
 from benches.learning.table import IN_TIME_OF_PPO
-from benches.result_files import Figure, load
-
-FILES = sorted((Folders().results / pace.FOLDER).glob("*.csv"))
+from benches.result_files import load
 
 
-def ratios(path: Path) -> dict[tuple[str, str], Figure]:
-    _, figures = load(path)
-    found = [figure for figure in figures if figure.unit == "x"]
-    return {(figure.scenario, figure.variant.split(" / ")[0]): figure for figure in found}
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_the_study_has_the_measured_samples(path: Path) -> None:
-    measured = ratios(path)
+def test_the_study_has_the_measured_samples() -> None:
+    machine, figures = load(Folders().results / pace.FOLDER / pace.SOURCE)
+    ratios = {(f.scenario, f.variant.split(" / ")[0]): f for f in figures if f.unit == "x"}
     planned = {(task, name): n for task, row in IN_TIME_OF_PPO.items() for name, n in row.items()}
     assert planned
-    assert planned.keys() == measured.keys()
+    assert planned.keys() == ratios.keys()
+    assert not machine.commit.endswith("-dirty")
     for key, samples in planned.items():
-        assert samples == pytest.approx(pace.samples_in_time_of_ppo(measured[key]), rel=0.06)
-
-
-def test_there_is_a_measurement() -> None:
-    assert FILES
+        assert samples == pytest.approx(pace.samples_in_time_of_ppo(ratios[key]), rel=0.06)
 
 
 def test_each_task_of_the_baselines_is_compared_with_ppo() -> None:
@@ -38,6 +25,7 @@ def test_each_task_of_the_baselines_is_compared_with_ppo() -> None:
     assert [benchmark.scenario for benchmark in found] == list(IN_TIME_OF_PPO)
     for benchmark in found:
         assert [variant.name for variant in benchmark.variants] == ["ppo", *SB3]
+        assert [variant.worlds > 0 for variant in benchmark.variants] == [True] * 3
         assert benchmark.pairs == ((1, 0), (2, 0))
 
 
