@@ -31,6 +31,12 @@ SECONDS: Final = 4.0
 ROUNDS: Final = 5
 STEPS: Final = 20
 """Steps of the vector environment in a call of `learn` of Stable-Baselines3."""
+WARM_UP: Final = 40
+"""Updates of PPO before it is measured.
+
+The first ones end early: the policy still changes by more than the limit of the KL divergence, and
+the adaptive learning rate has not fallen yet. They would make PPO look faster than a run is.
+"""
 
 
 def benchmarks() -> list[Benchmark]:
@@ -55,8 +61,9 @@ def _benchmark(experiments: list[Experiment]) -> Benchmark:
             worlds = ppo_run.args(run).worlds
             start = _start_ppo
         else:
-            task = make_task(experiment.task)
-            worlds = sb3_run.number_of_matches(task, sb3_run.settings(run)["rows"])
+            settings = sb3_run.settings(run)
+            task = make_task(experiment.task, **settings["task_options"])
+            worlds = sb3_run.number_of_matches(task, settings["rows"])
             start = _start_baseline
         return Variant(experiment.algorithm, worlds, 1, lambda: start(run))
 
@@ -66,12 +73,12 @@ def _benchmark(experiments: list[Experiment]) -> Benchmark:
 
 
 def _start_ppo(run: Run) -> Measure:
-    """Return a measure of updates in which all learn, as in most of a run."""
+    """Return a measure of updates after the first ones, in which all robots learn."""
     import torch
 
     from rsoccer.train.trainer import Trainer
 
-    # `Trainer.run` alone writes to the folder, so it stays empty here.
+    # `Trainer.run` alone writes to the folder, so none is made.
     trainer = Trainer(ppo_run.args(run, Path("nowhere")))
     if trainer.is_solo:
         trainer.start_self_play()
@@ -82,6 +89,8 @@ def _start_ppo(run: Run) -> Measure:
         trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
         return trainer.samples - before
 
+    for _ in range(WARM_UP):
+        update()
     return _measured(update)
 
 
