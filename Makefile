@@ -63,7 +63,8 @@ check-site: $(VENV)/site ## build the documentation site without the crates; war
 	$(BIN)/python -m tools.site --without-rust
 
 check-libraries: $(LIBRARIES)/made ## run the tests with other trainer libraries, in an environment of their own
-	$(LIBRARIES)/bin/python -m pytest tests/wrappers tests/test_page_code.py tests/test_docstrings.py
+	$(LIBRARIES)/bin/python -m pytest tests/wrappers tests/test_page_code.py tests/test_docstrings.py \
+		tests/benches/learning/test_sb3.py tests/benches/learning/test_pace.py
 
 check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/tianshou/made ## run the recipes for libraries that need other versions, each in an environment of its own
 	$(RECIPES)/benchmarl/bin/python -m pytest tests/wrappers/test_recipes.py -k benchmarl

@@ -11,10 +11,10 @@ import fnmatch
 import importlib
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from benches.learning import run_files, worker
+from benches.learning import algorithms, run_files, worker
 from benches.learning.experiments import CLONES, Run, Study
 from benches.learning.listing import best, listing
 from benches.learning.pool import BUSY, Pool
@@ -106,14 +106,12 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
             sys.stdout.write("--rerun-stale repeats it\n")
         if entry.state in (UNAVAILABLE, INVALID):
             sys.stderr.write(f"{entry.state}: {entry.run.key}: {entry.reason}\n")
-    wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
     done = {entry.run.key for entry in known if entry.state == DONE}
-    again = set()
-    if options.again:  # clones learn nothing, so they lack no policy
-        learned = (entry.run for entry in chosen if entry.run.experiment.algorithm != CLONES)
-        keys = done & {run.key for run in learned}
-        again = {key for key in keys if not run_files.keeps_policy(folders, key)}
-    runs = [entry.run for entry in chosen if entry.state in wanted or entry.run.key in again]
+    again = repeated(chosen, folders) if options.again else set()
+    wanted = (OPEN, UNFINISHED, WAITING, *([STALE] if options.rerun_stale else []))
+    runs = with_libraries(
+        entry.run for entry in chosen if entry.state in wanted or entry.run.key in again
+    )
     if not runs:
         sys.stdout.write("nothing to do; --list shows the state of the runs\n")
 
@@ -131,6 +129,25 @@ def work(chosen: Sequence[Status], known: Sequence[Status], options: argparse.Na
         sys.stdout.write(f"failed: {', '.join(pool.failed)}\n")
     invalid = any(entry.state == INVALID for entry in chosen)
     return 1 if pool.failed or invalid else 0
+
+
+def repeated(chosen: Sequence[Status], folders: Folders) -> set[str]:
+    """Return the keys of the finished runs whose policy is not here."""
+    # Clones learn nothing, so they lack no policy.
+    runs = [entry.run for entry in chosen if entry.state == DONE]
+    keys = (run.key for run in runs if run.experiment.algorithm != CLONES)
+    return {key for key in keys if not run_files.keeps_policy(folders, key)}
+
+
+def with_libraries(runs: Iterable[Run]) -> list[Run]:
+    """Return the runs whose libraries are installed, and name the others."""
+    found = []
+    for run in runs:
+        if library := algorithms.missing_library(run):
+            sys.stderr.write(f"{UNAVAILABLE}: {run.key}: {library} is not installed\n")
+        else:
+            found.append(run)
+    return found
 
 
 def selected(run: Run, options: argparse.Namespace) -> bool:

@@ -51,7 +51,7 @@ def defaults(run: Run) -> dict[str, Any]:
     algorithm = run.experiment.algorithm
     if algorithm == PPO:
         return ppo_run.defaults()
-    return {} if algorithm == CLONES else sb3_run.DEFAULTS
+    return {} if algorithm == CLONES else sb3_run.defaults()
 
 
 def without_effect(run: Run) -> frozenset[str]:

@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from benches.learning import algorithms
-from benches.learning.experiments import Run
+from benches.learning.experiments import CLONES, PPO, SB3, Run
 from benches.learning.status import Status
 
-SAMPLES_PER_SECOND: Final = 8_000.0
+SAMPLES_PER_SECOND: Final = {PPO: 8_000.0, **dict.fromkeys(SB3, 800.0)}
 """Guess for algorithms of which no run has finished yet."""
 
 
@@ -23,11 +23,12 @@ def expected_seconds(run: Run, known: Sequence[Status]) -> float:
     """
     results = [entry.result for entry in known if entry.result]
     same = [r for r in results if r["run"].startswith(f"{run.experiment.key}/")]
-    if same:
-        return statistics.median(_seconds(result) for result in same)
-    samples = algorithms.settings(run).get("samples", 0)
     task, algorithm = run.experiment.task, run.experiment.algorithm
+    if algorithm == CLONES:  # they learn nothing
+        return statistics.median(_seconds(result) for result in same) if same else 0.0
+    samples = algorithms.settings(run)["samples"]
     alike = (
+        same,  # their number of samples may have been another
         [r for r in results if (r["task"], r["algorithm"]) == (task, algorithm)],
         [r for r in results if r["algorithm"] == algorithm],
     )
@@ -35,7 +36,7 @@ def expected_seconds(run: Run, known: Sequence[Status]) -> float:
         rates = [r["samples"] / _seconds(r) for r in group if r["samples"]]
         if rates:
             return float(samples / statistics.median(rates))
-    return float(samples / SAMPLES_PER_SECOND)
+    return float(samples / SAMPLES_PER_SECOND[algorithm])
 
 
 def _seconds(result: Mapping[str, Any]) -> float:

@@ -1,6 +1,6 @@
 """Speed of DDPG and SAC relative to PPO, from which the samples of their runs follow.
 
-python -m benches.learning.pace
+.venv-libraries/bin/python -m benches.learning.pace
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
@@ -20,11 +21,10 @@ from benches.measuring import Benchmark, Measure, Quantity, Variant, measure, se
 from benches.result_files import Figure, format_number, store, this_machine
 from rsoccer.registry import make_task
 
-FOLDER: Final = "pace"
-"""Folder of the figures, in that of the study's results."""
 SOURCE: Final = "amd-epyc-2-cores.csv"
 """The figures in it from which the table of the study has its samples."""
 GROUP: Final = "pace"
+"""Group of the benchmarks, and folder of the figures in that of the study's results."""
 SPEED: Final = Quantity("speed", "samples/s")
 SECONDS: Final = 4.0
 """Processor time of a measurement."""
@@ -100,11 +100,12 @@ def _start_baseline(run: Run) -> Measure:
 
     values = sb3_run.settings(run)
     model, _ = create_model(run.experiment.task, values, seed=0)
-    model.learn(values["learning_starts"])
+    model.learn(values["learning_starts"], log_interval=None)
 
     def learn() -> int:
         before = int(model.num_timesteps)
-        model.learn(STEPS * int(model.n_envs), reset_num_timesteps=False)
+        samples = STEPS * int(model.n_envs)
+        model.learn(samples, reset_num_timesteps=False, log_interval=None)
         return int(model.num_timesteps) - before
 
     return _measured(learn)
@@ -128,34 +129,66 @@ def _measured(learn: Callable[[], int]) -> Measure:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Measure, store the figures and print the samples of each algorithm in the time of PPO."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", default="", help="only tasks whose name contains this; no file")
-    parser.add_argument("--rounds", type=int, default=ROUNDS)
-    parser.add_argument("--seconds", type=float, default=SECONDS, help="of a measurement")
-    options = parser.parse_args(arguments)
-    chosen = select(benchmarks(), options.only)
+    """Measure, and print the samples of each algorithm in the time of PPO.
 
-    def log(text: str) -> None:
-        sys.stderr.write(f"{text}\n")
+    Without options the figures are stored, too.
 
+    Args:
+        arguments: Command line without the program name; default: that of the process.
+
+    Returns:
+        The exit status.
+    """
+    options, chosen = parse_arguments(arguments)
     # One task after another: the replay buffers of all at once need too much memory.
     figures = [
         figure
         for benchmark in chosen
-        for figure in measure([benchmark], options.rounds, options.seconds, log)
+        for figure in measure([benchmark], options.rounds, options.seconds, _log)
     ]
-    for figure in figures:
-        line = f"{figure.scenario:26} {figure.variant:10}"
-        line += "".join(
-            f" {format_number(x):>8}" for x in (figure.median, figure.minimum, figure.maximum)
-        )
-        if figure.unit == "x":
-            line += f"  {samples_in_time_of_ppo(figure):12,.0f} samples"
-        sys.stdout.write(f"{line}\n")
-    if not options.only:
-        store(figures, this_machine(), Folders().results / FOLDER)
+    sys.stdout.write("".join(map(_line, figures)))
+    if (options.only, options.rounds, options.seconds) == ("", ROUNDS, SECONDS):
+        path = store(figures, this_machine(), Folders().results / GROUP)
+        sys.stdout.write(f"{path}\n")
     return 0
+
+
+def parse_arguments(
+    arguments: list[str] | None,
+) -> tuple[argparse.Namespace, list[Benchmark]]:
+    """Return the options of a command line, and the benchmarks that they select."""
+    parser = argparse.ArgumentParser(prog="python -m benches.learning.pace", description=__doc__)
+    parser.add_argument("--only", default="", help="only tasks whose name contains this")
+    parser.add_argument("--rounds", type=int, default=ROUNDS)
+    parser.add_argument("--seconds", type=float, default=SECONDS, help="of a measurement")
+    options = parser.parse_args(arguments)
+    if options.rounds < 1 or options.seconds < 0.0:
+        parser.error(
+            "expected rounds of at least 1 and seconds of at least 0, "
+            f"got {options.rounds} and {options.seconds}"
+        )
+    if find_spec("stable_baselines3") is None:
+        parser.error("Stable-Baselines3 is missing: make .venv-libraries/made, and its python")
+    if (profile := this_machine().profile) != "release":
+        parser.error(f"expected a release build, got a {profile} build")
+    try:
+        return options, select(benchmarks(), options.only)
+    except ValueError as error:
+        parser.error(str(error))
+
+
+def _log(text: str) -> None:
+    sys.stderr.write(f"{text}\n")
+
+
+def _line(figure: Figure) -> str:
+    """A figure as a line, with the samples that follow from a ratio."""
+    numbers = (figure.median, figure.minimum, figure.maximum)
+    line = f"{figure.scenario:26} {figure.variant:10}"
+    line += "".join(f" {format_number(x):>8}" for x in numbers)
+    if figure.unit == "x":
+        line += f"  {samples_in_time_of_ppo(figure):12,.0f} samples"
+    return f"{line}\n"
 
 
 if __name__ == "__main__":

@@ -85,7 +85,8 @@ def headline() -> str:
         return ""
     picture = f"![Learning curves of all tasks](docs/{CURVES})" if (DOCS / CURVES).exists() else ""
     explained = (
-        "Interquartile means over seeds with 95% intervals; DDPG and SAC had the time of PPO. "
+        "Interquartile means over seeds with 95% intervals; DDPG and SAC had as many "
+        "samples as the time of PPO allows. "
         "[Learning](docs/learning.md) has the protocol, all opponents, and the reasons why PPO "
         "failed in the paper."
     )

@@ -41,10 +41,11 @@ DEFAULTS: Final[dict[str, Any]] = {
 }
 """Settings and their defaults.
 
-Discount, decision rate and network size are those of PPO; `gamma` is per control step. `rows` is
-the least number of robots that act at once; it is a multiple of `samples_per_gradient_step`, which
-is that of the paper, for teams of any size. `noise` of DDPG is an Ornstein-Uhlenbeck process:
-theta, and sigma at the start and at the end of the run, as in the paper; its time is match time.
+`samples` are decisions of single robots, rounded up to whole steps of the environments. Discount,
+decision rate and network size are those of PPO; `gamma` is per control step. `rows` is the least
+number of robots that act at once; it is a multiple of `samples_per_gradient_step`, which is that of
+the paper, for teams of any size. `noise` of DDPG is an Ornstein-Uhlenbeck process: theta, and sigma
+at the start and at the end of the run, as in the paper; its time is match time.
 `masked_observations` are parts that the networks do not read, as in the settings of PPO.
 """
 FILE: Final = "actor.npz"
@@ -69,6 +70,14 @@ def settings(run: Run) -> dict[str, Any]:
     if run.experiment.algorithm != "ddpg":
         del values["noise"]
     return values
+
+
+def defaults() -> dict[str, Any]:
+    """Return the defaults of settings that a result may lack, as it is older than the setting.
+
+    Older results had a limit of time, not of samples, so they lack no default number of samples.
+    """
+    return {name: value for name, value in DEFAULTS.items() if name != "samples"}
 
 
 def number_of_matches(task: Task, rows: int) -> int:

@@ -11,6 +11,7 @@ import numpy as np
 import torch
 from stable_baselines3 import DDPG, SAC
 from stable_baselines3.common.callbacks import BaseCallback
+from stable_baselines3.common.logger import Logger
 from stable_baselines3.common.noise import OrnsteinUhlenbeckActionNoise, VectorizedActionNoise
 from stable_baselines3.common.vec_env import VecEnv
 
@@ -111,10 +112,15 @@ def create_model(
         "seed": seed,
         "device": "cpu",
     }
+    noise: Noise | None = None
     if values["algorithm"] == "ddpg":
         noise = Noise(envs, values)
-        return DDPG("MlpPolicy", envs, action_noise=noise.process, **arguments), noise
-    return SAC("MlpPolicy", envs, **arguments), None
+        model = DDPG("MlpPolicy", envs, action_noise=noise.process, **arguments)
+    else:
+        model = SAC("MlpPolicy", envs, **arguments)
+    # Its own logger makes a folder in the system's one for temporary files in each call of `learn`.
+    model.set_logger(Logger(folder=None, output_formats=[]))
+    return model, noise
 
 
 def environments(task_name: str, values: dict[str, Any]) -> VecEnv:

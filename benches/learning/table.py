@@ -59,10 +59,10 @@ BASELINES: Final = tuple(
         },
         seeds=3,
     )
-    for task, budgets in IN_TIME_OF_PPO.items()
-    for algorithm, samples in budgets.items()
+    for task, row in IN_TIME_OF_PPO.items()
+    for algorithm, samples in row.items()
 )
-"""The time of PPO's run, and PPO's network, discount and decision rate."""
+"""Samples that the time of PPO's run allows, and PPO's network, discount and decision rate."""
 
 CALIBRATION: Final = tuple(
     Experiment(
@@ -85,8 +85,7 @@ CALIBRATION: Final = tuple(
     )
     for algorithm, sizes in (("ddpg", [400, 300]), ("sac", [256, 256]))
 )
-"""The paper's sizes, settings and observations, for .2 M gradient steps, about an hour; the paper's
-runs had 2 M."""
+"""The paper's sizes, settings and observations, for 0.2 M gradient steps; the paper had 2 M."""
 
 ABLATION: Final = ablation.experiments("VSS-v0", samples=3 * M, seeds=3)
 

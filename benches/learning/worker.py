@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from importlib import metadata
 from itertools import zip_longest
@@ -19,6 +19,7 @@ from benches.learning.clock import spent
 from benches.learning.evaluation import evaluate_run
 from benches.learning.experiments import Run, Study
 from benches.learning.run_files import LEARNED_FILE, Folders, load, lock, save
+from benches.learning.status import differences
 from benches.result_files import this_machine
 from rsoccer.evaluate.schedule import processors
 
@@ -63,14 +64,21 @@ def execute(run: Run, study: Study, folders: Folders) -> Path | None:
             "evaluations": evaluations,
         }
         if (before := load(folders, run.key)) is not None:
-            sys.stdout.write(f"{run.key}: {comparison(before, result)}\n")
+            changes = differences(run, study, folders, conditions["settings"], before)
+            sys.stdout.write(f"{run.key}: {comparison(changes, before, result)}\n")
         return save(folders, run.key, result)
 
 
-def comparison(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
-    """Return in words whether a run has repeated an earlier result."""
-    if any(before[name] != now[name] for name in ("settings", "protocol", "physics", "needs")):
-        return "replaces a result of other settings"
+def comparison(changes: Sequence[str], before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
+    """Return in words whether a run has repeated an earlier result.
+
+    Args:
+        changes: What differs from the conditions of the earlier result.
+        before: The earlier result.
+        now: The new one.
+    """
+    if changes:
+        return f"replaces a result of other conditions: {'; '.join(changes)}"
     rows = zip_longest(before["evaluations"], now["evaluations"])
     for earlier, later in ((json.dumps(row) for row in pair) for pair in rows):
         if earlier != later:

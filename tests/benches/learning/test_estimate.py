@@ -5,7 +5,7 @@ import pytest
 from benches.learning.estimate import SAMPLES_PER_SECOND, expected_seconds
 from benches.learning.experiments import Experiment, Run
 from benches.learning.listing import listing
-from benches.learning.status import DONE, OPEN, UNAVAILABLE, Status
+from benches.learning.status import DONE, OPEN, STALE, UNAVAILABLE, Status
 
 FIRST = Experiment("ppo", "VSS-v0", "VSS-v0", settings={"samples": 36_000_000}, seeds=2)
 LONGER = Experiment("ablation", "long", "VSS-v0", settings={"samples": 72_000_000}, seeds=1)
@@ -49,8 +49,14 @@ def test_the_same_task_counts_before_other_tasks() -> None:
 
 
 def test_without_a_finished_run_of_the_algorithm_it_is_a_guess() -> None:
-    assert expected_seconds(Run(OTHER, 0), []) == 24_000_000 / SAMPLES_PER_SECOND
-    assert expected_seconds(Run(SAC, 0), KNOWN[:1]) == 800_000 / SAMPLES_PER_SECOND
+    assert expected_seconds(Run(OTHER, 0), []) == 24_000_000 / SAMPLES_PER_SECOND["ppo"]
+    assert expected_seconds(Run(SAC, 0), KNOWN[:1]) == 800_000 / SAMPLES_PER_SECOND["sac"]
+
+
+def test_an_earlier_result_with_fewer_samples_counts_in_proportion() -> None:
+    run = Run(FIRST, 0)
+    stale = Status(run, STALE, "samples", result={**result(run), "samples": 12_000_000})
+    assert expected_seconds(run, [stale]) == pytest.approx(3.0 * 1.5 * 3600.0)
 
 
 def test_the_list_adds_up_the_open_runs() -> None:

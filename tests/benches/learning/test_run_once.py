@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from benches.learning import algorithms
 from benches.learning.__main__ import main
 from rsoccer.train.args import Args
 
@@ -85,6 +86,20 @@ def test_a_finished_run_is_repeated_where_its_policy_is_missing(
     assert main(again) == 0
     assert "the same evaluations as in the earlier result" in capfd.readouterr().out
     assert policy.read_bytes() == weights
+
+
+def test_a_finished_run_is_not_repeated_without_its_library(
+    folders: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(algorithms, "find_spec", lambda _: None)
+    options = [*folders[:4], "--work", f"{tmp_path}/work", "--only", "ppo/VSS-v0", "--seeds", "1"]
+    assert main([*options, "--again", "--jobs", "1"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == "unavailable: ppo/VSS-v0/seed-0: torch is not installed\n"
+    assert printed.out.startswith("nothing to do")
 
 
 def test_runs_that_need_others_say_so(
