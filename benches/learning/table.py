@@ -32,14 +32,14 @@ PPO: Final = {
 SHARED_WITH_PPO: Final = ("hidden_sizes", "gamma", "action_repeat", "task_options")
 
 IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
-    "VSS-v0": {"ddpg": 1_200_000, "sac": 640_000},
-    "VSSMulti-v0": {"ddpg": 2_600_000, "sac": 1_700_000},
-    "SSLGoToBall-v0": {"ddpg": 160_000, "sac": 110_000},
+    "VSS-v0": {"ddpg": 1_100_000, "sac": 700_000},
+    "VSSMulti-v0": {"ddpg": 1_700_000, "sac": 1_000_000},
+    "SSLGoToBall-v0": {"ddpg": 180_000, "sac": 110_000},
     "SSLPassEndurance-v0": {"ddpg": 210_000, "sac": 130_000},
-    "SSLContestedPossession-v0": {"ddpg": 2_300_000, "sac": 1_400_000},
-    "SSLStaticDefenders-v0": {"ddpg": 3_600_000, "sac": 2_200_000},
-    "SSLDribbling-v0": {"ddpg": 320_000, "sac": 210_000},
-    "SSLPassEnduranceMulti-v0": {"ddpg": 1_000_000, "sac": 660_000},
+    "SSLContestedPossession-v0": {"ddpg": 2_300_000, "sac": 1_600_000},
+    "SSLStaticDefenders-v0": {"ddpg": 2_900_000, "sac": 1_900_000},
+    "SSLDribbling-v0": {"ddpg": 300_000, "sac": 180_000},
+    "SSLPassEnduranceMulti-v0": {"ddpg": 1_300_000, "sac": 700_000},
 }
 """Samples of DDPG and SAC in the time of PPO's run, by task.
 
