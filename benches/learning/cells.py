@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from benches.learning.collection import Collected
-from benches.learning.curves import value_at
+from benches.learning.curves import seconds_to, value_at
 from benches.learning.evaluation import OFFICIAL
 from benches.learning.statistics import Estimate, probability_of_improvement
 from benches.learning.targets import FULL_SUCCESS, PASSES, TARGETS
@@ -79,6 +79,20 @@ def target(part: Collected, opponent: str) -> str:
         made = part.metric("own_passes", opponent)
         found.append(f"{number(passes)} passes {_met(part, made, passes)}")
     return ", ".join(found)
+
+
+def time_to_target(part: Collected, opponent: str) -> str:
+    """Return when the mean learning curve reaches the target; empty without either."""
+    goal = TARGETS.get((part.experiment.task, opponent))
+    if goal is None:
+        return ""
+    ladders = [result.get("ladder", {}) for result in part.results]
+    own = [result["curve"] for result in part.results] if opponent == "-" else []
+    curves = own or [ladder[opponent] for ladder in ladders if opponent in ladder]
+    if not curves:
+        return ""
+    seconds = seconds_to(curves, goal)
+    return "not reached" if seconds is None else minutes(seconds)
 
 
 def _met(part: Collected, estimate: Estimate, target: float) -> str:

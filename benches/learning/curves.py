@@ -72,6 +72,30 @@ def mean_between(curve: Curve, start: float, end: float) -> float:
     return float(np.interp(grid, curve["samples"], curve["values"]).mean())
 
 
+def seconds_to(curves: Sequence[Curve], value: float) -> float | None:
+    """Return the median time at which the mean of several seeds' curves first reaches a value.
+
+    Args:
+        curves: Curve of each seed.
+        value: The value.
+
+    Returns:
+        Seconds of learning; None if the mean stays below the value.
+    """
+    known = [curve for curve in curves if curve["samples"]]
+    if not known:
+        return None
+    first = max(curve["samples"][0] for curve in known)
+    for samples in (n for n in known[0]["samples"] if n >= first):
+        values, seconds = (
+            [np.interp(samples, curve["samples"], curve[name]) for curve in known]
+            for name in ("values", "seconds")
+        )
+        if np.mean(values) >= value:
+            return float(np.median(seconds))
+    return None
+
+
 def band(curves: Sequence[Curve]) -> tuple[Doubles, Doubles, Doubles, Doubles] | None:
     """Return the mean of several seeds' curves with its 95% bootstrap interval.
 

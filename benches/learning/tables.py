@@ -19,7 +19,7 @@ def results(collected: Studied) -> str:
     header = (
         *("task", "against", "measure", "score", "95% interval", "target", "seeds"),
         *("mean action", "won, drawn, lost (own goals)", "measured beside it"),
-        *("time to a goal or success", "samples", "core time"),
+        *("time to a goal or success", "samples", "core time", "time to the target"),
     )
     rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
     return _with_notes(header, rows, collected, "ppo")
@@ -41,6 +41,7 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
         cells.time_to_decision(part, opponent),
         cells.millions(part.samples()),
         cells.minutes(part.core_seconds()),
+        cells.time_to_target(part, opponent),
     )
 
 
