@@ -122,12 +122,12 @@ def trained_table() -> str:
     rows = []
     for name, path in trained.list_trained().items():
         training = json.loads(read_file(path)[1]["training"])
-        made = f"{training['samples'] / 1e6:.1f} million"
+        made = f"{training['samples'] / 1e6:.0f} M"
         for score in trained.list_scores(path):
             interval = f"{score.low:.3f} to {score.high:.3f}"
             cells = (f"`{score.opponent}`", f"`{score.metric}`", f"{score.score:.3f}", interval)
             rows.append((f"`{name}`", made, *cells, str(score.matches)))
-    header = ("task", "decisions", "opponent", "metric", "mean", "95% interval", "matches")
+    header = ("task", "samples", "opponent", "metric", "mean", "95% interval", "matches")
     return table(header, rows)
 
 
@@ -223,6 +223,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "learning_cooperation": learning.cooperation,
     "learning_headline": learning.headline,
     "learning_results": learning.results,
+    "learning_settings": learning.settings,
     "learning_tournament": learning.tournament,
     "libraries": libraries,
     "match": match_picture,

@@ -42,6 +42,15 @@ def with_interval(part: Collected | None) -> str:
     return f"{number(estimate.value)}{mark(part)} ({interval(estimate)})"
 
 
+def lowest_other(part: Collected) -> str:
+    """Return the lowest score against other opponents than the first; empty without any."""
+    others = part.opponents[1:]
+    if not others:
+        return ""
+    value, opponent = min((part.estimate(name).value, name) for name in others)
+    return f"{number(value)} {'in' if opponent == OFFICIAL else 'against'} {against(opponent)}"
+
+
 def better(part: Collected, reference: Collected, opponent: str | None = None) -> str:
     """Return the probability that a run of the first is better; empty for a single seed."""
     opponent = opponent or part.opponents[0]
@@ -65,7 +74,7 @@ def on_curve(part: Collected, samples: float) -> str:
 
 
 def target(part: Collected, opponent: str) -> str:
-    """Return the targets, and whether the lower end of the interval reaches them."""
+    """Return the targets, and whether the interval reaches them."""
     task = part.experiment.task
     if task in FULL_SUCCESS:
         share = FULL_SUCCESS[task]
@@ -97,7 +106,10 @@ def time_to_target(part: Collected, opponent: str) -> str:
 
 def _met(part: Collected, estimate: Estimate, target: float) -> str:
     """Verdict on a target, which is provisional as long as seeds are missing."""
-    verdict = "met" if estimate.low >= target else "missed"
+    if estimate.low >= target:
+        verdict = "met"
+    else:
+        verdict = "not shown" if estimate.high >= target else "missed"
     return f"{verdict} so far" if part.missing or part.stale else verdict
 
 

@@ -45,13 +45,16 @@ def draw_curves(collected: Sequence[Collected], path: Path) -> Path | None:
         handles.update(zip(labels, lines, strict=True))
     style = {"frameon": False, "fontsize": 9, "ncols": len(handles)}
     figure.legend(handles.values(), handles, loc="outside upper center", **style)
-    figure.supxlabel("samples (millions of decisions of one robot)", fontsize=9)
+    caption = "millions of samples; mean of the seeds, its 95% interval, and each seed"
+    figure.supxlabel(caption, fontsize=9)
     figure.savefig(path)
     return path
 
 
 def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
     """Curves of one task: means over seeds with their intervals, and the curve of each seed."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     metric = ""
     for part in parts:
         curves = [result["curve"] for result in part.results]
@@ -66,8 +69,11 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         for curve in curves:
             axes.plot(curve["samples"], curve["values"], color=colour, alpha=0.3, linewidth=0.6)
         _draw_script(axes, part, colour)
-    axes.set_xlim(left=0.0)
+    # DDPG and SAC have a tenth of the samples of PPO, or fewer.
+    axes.set_xscale("log")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter(lambda value, _: f"{value / 1e6:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
     if metric in SHARES:
         lines = (np.asarray(line.get_ydata(), np.float64) for line in axes.get_lines())
         lowest = min(float(values.min(initial=0.0)) for values in lines)

@@ -6,11 +6,17 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
 
-from benches.learning import lost_starts, paper_claims, tables, trained_tournament
+from benches.learning import (
+    lost_starts,
+    paper_claims,
+    settings_table,
+    tables,
+    trained_tournament,
+)
 from benches.learning.collection import Collected, collect
 from benches.learning.pictures import draw_ablation, draw_curves
 from benches.learning.run_files import Folders
-from benches.learning.table import STUDY
+from benches.learning.table import STUDY, TASKS
 from benches.result_files import ROOT
 
 DOCS: Final = ROOT / "docs"
@@ -44,10 +50,10 @@ def draw(collected: list[Collected], folder: Path) -> list[Path]:
 
 
 def results() -> str:
-    """Return the results of PPO, starts that no policy survives, and the learning curves."""
+    """Return the results of PPO, the learning curves, and starts that no policy survives."""
     text = tables.results(_collected()) or "No run has finished yet."
     picture = _picture(CURVES, "Learning curves of all tasks")
-    parts = (text, lost_starts.sentences(Folders()), picture)
+    parts = (text, picture, tables.details(_collected()), lost_starts.sentences(Folders()))
     return "\n\n".join(part for part in parts if part)
 
 
@@ -60,6 +66,11 @@ def ablation() -> str:
     """Return the table and the picture of the ablation; empty without results."""
     text = _section("PPO in the setting of the paper", tables.ablation)
     return f"{text}\n\n{_picture(ABLATION, 'Bars of the ablation')}".strip() if text else ""
+
+
+def settings() -> str:
+    """Return the table of the settings of PPO."""
+    return settings_table.settings(TASKS)
 
 
 def cooperation() -> str:
@@ -87,8 +98,8 @@ def headline() -> str:
     explained = (
         "Interquartile means over seeds with 95% intervals; DDPG and SAC had as many "
         "samples as the time of PPO allows. "
-        "[Learning](docs/learning.md) has the protocol, all opponents, and the reasons why PPO "
-        "failed in the paper."
+        "[Learning](docs/learning.md) has the protocol, all opponents, and what makes PPO fail "
+        "in the paper's setting."
     )
     return "\n\n".join(part for part in (text, explained, picture) if part)
 

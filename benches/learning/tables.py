@@ -18,11 +18,31 @@ def results(collected: Studied) -> str:
     parts = finished(collected, "ppo")
     header = (
         *("task", "against", "measure", "score", "95% interval", "target", "seeds"),
-        *("mean action", "won, drawn, lost (own goals)", "measured beside it"),
-        *("time to a goal or success", "samples", "core time", "time to the target"),
+        *("samples", "core time", "time to the target"),
     )
     rows = [_result_row(part, opponent) for part in parts for opponent in part.opponents]
     return _with_notes(header, rows, collected, "ppo")
+
+
+def details(collected: Studied) -> str:
+    """Return what else was measured of the policies of `results`."""
+    header = (
+        *("task", "against", "mean action", "won, drawn, lost (own goals)"),
+        *("measured beside it", "time to a goal or success"),
+    )
+    rows = [
+        (
+            f"`{part.experiment.task}`{cells.mark(part)}",
+            cells.against(opponent),
+            cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
+            cells.outcomes(part, opponent),
+            cells.second_measure(part, opponent),
+            cells.time_to_decision(part, opponent),
+        )
+        for part in finished(collected, "ppo")
+        for opponent in part.opponents
+    ]
+    return table(header, rows) if rows else ""
 
 
 def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
@@ -35,10 +55,6 @@ def _result_row(part: Collected, opponent: str) -> tuple[str, ...]:
         cells.interval(estimate),
         cells.target(part, opponent),
         cells.seeds(part.scores(opponent)),
-        cells.number(part.estimate(opponent, "mean").value) if "mean" in part.modes else "",
-        cells.outcomes(part, opponent),
-        cells.second_measure(part, opponent),
-        cells.time_to_decision(part, opponent),
         cells.millions(part.samples()),
         cells.minutes(part.core_seconds()),
         cells.time_to_target(part, opponent),
@@ -86,8 +102,8 @@ def ablation(collected: Studied) -> str:
     """Return the scores with one change added to the paper's setting, and with one left out."""
     parts = {part.experiment.name: part for part in finished(collected, "ablation")}
     header = (
-        *("change", "paper + change", "95% interval", "P(better than paper)"),
-        *("ours - change", "95% interval", "P(ours better)", "seeds: paper + change", "ours"),
+        *("change", "paper's with it", "95% interval", "P(better than paper's)"),
+        *("ours without it", "95% interval", "P(ours better)", "seeds: paper's", "ours"),
     )
     paper, ours = parts.get(PAPER), parts.get(OURS)
     rows = []
@@ -122,7 +138,7 @@ def cooperation(collected: Studied) -> str:
     """Return the comparisons of teams, clones and critics."""
     header = (
         *("task", "policy", "against", "score", "95% interval", "target"),
-        *("PPO of the first table", "P(better than it)", "seeds"),
+        *("PPO of the first table", "P(better than it)", "seeds", "won, drawn, lost (own goals)"),
     )
     rows = [
         _cooperation_row(part, opponent, collected)
@@ -148,6 +164,7 @@ def _cooperation_row(part: Collected, opponent: str, collected: Studied) -> tupl
         cells.number(ppo.estimate(opponent).value) if ppo and comparable else "",
         cells.better(part, ppo, opponent) if ppo and comparable else "",
         cells.seeds(part.scores(opponent)),
+        cells.outcomes(part, opponent),
     )
 
 
@@ -187,10 +204,14 @@ def headline(collected: Studied) -> str:
                 f"{cells.measure(part)}{cells.against_first(part)}",
                 cells.with_interval(part),
                 *(cells.with_interval(other) for other in others),
+                cells.lowest_other(part),
                 f"{cells.millions(part.samples())}, {cells.minutes(part.core_seconds())}",
             )
         )
-    header = ("task", "score", "PPO", "DDPG", "SAC", "PPO's samples, time of one core")
+    header = (
+        *("task", "score", "PPO", "DDPG", "SAC", "PPO, lowest of the other scores"),
+        "PPO's samples, time of one core",
+    )
     if not rows:
         return ""
     text = table(header, rows)

@@ -78,7 +78,8 @@ def section(folders: Folders) -> str:
     header = ("policy", "rating", "95% interval", "won, drawn, lost", "goal score")
     return (
         f"{table(header, rows)}\n\n{TASK}, {result['matches']} matches of each pair, half from "
-        f"each side; `ou` has 1000. Cycles of wins: {in_words(result['cycles'])}. "
+        f"each side; Bradley-Terry ratings on the scale of Elo, where `ou` has 1000. Cycles of "
+        f"wins: {in_words(result['cycles'])}. "
         "(`python -m benches.learning.trained_tournament`)\n\n"
         f"![Goal scores of each pair, and ratings]({PICTURE.name})"
     )
