@@ -17,8 +17,8 @@ from rsoccer.train import Args, train
 from rsoccer.train.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
-SAMPLES = 3_000_000
-"""Default number of decisions to learn from: two to three minutes on two cores."""
+SAMPLES = 2_400_000
+"""Default number of decisions to learn from: two to three minutes of training on two cores."""
 SHORT_RUN: Final[Mapping[str, Any]] = {"worlds": 512, "n_minibatches": 8, "solo_fraction": 0.8}
 """Settings of a run that ends before teams play well: most of it has one learner per match, and
 small batches make progress sooner."""
