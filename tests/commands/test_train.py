@@ -1,5 +1,6 @@
 """`rsoccer train`: the settings that it passes on."""
 
+import dataclasses
 import json
 from pathlib import Path
 from typing import Any
@@ -127,3 +128,37 @@ def test_a_switch_has_both_forms_whatever_is_recommended(
     monkeypatch.setattr(task_settings, "TASK_SETTINGS", settings)
     assert cli.main(["train", "--task", "VSS-v0", f"{word}mirror-augmentation"]) == 0
     assert received[0].mirror_augmentation is value
+
+
+def test_resuming_takes_the_settings_of_the_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Formerly all options had to be repeated."""
+    received: list[Any] = []
+    monkeypatch.setattr(train_command, "train", received.append)
+    own = ("--hidden-sizes", "9", "--opponents", "ou", "2", "--task-options", "n_blue=2")
+    began = ["--task", "VSS-v0", "--samples", "5", "--overwrite", "--no-progress", *own]
+    out = ["--out", str(tmp_path)]
+    assert cli.main(["train", *out, *began]) == 0
+    (before,) = received
+    (tmp_path / "args.json").write_text(json.dumps(before.to_json()))
+    assert cli.main(["train", "--resume", *out]) == 0
+    assert cli.main(["train", f"--out={tmp_path}", "--samples", "7", "--resume"]) == 0
+    assert cli.main(["train", *out, "--resume", "--no-resume"]) == 0
+    _, resumed, longer, new = received
+    assert before.task == "VSS-v0"
+    assert resumed == dataclasses.replace(before, resume=True, overwrite=False, progress=True)
+    assert longer == dataclasses.replace(resumed, samples=7)
+    assert (new.task, new.hidden_sizes) == (Args.task, Args.hidden_sizes)
+
+
+@pytest.mark.parametrize("content", [None, "{", "[]", '{"n_brains": 2}', '{"gamma": 7}'])
+def test_resuming_without_usable_settings_has_the_recommended_ones(
+    content: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The error is that of the checkpoint."""
+    pytest.importorskip("torch")
+    if content is not None:
+        (tmp_path / "args.json").write_text(content)
+    assert cli.main(["train", "--out", str(tmp_path), "--resume"]) == 2
+    assert "there is no run to resume" in capsys.readouterr().err

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from pathlib import Path
 from typing import Annotated, Any
 
 from tyro.conf import subcommand
@@ -20,10 +21,10 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     """Return the union of the commands, as tyro takes it.
 
     Args:
-        words: the words after `rsoccer`. Options of `train` that they do not give have the
-            recommended values for the task that they name.
+        words: the words after `rsoccer`. Options of `train` that they do not give have the values
+            of the run that they resume, or else the recommended ones for the task that they name.
     """
-    default = Train.for_task(_last_value(words, "--task") or Train.task)
+    default = _train_defaults(words)
     return (
         Annotated[List, subcommand("list")]
         | Annotated[Train, subcommand("train", default=default)]
@@ -32,6 +33,20 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
     )
+
+
+def _train_defaults(words: Sequence[str]) -> Train:
+    """Values of the options of `train` that the words do not give."""
+    resumed = None
+    if _resumes(words):
+        resumed = Train.of_run(Path(_last_value(words, "--out") or Train.out))
+    return resumed or Train.for_task(_last_value(words, "--task") or Train.task)
+
+
+def _resumes(words: Sequence[str]) -> bool:
+    """Whether the words resume a training run."""
+    switches = [word for word in words if word in ("--resume", "--no-resume")]
+    return "train" in words[:1] and switches[-1:] == ["--resume"]
 
 
 def _last_value(words: Sequence[str], option: str) -> str | None:

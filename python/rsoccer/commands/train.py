@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Any
+from pathlib import Path
+from typing import Annotated, Any, Final, Self
 
 from tyro.constructors import PrimitiveConstructorSpec
 
@@ -12,6 +14,10 @@ from rsoccer.commands.entries import check_entries
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.train import Args, train
+from rsoccer.train.args import SETTINGS_FILE
+
+_NOT_RESUMED: Final = {"out", "resume", "overwrite", "progress"}
+"""Settings that belong to one call of the command, and not to the run."""
 
 
 def _parse_mix(words: list[str]) -> dict[str, float]:
@@ -41,6 +47,22 @@ class Train(Args):
     opponent=chase"""
     opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
     teammates: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
+
+    @classmethod
+    def of_run(cls, folder: Path) -> Self | None:
+        """Return the settings of the run in a folder, the defaults when it resumes.
+
+        Args:
+            folder: the `out` of the run.
+
+        Returns:
+            None if its file of settings is missing, damaged or of a version with other settings.
+        """
+        try:
+            saved = json.loads((folder / SETTINGS_FILE).read_bytes())
+            return cls(**{name: saved[name] for name in saved if name not in _NOT_RESUMED})
+        except (OSError, TypeError, ValueError):  # resuming reports what is wrong with the run
+            return None
 
     def run(self) -> None:
         """Train, and print the path of the policy file."""

@@ -75,7 +75,7 @@ class Args:
     """where the networks learn: cpu, cuda (a GPU), or auto (a GPU if there is one).
     Physics and acting are always on the CPU"""
     resume: bool = False
-    """continue the run in `out` from its last checkpoint"""
+    """continue the run in `out` from its last checkpoint; on the command line, with its settings"""
     overwrite: bool = False
     """start a new run in `out` even if it already holds one"""
     checkpoint_interval: float = 30.0
