@@ -1,22 +1,23 @@
 """A task, a policy and a simulator in which a chosen method raises an error."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer import Matches, Simulator
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
+from rsoccer.rules import Crossings, Restart, Rule
 from rsoccer.task import Play
 from tests.helpers import Crowd, pushing
 
 METHODS = (
     "get_commands",
-    "reposition_ball",
+    "judge",
     "calculate_reward_and_done",
     "frame_to_observations",
     "metrics",
@@ -42,12 +43,27 @@ class Failure:
             raise InjectedError(f"{name} fails")
 
 
+class FailingRule(Crossings):
+    """The rule of the lines, which fails if it is chosen."""
+
+    def __init__(self, failure: Failure) -> None:
+        self._fuse = failure
+
+    def judge(self, play: Play) -> Restart | None:
+        self._fuse.raise_in("judge")
+        return super().judge(play)
+
+
 @dataclass(frozen=True)
 class FailingTask(Crowd):
     """A crowd with memory and random ends, in which the chosen method fails."""
 
     max_steps: int = 12
     failure: Failure = field(default_factory=Failure)
+
+    @property
+    def rules(self) -> Sequence[Rule]:
+        return (FailingRule(self.failure),)
 
     def new_memory(self, n: int) -> dict[str, Array]:
         self.failure.raise_in("new_memory")
@@ -64,10 +80,6 @@ class FailingTask(Crowd):
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         self.failure.raise_in("get_commands")
         return super().get_commands(play, actions)
-
-    def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        self.failure.raise_in("reposition_ball")
-        return None
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         self.failure.raise_in("frame_to_observations")

@@ -15,18 +15,22 @@ from rsoccer import play as play_module
 from rsoccer._core import Threads
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
+from rsoccer.game import EventKind
 from rsoccer.play import Play
+from rsoccer.senses import Senses
 from rsoccer.view import Viewpoint
 from tests.failing import FailingTask
 from tests.helpers import pushing, same
+from tests.sensors import LateAndNoisy
 
 WORLDS = 7  # unlike the numbers of robots and observers, 6
 SOME = np.array([4, 1, 5])
 
 FIELDS: dict[str, Field[object]] = {each.name: each for each in fields(Play)}
 ROLES = {name: each.metadata.get("role", "saved") for name, each in FIELDS.items()}
-PER_WORLD = [name for name, role in ROLES.items() if role != "shared"]
-SAVED = [name for name, role in ROLES.items() if role == "saved"]
+PER_WORLD = [name for name, role in ROLES.items() if role in ("saved", "stream")]
+STEP = [name for name, role in ROLES.items() if role == "step"]
+SAVED = [name for name, role in ROLES.items() if role in ("saved", "step")]
 
 
 def arrays_in(value: object) -> list[Array]:
@@ -41,6 +45,8 @@ def arrays_in(value: object) -> list[Array]:
         return []
     if isinstance(value, WorldRng):
         return [value._state]
+    if isinstance(value, Senses):
+        return [value.frame.rows, *value.state.values(), value.rng._state]
     if isinstance(value, Mapping):
         return list(value.values())
     raise TypeError(f"a field of a new type: {type(value).__name__}")
@@ -52,8 +58,10 @@ def copies_of(play: Play) -> dict[str, list[Array]]:
 
 
 def played(seed: int, steps: int) -> Matches:
-    """Matches of a task with memory and random numbers, after some steps."""
-    matches = Matches(FailingTask(max_steps=99), WORLDS, seed, autoreset="disabled")
+    """Matches of a task with memory, random numbers and senses, after some steps."""
+    task = FailingTask(max_steps=99)
+    sensing = LateAndNoisy(task.config.row_size)
+    matches = Matches(task, WORLDS, seed, autoreset="disabled", sensing=sensing)
     matches.reset()
     rng = np.random.default_rng(seed)
     for _ in range(steps):
@@ -65,7 +73,7 @@ def two_plays() -> tuple[Play, Play]:
     """Two plays that differ in every array with values per world."""
     ours = played(seed=1, steps=5).play
     theirs = copy.deepcopy(ours)
-    for name in PER_WORLD:
+    for name in (*PER_WORLD, *STEP):
         arrays = arrays_in(getattr(theirs, name))
         assert arrays, f"{name} has no array: nothing would be compared"
         for array, other in zip(arrays, arrays_in(getattr(ours, name)), strict=True):
@@ -78,7 +86,7 @@ def two_plays() -> tuple[Play, Play]:
 def expect_take() -> None:
     play, _ = two_plays()
     before, part = copies_of(play), play.take(SOME)
-    for name in PER_WORLD:
+    for name in (*PER_WORLD, *STEP):
         for array, kept in zip(arrays_in(getattr(part, name)), before[name], strict=True):
             assert same(array, kept[SOME]), f"take: {name}"
             array[...] = 0
@@ -97,6 +105,9 @@ def expect_put() -> None:
         ):
             kept[SOME] = new[SOME]
             assert same(array, kept), f"put: {name}"
+    for name in STEP:
+        for array, kept in zip(arrays_in(getattr(ours, name)), expected[name], strict=True):
+            assert same(array, kept), f"a new episode leaves {name}"
 
 
 def expect_arrays() -> None:
@@ -105,11 +116,15 @@ def expect_arrays() -> None:
     for name in SAVED:
         keys = [key for key in listed if key.split(".")[0] == name]
         for array in arrays_in(getattr(play, name)):
+            if name == "senses" and play.senses is not None and array is play.senses.rng._state:
+                continue  # saved beside the other random streams
             assert any(listed[key] is array for key in keys), f"arrays: {name}"
 
 
 def expect_saving() -> None:
     ours, theirs = played(seed=1, steps=5), played(seed=2, steps=3)
+    ours.play.game.score[:] = 3
+    ours.play.events.add(SOME, EventKind.GOAL)
     theirs.load_state_dict(ours.state_dict())
     for name in FIELDS:
         values = arrays_in(getattr(ours.play, name)), arrays_in(getattr(theirs.play, name))
@@ -121,13 +136,13 @@ CHECKS = [expect_take, expect_put, expect_arrays, expect_saving]
 
 
 def test_every_role_is_known_and_used() -> None:
-    assert set(ROLES.values()) == {"saved", "shared", "stream"}
-    assert len(FIELDS) == len(PER_WORLD) + list(ROLES.values()).count("shared")
+    assert set(ROLES.values()) == {"saved", "shared", "stream", "step"}
+    assert len(FIELDS) == len(PER_WORLD) + len(STEP) + list(ROLES.values()).count("shared")
 
 
 def test_shared_fields_have_no_value_per_world() -> None:
     play, _ = two_plays()
-    for name in FIELDS.keys() - set(PER_WORLD):
+    for name in FIELDS.keys() - {*PER_WORLD, *STEP}:
         assert all(len(array) != WORLDS for array in arrays_in(getattr(play, name))), name
 
 
@@ -152,7 +167,8 @@ def test_a_field_left_out_of_copying_would_be_found(
     monkeypatch.setattr(
         play_module, "_PER_WORLD", tuple(each for each in PER_WORLD if each != name)
     )
-    with pytest.raises(TypeError, match=name):
+    # A field without a default is missed by the constructor, one with a default has no array.
+    with pytest.raises(TypeError, match=f"{name}|NoneType"):
         expect_take()
 
 

@@ -6,6 +6,7 @@ from rsoccer._core import Potential, mean_action_magnitude, nearest_to_ball
 from rsoccer.arrays import Floats
 from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches
+from rsoccer.rules import Crossings
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests import rewards_reference
@@ -41,10 +42,12 @@ def accumulate(term: str, steps: int = 60) -> tuple[Floats, Play, Play]:
 
 def test_a_goal_has_the_sign_of_the_observers_team() -> None:
     play = initial_play(3)
+    assert not rewards.goal(play).any()
     play.frame.ball.crossed[:] = [GOAL_RIGHT, GOAL_LEFT, 0]
+    Crossings().judge(play)
     assert rewards.goal(play).tolist() == [[1] * 3 + [-1] * 3, [-1] * 3 + [1] * 3, [0] * 6]
     assert rewards.scored(play).tolist() == [True, True, False]
-    assert rewards.goal_score(play.frame.ball).tolist() == [1.0, -1.0, 0.0]
+    assert rewards.goal_score(play).tolist() == [1.0, -1.0, 0.0]
 
 
 def test_shaping_terms_are_zero_after_a_reset() -> None:

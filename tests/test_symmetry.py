@@ -5,7 +5,6 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Frame, Matches
-from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Floats
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
@@ -64,28 +63,6 @@ def test_without_contact_the_rotated_match_is_exactly_the_same(name: str) -> Non
         assert np.array_equal(a.rewards[:, TEAMS], b.rewards)
         assert np.array_equal(a.ended, b.ended)
     assert np.abs(ours.frame.robots.position - Frame(moved, 3, 3).robots.position).max() > 0.05
-
-
-def test_a_ball_that_left_returns_symmetrically() -> None:
-    """Robots stand where the ball left, so the nearest positions are occupied."""
-    worlds = 40
-    task = rsoccer.make_task(SSL)
-    rng = np.random.default_rng(0)
-    frame = Frame(spread_out(worlds, SSL), 3, 3)
-    frame.ball.crossed[:] = [
-        CROSSINGS.index("touch_line_left"),
-        CROSSINGS.index("goal_line_left"),
-    ] * 20
-    frame.ball.crossed_at[::2] = np.stack([rng.uniform(-3, 3, 20), np.full(20, 2.0)], axis=-1)
-    frame.ball.crossed_at[1::2] = np.stack([np.full(20, -3.0), rng.uniform(0.5, 2, 20)], axis=-1)
-    near = frame.ball.crossed_at + rng.uniform(-0.2, 0.2, (worlds, 2))
-    frame.blue.position[:, 0] = np.clip(near, [-2.8, -1.8], [2.8, 1.8])
-    ours, theirs = task.reposition_ball(frame), task.reposition_ball(rotated(frame))
-    assert ours is not None
-    assert theirs is not None
-    assert np.array_equal(-ours[1][:, :2], theirs[1][:, :2])
-    aside = np.abs(ours[1][:, :2] - np.clip(frame.ball.crossed_at, [-2.8, -1.8], [2.8, 1.8]))
-    assert (aside.max(axis=1) > 0.01).sum() > 10, "no position was occupied"
 
 
 def test_through_one_contact_the_rotated_match_stays_the_same() -> None:

@@ -54,7 +54,7 @@ class PolicyGroup:
         shape = (len(actions), len(self.robots), actions.shape[2])
         view = observed = None
         if self.policy.observes != "nothing":
-            view = play.view.select(self.observer_indices)
+            view = play.sensed_view.select(self.observer_indices)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
         chosen = self.policy.act(PolicyInput(shape, view, observed), self.rng, self.memory)

@@ -1,4 +1,4 @@
-"""State that a task may read, for n worlds: frames, views, actions and the task's own memory.
+"""State that a task may read, for n worlds: frames, views, actions, game, events, own memory.
 
 `Play` lists its fields once. Copying worlds, overwriting worlds and saving all follow from the
 list, so a new field takes part in each of them. Views follow from the frames: they are computed
@@ -15,17 +15,25 @@ from numpy.typing import NDArray
 from rsoccer._core import Threads
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import Frame
+from rsoccer.game import Events, Game, NamedArrays
 from rsoccer.rng import WorldRng
+from rsoccer.senses import Senses
 from rsoccer.view import CachedView, View, Viewpoint
 
 # Roles of fields that are not plain per-world state, for copying and saving.
 SHARED: Final = {"role": "shared"}  # the same for all worlds: neither copied nor saved
 STREAM: Final = {"role": "stream"}  # copied, and saved beside the other random streams
+STEP: Final = {"role": "step"}  # results of the last step: saved, and left by a new episode
 
 
 @dataclass
 class Play:
-    """State of n worlds that a task may read; only `memory` and `rng` are the task's to change."""
+    """State of n worlds that a task may read; only `memory` and `rng` are the task's to change.
+
+    Rewards, ends, metrics and rules read the true state, `frame` and `view`. What robots know is
+    `sensed` and `sensed_view`: observations, policies and commands read these. Without a sensor
+    model both are the same arrays.
+    """
 
     frame: Frame
     """(n, ...) current state."""
@@ -39,21 +47,39 @@ class Play:
     """(n,) random streams of the task, one per world."""
     memory: dict[str, Array]
     """(n, ...) arrays of the task, fresh after a reset; see `Task.new_memory`."""
+    game: Game
+    """(n, ...) score and state of the task's rules, fresh after a reset; see `Task.rules`."""
+    events: Events = field(metadata=STEP)
+    """(n, ...) events of the last step: goals, passes, decisions of the rules."""
     viewpoint: Viewpoint = field(metadata=SHARED)
     """Observers, and the conversion of frames into their views."""
     steps: NDArray[np.int64]
     """(n,) control steps since the episode began."""
     threads: Threads = field(default_factory=Threads, metadata=SHARED)
     """Threads that share the work on many worlds; results do not depend on their number."""
+    senses: Senses | None = None
+    """What the robots sense; None if they know the true state."""
 
     def __post_init__(self) -> None:
         """Begin without views."""
-        self._view, self._last_view = CachedView(), CachedView()
+        self._view, self._last_view, self._sensed_view = CachedView(), CachedView(), CachedView()
 
     @property
     def observers(self) -> NDArray[np.intp]:
         """(observers,) indices of the robots that have a view, in the order of a state row."""
         return self.viewpoint.observers
+
+    @property
+    def sensed(self) -> Frame:
+        """(n, ...) current state as the robots know it."""
+        return self.frame if self.senses is None else self.senses.frame
+
+    @property
+    def sensed_view(self) -> View:
+        """(n, observers, ...) `sensed` in the coordinates of each observer."""
+        if self.senses is None:
+            return self.view
+        return self._sensed_view.of(self.senses.frame, self.viewpoint)
 
     @property
     def view(self) -> View:
@@ -70,6 +96,7 @@ class Play:
         self.frame, self.last_frame = self.last_frame, self.frame
         self._view, self._last_view = self._last_view, self._view
         self._view.expire()
+        self._sensed_view.expire()
 
     def start(self, rows: Floats) -> None:
         """Begin episodes, with the last frame equal to the current one.
@@ -82,9 +109,9 @@ class Play:
         self.expire_views()
 
     def expire_views(self) -> None:
-        """Have both views computed again; to be called after a change of the frames."""
-        self._view.expire()
-        self._last_view.expire()
+        """Have all views computed again; to be called after a change of the frames."""
+        for view in (self._view, self._last_view, self._sensed_view):
+            view.expire()
 
     def take(self, worlds: NDArray[np.intp]) -> "Play":
         """Return a copy of some worlds.
@@ -93,11 +120,11 @@ class Play:
             worlds: (k,) indices of worlds.
         """
         values = {name: getattr(self, name) for name in _names("shared")}
-        values |= {name: _take(getattr(self, name), worlds) for name in _PER_WORLD}
+        values |= {name: _take(getattr(self, name), worlds) for name in (*_PER_WORLD, *_STEP)}
         return Play(**values)
 
     def put(self, worlds: NDArray[np.intp], part: "Play") -> None:
-        """Overwrite some worlds.
+        """Overwrite some worlds, all but the events of the last step.
 
         Args:
             worlds: (k,) indices of worlds.
@@ -110,11 +137,13 @@ class Play:
     def arrays(self) -> dict[str, Array]:
         """Return the arrays to save, by name; not copied. Random streams are saved by others."""
         arrays: dict[str, Array] = {}
-        for name in _names("saved"):
+        for name in _names("saved", "step"):
             value = getattr(self, name)
+            if isinstance(value, Senses):
+                value = value.arrays()
             if isinstance(value, Mapping):
                 arrays |= {f"{name}.{key}": array for key, array in value.items()}
-            else:
+            elif value is not None:
                 arrays[name] = value.rows if isinstance(value, Frame) else value
         return arrays
 
@@ -125,19 +154,24 @@ def _names(*roles: str) -> tuple[str, ...]:
 
 
 _PER_WORLD: Final = _names("saved", "stream")
+_STEP: Final = _names("step")
 
 
 def _take(value: Any, worlds: NDArray[np.intp]) -> Any:  # noqa: ANN401  (a field's value)
-    if isinstance(value, Mapping):
+    if value is None:
+        return None
+    if isinstance(value, dict):
         return {key: array[worlds] for key, array in value.items()}
-    return value.take(worlds) if isinstance(value, Frame) else value[worlds]
+    if isinstance(value, Frame | NamedArrays | Senses):
+        return value.take(worlds)
+    return value[worlds]
 
 
 def _put(value: Any, worlds: NDArray[np.intp], part: Any) -> None:  # noqa: ANN401  (a field's value)
-    if isinstance(value, Mapping):
+    if isinstance(value, dict):
         for key, array in part.items():
             value[key][worlds] = array
     elif isinstance(value, np.ndarray):
         value[worlds] = part
-    else:
+    elif value is not None:
         value.put(worlds, part)

@@ -10,9 +10,9 @@ from typing import Final
 import numpy as np
 
 from rsoccer import _core
-from rsoccer._core import CROSSINGS, Field, Potential, SimConfig, mean_action_magnitude
+from rsoccer._core import Field, Potential, SimConfig, mean_action_magnitude
 from rsoccer.arrays import Floats, Mask
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, BallColumns
+from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.task import Play
 
 BEHIND_BALL_DISTANCE: Final = 0.08
@@ -20,28 +20,32 @@ BEHIND_BALL_DISTANCE: Final = 0.08
 
 
 def goal(play: Play) -> Floats:
-    """Return +1 for a goal of the observer's team, -1 for one against it, else 0.
+    """Return the goals of the observer's team in the last step, less those of the other team.
 
     Args:
         play: state of n worlds.
 
     Returns:
-        (n, observers).
+        (n, observers): 1 for a goal, -1 for one against, else 0.
     """
-    scores: Floats = _GOAL_SCORES[:, play.viewpoint.teams]
-    return scores.take(play.frame.ball.crossed.astype(np.intp), axis=0)
+    if not np.count_nonzero(play.events.count):  # in most steps
+        return np.zeros((len(play.frame), len(play.observers)), np.float32)
+    goals = play.events.by_team(EventKind.GOAL)
+    balance = (goals - goals[:, ::-1]).astype(np.float32)
+    return balance[:, play.viewpoint.teams]
 
 
-def goal_score(ball: BallColumns) -> Floats:
-    """Return +1 where the ball crossed the goal line at +x, -1 where the one at -x, else 0.
+def goal_score(play: Play) -> Floats:
+    """Return the goals of blue in the episode, less those of yellow.
 
     Args:
-        ball: balls (...) after a step.
+        play: state of n worlds.
 
     Returns:
-        (...), of the same shape as `ball.crossed`.
+        (n,).
     """
-    return _GOAL_SCORES[:, 0].take(ball.crossed.astype(np.intp))
+    score = play.game.score
+    return (score[:, BLUE] - score[:, YELLOW]).astype(np.float32)
 
 
 def scored(play: Play) -> Mask:
@@ -53,7 +57,7 @@ def scored(play: Play) -> Mask:
     Returns:
         (n,).
     """
-    return np.not_equal(goal_score(play.frame.ball), 0.0)
+    return play.events.happened(EventKind.GOAL)
 
 
 def potential_difference(play: Play, potential: Potential) -> Floats:
@@ -162,13 +166,3 @@ def weighted_terms(
         Weighted terms by name, in the order of `terms`.
     """
     return {name: term * weights[name] for name, term in terms.items()}
-
-
-# (crossings, 2) score of each kind of crossing for blue, which attacks +x, and for yellow.
-_GOAL_SCORES = np.array(
-    [
-        [(i == GOAL_RIGHT) - (i == GOAL_LEFT), (i == GOAL_LEFT) - (i == GOAL_RIGHT)]
-        for i in range(len(CROSSINGS))
-    ],
-    np.float32,
-)

@@ -175,7 +175,7 @@ class WorldRng:
 
 def next_streams(
     streams: dict[str, WorldRng], worlds: NDArray[np.intp], seeds: Seeds | None
-) -> list[WorldRng]:
+) -> dict[str, WorldRng]:
     """Return the streams that some worlds use from their next episode on.
 
     Args:
@@ -185,7 +185,7 @@ def next_streams(
             from the seed by the stream's name; elsewhere, and for None, streams continue.
 
     Returns:
-        Copies with k streams each, in the order of `streams`.
+        Copies with k streams each, by the same names.
     """
     parts = {name: rng[worlds] for name, rng in streams.items()}
     if seeds is not None:
@@ -193,7 +193,7 @@ def next_streams(
         seeded, root = np.array(list(given), np.intp), WorldRng.seeded_each([*given.values()])
         for name, rng in parts.items():
             rng.put(seeded, root.split(name))
-    return list(parts.values())
+    return parts
 
 
 def _initial_states(seeds: Words) -> Words:

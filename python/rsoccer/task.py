@@ -13,16 +13,18 @@ from functools import cached_property
 from typing import ClassVar, Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import SimConfig, Threads, clip_in_place
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame, robot_names, team_of
+from rsoccer.game import Events, new_game
 from rsoccer.markers import Marker
 from rsoccer.play import Play
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
+from rsoccer.rules.base import Rule, columns
+from rsoccer.rules.crossings import Crossings
 from rsoccer.view import SIDES, Viewpoint
 
 __all__ = ["DEFAULT_LIMIT", "LEARN", "Block", "Learn", "Play", "Task"]
@@ -93,6 +95,11 @@ class Task(ABC):
     def config(self) -> SimConfig:
         """Configuration of the simulator: field, robots, ball and time step."""
 
+    @property
+    def rules(self) -> Sequence[Rule]:
+        """Rules of the game, in the order of their precedence. Default: `Crossings`."""
+        return (Crossings(),)
+
     def new_memory(self, n: int) -> dict[str, Array]:
         """Create the task's own state at the start of an episode.
 
@@ -100,19 +107,8 @@ class Task(ABC):
             n: number of worlds.
 
         Returns:
-            Arrays (n, ...) by name. `Play.memory` holds copies of them, which `restart_play` and
-            `calculate_reward_and_done` update in place; a reset renews them. Default: none.
-        """
-        return {}
-
-    def rule_memory(self, n: int) -> dict[str, Array]:
-        """Create the memory of rules that derived tasks keep, whatever their `new_memory` is.
-
-        Args:
-            n: number of worlds.
-
-        Returns:
-            Arrays (n, ...) by name, as `new_memory`. Default: none.
+            Arrays (n, ...) by name. `Play.memory` holds copies of them, which
+            `calculate_reward_and_done` updates in place; a reset renews them. Default: none.
         """
         return {}
 
@@ -142,7 +138,7 @@ class Task(ABC):
         """Convert actions to robot commands.
 
         Args:
-            play: state of n worlds.
+            play: state of n worlds, of which robots know `play.sensed`.
             actions: (n, robots, action_size) in [-1, 1].
 
         Returns:
@@ -154,7 +150,8 @@ class Task(ABC):
         """Compute the observation of each observer as named blocks.
 
         Args:
-            play: state of n worlds; `play.view` is in the coordinates of each observer.
+            play: state of n worlds. `play.sensed_view` is what each observer knows, in its own
+                coordinates; `play.sensed` is the same in absolute ones.
 
         Returns:
             Blocks (n, observers, ...) by name. `observe` concatenates them in this order and
@@ -166,7 +163,8 @@ class Task(ABC):
         """Return the reward terms of the last step and the terminations.
 
         Args:
-            play: state of n worlds after the step.
+            play: state of n worlds that the physics of the step left, with the score and the events
+                of the step. A restart of play takes effect afterwards.
 
         Returns:
             Weighted reward terms by name, each (n, observers) or (n, 1); and (n,) the episodes
@@ -182,38 +180,6 @@ class Task(ABC):
             world: index of the world, 0 to n - 1.
         """
         return ()
-
-    def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        """Choose the balls to move after a step, such as a ball that left the field.
-
-        Robots keep their state. Where a ball is moved, `last_frame` is set equal to `frame`, so
-        the jump of the ball is not rewarded.
-
-        Args:
-            frame: (n, ...) state after the step.
-
-        Returns:
-            (k,) indices of worlds, each at most once, in any order; and (k, ball column) the new
-            balls with the columns of `frame.ball.data`, of which position, velocity and spin are
-            used. None for no world, which is the default.
-        """
-        return None
-
-    def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
-        """Choose matches that continue from another state after a step, as a referee restarts play.
-
-        It is called after `reposition_ball`, before `play.steps` counts the step. The episode
-        continues: clock, policies and memory are kept. Where play restarts, `last_frame` is set
-        equal to `frame`, so the jump is not rewarded.
-
-        Args:
-            play: state of n worlds after the step; its memory may be updated in place.
-
-        Returns:
-            (k,) indices of worlds, each at most once, in any order; and (k, row) their new states,
-            as for a start of an episode. None for no world, which is the default.
-        """
-        return None
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute metrics of each episode; the values at its end are reported.
@@ -412,7 +378,9 @@ class Task(ABC):
             commands=np.zeros((n, robots, len(self.config.command_columns)), np.float32),
             actions=np.zeros((n, robots, self.action_size), np.float32),
             rng=rng,
-            memory=checks.memory("new_memory", self.new_memory(n), n) | self.rule_memory(n),
+            memory=checks.memory("new_memory", self.new_memory(n), n),
+            game=new_game(n, columns(self.rules, n)),
+            events=Events.empty(n),
             viewpoint=viewpoint,
             steps=np.zeros(n, np.int64),
             threads=threads or Threads(),

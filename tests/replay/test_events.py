@@ -3,21 +3,24 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from rsoccer import SimConfig
-from rsoccer._core import CROSSINGS
+from rsoccer import SimConfig, game
 from rsoccer.frame import Frame
-from rsoccer.replay.events import KICK_GAIN, Event, step_events
+from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
+from rsoccer.replay.events import KICK_GAIN, KINDS, Event, ball_events, game_events
 from tests.replay.conftest import ssl, vss
 
 CONFIG = SimConfig("ssl_b", 2, 1)
 ROBOTS = ("blue_0", "blue_1", "yellow_0")
+LEFT_TOUCH = EventKind.BALL_LEFT_FIELD_TOUCH_LINE
+LEFT_GOAL = EventKind.BALL_LEFT_FIELD_GOAL_LINE
+STUCK = EventKind.NO_PROGRESS_IN_GAME
 
 
 def events(
     before: Frame, after: Frame, commands: np.ndarray[tuple[int, int], np.dtype[np.float32]]
 ) -> list[Event]:
     rows = np.concatenate([before.rows, after.rows])
-    return step_events(CONFIG, ROBOTS, 7, rows, commands)
+    return ball_events(CONFIG, ROBOTS, 7, rows, commands)
 
 
 def states() -> tuple[Frame, Frame, np.ndarray[tuple[int, int], np.dtype[np.float32]]]:
@@ -26,19 +29,28 @@ def states() -> tuple[Frame, Frame, np.ndarray[tuple[int, int], np.dtype[np.floa
 
 
 @pytest.mark.parametrize(
-    ("crossing", "kind", "detail"),
+    ("event", "kind", "robot", "detail"),
     [
-        ("goal_right", "goal", "blue"),
-        ("goal_left", "goal", "yellow"),
-        ("touch_line_left", "out", "touch_line_left"),
+        (game.Event(EventKind.GOAL, BLUE, 2, (3.0, 0.1)), "goal", "yellow_0", "blue"),
+        (game.Event(EventKind.GOAL, YELLOW, NOBODY, (-3.0, 0.1)), "goal", "", "yellow"),
+        (game.Event(LEFT_TOUCH, BLUE, 1, (1.0, 2.0)), "out", "blue_1", "touch_line_left"),
+        (game.Event(LEFT_TOUCH, BLUE, 1, (1.0, -2.0)), "out", "blue_1", "touch_line_right"),
+        (game.Event(LEFT_GOAL, NOBODY, NOBODY, (3.0, 1.0)), "out", "", "goal_line_right"),
+        (game.Event(LEFT_GOAL, NOBODY, NOBODY, (-3.0, 1.0)), "out", "", "goal_line_left"),
+        (game.Event(STUCK, NOBODY, NOBODY, (0.0, 0.0)), "free_ball", "", ""),
+        (game.Event(EventKind.PASS, YELLOW, 2, (0.0, 0.0)), "pass", "yellow_0", "yellow"),
     ],
 )
-def test_a_crossing_names_the_last_robot(crossing: str, kind: str, detail: str) -> None:
-    before, after, commands = states()
-    after.ball.crossed[:] = CROSSINGS.index(crossing)
-    assert events(before, after, commands) == [Event(7, kind, "", detail)]
-    after.ball.last_touch[:] = 2
-    assert events(before, after, commands) == [Event(7, kind, "yellow_0", detail)]
+def test_events_of_the_game_are_recorded_by_name(
+    event: game.Event, kind: str, robot: str, detail: str
+) -> None:
+    assert game_events(ROBOTS, 7, [event]) == [Event(7, kind, robot, detail)]
+
+
+def test_every_event_of_the_game_has_a_name() -> None:
+    for kind in set(EventKind) - {EventKind.NONE}:
+        [event] = game_events(ROBOTS, 0, [game.Event(kind, BLUE, 0, (0.0, 0.0))])
+        assert event.kind in KINDS
 
 
 def test_a_touch_counts_when_it_begins() -> None:

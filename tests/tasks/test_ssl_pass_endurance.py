@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
+from rsoccer import Matches, Outcome
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslPassEndurance
-from tests.tasks.ssl_scenes import DRIBBLE, KICK, expect_solved, run, scene
+from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, expect_solved, run, scene
 
 TASK = SslPassEndurance()
 
@@ -14,8 +15,26 @@ def towards(speed: float, teammate: tuple[float, float] = (1.0, 0.0)) -> Frame:
     return scene(TASK, ball=(0.0, 0.0, speed, 0.0), blue_0=(-1.0, 0.0), blue_1=(*teammate, np.pi))
 
 
+def kicked(speed: float = 0.4, distance: float = 2.1) -> Outcome:
+    """End of an episode in which blue_0 kicks from its mouth to a dribbling blue_1."""
+    matches = Matches(TASK, autoreset="disabled")
+    start = scene(
+        TASK,
+        ball=(-1.0 + float(TASK.mouth_offset), 0.0),
+        blue_0=(-1.0, 0.0),
+        blue_1=(-1.0 + distance, 0.0, np.pi),
+    )
+    matches.reset(rows=start.rows)
+    for step in range(TASK.max_steps):
+        action = (*KICK[:3], speed, -1.0) if step < 2 else STAND
+        outcome = matches.step(np.array([[action]], np.float32))
+        if outcome.ended[0]:
+            break
+    return outcome
+
+
 def test_a_received_pass_terminates() -> None:
-    outcome, _ = run(TASK, towards(2.0))
+    outcome = kicked()
     assert outcome.terminated[0]
     assert outcome.metrics["received"][0] == 1.0
     assert outcome.terms["received"][0, 0] == 5.0
@@ -23,6 +42,20 @@ def test_a_received_pass_terminates() -> None:
     assert outcome.metrics["inverse_distance"][0] == pytest.approx(
         1.0 / float(TASK.mouth_offset), rel=0.1
     )
+
+
+def test_a_ball_that_is_handed_over_is_a_failure() -> None:
+    """Formerly a policy that carried the ball to the teammate had the full score."""
+    outcome = kicked(0.25, 1.75)
+    assert outcome.terminated[0]
+    assert outcome.metrics["received"][0] == 0.0
+    assert outcome.terms["failed"][0, 0] == -1.0
+    start = scene(TASK, ball=(-0.907, 0.0), blue_0=(-1.0, 0.0), blue_1=(0.4, 0.0, np.pi))
+    outcome, matches = run(TASK, start, (0.25, 0.0, 0.0, -1.0, 1.0), 120)
+    assert outcome.terminated[0]
+    assert matches.frame.blue.infrared[0].all(), "from mouth to mouth"
+    assert outcome.metrics["received"][0] == 0.0
+    assert outcome.terms["failed"][0, 0] == -1.0
 
 
 @pytest.mark.parametrize(
@@ -62,7 +95,7 @@ def test_a_kick_at_full_power_bounces_off_or_is_received_but_never_both() -> Non
 def test_initial_positions_are_apart_and_inside() -> None:
     frame = TASK.get_initial_positions_frame(WorldRng.seeded(0, 400))
     distance = np.linalg.norm(frame.blue.position[:, 0] - frame.blue.position[:, 1], axis=-1)
-    assert distance.min() >= 1.6
+    assert distance.min() >= 2.0
     assert (np.abs(frame.ball.position) < [3.0, 2.0]).all()
 
 

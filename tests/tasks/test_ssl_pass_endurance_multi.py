@@ -3,14 +3,15 @@ import pytest
 
 from rsoccer import Matches
 from rsoccer.frame import Frame
+from rsoccer.game import BLUE, EventKind
 from rsoccer.tasks import SslPassEnduranceMulti
-from tests.tasks.ssl_scenes import DRIBBLE, STAND, play, run, scene
+from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, play, run, scene
 
 TASK = SslPassEnduranceMulti()
 
 
-def passing(distance: float, speed: float = 2.5) -> Frame:
-    """Ball that just left the mouth of blue_0 towards blue_1, which faces the ball."""
+def passing(distance: float, speed: float = 0.0) -> Frame:
+    """Ball in the mouth of blue_0, or rolling out of it, towards blue_1, which faces the ball."""
     return scene(
         TASK,
         ball=(-1.0 + float(TASK.mouth_offset), 0.0, speed, 0.0),
@@ -19,14 +20,14 @@ def passing(distance: float, speed: float = 2.5) -> Frame:
     )
 
 
-def received(start: Frame) -> tuple[float, Matches]:
-    """Sum of the term `passes` until blue_1 has the ball, with its dribbler on."""
+def received(start: Frame, speed: float = 0.4) -> tuple[float, Matches]:
+    """Sum of the term `passes` after a kick until blue_1 has the ball, with its dribbler on."""
     matches = Matches(TASK, 1, autoreset="disabled")
     matches.reset(rows=start.rows)
     total = 0.0
-    actions = np.array([[STAND, DRIBBLE]], np.float32)
-    for _ in range(80):
-        outcome = matches.step(actions)
+    for step in range(80):
+        kick = (*KICK[:3], speed, -1.0) if step < 2 else STAND
+        outcome = matches.step(np.array([[kick, DRIBBLE]], np.float32))
         total += float(outcome.terms["passes"][0, 0])
         assert not outcome.ended[0]
         if matches.play.memory["holder"][0] == 1:
@@ -37,6 +38,8 @@ def received(start: Frame) -> tuple[float, Matches]:
 
 def test_a_pass_counts_once_and_play_continues() -> None:
     total, matches = received(passing(2.0))
+    [event] = matches.play.events.of_world(0)
+    assert event[:3] == (EventKind.PASS, BLUE, 1)
     assert total == 5.0
     for _ in range(20):
         outcome = matches.step(np.array([[STAND, DRIBBLE]], np.float32))
@@ -46,9 +49,9 @@ def test_a_pass_counts_once_and_play_continues() -> None:
 
 
 def test_short_passes_do_not_count() -> None:
-    total, matches = received(passing(1.5, 1.5))
+    total, matches = received(passing(1.75), 0.25)
     assert total == 0.0
-    assert matches.play.memory["passes"][0] == 0
+    assert matches.play.game.passes[0].tolist() == [0, 0]
 
 
 @pytest.mark.parametrize(
@@ -113,7 +116,7 @@ def test_either_robot_starts_with_the_ball() -> None:
     assert 0.4 < holder.mean() < 0.6
     infrared = matches.frame.blue.infrared > 0.5
     assert infrared[np.arange(200), holder].all()
-    assert (matches.play.memory["left_at"] == matches.frame.ball.position).all()
+    assert (matches.play.game.released_at == matches.frame.ball.position).all()
     assert not matches.step(np.zeros((200, 2, 5), np.float32)).ended.any()
     matches = Matches(SslPassEnduranceMulti(), 50, seed=1)
     matches.reset()

@@ -4,15 +4,15 @@
 """
 
 import os
+from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.arrays import Floats
-from rsoccer.frame import Frame
+from rsoccer.play import Play
+from rsoccer.rules import BallOut, Restart, Rule
 from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay
 from rsoccer.testing.pressure import Pressing
@@ -44,13 +44,21 @@ def test_pressing_robots_play_without_errors(name: str) -> None:
 @pytest.mark.parametrize(("robots", "seed"), [(3, 0), (3, 1), (11, 0)])
 def test_a_ball_can_be_repositioned_while_robots_press(robots: int, seed: int) -> None:
     """Formerly a whole world was placed again, which failed where robots pressed on each other."""
-    moved: list[tuple[NDArray[np.intp], Floats]] = []
+    moved: list[Restart] = []
+
+    class WatchedBallOut(BallOut):
+        def judge(self, play: Play) -> Restart | None:
+            restart = super().judge(play)
+            moved.extend([restart] if restart else [])
+            return restart
 
     class Watched(SslSelfPlay):
-        def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-            result = super().reposition_ball(frame)
-            moved.extend([result] if result else [])
-            return result
+        @property
+        def rules(self) -> Sequence[Rule]:
+            return tuple(
+                WatchedBallOut(self.config) if isinstance(rule, BallOut) else rule
+                for rule in super().rules
+            )
 
     task = Watched(n_blue=robots, n_yellow=robots)
     matches = Matches(task, WORLDS, seed)
@@ -60,9 +68,11 @@ def test_a_ball_can_be_repositioned_while_robots_press(robots: int, seed: int) -
         before, play = len(moved), matches.play
         matches.step(pressing.actions(matches))
         contacts += touches(matches.frame, task.config)
-        for worlds, balls in moved[before:]:
-            kept = play.steps[worlds] > 0  # without worlds that the time limit ended in this step
-            worlds, position = worlds[kept], balls[kept, :2]
+        for restart in moved[before:]:
+            assert restart.balls is not None
+            # Without worlds that the time limit ended in this step.
+            kept = play.steps[restart.worlds] > 0
+            worlds, position = restart.worlds[kept], restart.balls[kept, :2]
             assert same(play.frame.ball.position[worlds], position)
             assert same(play.frame.rows[worlds], play.last_frame.rows[worlds])
             assert same(play.view.robots.data[worlds], play.last_view.robots.data[worlds])

@@ -1,13 +1,15 @@
 """`check_task` also finds faults that need robots pressing on each other."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from rsoccer import SimConfig
 from rsoccer.arrays import Floats, Mask
-from rsoccer.frame import BallColumns, Frame
+from rsoccer.frame import BallColumns
+from rsoccer.rules import BallOut, Crossings, Passes, Restart, Rule
 from rsoccer.task import Play
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from rsoccer.testing import TaskError, check_task
@@ -32,24 +34,34 @@ class RewardsNaNUnderPressure(VssSelfPlay):
         return terms, done
 
 
-class RepositionDependsOnTheBatch(SslSelfPlay):
-    """The velocity of a repositioned ball depends on the number of worlds."""
+class FaultyBallOut(BallOut):
+    """The place of the ball depends on the number of worlds, or is the centre of a robot."""
 
-    def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        result = super().reposition_ball(frame)
-        if result is not None:
-            BallColumns(result[1]).velocity[:, 0] = 0.01 * len(frame)
-        return result
+    def __init__(self, config: SimConfig, fault: str) -> None:
+        super().__init__(config)
+        self._fault = fault
+
+    def judge(self, play: Play) -> Restart | None:
+        restart = super().judge(play)
+        if restart is not None and restart.balls is not None:
+            ball = BallColumns(restart.balls)
+            if self._fault == "batch":
+                ball.velocity[:, 0] = 0.01 * len(play.frame)
+            else:
+                ball.position[:] = play.frame.robots.position[restart.worlds, 0]
+        return restart
+
+
+class RepositionDependsOnTheBatch(SslSelfPlay):
+    @property
+    def rules(self) -> Sequence[Rule]:
+        return Crossings(), FaultyBallOut(self.config, "batch"), Passes(0.5)
 
 
 class RepositionsIntoARobot(SslSelfPlay):
-    """The new position of the ball is the centre of a robot."""
-
-    def reposition_ball(self, frame: Frame) -> tuple[NDArray[np.intp], Floats] | None:
-        result = super().reposition_ball(frame)
-        if result is not None:
-            result[1][:, :2] = frame.robots.position[result[0], 0]
-        return result
+    @property
+    def rules(self) -> Sequence[Rule]:
+        return Crossings(), FaultyBallOut(self.config, "robot"), Passes(0.5)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from rsoccer.arrays import Array
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
 from rsoccer.matches import Matches, Outcome
 from rsoccer.task import Task
 
@@ -77,13 +76,13 @@ class EnvMatches(Matches):
             raise RuntimeError(f"step after the end of the episode{where}: {hint}")
 
     def score(self, world: int = 0) -> tuple[int, int]:
-        """Return the goals of blue and of yellow in one match; 0 and 0 until a goal ends it.
+        """Return the goals of blue and of yellow in the episode of one match.
 
         Args:
             world: index of the match.
         """
-        crossed = self.frame.ball.crossed[world]
-        return int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
+        blue, yellow = self.play.game.score[world].tolist()
+        return blue, yellow
 
     def clock(self, world: int = 0) -> float:
         """Return the time since the episode of one match began, in seconds.

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.controllers import Controller
-from rsoccer.frame import Frame
+from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
+from rsoccer.play import Play
 from rsoccer.policies.base import Policy, PolicyInput
-from rsoccer.rewards import goal_score
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -114,7 +114,7 @@ class EpisodeRunner:
             ending = playing & outcome.ended
             if ending.any():
                 _check_success(self.task, outcome)
-                results.own_goals[ending] = _own_goals(matches.frame)[ending]
+                results.own_goals[ending] = _own_goals(matches.play)[ending]
                 for name, values in outcome.metrics.items():
                     results.metrics.setdefault(name, np.zeros(n))[ending] = values[ending]
             playing &= ~ending
@@ -137,12 +137,17 @@ def _check_success(task: Task, outcome: Outcome) -> None:
         raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
 
 
-def _own_goals(frame: Frame) -> Doubles:
-    """Goal score (n,) of goals whose team did not touch the ball last, else 0."""
-    score = goal_score(frame.ball).astype(np.float64)
-    last_by_blue = frame.ball.last_touch < frame.n_blue
-    own = (frame.ball.last_touch >= 0) & (last_by_blue != (score > 0))
-    return np.where(own, score, 0.0)
+def _own_goals(play: Play) -> Doubles:
+    """Own goals (n,) of the last step: 1 for one of yellow, -1 for one of blue, else 0."""
+    balance = np.zeros(len(play.frame))
+    for world in np.flatnonzero(play.events.happened(EventKind.GOAL)).tolist():
+        for event in play.events.of_world(world):
+            if event.kind is not EventKind.GOAL or event.robot == NOBODY:
+                continue
+            last_touch = BLUE if event.robot < play.frame.n_blue else YELLOW
+            if last_touch != event.team:
+                balance[world] += -1.0 if last_touch == BLUE else 1.0
+    return balance
 
 
 class LearnerPolicy:
@@ -172,6 +177,6 @@ class LearnerPolicy:
         """
         view = None
         if self._policy.observes != "nothing":
-            view = self._matches.play.view.select(self._matches.assignment.learner_indices)
+            view = self._matches.play.sensed_view.select(self._matches.assignment.learner_indices)
         own = observations if self._policy.observes == "observation" else None
         return self._policy.act(PolicyInput(self._shape, view, own), self._rng, self._memory)

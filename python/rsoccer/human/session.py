@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer.controllers import Controllers
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, team_of
+from rsoccer.frame import team_of
+from rsoccer.game import EventKind
 from rsoccer.human import screen
 from rsoccer.human.controls import Controls
 from rsoccer.human.devices import Devices
@@ -148,7 +149,7 @@ class Session:
         if self._caption:
             self._caption_left -= seconds
             if self._caption_left <= 0.0:
-                self.reset()
+                self._end_caption()
             return
         if self.paused or self.shows_help:
             return
@@ -158,7 +159,7 @@ class Session:
             self.step()
 
     def step(self) -> None:
-        """Play one control step; the end of an episode is shown for a moment."""
+        """Play one control step; a goal or the end of an episode is shown for a moment."""
         matches = self.matches
         config = matches.task.config
         outcome = matches.step(np.zeros((1, 0, matches.action_size), np.float32))
@@ -166,12 +167,14 @@ class Session:
         self._events = self._effects.update(
             matches.frame.rows[0], self.clock, matches.play.commands[0]
         )
-        if not outcome.ended[0]:
+        blue, yellow = matches.play.events.by_team(EventKind.GOAL)[0].tolist()
+        self.score = self.score[0] + blue, self.score[1] + yellow
+        if blue or yellow:
+            self._caption = "goal"
+        elif outcome.ended[0]:
+            self._caption = "time" if outcome.truncated[0] else "end"
+        else:
             return
-        crossed = matches.frame.ball.crossed[0]
-        goals = int(crossed == GOAL_RIGHT), int(crossed == GOAL_LEFT)
-        self.score = self.score[0] + goals[0], self.score[1] + goals[1]
-        self._caption = "goal" if any(goals) else "time" if outcome.truncated[0] else "end"
         self._caption_left = GOAL_PAUSE
 
     def image(self) -> Image:
@@ -201,6 +204,12 @@ class Session:
                 *(screen.help_shapes(config.field, lines) if self.shows_help else ()),
             ),
         )
+
+    def _end_caption(self) -> None:
+        """Go on after the moment in which a caption was shown."""
+        if self.matches.done[0]:
+            self.reset()
+        self._caption = ""
 
     def _left_status(self) -> list[str]:
         """The driven robot and the state of its switches."""

@@ -1,7 +1,8 @@
 """The step loop: many matches of one task at once, as arrays.
 
 All environments, the evaluation, the trainer and the videos call `Matches`. A single match is a
-batch of one. All resets, of all worlds or of some, go through `Matches._begin`.
+batch of one. `Matches._step` is the order of a step. All resets, of all worlds or of some, go
+through `Matches._begin`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -28,6 +29,8 @@ from rsoccer.matches.paused import PausedWorlds
 from rsoccer.play import Play
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
+from rsoccer.rules.base import Restart, judge, select
+from rsoccer.senses import Senses, SensorModel
 from rsoccer.simulator_interface import SimulatorLike
 from rsoccer.task import Task
 
@@ -57,7 +60,7 @@ class Matches:
         observation_size: numbers in one agent's observation, o.
         observation_low: (o,) lower bounds.
         observation_high: (o,) upper bounds.
-        play: state of all worlds, to be read only.
+        play: state of all worlds, to be read only: frames, score, events of the last step.
 
     Example:
         >>> import numpy as np
@@ -80,6 +83,7 @@ class Matches:
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
         simulator: SimulatorLike | None = None,
+        sensing: SensorModel | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
@@ -98,6 +102,7 @@ class Matches:
                 "next_step" (the next step resets it, ignores its actions and pays no reward) or
                 "disabled" (it waits for `reset`).
             simulator: moves the robots in place of `rsoccer.Simulator`.
+            sensing: model of what robots know of the true state; None if they know it exactly.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
@@ -125,10 +130,12 @@ class Matches:
         if simulator is None:
             simulator = Simulator(self.task.config, worlds, self._threads)
         self._simulator = simulator
+        self._sensing = sensing
+        self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
         self._viewpoint = self.task.new_viewpoint(self.assignment.observers.tolist())
-        self.play = self._new_play(worlds, root.split("task"))
+        self.play = self._new_play(worlds, root.split("task"), root.split("senses"))
         for group in self.assignment.groups:
             group.rng = root.split(group.name)
         shape = (worlds, len(self.assignment.observers), self.observation_size)
@@ -241,6 +248,7 @@ class Matches:
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
         if len(worlds):
             self._begin(worlds, rows, seeds)
+            self.play.events.forget(worlds)
             self._final_rows = None
         return self._observed()
 
@@ -332,16 +340,22 @@ class Matches:
             waiting = np.flatnonzero(self._done)
             groups = self.assignment.groups
             paused = PausedWorlds(waiting, self.play, groups, self._observations)
-        self._simulate(actions, ~self._done if paused else None)
+        active = ~self._done if paused else None
+        self._act(actions)
+        self._move(active)
+        restarts = self._judge()
         outcome = self._evaluate()
+        self._restart(restarts, outcome, active)
+        self._sense()
+        self._observe()
         if paused:
             paused.restore(self._observations, outcome)
         self._returns = self._returns + outcome.rewards
         self._autoreset(waiting, outcome)
         return outcome
 
-    def _simulate(self, actions: Floats, active: Mask | None) -> None:
-        """Let all controllers act and move the robots in all worlds, or in the active ones."""
+    def _act(self, actions: Floats) -> None:
+        """Let all controllers act, and convert their actions to commands."""
         play, all_actions = self.play, actions
         if self.assignment.groups:
             all_actions = np.empty_like(play.actions)
@@ -351,44 +365,21 @@ class Matches:
         commands = self.task.get_commands(play, all_actions)
         play.commands = result_checks.commands(commands, play.commands.shape)
         play.actions = all_actions
+
+    def _move(self, active: Mask | None) -> None:
+        """Move the robots and balls of all worlds, or of the active ones."""
+        play = self.play
         self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
-        self._reposition_balls(active)
-        self._restart_play(active)
         play.steps += 1
 
-    def _reposition_balls(self, active: Mask | None) -> None:
-        """Move balls as the task demands, and set the last frame equal to the frame there.
-
-        A reward term that compares the two frames then pays nothing for the move.
-        """
-        play = self.play
-        repositioned = self.task.reposition_ball(play.frame)
-        if repositioned is None:
-            return
-        mask, balls = result_checks.repositioned(repositioned, self.worlds)
-        if active is not None:
-            balls, mask = balls[active[mask]], mask & active
-        self._simulator.reposition_balls(mask, balls, out=play.frame.rows)
-        play.last_frame.rows[mask] = play.frame.rows[mask]
-        play.expire_views()
-
-    def _restart_play(self, active: Mask | None) -> None:
-        """Place matches as the task demands, and set the last frame equal to the frame there."""
-        play = self.play
-        restarted = self.task.restart_play(play)
-        if restarted is None:
-            return
-        row_size = self.task.config.row_size
-        mask, rows = result_checks.restarted(restarted, self.worlds, row_size)
-        if active is not None:
-            rows, mask = rows[active[mask]], mask & active
-        self._simulator.place(mask, rows, out=play.frame.rows)
-        play.last_frame.rows[mask] = play.frame.rows[mask]
-        play.expire_views()
+    def _judge(self) -> list[Restart]:
+        """Let the rules judge the state that the physics left."""
+        self.play.events.forget()
+        return judge(self._rules, self.play)
 
     def _evaluate(self) -> Outcome:
-        """Compute rewards, ends, metrics and observations, before anything is reset."""
+        """Compute rewards, ends and metrics of the state that the physics left."""
         task, play = self.task, self.play
         named, terminated = task.calculate_reward_and_done(play)
         terminated = result_checks.done(terminated, self.worlds)
@@ -396,9 +387,36 @@ class Matches:
         terms, rewards = self._sum_terms(named)
         truncated = np.greater(play.steps >= task.max_steps, terminated)  # late, not terminated
         metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}
-        task.observe(play, out=self._observations)
         none = self._observations[:0]
         return Outcome(none, none, rewards, terms, terminated.copy(), truncated, metrics)
+
+    def _restart(self, restarts: list[Restart], outcome: Outcome, active: Mask | None) -> None:
+        """Restart play where a rule has stopped it and the episode goes on."""
+        if not restarts:
+            return
+        going = ~outcome.ended if active is None else ~outcome.ended & active
+        play = self.play
+        for restart in restarts:
+            chosen = select(restart, going)
+            mask = np.zeros(self.worlds, np.bool_)
+            mask[chosen.worlds] = True
+            if chosen.balls is not None:
+                self._simulator.reposition_balls(mask, chosen.balls, out=play.frame.rows)
+            elif chosen.rows is not None:
+                self._simulator.place(mask, chosen.rows, out=play.frame.rows)
+            play.last_frame.rows[mask] = play.frame.rows[mask]
+            for rule in self._rules:
+                rule.begin(play, chosen.worlds)
+        play.expire_views()
+
+    def _sense(self) -> None:
+        """Let the sensor model compute what the robots know."""
+        if self.play.senses is not None:
+            self.play.senses.sense(self.play.frame)
+
+    def _observe(self) -> None:
+        """Compute the observations of all observers."""
+        self.task.observe(self.play, out=self._observations)
 
     def _sum_terms(self, named: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
         """Copies (n, agents) of the learners' reward terms by name, and their sum (n, agents)."""
@@ -444,28 +462,32 @@ class Matches:
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
     ) -> None:
         """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
-        start, *others = next_streams(self._state().streams, worlds, seeds)
+        streams = next_streams(self._state().streams, worlds, seeds)
         if rows is None:
-            rows = self.task.get_initial_positions_frame(start).rows
-        part = self._new_play(len(worlds), others[0])
+            rows = self.task.get_initial_positions_frame(streams["start"]).rows
+        part = self._new_play(len(worlds), streams["task"], streams.get("senses"))
         mask = np.zeros(self.worlds, np.bool_)
         mask[worlds] = True
         self._simulator.place(mask, rows, out=self.play.frame.rows)
         try:
             self._observe_start(worlds, part)
-            for group, rng in zip(self.assignment.groups, others[1:], strict=True):
-                group.restart(worlds, rng, self.action_size)
+            for group in self.assignment.groups:
+                group.restart(worlds, streams[group.name], self.action_size)
         except BaseException as error:
             self._consistency.fail("reset", error)
             raise
-        self._start.put(worlds, start)
+        self._start.put(worlds, streams["start"])
         if len(worlds) == self.worlds:
             self._consistency.repair()
 
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""
         part.start(self.play.frame.rows[worlds])
+        for rule in self._rules:
+            rule.begin(part, np.arange(len(worlds)))
         self.task.start_episode(part)
+        if part.senses is not None:
+            part.senses.begin(part.frame)
         self._observations[worlds] = self.task.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
@@ -473,9 +495,12 @@ class Matches:
         self._begun[worlds] = True
         self._all_begun = bool(self._begun.all())
 
-    def _new_play(self, n: int, rng: WorldRng) -> Play:
+    def _new_play(self, n: int, rng: WorldRng, senses_rng: WorldRng | None) -> Play:
         """State of n worlds before their episodes begin."""
-        return self.task.new_play(n, self._viewpoint, rng, self._threads)
+        play = self.task.new_play(n, self._viewpoint, rng, self._threads)
+        if self._sensing is not None and senses_rng is not None:
+            play.senses = Senses.new(self._sensing, play.frame, senses_rng)
+        return play
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""

@@ -48,7 +48,10 @@ class MatchState:
         arrays = play.arrays() | others
         for group in groups:
             arrays |= group.arrays()
-        streams = {"start": start, "task": play.rng} | {group.name: group.rng for group in groups}
+        streams = {"start": start, "task": play.rng}
+        if play.senses is not None:
+            streams["senses"] = play.senses.rng
+        streams |= {group.name: group.rng for group in groups}
         return cls(simulator, arrays, streams)
 
     def read(self) -> dict[str, Array]:

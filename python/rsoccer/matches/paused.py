@@ -43,6 +43,7 @@ class PausedWorlds:
         """
         observations[self._worlds] = self._observations
         self._play.put(self._worlds, self._saved_play)
+        self._play.events.forget(self._worlds)
         for group, saved in zip(self._groups, self._saved_groups, strict=True):
             group.put(self._worlds, saved)
         for array in (outcome.rewards, outcome.terminated, outcome.truncated):

@@ -4,9 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rsoccer import _core
 from rsoccer.arrays import Array, Floats, Mask
-from rsoccer.checks import floats
 
 
 def commands(value: Array, shape: tuple[int, ...]) -> Floats:
@@ -25,64 +23,6 @@ def commands(value: Array, shape: tuple[int, ...]) -> Floats:
     if value.shape != shape:
         raise ValueError(f"get_commands: expected shape {shape}, got {value.shape}")
     return np.array(value, np.float32, order="C")  # a copy, because `Play` keeps and clears it
-
-
-def repositioned(moves: object, n: int) -> tuple[Mask, Floats]:
-    """Validate the result of `Task.reposition_ball` other than None.
-
-    Args:
-        moves: (k,) worlds in any order, and (k, ball column) their balls.
-        n: number of worlds.
-
-    Returns:
-        Mask (n,) of the worlds; and (k, ball column) their balls in the order of the mask.
-
-    Raises:
-        TypeError: not a pair, worlds that are not integers, or balls that are not floats.
-        ValueError: a world out of range or given twice, or balls of another shape or not finite.
-    """
-    return _moves("reposition_ball", "balls", moves, n, len(_core.BALL_COLUMNS))
-
-
-def restarted(moves: object, n: int, row_size: int) -> tuple[Mask, Floats]:
-    """Validate the result of `Task.restart_play` other than None.
-
-    Args:
-        moves: (k,) worlds in any order, and (k, row) their states.
-        n: number of worlds.
-        row_size: number of columns of a row.
-
-    Returns:
-        Mask (n,) of the worlds; and (k, row) their states in the order of the mask.
-
-    Raises:
-        TypeError: not a pair, worlds that are not integers, or rows that are not floats.
-        ValueError: a world out of range or given twice, or rows of another shape or not finite.
-    """
-    return _moves("restart_play", "rows", moves, n, row_size)
-
-
-def _moves(method: str, content: str, moves: object, n: int, columns: int) -> tuple[Mask, Floats]:
-    """Mask (n,) of worlds, and (k, columns) their numbers in the order of the mask, checked."""
-    if not isinstance(moves, tuple) or len(moves) != 2:
-        raise TypeError(f"{method}: expected worlds and {content}, or None, got {moves!r}")
-    worlds = np.asarray(moves[0])
-    if worlds.shape == (0,):
-        worlds = worlds.astype(np.intp)  # an empty list becomes floats
-    if worlds.ndim != 1 or worlds.dtype.kind not in "iu":
-        raise TypeError(
-            f"{method}: expected whole numbers (k,) for worlds, got {worlds.dtype} {worlds.shape}"
-        )
-    if len(worlds) and not (worlds.min() >= 0 and worlds.max() < n):
-        raise ValueError(f"{method}: expected worlds 0 to {n - 1}, got {worlds.tolist()}")
-    mask = np.zeros(n, np.bool_)
-    mask[worlds] = True
-    if np.count_nonzero(mask) != len(worlds):
-        raise ValueError(f"{method}: expected each world once, got {worlds.tolist()}")
-    shape = (len(worlds), columns)
-    numbers = np.zeros(shape) if not len(worlds) and np.size(moves[1]) == 0 else moves[1]
-    numbers = floats(f"{method}: {content}", numbers, shape)
-    return mask, numbers[np.argsort(worlds)]
 
 
 def term(name: str, value: Floats, shape: tuple[int, int]) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from rsoccer.controllers import Controllers
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT
+from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.matches import Matches
 from rsoccer.matches.policy_match import policy_match
 from rsoccer.render.effects import Effects
@@ -108,9 +108,8 @@ def _images(
             matches.reset()
             effects.clear()
         matches.step(actions)
-        crossed = matches.frame.ball.crossed[0]
-        blue, yellow = blue + int(crossed == GOAL_RIGHT), yellow + int(crossed == GOAL_LEFT)
-        scored = crossed in (GOAL_RIGHT, GOAL_LEFT)
+        goals = matches.play.events.by_team(EventKind.GOAL)[0].tolist()
+        blue, yellow, scored = blue + goals[BLUE], yellow + goals[YELLOW], any(goals)
         image = renderer.draw(
             matches.frame.rows[0],
             score=(blue, yellow),

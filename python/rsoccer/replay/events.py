@@ -1,22 +1,33 @@
-"""Events of a recorded match: goals, outs, free balls, kicks, touches and ends of episodes."""
+"""Events of a recorded match: those of the game, kicks, touches and ends of episodes."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
-from rsoccer._core import CROSSINGS
+from rsoccer import game
 from rsoccer.arrays import Floats, Mask
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame
+from rsoccer.frame import Frame
+from rsoccer.game import EventKind
+from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
 
-KINDS: Final = ("goal", "out", "free_ball", "kick", "touch", "end")
+KINDS: Final = ("goal", "out", "free_ball", "pass", "kick", "touch", "end")
 """Kinds of events."""
 KICK_GAIN: Final = 0.4
 """Least gain of the ball's speed in a step that counts as a kick, m/s."""
+
+_NAMES: Final = {
+    EventKind.GOAL: "goal",
+    EventKind.BALL_LEFT_FIELD_GOAL_LINE: "out",
+    EventKind.BALL_LEFT_FIELD_TOUCH_LINE: "out",
+    EventKind.NO_PROGRESS_IN_GAME: "free_ball",
+    EventKind.PASS: "pass",
+}
 
 
 class Event(NamedTuple):
@@ -27,16 +38,31 @@ class Event(NamedTuple):
     kind: str
     """One of `KINDS`."""
     robot: str
-    """Robot that touched the ball last, or that kicks or touches it; empty if none."""
+    """Robot that touched the ball last, that kicks or touches it or receives a pass; empty if
+    none."""
     detail: str
-    """Team that scored, line that was crossed (one of `CROSSINGS`), or kind of end: "terminated"
-    or "truncated"; else empty."""
+    """Team that scored or passed, line that was crossed (one of `CROSSINGS`), or kind of end:
+    "terminated" or "truncated"; else empty."""
 
 
-def step_events(
-    config: SimConfig, robots: tuple[str, ...], index: int, rows: Floats, commands: Floats
+def game_events(robots: Sequence[str], index: int, events: Sequence[game.Event]) -> list[Event]:
+    """Return the events of the game in one control step as they are recorded.
+
+    Args:
+        robots: names of the robots, in the order of a row.
+        index: index of the frame after the step.
+        events: events of the step, as `Events.of_world` returns them.
+    """
+    return [
+        Event(index, _NAMES[event.kind], _name(robots, event.robot), _detail(event))
+        for event in events
+    ]
+
+
+def ball_events(
+    config: SimConfig, robots: Sequence[str], index: int, rows: Floats, commands: Floats
 ) -> list[Event]:
-    """Return the events of one control step, without the end of an episode.
+    """Return the kicks and touches of one control step.
 
     Args:
         config: the configuration.
@@ -44,27 +70,29 @@ def step_events(
         index: index of the frame after the step.
         rows: (2, row) states before and after the step.
         commands: (robots, command) commands in the step.
-
-    Returns:
-        Kicks and touches, then a crossing.
     """
     frame = Frame(np.ascontiguousarray(rows, np.float32), config.n_blue, config.n_yellow)
     kicked = _kicking(config, frame, commands)
     before, after = frame.robots.touched_ball > 0
-    events = [
+    return [
         Event(index, "kick" if kicked[robot] else "touch", robots[robot], "")
-        for robot in np.flatnonzero(kicked | (after & ~before))
+        for robot in np.flatnonzero(kicked | (after & ~before)).tolist()
     ]
-    crossed = int(frame.ball.crossed[1])
-    if crossed:
-        last = int(frame.ball.last_touch[1])
-        robot_name = robots[last] if 0 <= last < len(robots) else ""
-        if crossed in (GOAL_RIGHT, GOAL_LEFT):
-            team = "blue" if crossed == GOAL_RIGHT else "yellow"
-            events.append(Event(index, "goal", robot_name, team))
-        else:
-            events.append(Event(index, "out", robot_name, CROSSINGS[crossed]))
-    return events
+
+
+def _name(robots: Sequence[str], robot: int) -> str:
+    """Name of a robot; empty for nobody."""
+    return "" if robot == game.NOBODY else robots[robot]
+
+
+def _detail(event: game.Event) -> str:
+    """Team or line of an event."""
+    x, y = event.position
+    if event.kind is EventKind.BALL_LEFT_FIELD_GOAL_LINE:
+        return "goal_line_right" if x > 0 else "goal_line_left"
+    if event.kind is EventKind.BALL_LEFT_FIELD_TOUCH_LINE:
+        return "touch_line_left" if y > 0 else "touch_line_right"
+    return "" if event.team == game.NOBODY else SIDES[event.team]
 
 
 def _kicking(config: SimConfig, frame: Frame, commands: Floats) -> Mask:

@@ -12,6 +12,7 @@ from rsoccer.replay.container import ReplayError
 from rsoccer.replay.events import KINDS, Event
 from rsoccer.replay.quantized import MAX_STEP
 from rsoccer.replay.replay import Episode
+from rsoccer.view import SIDES
 
 ENDS: Final = ("terminated", "truncated", "")
 MIN_FIELD, MAX_FIELD = 0.1, 1000.0
@@ -136,6 +137,8 @@ def event(entry: object, frames: int, robots: tuple[str, ...]) -> Event:
     found = Event(*entry)
     if not 0 <= found.frame < frames or found.kind not in KINDS or found.robot not in ("", *robots):
         raise ReplayError(f"events: expected a frame, a kind and a robot, got {entry!s:.80}")
+    if found.kind == "goal" and found.detail not in SIDES:
+        raise ReplayError(f"events: expected the team of a goal, got {entry!s:.80}")
     return found
 
 

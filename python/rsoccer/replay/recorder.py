@@ -14,7 +14,7 @@ from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
-from rsoccer.replay.events import Event, step_events
+from rsoccer.replay.events import Event, ball_events, game_events
 from rsoccer.replay.replay import Episode, Replay
 from rsoccer.replay.resume import described_controllers, described_options
 from rsoccer.task import Task
@@ -96,7 +96,6 @@ class Recorder:
         self._next_snapshot = 0.0
         self._start = 0
         self._ended = True
-        self._free_balls = 0.0
 
     def begin(self) -> None:
         """Add the initial state of an episode, after a reset of the world.
@@ -107,7 +106,7 @@ class Recorder:
         if self.matches.play.steps[self.world]:
             raise RuntimeError("begin after a step: call it directly after reset")
         self._close("", {})
-        self._start, self._ended, self._free_balls = len(self._rows), False, 0.0
+        self._start, self._ended = len(self._rows), False
         self._add_frame(np.zeros_like(self.matches.play.commands[self.world]), {})
 
     def add(self, outcome: Outcome) -> None:
@@ -131,8 +130,9 @@ class Recorder:
         self._add_frame(matches.play.commands[world].copy(), terms)
         index, config = len(self._rows) - 1, matches.task.config
         rows = np.stack(self._rows[-2:])
-        self._events += step_events(config, matches.task.robots, index, rows, self._commands[-1])
-        self._add_free_ball(outcome, index)
+        robots = matches.task.robots
+        self._events += ball_events(config, robots, index, rows, self._commands[-1])
+        self._events += game_events(robots, index, matches.play.events.of_world(world))
         if outcome.ended[world]:
             end = "terminated" if outcome.terminated[world] else "truncated"
             self._events.append(Event(index, "end", "", end))
@@ -190,14 +190,6 @@ class Recorder:
         if self._interval is not None and self.seconds >= self._next_snapshot - 1e-9:
             self._snapshots[len(self._rows) - 1] = matches.state_dict()
             self._next_snapshot = self.seconds + self._interval
-
-    def _add_free_ball(self, outcome: Outcome, index: int) -> None:
-        """Add an event where the number of free balls rose; rows show a jump only."""
-        if "free_balls" in outcome.metrics:
-            count = float(outcome.metrics["free_balls"][self.world])
-            if count > self._free_balls:
-                self._events.append(Event(index, "free_ball", "", ""))
-            self._free_balls = count
 
     def _close(self, end: str, metrics: dict[str, float]) -> None:
         """End the current episode, if there is one."""

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.files import write_atomically
-from rsoccer.frame import GOAL_LEFT, GOAL_RIGHT, Frame, robot_names
+from rsoccer.frame import Frame, robot_names
 from rsoccer.markers import Marker
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.events import Event
+from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
     from rsoccer.controllers import Controllers
@@ -133,8 +134,11 @@ class Replay:
     @cached_property
     def score(self) -> NDArray[np.int64]:
         """(f, 2) goals of blue and of yellow so far."""
-        crossed = np.where(self.starts, 0, self.frame.ball.crossed)[:, None]
-        return np.cumsum(crossed == [GOAL_RIGHT, GOAL_LEFT], axis=0)
+        goals = np.zeros((len(self), len(SIDES)), np.int64)
+        for event in self.events:
+            if event.kind == "goal":
+                goals[event.frame, SIDES.index(event.detail)] += 1
+        return np.cumsum(goals, axis=0)
 
     @property
     def rewards(self) -> Floats:

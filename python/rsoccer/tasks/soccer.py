@@ -172,6 +172,6 @@ class Soccer(Task):
             columns = self._flat_blocks[-1][1].stop
             out = np.empty((len(play.frame), len(play.observers), columns), np.float32)
         self.ego_features.encode(
-            play.viewpoint.core, play.frame.rows, play.actions, out, bounds, play.threads
+            play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
         )
         return out

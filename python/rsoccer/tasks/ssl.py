@@ -133,7 +133,7 @@ class Ssl(Soccer):
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""
-        return self._steering.commands(actions, play.frame.rows, play.threads)
+        return self._steering.commands(actions, play.sensed.rows, play.threads)
 
     def is_off_field(self, positions: Floats) -> Mask:
         """Return the positions that are beyond the lines of the field.

@@ -112,7 +112,7 @@ class SslAttack(Ssl):
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a goal or a failure terminates."""
         goal = rewards.goal(play)
-        failed = self._failed(play.frame) & (rewards.goal_score(play.frame.ball) <= 0.0)
+        failed = self._failed(play.frame) & (rewards.goal_score(play) <= 0.0)
         terms = {
             "goal": goal,
             "ball_to_goal": rewards.ball_to_goal(play, self.config.field),
@@ -129,7 +129,7 @@ class SslAttack(Ssl):
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `goal_score`, (n,): 1 for a goal, -1 for one against, else 0."""
-        return {"goal_score": rewards.goal_score(play.frame.ball)}
+        return {"goal_score": rewards.goal_score(play)}
 
     def _place_with_ball(self, frame: Frame, rng: WorldRng) -> None:
         """Write the initial state of `random_start` into a frame with all opponents, in place."""
@@ -155,7 +155,7 @@ class SslAttack(Ssl):
 
     def _nearness(self, play: Play) -> Floats:
         """Block "nearness" (n, observers, o, 3)."""
-        view = play.view
+        view = play.sensed_view
         offset = view.opponents.position - view.ego.position[..., None, :]  # (n, observers, o, 2)
         distance = norm(offset[..., 0], offset[..., 1])
         gap = np.maximum(distance - np.float32(2.0 * self.config.robot.bounding_radius), 0.0)

@@ -147,8 +147,9 @@ class SslDribbling(Ssl):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block "gate" (n, observers, 4)."""
         gate = self._next_gate(play.memory["passed"])
-        offset = self._gate_middle(gate)[:, None] - play.view.ego.position  # (n, observers, 2)
-        ahead, left = rotate_into_body(offset[..., 0], offset[..., 1], play.view.ego.heading)
+        ego = play.sensed_view.ego
+        offset = self._gate_middle(gate)[:, None] - ego.position  # (n, observers, 2)
+        ahead, left = rotate_into_body(offset[..., 0], offset[..., 1], ego.heading)
         scale = self.position_scale
         fraction = play.memory["passed"].astype(np.float32) / np.float32(len(self.course.gates))
         ones = np.ones_like(ahead)  # (n, observers)

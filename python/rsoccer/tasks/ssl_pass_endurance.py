@@ -8,16 +8,16 @@ import numpy as np
 
 from rsoccer import rewards
 from rsoccer.arrays import Array, Floats, Mask
-from rsoccer.frame import Frame
+from rsoccer.game import BLUE, EventKind
 from rsoccer.task import LEARN, Learn, Play
-from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
+from rsoccer.tasks.ssl_pass import SslPass
 
 
 @dataclass(frozen=True)
 class SslPassEndurance(SslPass):
     """SSL task in which blue_0 passes once to blue_1, which turns to the ball and receives it.
 
-    Goal of the task: bring the ball into the break beam of blue_1's mouth.
+    Goal of the task: one pass, as `SslPass` defines it. A ball that is carried to blue_1 is none.
 
     Initial state: that of `SslPass`.
 
@@ -26,14 +26,16 @@ class SslPassEndurance(SslPass):
     ================  ==============================================================  ========
     Term              Meaning                                                         Unit
     ================  ==============================================================  ========
-    received          1 if the ball is in the break beam of blue_1, else 0            episodes
-    ball_to_teammate  decrease of the distance between the ball and blue_1            m
+    received          1 if the pass arrived, else 0                                   episodes
+    ball_to_teammate  decrease of the distance between the ball and blue_1 while it   m
+                      is out of reach of blue_0
     failed            1 if the pass failed, else 0                                    episodes
     energy            negative mean magnitude of the action                           steps
     ================  ==============================================================  ========
 
-    Termination: pass received; pass failed, that is, the passed ball stopped or moves away from
-    blue_1, or the ball is off the field. Truncation: after `max_steps`.
+    Termination: pass received; pass failed, that is, the released ball stopped or moves away from
+    blue_1, blue_1 got the ball without a pass, or the ball is off the field. Truncation: after
+    `max_steps`.
 
     Metrics: `received`, 1 or 0; `inverse_distance`, 1/m, of the distance between ball and blue_1,
     the paper's.
@@ -67,21 +69,25 @@ class SslPassEndurance(SslPass):
         return {"blue_0": LEARN, "blue_1": "receive"}
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """Create `kicked`, (n,) whether the ball has left the passer's mouth."""
-        return {"kicked": np.zeros(n, np.bool_)}
+        """Create `released`, (n,) whether the ball has left the reach of blue_0."""
+        return {"released": np.zeros(n, np.bool_)}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; pass received or failed terminates."""
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)
-        kicked = play.memory["kicked"]
-        kicked |= distance[:, 0] > self.mouth_offset + RELEASE_DISTANCE
-        received = self._received(play.frame)
-        missed = kicked & self._has_missed(play.frame, play.frame.blue.position[:, 1])
-        failed = (missed | self.is_off_field(play.frame.ball.position)) & ~received
+        received = play.events.happened(EventKind.PASS)
+        out_of_reach = self._is_released(play, np.zeros(len(received), np.intp))
+        released = play.memory["released"]
+        released |= out_of_reach
+        missed = released & self._has_missed(play.frame, play.frame.blue.position[:, 1])
+        handed_over = play.frame.blue.infrared[:, 1] > 0.5
+        failed = missed | handed_over | self.is_off_field(play.frame.ball.position)
+        failed &= ~received
         terms = {
             "received": received[:, None].astype(np.float32),
-            "ball_to_teammate": (last_distance - distance)[:, 1:],
+            # A ball that is carried earns nothing: robots would walk up to each other.
+            "ball_to_teammate": (last_distance - distance)[:, 1:] * out_of_reach[:, None],
             "failed": failed[:, None].astype(np.float32),
             "energy": rewards.energy(play),
         }
@@ -91,10 +97,6 @@ class SslPassEndurance(SslPass):
         """Compute `received`, 1 or 0, and `inverse_distance`, 1/m; each (n,)."""
         distance: Floats = np.maximum(self._ball_distances(play.frame)[:, 1], self.mouth_offset)
         return {
-            "received": self._received(play.frame).astype(np.float32),
+            "received": play.game.passes[:, BLUE].astype(np.float32),
             "inverse_distance": (1.0 / distance).astype(np.float32),
         }
-
-    def _received(self, frame: Frame) -> Mask:
-        """(n,) whether the ball is in the break beam of blue_1."""
-        return np.greater(frame.blue.infrared[:, 1], 0.5)

@@ -2,29 +2,25 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import ClassVar
 
 import numpy as np
 
 from rsoccer import checks, rewards
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.game import BLUE, EventKind
 from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks.ssl import ball_at_mouth
-from rsoccer.tasks.ssl_pass import RELEASE_DISTANCE, SslPass
-from rsoccer.vectors import norm
-
-MIN_PASS_LENGTH: Final = np.float32(1.5)
-"""Least distance from kick to reception that counts, m: robots side by side earn nothing."""
+from rsoccer.tasks.ssl_pass import SslPass
 
 
 @dataclass(frozen=True)
 class SslPassEnduranceMulti(SslPass):
     """SSL task in which blue_0 and blue_1 both learn to pass to each other, for up to 30 s.
 
-    Goal of the task: as many passes as possible, each at least 1.5 m long and received in the break
-    beam of the other robot's mouth.
+    Goal of the task: as many passes as possible, as `SslPass` defines them.
 
     Initial state: that of `SslPass`; with `random_holder` blue_1 has the ball in half of all
     episodes.
@@ -36,7 +32,7 @@ class SslPassEnduranceMulti(SslPass):
     ================  ==============================================================  ========
     passes            1 for a pass that counts, to both robots                        passes
     ball_to_teammate  decrease of the distance between the ball and the receiver,     m
-                      to both robots
+                      to both robots, while the ball is on its way
     approach          decrease of the distance between the ball and the receiver's    m
                       mouth, to the receiver, while the ball is on its way
     failed            1 if the pass failed, to both robots                            episodes
@@ -93,24 +89,17 @@ class SslPassEnduranceMulti(SslPass):
         return frame
 
     def start_episode(self, play: Play) -> None:
-        """Find the holder of the ball; the first pass is measured from its initial position."""
+        """Find the holder of the ball."""
         distance = self._ball_distances(play.frame)
         play.memory["holder"][:] = distance[:, 1] < distance[:, 0]
-        play.memory["left_at"][:] = play.frame.ball.position
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """Create the state of the current pass and the number of passes.
+        """Create the state of the current pass.
 
-        `holder` (n,) is the index of the last robot with the ball, `left_at` (n, 2) the ball's
-        position then, m, `on_its_way` (n,) whether the ball is passed, `passes` (n,) the number of
-        passes that counted.
+        `holder` (n,) is the index of the last robot with the ball, `on_its_way` (n,) whether the
+        ball has left its reach.
         """
-        return {
-            "holder": np.zeros(n, np.int64),
-            "left_at": np.zeros((n, 2), np.float32),
-            "on_its_way": np.zeros(n, np.bool_),
-            "passes": np.zeros(n, np.int64),
-        }
+        return {"holder": np.zeros(n, np.int64), "on_its_way": np.zeros(n, np.bool_)}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a failed pass terminates."""
@@ -118,13 +107,13 @@ class SslPassEnduranceMulti(SslPass):
         receiver, was_on_its_way = 1 - memory["holder"], memory["on_its_way"].copy()
         distance = self._ball_distances(play.frame)
         last_distance = self._ball_distances(play.last_frame)
-        progress = (last_distance - distance)[worlds, receiver]
+        # A ball that is carried earns nothing: robots would walk up to each other.
+        progress = (last_distance - distance)[worlds, receiver] * was_on_its_way
         # Robots that are rewarded for going to a ball that is held walk up to each other.
         receives = was_on_its_way[:, None] & (receiver[:, None] == play.observers)
-        passed = self._update_passes(play.frame, memory, worlds, receiver)
+        passed = play.events.happened(EventKind.PASS)
+        self._update_holder(play, receiver)
         # From here on the holder may be the former receiver.
-        released = distance[worlds, memory["holder"]] > self.mouth_offset + RELEASE_DISTANCE
-        memory["on_its_way"] |= released
         next_receiver = play.frame.blue.position[worlds, 1 - memory["holder"]]
         missed = memory["on_its_way"] & self._has_missed(play.frame, next_receiver)
         failed = missed | self.is_off_field(play.frame.ball.position)
@@ -139,24 +128,16 @@ class SslPassEnduranceMulti(SslPass):
 
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `passes`, (n,) the number of passes that counted."""
-        return {"passes": play.memory["passes"].astype(np.float32)}
+        return {"passes": play.game.passes[:, BLUE].astype(np.float32)}
 
     def _receiver(self, play: Play, world: int) -> int:
         """Index of the robot other than the last holder."""
         return 1 - int(play.memory["holder"][world])
 
-    def _update_passes(
-        self, frame: Frame, memory: dict[str, Array], worlds: Array, receiver: Array
-    ) -> Mask:
-        """(n,) whether the receiver got a pass that counts; updates `memory`."""
-        in_mouth = frame.blue.infrared > 0.5  # (n, 2)
-        received = in_mouth[worlds, receiver]
-        flight = frame.ball.position - memory["left_at"]
-        long_enough = norm(flight[:, 0], flight[:, 1]) >= MIN_PASS_LENGTH
-        passed: Mask = received & memory["on_its_way"] & long_enough
-        memory["passes"] += passed
+    def _update_holder(self, play: Play, receiver: Array) -> None:
+        """Find the robot that has the ball, and whether it has left its reach."""
+        memory, in_mouth = play.memory, play.frame.blue.infrared > 0.5  # (n, 2)
+        received = in_mouth[np.arange(len(receiver)), receiver]
         memory["holder"][:] = np.where(received, receiver, memory["holder"])
-        held = in_mouth.any(axis=1)
-        memory["on_its_way"] &= ~held
-        memory["left_at"][held] = frame.ball.position[held]
-        return passed
+        memory["on_its_way"] &= ~in_mouth.any(axis=1)
+        memory["on_its_way"] |= self._is_released(play, memory["holder"])

@@ -1,23 +1,22 @@
 """Base class of the VSSS tasks: options, initial state, wheel commands, rewards and metrics."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rsoccer import checks, rewards, spawn
 from rsoccer._core import MAX_PLACED_SPEED, Field, RobotModel, SimConfig
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
+from rsoccer.rules import Crossings, FreeBalls, Rule
 from rsoccer.task import Play
 from rsoccer.tasks import options
-from rsoccer.tasks.free_ball import FreeBalls
 from rsoccer.tasks.soccer import Soccer
 from rsoccer.view import SIDES
 
@@ -178,22 +177,9 @@ class Vss(Soccer):
         return frame
 
     @cached_property
-    def free_balls(self) -> FreeBalls:
-        """Rule of the option `free_ball`."""
-        return FreeBalls(self.config)
-
-    def rule_memory(self, n: int) -> dict[str, Array]:
-        """Create the memory of stuck balls with the option `free_ball`, else none."""
-        return self.free_balls.new_memory(n) if self.free_ball else {}
-
-    def start_episode(self, play: Play) -> None:
-        """Begin the time of stuck balls with the option `free_ball`."""
-        if self.free_ball:
-            self.free_balls.start_episode(play)
-
-    def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
-        """Choose states for worlds with a free ball."""
-        return self.free_balls.restart(play) if self.free_ball else None
+    def rules(self) -> Sequence[Rule]:
+        """Goals count; with the option `free_ball` a stuck ball leads to a free ball."""
+        return (Crossings(), FreeBalls(self.config)) if self.free_ball else (Crossings(),)
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to wheel speeds (n, robots, 2), rad/s."""
@@ -211,8 +197,8 @@ class Vss(Soccer):
         return rewards.weighted_terms(terms, self.term_weights), rewards.scored(play)
 
     def metrics(self, play: Play) -> dict[str, Floats]:
-        """Compute `goal_score` (n,), and `free_balls` (n,) with the option `free_ball`."""
-        metrics = {"goal_score": rewards.goal_score(play.frame.ball)}
-        if self.free_ball:
-            metrics["free_balls"] = play.memory["free_balls"].astype(np.float32)
+        """Compute `goal_score` (n,), and `free_balls` (n,) with the rule `FreeBalls`."""
+        metrics = {"goal_score": rewards.goal_score(play)}
+        if "free_balls" in play.game:
+            metrics["free_balls"] = play.game.free_balls.astype(np.float32)
         return metrics

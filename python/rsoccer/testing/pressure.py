@@ -88,7 +88,7 @@ def _action_kind(task: Task) -> str:
 
 def _directions_to_ball(matches: Matches) -> tuple[Floats, Floats, Floats, Floats]:
     """Unit vectors (n, agents) from each learner to the ball: ahead, left, and along x, y."""
-    view = matches.play.view.select(matches.assignment.learner_indices)
+    view = matches.play.sensed_view.select(matches.assignment.learner_indices)
     offset = view.ball.position - view.ego.position
     distance = np.maximum(np.linalg.norm(offset, axis=-1, keepdims=True), 1e-6)
     x, y = np.moveaxis(offset / distance, -1, 0)

@@ -505,6 +505,7 @@ function eventText(kind, robot, detail) {
   const by = robot ? `, ${robot}` : "";
   if (kind === "goal") return `Goal for ${detail}${by}`;
   if (kind === "out") return `Out over the ${detail.replace(/_/g, " ")}${by}`;
+  if (kind === "pass") return `Pass to ${robot}`;
   if (kind === "end") return `End of the episode, ${detail}`;
   return `${capital(kind.replace(/_/g, " "))}${by}`;
 }

@@ -15,7 +15,8 @@ from rsoccer.frame import Frame
 from rsoccer.play import Play
 from rsoccer.replay import Recorder, Replay
 from rsoccer.rng import WorldRng
-from rsoccer.tasks import VssSelfPlay, free_ball
+from rsoccer.rules import FreeBalls, free_ball
+from rsoccer.tasks import VssSelfPlay
 from rsoccer.tasks.vss import Vss
 from rsoccer.testing import check_task
 from tests.helpers import same, zeros
@@ -53,8 +54,14 @@ def in_play(task: rsoccer.Task, frame: Frame) -> Play:
     viewpoint = task.new_viewpoint([0])
     play = task.new_play(len(frame), viewpoint, WorldRng.seeded(0, len(frame)))
     play.start(frame.rows)
-    task.start_episode(play)
+    rule_of(task).begin(play, np.arange(len(frame)))
     return play
+
+
+def rule_of(task: rsoccer.Task) -> FreeBalls:
+    """The rule of free balls of a task."""
+    [rule] = [rule for rule in task.rules if isinstance(rule, FreeBalls)]
+    return rule
 
 
 def steps_to_free_ball(ball_at: Callable[[int], tuple[float, float]], steps: int) -> list[int]:
@@ -65,9 +72,10 @@ def steps_to_free_ball(ball_at: Callable[[int], tuple[float, float]], steps: int
     play, found = in_play(task, frame), []
     for step in range(1, steps + 1):
         play.frame.ball.position[:] = ball_at(step)
-        if task.restart_play(play) is not None:
+        restart = rule_of(task).judge(play)
+        if restart is not None:
             found.append(step)
-        play.steps += 1
+            rule_of(task).begin(play, restart.worlds)  # the ball stays where the path has it
     return found
 
 
@@ -112,7 +120,7 @@ def test_a_ball_that_moves_a_little_is_stuck() -> None:
 
 
 def test_the_time_begins_again_after_a_free_ball_and_after_a_move() -> None:
-    mark = VssSelfPlay(free_ball=True).free_balls.mark
+    mark = rule_of(VssSelfPlay()).mark
     resting = steps_to_free_ball(lambda step: (mark[0], mark[1]), 1200)
     assert resting == [STEPS, 2 * STEPS, 3 * STEPS]
     moved = steps_to_free_ball(lambda step: (0.1 if step < 300 else 0.4, 0.1), 750)
@@ -122,11 +130,11 @@ def test_the_time_begins_again_after_a_free_ball_and_after_a_move() -> None:
 def test_a_ball_that_crosses_a_goal_line_is_not_moved() -> None:
     task = VssSelfPlay(free_ball=True)
     play = in_play(task, wedge())
-    play.memory["stuck_steps"][:] = STEPS
+    play.game.stuck_steps[:] = STEPS
     play.frame.ball.crossed[:] = 1.0
-    assert task.restart_play(play) is None
+    assert rule_of(task).judge(play) is None
     play.frame.ball.crossed[:] = 0.0
-    assert task.restart_play(play) is not None
+    assert rule_of(task).judge(play) is not None
 
 
 def crowded(task: VssSelfPlay, n: int, seed: int) -> Frame:
@@ -138,12 +146,12 @@ def crowded(task: VssSelfPlay, n: int, seed: int) -> Frame:
 def free_balls(task: VssSelfPlay, frame: Frame) -> Frame:
     """States after free balls in all worlds."""
     play = in_play(task, frame)
-    play.memory["stuck_steps"][:] = STEPS
-    restarted = task.restart_play(play)
-    assert restarted is not None
-    worlds, rows = restarted
-    assert worlds.tolist() == list(range(len(frame)))
-    return Frame(rows, frame.n_blue, frame.n_yellow)
+    play.game.stuck_steps[:] = STEPS
+    restart = rule_of(task).judge(play)
+    assert restart is not None
+    assert restart.worlds.tolist() == list(range(len(frame)))
+    assert restart.rows is not None
+    return Frame(restart.rows, frame.n_blue, frame.n_yellow)
 
 
 @pytest.mark.parametrize(
@@ -240,7 +248,7 @@ def test_a_reset_begins_the_time_again_and_waiting_worlds_keep_their_state(autor
         outcome = matches.step(pushes(matches))
     assert outcome.truncated.all()
     before = matches.frame.rows.copy()
-    assert matches.play.memory["stuck_steps"][0] == 300
+    assert matches.play.game.stuck_steps[0] == 300
     if autoreset == "disabled":
         for _ in range(150):
             matches.step(pushes(matches))
@@ -248,7 +256,7 @@ def test_a_reset_begins_the_time_again_and_waiting_worlds_keep_their_state(autor
     else:
         matches.step(pushes(matches))
     matches.reset(rows=wedge().rows)
-    assert matches.play.memory["stuck_steps"][0] == 0
+    assert matches.play.game.stuck_steps[0] == 0
     for _ in range(299):
         assert matches.step(pushes(matches)).metrics["free_balls"][0] == 0.0
 
@@ -276,7 +284,7 @@ def test_the_option_can_be_off_and_is_checked() -> None:
         for _ in range(STEPS + 1):
             outcome = matches.step(pushes(matches))
         assert set(outcome.metrics) == {"goal_score"}
-        assert matches.play.memory == {}
+        assert set(matches.play.game) == {"score"}
         assert rsoccer.make_task(name, free_ball=True).layout == matches.task.layout
     with pytest.raises(TypeError, match="free_ball: expected True or False, got 'yes'"):
         rsoccer.make_task("VSS-v0", free_ball="yes")

@@ -19,7 +19,10 @@ from numpy.typing import NDArray
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
+from rsoccer.game import EventKind
 from rsoccer.play import Play
+from rsoccer.rules import free_places
+from rsoccer.rules.base import Restart, Rule
 
 STUCK_SECONDS: Final = 10.0
 """Time after which a stuck ball leads to a free ball, s: FIRA laws."""
@@ -32,18 +35,18 @@ make no progress. Measured over 100 matches between two learned teams: 77 free b
 with 0.1 m, 84 with 0.2 m. Between two scripted teams, whose crowds drift: 0, 28 and 53.
 """
 LARGE_FIELD_LENGTH: Final = 2.2
-"""Length of the field for five a side, m. Shorter fields have the marks of three a side."""
+"""Length of the field for five a side, m: robots stand farther from the ball there."""
 GRID_SPACING: Final = 0.05
 """Distance between candidate positions of robots that leave the quarter, m."""
 MARGIN: Final = 1e-3
 """Free space around a placed robot, m, for differences in rounding."""
 
 
-class FreeBalls:
-    """The rule for one configuration: memory of stuck balls, and states after a free ball."""
+class FreeBalls(Rule):
+    """A ball that is stuck leads to a free ball at the mark of its quarter."""
 
     def __init__(self, config: SimConfig) -> None:
-        """Compute the marks.
+        """Prepare the rule.
 
         Args:
             config: field, ball and robots.
@@ -54,24 +57,27 @@ class FreeBalls:
         field = config.field
         large = field.length >= LARGE_FIELD_LENGTH - MARGIN
         self.config = config
-        self.mark = np.array(
-            [field.half_length / 2.0, field.half_width - (0.30 if large else 0.25)], np.float32
-        )
+        self.mark = np.array([field.free_ball_x, field.free_ball_y], np.float32)
         """(2,) mark in the quarter where x and y are positive, m."""
         self.robot_distance = 0.30 if large else 0.20
         """Distance along x between the ball and the robots beside it, m."""
         self._radius = max(robot.bounding_radius for robot in config.robots)
         self._limit = round(STUCK_SECONDS / config.time_step)
         x, y = self.mark
-        gaps = (x - self.robot_distance, field.half_length - x - self.robot_distance, y)
+        gaps = (
+            x - self.robot_distance,
+            field.half_length - x - self.robot_distance,
+            field.half_width - y,
+            y,
+        )
         if min(gaps) < self._radius or self.robot_distance < self._radius + config.ball.radius:
             raise ValueError(
                 f"free_ball: expected False for robots of radius {self._radius:.3f} m in a field "
                 f"of {field.length:g} x {field.width:g} m, got True"
             )
 
-    def new_memory(self, n: int) -> dict[str, Array]:
-        """Return memory at the start of episodes.
+    def columns(self, n: int) -> dict[str, Array]:
+        """Create the state of stuck balls.
 
         Args:
             n: number of worlds.
@@ -87,37 +93,24 @@ class FreeBalls:
             "free_balls": counts[1],
         }
 
-    def start_episode(self, play: Play) -> None:
-        """Begin the time at the initial state.
+    def begin(self, play: Play, worlds: NDArray[np.intp]) -> None:
+        """Begin the time of stuck balls."""
+        play.game.stuck_at[worlds] = play.frame.ball.position[worlds]
+        play.game.stuck_steps[worlds] = 0
 
-        Args:
-            play: initial state of n worlds; its memory is changed.
-        """
-        play.memory["stuck_at"][:] = play.frame.ball.position
-
-    def restart(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
-        """Update the memory after a step, and return the states of free balls.
-
-        Args:
-            play: state of n worlds after the step; its memory is changed.
-
-        Returns:
-            (k,) indices of the worlds with a free ball, and (k, row) their new states; None for
-            no world.
-        """
+    def judge(self, play: Play) -> Restart | None:
+        """Count the time of stuck balls, and place the bodies for free balls."""
         worlds = np.flatnonzero(self._stuck(play))
         if not len(worlds):
             return None
-        frame = self._restarted(play.frame.take(worlds))
-        play.memory["free_balls"][worlds] += 1
-        play.memory["stuck_steps"][worlds] = 0
-        play.memory["stuck_at"][worlds] = frame.ball.position
-        return worlds, frame.rows
+        play.game.free_balls[worlds] += 1
+        before = play.frame.take(worlds)
+        play.events.add(worlds, EventKind.NO_PROGRESS_IN_GAME, position=before.ball.position)
+        return Restart(worlds, rows=self._restarted(before).rows)
 
     def _stuck(self, play: Play) -> Mask:
         """(n,) worlds whose ball has been stuck for the time of the rule."""
-        ball, memory = play.frame.ball, play.memory
-        place, steps = memory["stuck_at"], memory["stuck_steps"]
+        ball, place, steps = play.frame.ball, play.game.stuck_at, play.game.stuck_steps
         offset = ball.position - place
         squared = offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1]
         left = squared > np.float32(STUCK_DISTANCE * STUCK_DISTANCE)
@@ -175,32 +168,19 @@ class FreeBalls:
             else:
                 settled.append(robot)
         for robot in leaving:
-            offset = self._grid - placed[robot]
-            distance = offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1]
-            distance[~self._is_free(self._grid, placed[settled])] = np.inf
-            placed[robot] = self._grid[np.argmin(distance)]
+            free = self._is_free(self._grid, placed[settled])
+            placed[robot] = free_places.nearest(self._grid, free, placed[robot])
             settled.append(robot)
 
     def _is_free(self, positions: Floats, robots: Floats) -> Mask:
         """(m,) whether robots at positions (m, 2) would be clear of robots (r, 2)."""
-        clearance = np.float32(2.0 * self._radius + MARGIN)
-        offset = positions[:, None] - robots
-        squared = offset[..., 0] * offset[..., 0] + offset[..., 1] * offset[..., 1]
-        free: Mask = np.logical_not((squared < clearance * clearance).any(axis=1))
-        return free
+        return free_places.is_free(positions, robots, 2.0 * self._radius + MARGIN)
 
     @cached_property
     def _grid(self) -> Floats:
         """(m, 2) positions of robots outside the quarter of positive x and y, m."""
         field, radius = self.config.field, self._radius + MARGIN
-        x, y = (
-            np.arange(
-                int((half - radius) / GRID_SPACING), -int((half - radius) / GRID_SPACING) - 1, -1
-            )
-            for half in (field.half_length, field.half_width)
-        )
-        columns = np.repeat(x, len(y)), np.tile(y, len(x))
-        grid = np.stack(columns, axis=-1).astype(np.float32) * np.float32(GRID_SPACING)
+        grid = free_places.grid(field.half_length - radius, field.half_width - radius, GRID_SPACING)
         outside = (grid <= -radius).any(axis=1)
         # The face of a corner block is the line |x| + |y| = const at 45 degrees.
         diagonal = field.half_length + field.half_width - field.corner_leg - 2.0**0.5 * radius

@@ -1,0 +1,130 @@
+"""The place of sensor models: between the true state and what robots know of it.
+
+`Matches` calls the model once in each step, after the restarts of play. Observations, policies and
+`Task.get_commands` then read `Play.sensed`; rewards, ends, metrics, rules and pictures read the
+truth. Without a model both are the same arrays, and nothing is called.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rsoccer import checks
+from rsoccer.arrays import Array
+from rsoccer.frame import Frame
+from rsoccer.rng import WorldRng
+
+
+class SensorModel(Protocol):
+    """What robots know of the true state of n worlds, for all robots alike.
+
+    A model keeps its state of a match in the arrays that it is given, never on itself, and draws
+    only from the random streams that it is given.
+    """
+
+    def columns(self, n: int) -> dict[str, Array]:
+        """Create the model's state at the start of episodes.
+
+        Args:
+            n: number of worlds.
+
+        Returns:
+            Arrays (n, ...) by name.
+        """
+
+    def begin(self, frame: Frame, sensed: Frame, state: Mapping[str, Array], rng: WorldRng) -> None:
+        """Sense the initial state of episodes.
+
+        Args:
+            frame: true state of k worlds, to be read only.
+            sensed: state of k worlds as the robots know it; equal to `frame`, changed in place.
+            state: arrays (k, ...) of `columns`, changed in place.
+            rng: (k,) random streams.
+        """
+
+    def sense(self, frame: Frame, sensed: Frame, state: Mapping[str, Array], rng: WorldRng) -> None:
+        """Sense the state after a step.
+
+        Args:
+            frame: true state of n worlds, to be read only.
+            sensed: state of n worlds as the robots knew it before; overwritten.
+            state: arrays (n, ...) of `columns`, changed in place.
+            rng: (n,) random streams.
+        """
+
+
+@dataclass
+class Senses:
+    """What the robots of n worlds know, with the state of the model that computes it."""
+
+    model: SensorModel
+    """The model."""
+    frame: Frame
+    """(n, ...) state as the robots know it."""
+    state: dict[str, Array]
+    """(n, ...) arrays of the model by name."""
+    rng: WorldRng
+    """(n,) random streams of the model."""
+
+    @classmethod
+    def new(cls, model: SensorModel, frame: Frame, rng: WorldRng) -> "Senses":
+        """Return the senses of n worlds before their episodes begin.
+
+        Args:
+            model: the model.
+            frame: frame of n worlds; copied.
+            rng: (n,) random streams.
+
+        Raises:
+            ValueError: a column whose first axis is not n.
+        """
+        n = len(frame)
+        state = checks.memory(f"{type(model).__name__}.columns", model.columns(n), n)
+        return cls(model, frame.copy(), state, rng)
+
+    def begin(self, frame: Frame) -> None:
+        """Sense the initial state of all n episodes.
+
+        Args:
+            frame: true state.
+        """
+        self.frame.rows[:] = frame.rows
+        self.model.begin(frame, self.frame, self.state, self.rng)
+
+    def sense(self, frame: Frame) -> None:
+        """Sense the state after a step.
+
+        Args:
+            frame: true state.
+        """
+        self.model.sense(frame, self.frame, self.state, self.rng)
+
+    def take(self, worlds: NDArray[np.intp]) -> "Senses":
+        """Return a copy of some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
+        state = {name: array[worlds] for name, array in self.state.items()}
+        return Senses(self.model, self.frame.take(worlds), state, self.rng[worlds])
+
+    def put(self, worlds: NDArray[np.intp], part: "Senses") -> None:
+        """Overwrite some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+            part: senses of k worlds.
+        """
+        self.frame.put(worlds, part.frame)
+        for name, array in self.state.items():
+            array[worlds] = part.state[name]
+        self.rng.put(worlds, part.rng)
+
+    def arrays(self) -> dict[str, Array]:
+        """Return the arrays to save, by name; not copied. The streams are saved by others."""
+        return {"frame": self.frame.rows} | {
+            f"state.{name}": array for name, array in self.state.items()
+        }
