@@ -403,7 +403,7 @@ class Matches:
             if chosen.balls is not None:
                 self._simulator.reposition_balls(mask, chosen.balls, out=play.frame.rows)
             elif chosen.rows is not None:
-                self._simulator.place(mask, chosen.rows, out=play.frame.rows)
+                self._simulator.restart(mask, chosen.rows, out=play.frame.rows)
             play.last_frame.rows[mask] = play.frame.rows[mask]
             for rule in self._rules:
                 rule.begin(play, chosen.worlds)
