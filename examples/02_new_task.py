@@ -35,7 +35,8 @@ class Reach(Task):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Return the ball's position in the robot's frame (m) and the robot's scaled turn rate."""
-        ego, offset = play.view.ego, play.view.ball.position - play.view.ego.position
+        view = play.sensed_view
+        ego, offset = view.ego, view.ball.position - view.ego.position
         ahead = (offset * ego.heading).sum(axis=-1)
         left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
         return {

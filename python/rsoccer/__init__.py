@@ -30,6 +30,7 @@ from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
+from rsoccer.rules import Restart, Rule
 from rsoccer.task import LEARN, Play, Task
 from rsoccer.tasks import (
     SslContestedPossession,
@@ -56,7 +57,9 @@ __all__ = [
     "Outcome",
     "Play",
     "Policy",
+    "Restart",
     "RobotModel",
+    "Rule",
     "SimConfig",
     "Simulator",
     "SslContestedPossession",

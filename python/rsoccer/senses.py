@@ -19,7 +19,7 @@ from rsoccer.rng import WorldRng
 
 
 class SensorModel(Protocol):
-    """What robots know of the true state of n worlds, for all robots alike.
+    """Model of what robots know of the true state of n worlds, for all robots alike.
 
     A model keeps its state of a match in the arrays that it is given, never on itself, and draws
     only from the random streams that it is given.
@@ -58,7 +58,7 @@ class SensorModel(Protocol):
 
 @dataclass
 class Senses:
-    """What the robots of n worlds know, with the state of the model that computes it."""
+    """The state that the robots of n worlds know, with the model that computes it."""
 
     model: SensorModel
     """The model."""

@@ -1,4 +1,4 @@
-"""The rule of a ball that leaves the field: where it is put back."""
+"""The rule of a ball that leaves the field: where it is repositioned."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def judged(task: SslSelfPlay, frame: Frame) -> Restart | None:
     return rule_of(task).judge(play)
 
 
-def test_a_ball_is_put_back_only_where_it_has_left() -> None:
+def test_a_ball_is_repositioned_only_where_it_has_left() -> None:
     task = SslSelfPlay()
     frame = Frame.empty(4, 3, 3)
     assert judged(task, frame) is None

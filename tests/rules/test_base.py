@@ -129,7 +129,7 @@ def test_drives_continue_where_only_the_ball_is_moved() -> None:
     assert not same(matches.frame.ball.position[1], control.frame.ball.position[1])
 
 
-def test_rules_are_told_where_play_begins() -> None:
+def test_rules_begin_where_play_begins() -> None:
     matches, results = started()
     rule = matches.task.rules[1]
     assert isinstance(rule, Listed)

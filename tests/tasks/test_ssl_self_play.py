@@ -20,7 +20,7 @@ def test_a_goal_of_either_team_terminates(side: float) -> None:
 def repositioned(
     ball: tuple[float, ...], **robots: tuple[float, ...]
 ) -> tuple[Matches, np.ndarray]:
-    """Let the ball leave the field; the matches after it was put back, and all rewards to then.
+    """Let the ball leave the field; the matches after it was repositioned, and all rewards to then.
 
     The last reward is that of the step after.
     """

@@ -1,4 +1,4 @@
-"""The rule of a ball that leaves the field: it is put back inside the line, and play goes on."""
+"""The rule of a ball that leaves the field: it is repositioned inside the line, and play goes on."""
 
 from functools import cached_property
 from typing import Final
@@ -13,7 +13,7 @@ from rsoccer.rules import free_places
 from rsoccer.rules.base import Restart, Rule
 
 LINE_DISTANCE: Final = 0.2
-"""Distance from the line at which a ball that left the field is put back, m: SSL rules."""
+"""Distance from the line at which a ball that left the field is repositioned, m: SSL rules."""
 GRID_SPACING: Final = 0.05
 """Distance between candidate positions of the ball, m."""
 LINE_CANDIDATES: Final = 60
@@ -21,7 +21,7 @@ LINE_CANDIDATES: Final = 60
 
 
 class BallOut(Rule):
-    """A ball that leaves the field, other than into a goal, is put back at rest.
+    """A ball that leaves the field, other than into a goal, is repositioned at rest.
 
     Its place is `LINE_DISTANCE` inside the line, at the nearest position along the line that is
     free of robots, or the nearest free position of the field. The robots keep their state.
@@ -109,7 +109,7 @@ class BallOut(Rule):
 
     @cached_property
     def _max_position(self) -> Floats:
-        """(2,) greatest x and y of a ball that is put back, m."""
+        """(2,) greatest x and y of a ball that is repositioned, m."""
         field = self.config.field
         half = np.array([field.half_length, field.half_width], np.float32)
         return half - np.float32(LINE_DISTANCE)

@@ -30,7 +30,7 @@ _SCORERS: Final = np.array(
 
 
 class Crossings(Rule):
-    """Every goal counts, whoever touched the ball; play is not stopped by any crossing."""
+    """Every goal counts, own goals too; play is not stopped by any crossing."""
 
     def judge(self, play: Play) -> Restart | None:
         """Add goals to the score, and goals and balls that left the field to the events."""

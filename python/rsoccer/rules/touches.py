@@ -1,4 +1,4 @@
-"""Who touched the ball last, as indices of robots and teams."""
+"""Last touches of the ball, as indices of robots and teams."""
 
 import numpy as np
 from numpy.typing import NDArray

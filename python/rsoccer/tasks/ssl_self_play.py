@@ -93,7 +93,7 @@ class SslSelfPlay(Ssl):
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
-        """Goals count, a ball that leaves the field is put back, passes are counted."""
+        """Goals count, a ball that leaves the field is repositioned, passes are counted."""
         return Crossings(), BallOut(self.config), Passes(MIN_PASS_LENGTH)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
