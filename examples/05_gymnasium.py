@@ -6,7 +6,7 @@ import numpy as np
 import rsoccer  # registers the environment ids
 
 env = gymnasium.make("rsoccer/SSLGoToBall-v0")
-blocks = rsoccer.make_task("SSLGoToBall-v0").blocks  # columns of each observation block
+blocks = rsoccer.make_task("SSLGoToBall-v0").layout.blocks  # columns of each observation block
 ego, ball = blocks["ego"].columns.start, blocks["ball"].columns.start
 sine = blocks["ball_polar"].columns.start + 2  # sine of the ball's bearing
 

@@ -13,7 +13,7 @@ print(f"agents {matches.agents}, observations {observations.shape}")
 
 def drive(observations: Floats, steps: int) -> tuple[Floats, float]:
     """Drive all robots towards the ball; return the last observations and the mean reward."""
-    sine = matches.task.blocks["ball_polar"].columns.start + 2
+    sine = matches.task.layout.blocks["ball_polar"].columns.start + 2
     mean_reward = 0.0
     for _ in range(steps):
         turn = np.clip(observations[..., sine], -1, 1)

@@ -81,12 +81,12 @@ def test_a_policy_of_the_wrong_task_is_refused(name: str) -> None:
 def network_of(name: str) -> Network:
     """Network with the sizes of a task, as after training."""
     task = rsoccer.make_task(name)
-    sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
+    sizes = {"observation_size": task.layout.size, "action_size": task.action_size}
     arrays = {
-        "layers.0.weight": np.zeros((task.action_size, task.observation_size), np.float32),
+        "layers.0.weight": np.zeros((task.action_size, task.layout.size), np.float32),
         "layers.0.bias": np.zeros(task.action_size, np.float32),
-        "mean": np.zeros(task.observation_size, np.float32),
-        "std": np.ones(task.observation_size, np.float32),
+        "mean": np.zeros(task.layout.size, np.float32),
+        "std": np.ones(task.layout.size, np.float32),
     }
     metadata = {"format": FORMAT, "task": name, "activation": "tanh", "clip": "10"}
     return Network(arrays, metadata | {size: str(number) for size, number in sizes.items()})
@@ -245,20 +245,22 @@ def test_a_policy_made_for_another_field_is_refused(policy: str, name: str) -> N
 @pytest.mark.parametrize("name", TASKS)
 def test_a_network_with_another_observation_layout_is_refused(name: str) -> None:
     task = rsoccer.make_task(name)
-    zeros = np.zeros(task.observation_size, np.float32)
+    zeros = np.zeros(task.layout.size, np.float32)
     arrays = {
-        "layers.0.weight": np.zeros((task.action_size, task.observation_size), np.float32),
+        "layers.0.weight": np.zeros((task.action_size, task.layout.size), np.float32),
         "layers.0.bias": np.zeros(task.action_size, np.float32),
         **{"mean": zeros, "std": zeros + 1},
     }
     metadata = {
         **{"format": FORMAT, "task": name, "activation": "tanh"},
-        **{"observation_size": str(task.observation_size), "action_size": str(task.action_size)},
-        "layout": task.layout,
+        **{"observation_size": str(task.layout.size), "action_size": str(task.action_size)},
+        "layout": task.layout.text,
     }
     network = Network(arrays, metadata)
     assert policies.make_policy(network, task) is network
-    others = [make for make in map(rsoccer.make_task, TASKS) if make.layout != task.layout]
+    others = [
+        make for make in map(rsoccer.make_task, TASKS) if make.layout.text != task.layout.text
+    ]
     assert others
     for other in others:
         with pytest.raises(ValueError, match=f"a network trained on '{name}'"):
@@ -266,8 +268,8 @@ def test_a_network_with_another_observation_layout_is_refused(name: str) -> None
 
 
 def test_equal_sizes_do_not_make_equal_layouts() -> None:
-    sizes = {make.observation_size: make.layout for make in map(rsoccer.make_task, TASKS)}
-    layouts = {make.layout for make in map(rsoccer.make_task, TASKS)}
+    sizes = {make.layout.size: make.layout.text for make in map(rsoccer.make_task, TASKS)}
+    layouts = {make.layout.text for make in map(rsoccer.make_task, TASKS)}
     assert len(sizes) < len(layouts), "sizes alone do not distinguish the tasks"
 
 

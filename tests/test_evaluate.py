@@ -29,12 +29,12 @@ def untrained_network(seed: int = 0) -> Network:
     """Return an untrained policy of the right sizes."""
     task = rsoccer.make_task("VSSSelfPlay-v0")
     rng = np.random.default_rng(seed)
-    sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
+    sizes = {"observation_size": task.layout.size, "action_size": task.action_size}
     arrays = {
-        "layers.0.weight": rng.normal(size=(task.action_size, task.observation_size)),
+        "layers.0.weight": rng.normal(size=(task.action_size, task.layout.size)),
         "layers.0.bias": np.zeros(task.action_size),
-        "mean": np.zeros(task.observation_size),
-        "std": np.ones(task.observation_size),
+        "mean": np.zeros(task.layout.size),
+        "std": np.ones(task.layout.size),
     }
     metadata = {"format": FORMAT, "task": task.name, "activation": "tanh"}
     return Network(

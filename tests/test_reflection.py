@@ -14,6 +14,7 @@ from rsoccer import LEARN, Frame, Matches
 from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.global_state import StateEncoder
+from rsoccer.reflection import Reflection, Symmetry, add_blocks
 from rsoccer.task import Play, Task
 from rsoccer.tasks import SslDribbling, VssSelfPlay
 from rsoccer.tasks.courses import PAPER, Course
@@ -106,21 +107,22 @@ def test_the_reflected_match_is_the_same(name: str) -> None:
         playing &= ~a.ended
     assert playing.sum() > WORLDS / 2, "too few worlds were compared to the end"
     here, there = (np.concatenate(each) for each in observed)
-    action = task.blocks["action"].columns
+    action = task.layout.blocks["action"].columns
     assert same(reflected_actions(here[:, action]) + 0, there[:, action] + 0)
-    if task.is_symmetric:
-        reflection = task.observation_reflection
+    reflection = task.layout.reflection
+    if reflection is not None:
         assert same(reflection.apply(here) + 0, there + 0)
         assert same(reflection.apply(reflection.apply(here)), here)
-        assert task.action_reflection is not None
-        assert same(task.action_reflection.apply(actions), reflected_actions(actions))
+        assert task.symmetry is not None
+        assert same(task.symmetry.action.apply(actions), reflected_actions(actions))
     found = np.delete(signs(here, there), action)
     assert found.all(), "some numbers are neither kept nor negated"
     assert {-1, 1} == set(found.tolist())
 
 
 def test_all_tasks_but_the_slalom_are_symmetric() -> None:
-    asymmetric = [name for name in TASKS if not rsoccer.make_task(name).is_symmetric]
+    layouts = {name: rsoccer.make_task(name).layout for name in TASKS}
+    asymmetric = [name for name, layout in layouts.items() if layout.reflection is None]
     assert asymmetric == ["SSLDribbling-v0"]
 
 
@@ -131,8 +133,17 @@ def test_a_task_with_an_unknown_block_is_not_symmetric() -> None:
             blocks = super().frame_to_observations(play)
             return {**blocks, "note": np.ones_like(blocks["action"])}
 
-    assert VssSelfPlay().is_symmetric
-    assert not Noted().is_symmetric
+    assert VssSelfPlay().layout.reflection is not None
+    assert Noted().layout.reflection is None
+
+    @dataclass(frozen=True)
+    class Known(Noted):
+        @property
+        def symmetry(self) -> Symmetry | None:
+            return add_blocks(super().symmetry, note=Reflection.of([1, 1]))
+
+    assert Known().layout.reflection is not None
+    assert add_blocks(None, note=Reflection.of([1, 1])) is None
 
 
 def test_the_reflected_state_is_the_state_of_the_reflected_match() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from rsoccer import Matches
 from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.new_play import new_play
 from rsoccer.play import Play
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
@@ -57,10 +58,10 @@ def test_observations_are_those_of_the_sensed_state() -> None:
     fresh = play.viewpoint.new_view(4)
     play.viewpoint.fill(play.sensed, fresh)
     assert same(fresh.robots.data, play.sensed_view.robots.data)
-    exact = SSL.new_play(4, play.viewpoint, WorldRng.seeded(0, 4))
+    exact = new_play(SSL, 4, play.viewpoint, WorldRng.seeded(0, 4))
     exact.start(play.sensed.rows)
     exact.actions[:] = play.actions
-    assert same(outcome.observations, SSL.observe(exact))
+    assert same(outcome.observations, SSL.layout.observe(exact))
 
 
 def test_commands_turn_with_the_sensed_heading() -> None:

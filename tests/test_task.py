@@ -6,8 +6,9 @@ import pytest
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches
+from rsoccer.observation_layout import DEFAULT_LIMIT
 from rsoccer.rng import WorldRng
-from rsoccer.task import DEFAULT_LIMIT, LEARN, Play, Task
+from rsoccer.task import LEARN, Play, Task
 from rsoccer.tasks import VssMulti, VssSelfPlay
 
 
@@ -34,25 +35,25 @@ def played(task: Task, worlds: int = 4) -> Play:
 def test_blocks_give_the_columns_of_the_flat_observation() -> None:
     task = VssSelfPlay()
     play = played(task)
-    flat = task.observe(play)
-    assert flat.shape == (4, 6, task.observation_size)
+    flat = task.layout.observe(play)
+    assert flat.shape == (4, 6, task.layout.size)
     named = task.frame_to_observations(play)
-    assert list(named) == list(task.blocks)
-    for name, block in task.blocks.items():
+    assert list(named) == list(task.layout.blocks)
+    for name, block in task.layout.blocks.items():
         assert named[name].shape[2:] == block.shape
         part = flat[:, :, block.columns].reshape(4, 6, *block.shape)
         assert np.allclose(part, named[name], atol=1e-6), name
-    assert sum(block.size for block in task.blocks.values()) == flat.shape[2]
+    assert sum(block.size for block in task.layout.blocks.values()) == flat.shape[2]
 
 
 def test_observations_stay_within_limits() -> None:
     task = Unbounded()
-    flat = task.observe(played(task))
+    flat = task.layout.observe(played(task))
     assert (flat[..., :2] == [-0.5, -0.5]).all()
     assert set(flat[..., 2:].ravel().tolist()) == {-DEFAULT_LIMIT, DEFAULT_LIMIT, 0.0}
-    assert task.observation_high.tolist() == [0.5] * 2 + [DEFAULT_LIMIT] * 6
-    assert (task.observation_low == -task.observation_high).all()
-    assert task.observation_high.dtype == np.float32
+    assert task.layout.high.tolist() == [0.5] * 2 + [DEFAULT_LIMIT] * 6
+    assert (task.layout.low == -task.layout.high).all()
+    assert task.layout.high.dtype == np.float32
 
 
 def test_the_first_axis_of_memory_must_be_worlds() -> None:

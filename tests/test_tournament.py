@@ -19,7 +19,7 @@ from tests.train.short_task import NAME, ShortSelfPlay, register_all
 TASK = ShortSelfPlay()
 
 
-def write_network(path: Path, observation_size: int = TASK.observation_size) -> str:
+def write_network(path: Path, observation_size: int = TASK.layout.size) -> str:
     """Write a network that drives ahead."""
     arrays = {
         "layers.0.weight": np.zeros((2, observation_size), np.float32),

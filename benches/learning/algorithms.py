@@ -29,7 +29,7 @@ def settings(run: Run) -> dict[str, Any]:
     values = _settings_of_algorithm(run)
     task = make_task(run.experiment.task, **values.get("task_options", {}))
     observation_mask(task, values.get("masked_observations", ()))  # refuses unknown parts
-    return {**values, "observation": task.layout}
+    return {**values, "observation": task.layout.text}
 
 
 def _settings_of_algorithm(run: Run) -> dict[str, Any]:

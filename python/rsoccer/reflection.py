@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -58,3 +58,22 @@ class Reflection(NamedTuple):
         """
         reflected: Floats = vectors[..., self.order] * self.signs
         return reflected
+
+
+class Symmetry(NamedTuple):
+    """Reflections of a task that is the same with left and right swapped."""
+
+    action: Reflection
+    """(action_size,) reflection of an action."""
+    blocks: Mapping[str, Reflection]
+    """Reflection of the last axis of each observation block, by name."""
+
+
+def add_blocks(symmetry: Symmetry | None, **blocks: Reflection) -> Symmetry | None:
+    """Return a symmetry with the reflections of more observation blocks.
+
+    Args:
+        symmetry: the symmetry; None remains None.
+        **blocks: reflection of the last axis of each block, by name.
+    """
+    return None if symmetry is None else Symmetry(symmetry.action, {**symmetry.blocks, **blocks})

@@ -140,9 +140,7 @@ class SoccerEnv(EnvBase):
     def _make_specs(self) -> None:
         """Describe all keys, for TorchRL's checks and buffers."""
         n, size = self.matches.worlds, self.matches.observation_size
-        low, high = (
-            torch.from_numpy(b) for b in (self.task.observation_low, self.task.observation_high)
-        )
+        low, high = (torch.from_numpy(b) for b in (self.task.layout.low, self.task.layout.high))
         observations, actions, rewards, done = (Composite(shape=(n,)) for _ in range(4))
         for group, agents in self.group_map.items():
             k = len(agents)

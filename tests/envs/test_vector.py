@@ -188,7 +188,7 @@ def test_metadata(mode: AutoresetMode) -> None:
     assert envs.single_observation_space == single.observation_space
     assert envs.single_action_space == single.action_space
     assert isinstance(envs.observation_space, Box)
-    assert envs.observation_space.shape == (N, envs.task.observation_size)
+    assert envs.observation_space.shape == (N, envs.task.layout.size)
     assert envs.action_space.shape == (N, 2)
     envs.close()
     assert envs.closed

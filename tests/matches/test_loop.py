@@ -216,7 +216,7 @@ def test_matches_can_be_pickled_within_an_episode() -> None:
 def test_sizes_and_bounds_are_the_tasks() -> None:
     matches = Matches("VSSMulti-v0", 2)
     assert matches.agents == ("blue_0", "blue_1", "blue_2")
-    assert matches.observation_size == matches.task.observation_size
+    assert matches.observation_size == matches.task.layout.size
     assert matches.action_size == 2
     outcome_low, outcome_high = matches.observation_low, matches.observation_high
     shown = matches.reset()

@@ -72,7 +72,7 @@ def test_a_goal_that_restarts_play_pays_and_counts() -> None:
             assert outcome.terms["ball_to_goal"][world, :3].sum() > 0.0, "its way is paid"
             ball = matches.frame.ball.position[world]
             assert same(ball, rows[world, :2]), "afterwards play has begun again"
-            seen = outcome.observations[world, 0, matches.task.blocks["ball"].columns]
+            seen = outcome.observations[world, 0, matches.task.layout.blocks["ball"].columns]
             assert seen[0] == pytest.approx(ball[0] / 0.75)
     assert goals.min() > 3
     assert goals[0] > goals[1]
@@ -134,9 +134,9 @@ class Traced(VssSelfPlay):
         self.trace.calls.append("metrics")
         return {}
 
-    def observe(self, play: Play, out: Floats | None = None) -> Floats:
+    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
         self.trace.calls.append("observe")
-        return super().observe(play, out)
+        return super().frame_to_observations(play)
 
 
 class TracedPolicy(Policy):

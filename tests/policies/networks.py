@@ -37,13 +37,13 @@ def network_parts(**extra: str) -> tuple[Arrays, Metadata]:
 def network_for(task: Task) -> Network:
     """A network that fits a task; its mean actions are 0, with a standard deviation of 0.4."""
     arrays = {
-        "layers.0.weight": np.zeros((task.action_size, task.observation_size), np.float32),
+        "layers.0.weight": np.zeros((task.action_size, task.layout.size), np.float32),
         "layers.0.bias": np.zeros(task.action_size, np.float32),
-        "mean": np.zeros(task.observation_size, np.float32),
-        "std": np.ones(task.observation_size, np.float32),
+        "mean": np.zeros(task.layout.size, np.float32),
+        "std": np.ones(task.layout.size, np.float32),
         "action_std": np.full(task.action_size, 0.4, np.float32),
     }
-    sizes = {"observation_size": task.observation_size, "action_size": task.action_size}
+    sizes = {"observation_size": task.layout.size, "action_size": task.action_size}
     metadata = {"format": FORMAT, "task": task.name, "activation": "tanh"}
     return Network(arrays, metadata | {name: str(size) for name, size in sizes.items()})
 

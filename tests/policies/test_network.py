@@ -103,26 +103,26 @@ def test_missing_or_wrong_observations_are_refused() -> None:
 
 def test_weights_of_another_program_become_a_policy() -> None:
     task, rng = make_task("VSS-v0"), np.random.default_rng(0)
-    sizes = [task.observation_size, 8, task.action_size]
+    sizes = [task.layout.size, 8, task.action_size]
     layers = [(rng.normal(size=(b, a)), rng.normal(size=b)) for a, b in pairwise(sizes)]
     network = Network.from_layers(task, layers, [0.5, 0.5], action_repeat=3)
     layers[0][0][:] = 0.0  # a copy is kept
-    observations = rng.uniform(-1, 1, (4, task.observation_size)).astype(np.float32)
+    observations = rng.uniform(-1, 1, (4, task.layout.size)).astype(np.float32)
     hidden = np.tanh(observations @ network.layers[0][0].T + network.layers[0][1])
     expected = np.clip(hidden @ layers[1][0].T + layers[1][1], -1, 1)
     np.testing.assert_allclose(network.mean_actions(observations), expected, atol=1e-5)
     assert (network.mode, network.action_repeat, network.task_name) == ("sample", 3, "VSS-v0")
     assert Network.from_layers(task, layers).mode == "mean"
-    network.check_fits(task, task.observation_size)
+    network.check_fits(task, task.layout.size)
 
 
 def test_modules_of_torch_become_a_policy() -> None:
     task = make_task("VSS-v0")
     modules = nn.Sequential(
-        nn.Linear(task.observation_size, 8), nn.Tanh(), nn.Linear(8, task.action_size)
+        nn.Linear(task.layout.size, 8), nn.Tanh(), nn.Linear(8, task.action_size)
     )
     network = Network.from_layers(task, modules)
-    observations = torch.rand(4, task.observation_size)
+    observations = torch.rand(4, task.layout.size)
     expected = modules(observations).clamp(-1, 1).detach()
     np.testing.assert_allclose(network.mean_actions(observations.numpy()), expected, atol=1e-5)
 
@@ -148,4 +148,4 @@ def test_weights_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ValueError, match="has observation_size 3"):
         Network.from_layers(task, [(np.ones((2, 3)), np.ones(2))])
     with pytest.raises(ValueError, match="action_std"):
-        Network.from_layers(task, [(np.ones((2, task.observation_size)), np.ones(2))], [0.1])
+        Network.from_layers(task, [(np.ones((2, task.layout.size)), np.ones(2))], [0.1])

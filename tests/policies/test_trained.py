@@ -25,7 +25,7 @@ SHIPPED = trained.list_trained()
 def save(folder: Path, task_name: str, **metadata: str) -> Path:
     task = rsoccer.make_task(task_name)
     network = network_for(task)
-    network.metadata |= {"layout": task.layout, **metadata}
+    network.metadata |= {"layout": task.layout.text, **metadata}
     network.save(folder / f"{task_name}.safetensors")
     return folder / f"{task_name}.safetensors"
 
@@ -148,7 +148,7 @@ def test_a_shipped_policy_is_small_and_fits_its_task(name: str) -> None:
     path, task = SHIPPED[name], rsoccer.make_task(name)
     assert path.stat().st_size <= MAX_SIZE
     network = trained.load_best(task)
-    assert (network.task_name, network.metadata["layout"]) == (name, task.layout)
+    assert (network.task_name, network.metadata["layout"]) == (name, task.layout.text)
     training = json.loads(network.metadata["training"])
     assert set(training) == {"command", "samples", "seed", "package", "physics"}
     assert f"--task {name}" in training["command"]

@@ -13,7 +13,7 @@ from rsoccer.tasks import SslStaticDefenders
 
 
 def save(path: Path, task: Task, **task_options: object) -> Path:
-    size = (task.action_size, task.observation_size)
+    size = (task.action_size, task.layout.size)
     layers = [(np.zeros(size, np.float32), np.zeros(size[0], np.float32))]
     Network.from_layers(task, layers, task_options=task_options).save(path)
     return path

@@ -7,6 +7,7 @@ from rsoccer import SimConfig
 from rsoccer._core import CROSSINGS, Field
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
+from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.rng import WorldRng
 from rsoccer.rules import BallOut, Restart, free_places
 from rsoccer.tasks import SslSelfPlay
@@ -21,7 +22,7 @@ def rule_of(task: SslSelfPlay) -> BallOut:
 def judged(task: SslSelfPlay, frame: Frame) -> Restart | None:
     """Decision of the rule on states in which balls may have crossed lines."""
     n = len(frame)
-    play = task.new_play(n, task.new_viewpoint([0]), WorldRng.seeded(0, n))
+    play = new_play(task, n, new_viewpoint(task, [0]), WorldRng.seeded(0, n))
     play.start(frame.rows)
     return rule_of(task).judge(play)
 

@@ -77,9 +77,9 @@ def test_observations_show_the_state_after_the_restart() -> None:
     matches, results = started()
     results.append(Restart(np.array([1]), rows=line_ups(0.3)))
     outcome = matches.step(zeros(matches) + 0.5)
-    expected = matches.task.observe(matches.play)
+    expected = matches.task.layout.observe(matches.play)
     assert same(outcome.observations, expected)
-    ball = matches.task.blocks["ball"].columns
+    ball = matches.task.layout.blocks["ball"].columns
     assert outcome.observations[1, 0, ball][1] == pytest.approx(0.3 / 0.75)
 
 

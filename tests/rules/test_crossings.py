@@ -8,6 +8,7 @@ from rsoccer import Matches
 from rsoccer._core import CROSSINGS
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
+from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Crossings
@@ -28,7 +29,7 @@ EXPECTED = {
 def crossed(*crossings: str, last_touch: int = NOBODY) -> Play:
     """Worlds whose balls crossed lines, after the rule has judged them."""
     task, n = VssSelfPlay(), len(crossings)
-    play = task.new_play(n, task.new_viewpoint([0]), WorldRng.seeded(0, n))
+    play = new_play(task, n, new_viewpoint(task, [0]), WorldRng.seeded(0, n))
     frame = Frame.empty(n, 3, 3)
     frame.ball.crossed[:] = [CROSSINGS.index(name) for name in crossings]
     frame.ball.crossed_at[:] = (0.3, -0.2)

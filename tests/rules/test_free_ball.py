@@ -12,6 +12,7 @@ from rsoccer import Field, Matches, SimConfig, Simulator
 from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.frame import Frame
+from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.replay import Recorder, Replay
 from rsoccer.rng import WorldRng
@@ -51,8 +52,8 @@ def started(task: rsoccer.Task, frame: Frame, **options: Any) -> Matches:  # noq
 
 def in_play(task: rsoccer.Task, frame: Frame) -> Play:
     """State of the first step of episodes, for calls of the rule without a simulator."""
-    viewpoint = task.new_viewpoint([0])
-    play = task.new_play(len(frame), viewpoint, WorldRng.seeded(0, len(frame)))
+    viewpoint = new_viewpoint(task, [0])
+    play = new_play(task, len(frame), viewpoint, WorldRng.seeded(0, len(frame)))
     play.start(frame.rows)
     rule_of(task).begin(play, np.arange(len(frame)))
     return play
@@ -318,7 +319,7 @@ def test_the_option_can_be_off_and_is_checked() -> None:
             outcome = matches.step(pushes(matches))
         assert set(outcome.metrics) == {"goal_score"}
         assert set(matches.play.game) == {"score"}
-        assert rsoccer.make_task(name, free_ball=True).layout == matches.task.layout
+        assert rsoccer.make_task(name, free_ball=True).layout.text == matches.task.layout.text
     with pytest.raises(TypeError, match="free_ball: expected True or False, got 'yes'"):
         rsoccer.make_task("VSS-v0", free_ball="yes")
     narrow = Field("vss_3v3", width=0.6)

@@ -186,7 +186,7 @@ def test_observations_are_rarely_clipped(name: str) -> None:
     rng = np.random.default_rng(0)
     observed = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(80)])
     high = matches.observation_high
-    states = slice(0, matches.task.blocks["action"].columns.start)
+    states = slice(0, matches.task.layout.blocks["action"].columns.start)
     assert (np.abs(observed) >= high - 1e-6)[..., states].mean() < 1e-3
     assert 0.1 < observed.std() < 1.5
     assert np.isfinite(observed).all()
@@ -197,7 +197,7 @@ def test_the_break_beam_is_observed() -> None:
     start = scene(task, ball=(0.593, 0.0), blue_0=(0.5, 0.0), yellow_0=(2.0, 0.0))
     matches = Matches(task, 1)
     observed = matches.reset(rows=start.rows)[0, 0]
-    ego, opponents = (observed[task.blocks[name].columns] for name in ("ego", "opponents"))
+    ego, opponents = (observed[task.layout.blocks[name].columns] for name in ("ego", "opponents"))
     assert ego[-1] == 1.0
     assert opponents[-1] == 0.0
     assert ego[:4] == pytest.approx([0.5 / 3.0, 0.0, 1.0, 0.0], abs=1e-6)

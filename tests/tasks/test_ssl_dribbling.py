@@ -109,7 +109,7 @@ def test_episodes_start_with_the_ball_on_the_dribbler() -> None:
 
 def test_the_next_gate_is_observed() -> None:
     matches = Matches(TASK, 1)
-    observed = matches.reset()[0, 0, matches.task.blocks["gate"].columns]
+    observed = matches.reset()[0, 0, matches.task.layout.blocks["gate"].columns]
     # The robot faces -x, so the middle of the gate is 0.75 m ahead; direction -1; none crossed.
     assert observed == pytest.approx([0.25, 0.0, -1.0, 0.0], abs=1e-6)
 

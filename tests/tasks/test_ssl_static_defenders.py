@@ -105,8 +105,8 @@ def opponents_in_half(scenario: int) -> int:
 
 
 def test_a_policy_of_the_random_task_fits_every_scenario() -> None:
-    sizes = {SslStaticDefenders(scenario=i).observation_size for i in range(1, 11)}
-    assert sizes == {TASK.observation_size}
+    sizes = {SslStaticDefenders(scenario=i).layout.size for i in range(1, 11)}
+    assert sizes == {TASK.layout.size}
 
 
 def test_a_fraction_of_the_starts_is_near_a_scenario_mirrored_or_not() -> None:
@@ -177,7 +177,7 @@ def test_nearness_grows_towards_an_opponent_and_points_at_it() -> None:
     frame.yellow.position[0] = [[1.0, 0.43], [2.5, 0.0]]  # gaps of 0.25 m and 1.32 m
     frame.ball.position[0] = [0.5, 0.0]
     observation = matches.reset(rows=frame.rows)[0, 0]
-    block = task.blocks["nearness"]
+    block = task.layout.blocks["nearness"]
     near, far = observation[block.columns].reshape(block.shape)[:2]
     np.testing.assert_allclose(near, [np.exp(-1.0), 0.0, np.exp(-1.0)], atol=1e-3)
     np.testing.assert_allclose(far, [np.exp(-5.28), np.exp(-5.28), 0.0], atol=1e-3)
@@ -188,9 +188,9 @@ def test_nearness_has_a_row_for_each_opponent(n_opponents: int) -> None:
     task = SslStaticDefenders(n_opponents=n_opponents)
     matches = Matches(task, 5, controllers={"all": LEARN})
     observations = matches.reset(3)
-    assert task.blocks["nearness"].shape == (*task.blocks["opponents"].shape[:1], 3)
-    nearness = observations[..., task.blocks["nearness"].columns].reshape(
-        5, 1 + n_opponents, *task.blocks["nearness"].shape
+    assert task.layout.blocks["nearness"].shape == (*task.layout.blocks["opponents"].shape[:1], 3)
+    nearness = observations[..., task.layout.blocks["nearness"].columns].reshape(
+        5, 1 + n_opponents, *task.layout.blocks["nearness"].shape
     )
     assert (nearness[:, 0, :n_opponents, 0] > 0.0).all()
     assert (nearness[:, 0, n_opponents:] == 0.0).all()

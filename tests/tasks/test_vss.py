@@ -81,7 +81,7 @@ def test_observed_positions_of_ball_and_goal_are_true() -> None:
     frame.ball.position[:] = [[0.25, 0.3]]
     matches = Matches(VssSelfPlay(n_blue=1, n_yellow=1), 1)
     flat = matches.reset(rows=frame.rows)[0, 0]
-    blocks = {name: flat[block.columns] for name, block in matches.task.blocks.items()}
+    blocks = {name: flat[block.columns] for name, block in matches.task.layout.blocks.items()}
     # The robot faces +y, so the goal at +x is on its right. Lengths are in half fields, 0.75 m.
     assert blocks["ball_polar"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
     assert blocks["goal_polar"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
@@ -99,7 +99,7 @@ def test_observed_positions_of_ball_and_goal_are_true() -> None:
 
 def test_the_last_action_is_observed() -> None:
     matches = Matches(VssSelfPlay(), 2)
-    columns = matches.task.blocks["action"].columns
+    columns = matches.task.layout.blocks["action"].columns
     assert not matches.reset()[..., columns].any()
     actions = np.random.default_rng(0).uniform(-1, 1, (2, 6, 2)).astype(np.float32)
     assert (matches.step(actions).observations[..., columns] == actions).all()
@@ -115,7 +115,7 @@ def test_observations_use_their_range_and_are_rarely_clipped(name: str) -> None:
     )
     high = matches.observation_high
     assert (np.abs(observed) >= high - 1e-6)[
-        ..., : matches.task.blocks["action"].columns.start
+        ..., : matches.task.layout.blocks["action"].columns.start
     ].mean() < 1e-3
     assert np.abs(observed).max(axis=(0, 1)).min() > 0.2
     assert 0.2 < observed.std() < 1.5

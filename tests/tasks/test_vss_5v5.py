@@ -44,7 +44,7 @@ def test_initial_states_cover_the_field_and_observations_their_range() -> None:
         observed = matches.step(pressing.actions(matches)).observations
     high = matches.observation_high
     assert (np.abs(observed) >= high - 1e-6)[
-        ..., : FIVE.blocks["action"].columns.start
+        ..., : FIVE.layout.blocks["action"].columns.start
     ].mean() < 1e-3
 
 
@@ -80,7 +80,7 @@ def test_a_policy_can_be_trained_on_the_5v5_field(
         monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
     registry.alias("FiveASide-v0", "VSSSelfPlay-v0", field="vss_5v5", n_blue=5, n_yellow=5)
     policy = Network.load(train(one_update("FiveASide-v0", tmp_path)))
-    policy.check_fits(FIVE, FIVE.observation_size)
+    policy.check_fits(FIVE, FIVE.layout.size)
     matches = Matches(FIVE, 2, controllers={"blue": policy})
     matches.reset()
     assert np.isfinite(matches.step(np.zeros((2, 5, 2), np.float32)).rewards).all()

@@ -86,7 +86,7 @@ class EndsAllWhenOneEnds(Correct):
 class ObservesTheNumberOfWorlds(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         count = np.full((len(play.frame), len(play.observers), 1), len(play.frame), np.float32)
-        return super().frame_to_observations(play) | {"count": count}
+        return {**super().frame_to_observations(play), "count": count}
 
 
 class StartsFromNumpyRandom(Correct):
@@ -141,19 +141,19 @@ class MovesTheBall(Correct):
 class ScalesItsView(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         play.view.robots.data[...] /= 2.0
-        return super().frame_to_observations(play)
+        return {**super().frame_to_observations(play)}
 
 
 class ObservesFloat64(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         blocks = super().frame_to_observations(play)
-        return blocks | {"ball": blocks["ball"].astype(np.float64)}
+        return {**blocks, "ball": blocks["ball"].astype(np.float64)}
 
 
 class ObservesNaN(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         blocks = super().frame_to_observations(play)
-        return blocks | {"ball": np.full_like(blocks["ball"], np.nan)}
+        return {**blocks, "ball": np.full_like(blocks["ball"], np.nan)}
 
 
 class RewardsInfinity(Correct):

@@ -65,7 +65,7 @@ def test_other_policies_are_refused(
         ship(tmp_path, starts=9)
     with pytest.raises(ValueError, match="run: expected a policy with its layout"):
         ship(tmp_path)
-    network.metadata["layout"] = rsoccer.make_task("SSLGoToBall-v0").layout
+    network.metadata["layout"] = rsoccer.make_task("SSLGoToBall-v0").layout.text
     network.save(tmp_path / "policy.safetensors")
     with pytest.raises(FileNotFoundError, match=r"args\.json"):
         ship(tmp_path)

@@ -55,7 +55,7 @@ def test_a_match_is_played_by_the_solver_of_its_task() -> None:
 @pytest.mark.parametrize("name", TASKS)
 def test_parts_fill_every_block(name: str) -> None:
     task = rsoccer.make_task(name)
-    for title, block in task.blocks.items():
+    for title, block in task.layout.blocks.items():
         sizes = sum(part.size for part in tasks.parts(title, block))
         assert sizes in (0, block.size, block.shape[-1]), title
 
@@ -71,7 +71,7 @@ def test_every_task_has_a_solver_and_no_other() -> None:
 
 
 def test_texts_cover_every_block_and_no_others() -> None:
-    blocks = {block for name in TASKS for block in rsoccer.make_task(name).blocks}
+    blocks = {block for name in TASKS for block in rsoccer.make_task(name).layout.blocks}
     assert {*meanings.BLOCKS, "ball"} == blocks
 
 

@@ -86,14 +86,14 @@ def test_inputs_are_the_state_and_the_robots_observation(
 def test_the_policy_stays_decentralized(tmp_path: Path, finished: Path) -> None:
     policy = Network.load(train(tiny(tmp_path, **CENTRAL)))
     task = rsoccer.make_task(NAME)
-    policy.check_fits(task, task.observation_size)
+    policy.check_fits(task, task.layout.size)
     plain = Network.load(finished / "policy.safetensors")
     assert policy.metadata == plain.metadata
     assert policy.arrays().keys() == plain.arrays().keys()
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME).arrays
     state_size = Matches(task, 1).state_size
-    assert saved["model.critic.0.weight"].shape[1] == state_size + task.observation_size
-    assert saved["model.actor.0.weight"].shape[1] == task.observation_size
+    assert saved["model.critic.0.weight"].shape[1] == state_size + task.layout.size
+    assert saved["model.actor.0.weight"].shape[1] == task.layout.size
 
 
 MIRRORED = {

@@ -20,7 +20,7 @@ TASKS = rsoccer.list_tasks()  # without the short tasks of the other tests here
 def test_the_first_update_is_finite(name: str, tmp_path: Path) -> None:
     policy = Network.load(train(one_update(name, tmp_path)))
     task = rsoccer.make_task(name)
-    policy.check_fits(task, task.observation_size)
+    policy.check_fits(task, task.layout.size)
     with (tmp_path / "progress.csv").open(newline="") as file:
         (row,) = csv.DictReader(file)
     learners = sum(agent.startswith("blue") for agent in task.agents)  # yellow is the opponent

@@ -52,7 +52,8 @@ def test_a_batch_holds_each_sample_and_its_reflection(
     mean, std = trainer.collector.obs_rms.as_float32()
     raw = batch.observations.numpy() * std + mean
     reflected = both.observations[size:].numpy() * std + mean
-    expected = trainer.task.observation_reflection.apply(raw)
+    assert trainer.task.layout.reflection is not None
+    expected = trainer.task.layout.reflection.apply(raw)
     np.testing.assert_allclose(reflected, expected, atol=1e-5)
     assert np.abs(reflected - raw).max() > 0.5
     model = trainer.model
@@ -108,7 +109,7 @@ def test_masked_numbers_stay_masked_in_reflections(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, masked_observations=("action:0",), **SYMMETRIC))
     batch = trainer.collect_rollout(lambda: None)
     both = with_reflections(batch, trainer.task, trainer.model)
-    first = trainer.task.blocks["action"].columns.start
+    first = trainer.task.layout.blocks["action"].columns.start
     assert not both.observations[:, first].any()
     assert batch.observations[:, first + 1].any()
 
@@ -126,7 +127,8 @@ def test_the_policy_file_has_symmetric_statistics(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, **SYMMETRIC))
     trainer.collect_rollout(lambda: None)
     policy = trainer.network()
-    reflection = trainer.task.observation_reflection
+    reflection = trainer.task.layout.reflection
+    assert reflection is not None
     assert np.array_equal(reflection.apply(policy.mean), policy.mean)
     assert np.abs(policy.mean).max() > 0.1
 

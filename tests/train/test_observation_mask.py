@@ -19,7 +19,7 @@ def test_a_mask_covers_the_named_blocks_and_numbers() -> None:
     assert observation_mask(task, []).all()
     mask = observation_mask(task, ["shot", "opponents:2,3"])
     hidden = np.flatnonzero(mask == 0).tolist()
-    shot, opponents = task.blocks["shot"].columns, task.blocks["opponents"].columns
+    shot, opponents = task.layout.blocks["shot"].columns, task.layout.blocks["opponents"].columns
     headings = [opponents.start + 7 * robot + k for robot in range(3) for k in (2, 3)]
     assert hidden == sorted([*range(shot.start, shot.stop), *headings])
 
@@ -57,7 +57,7 @@ def test_networks_do_not_depend_on_masked_numbers(tmp_path: Path) -> None:
 def test_the_value_network_reads_no_masked_numbers_either(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, masked_observations=("shot",)))
     batch = trainer.collect_rollout(lambda: None)
-    columns = trainer.task.blocks["shot"].columns
+    columns = trainer.task.layout.blocks["shot"].columns
     assert not batch.observations[:, columns].any()
     assert batch.observations[:, : columns.start].any()
     trainer.update(batch, lambda: None)

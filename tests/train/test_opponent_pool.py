@@ -201,7 +201,7 @@ def test_opponents_that_are_seldom_beaten_are_drawn_more_often() -> None:
 
 def test_scripts_and_files_are_opponents(tmp_path: Path) -> None:
     """A script acts on the view of its own worlds, a file holds decisions as it was trained."""
-    size = TASK.observation_size
+    size = TASK.layout.size
     arrays = {
         "layers.0.weight": np.zeros((2, size), np.float32),
         "layers.0.bias": np.full(2, 0.3, np.float32),

@@ -54,7 +54,7 @@ def test_a_policy_file_names_the_task_by_its_registered_name(tmp_path: Path) -> 
     policy = Network.load(train(tiny(tmp_path, task=name, samples=1, solo_fraction=0.0)))
     assert policy.task_name == name
     task = make_task(policy.task_name)
-    policy.check_fits(task, task.observation_size)
+    policy.check_fits(task, task.layout.size)
 
 
 def test_equal_runs_write_policies_of_equal_bytes(finished: Path, tmp_path: Path) -> None:

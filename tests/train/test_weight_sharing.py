@@ -37,7 +37,7 @@ def test_the_order_of_robots_changes_nothing(task: str, central: bool, tmp_path:
     assert not torch.equal(before, after), "nothing was learned"
     actor, critic = trainer.model.actor, trainer.model.critic
     rng = np.random.default_rng(0)
-    inputs = rng.normal(size=(5, trainer.task.observation_size)).astype(np.float32)
+    inputs = rng.normal(size=(5, trainer.task.layout.size)).astype(np.float32)
     critic_inputs = next(critic.parameters()).shape[1]
     states = rng.normal(size=(5, critic_inputs - inputs.shape[1])).astype(np.float32)
     with torch.no_grad():
@@ -80,7 +80,7 @@ def test_every_slot_of_a_robot_is_in_its_team() -> None:
 def test_the_mean_gradient_of_a_group_replaces_its_gradients(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", robot_units=2))
     slots = robot_slots(trainer.task)
-    sharing = WeightSharing(slots, 2, trainer.task.observation_size, trainer.model)
+    sharing = WeightSharing(slots, 2, trainer.task.layout.size, trainer.model)
     size = sum(parameter.numel() for parameter in trainer.model.parameters())
     gradient = torch.randn(size, generator=torch.Generator().manual_seed(1))
     mean = sharing.average(gradient)

@@ -44,6 +44,9 @@ GROUPS: Final = (
         "Writing tasks",
         (
             "rsoccer.task",
+            "rsoccer.task_definition",
+            "rsoccer.observation_layout",
+            "rsoccer.encoded_blocks",
             "rsoccer.play",
             "rsoccer.frame",
             "rsoccer.arrays",
@@ -182,6 +185,7 @@ PRIVATE: Final = (
     "rsoccer.files",
     "rsoccer.human",
     "rsoccer.human.*",
+    "rsoccer.new_play",
     "rsoccer.rules.touches",
     "rsoccer.matches",
     "rsoccer.matches.*",

@@ -8,7 +8,8 @@ import numpy as np
 
 import rsoccer
 from rsoccer import Matches, Task
-from rsoccer.task import LEARN, Block
+from rsoccer.observation_layout import Block
+from rsoccer.task import LEARN
 from tools.markdown import table
 from tools.site import matches, meanings, solved, task_docs
 from tools.site.meanings import ROBOT, Number, Part
@@ -94,7 +95,7 @@ def _row(name: str) -> tuple[str, ...]:
         f"[{name}]({name}.md)",
         f"{task.n_blue} v {task.n_yellow}",
         str(len(task.agents)),
-        str(task.observation_size),
+        str(task.layout.size),
         str(task.action_size),
         f"{task.max_steps * task.config.time_step:g} s",
         f"`{task.success}`",
@@ -147,20 +148,24 @@ def _observation(task: Task) -> str:
     config, limits = task.config, task.observation_limits()
     robot = config.robot
     scales = (
-        f"One learner observes {task.observation_size} numbers, float32, as its own team sees the "
+        f"One learner observes {task.layout.size} numbers, float32, as its own team sees the "
         "field: every team attacks +x, and y points to the left of that. Each block lists its name "
         "and shape; rows of absent robots are 0 (in `body_positions` the centre of the field). A "
         f"half field length is {config.field.half_length:g} m, a top speed "
         f"{robot.top_speed:.3g} m/s and a top turn rate "
         f"{robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
     )
-    rows = [row for name, block in task.blocks.items() for row in _block(task, name, block, limits)]
+    rows = [
+        row
+        for name, block in task.layout.blocks.items()
+        for row in _block(task, name, block, limits)
+    ]
     return f"{scales}\n\n{table(('index', 'block', 'meaning', 'unit', 'range'), rows)}"
 
 
 def _block(task: Task, name: str, block: Block, limits: dict[str, float]) -> list[tuple[str, ...]]:
     """Rows of the observation table for one block: one for each part, or one for all robots."""
-    limit = f"±{limits.get(name, rsoccer.task.DEFAULT_LIMIT):g}"
+    limit = f"±{limits.get(name, rsoccer.observation_layout.DEFAULT_LIMIT):g}"
     head = f"`{name}`<br>{' x '.join(map(str, block.shape))}"
     first = block.columns.start
     if not block.size:

@@ -230,7 +230,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             agent: name of the agent.
 
         Returns:
-            Box (o,) float32, always the same object; `task.blocks` names the parts.
+            Box (o,) float32, always the same object; `task.layout.blocks` names the parts.
 
         Raises:
             KeyError: an unknown agent.

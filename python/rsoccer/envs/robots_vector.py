@@ -141,7 +141,7 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         num_envs: number of rows.
         observation_space: Box (rows, o) float32.
         action_space: Box (rows, action) float32 from -1 to 1, or MultiDiscrete (rows,).
-        single_observation_space: Box (o,) float32 of one row; `task.blocks` names the parts.
+        single_observation_space: Box (o,) float32 of one row; `task.layout.blocks` names the parts.
         single_action_space: Box (action,) float32 or Discrete, of one row.
         autoreset_mode: the `AutoresetMode`, also in `metadata`.
         render_mode: "rgb_array" or None.

@@ -111,7 +111,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
     that was never reset begin with random seeds of their own.
 
     Attributes:
-        observation_space: Box (o,) float32; `task.blocks` names the parts.
+        observation_space: Box (o,) float32; `task.layout.blocks` names the parts.
         action_space: Box (action,) float32 from -1 to 1, or Discrete.
         render_mode: "human", "rgb_array" or None.
         metadata: `name`, `render_modes` and `render_fps`.

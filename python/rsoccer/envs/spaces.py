@@ -21,10 +21,10 @@ def observation_space(task: Task) -> Box[np.float32]:
         task: the task that is played.
 
     Returns:
-        Box (o,) float32 from `task.observation_low` to `task.observation_high`; `task.blocks`
+        Box (o,) float32 from `task.layout.low` to `task.layout.high`; `task.layout.blocks`
         names its parts.
     """
-    return Box(task.observation_low, task.observation_high)
+    return Box(task.layout.low, task.layout.high)
 
 
 def action_space(task: Task) -> ActionSpace:

@@ -114,7 +114,8 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
         num_envs: number of matches, n.
         observation_space: Box (n, o) float32.
         action_space: Box (n, action) float32 from -1 to 1, or MultiDiscrete (n,).
-        single_observation_space: Box (o,) float32 of one match; `task.blocks` names the parts.
+        single_observation_space: Box (o,) float32 of one match; `task.layout.blocks` names its
+            parts.
         single_action_space: Box (action,) float32 or Discrete, of one match.
         autoreset_mode: the `AutoresetMode`, also in `metadata`.
         render_mode: "rgb_array" or None.

@@ -26,6 +26,7 @@ from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
+from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
@@ -123,9 +124,9 @@ class Matches:
         self._learner_indices = self.assignment.learner_indices
         self._all_learn = len(self.agents) == len(self.assignment.observers)
         self.action_size = self.task.action_size
-        self.observation_size = self.task.observation_size
-        self.observation_low = self.task.observation_low
-        self.observation_high = self.task.observation_high
+        self.observation_size = self.task.layout.size
+        self.observation_low = self.task.layout.low
+        self.observation_high = self.task.layout.high
         self._threads = Threads(checks.integer("threads", threads, 1))
         if simulator is None:
             simulator = Simulator(self.task.config, worlds, self._threads)
@@ -134,7 +135,7 @@ class Matches:
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
-        self._viewpoint = self.task.new_viewpoint(self.assignment.observers.tolist())
+        self._viewpoint = new_viewpoint(self.task, self.assignment.observers.tolist())
         self.play = self._new_play(worlds, root.split("task"), root.split("senses"))
         for group in self.assignment.groups:
             group.rng = root.split(group.name)
@@ -170,7 +171,7 @@ class Matches:
 
     @cached_property
     def observation_space(self) -> Box[np.float32]:
-        """Observation space of one agent: Box (o,) float32; `task.blocks` names the parts."""
+        """Observation space of one agent: Box (o,) float32; `task.layout.blocks` are its parts."""
         return spaces.observation_space(self.task)
 
     @cached_property
@@ -416,7 +417,7 @@ class Matches:
 
     def _observe(self) -> None:
         """Compute the observations of all observers."""
-        self.task.observe(self.play, out=self._observations)
+        self.task.layout.observe(self.play, out=self._observations)
 
     def _sum_terms(self, named: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
         """Copies (n, agents) of the learners' reward terms by name, and their sum (n, agents)."""
@@ -488,7 +489,7 @@ class Matches:
         self.task.start_episode(part)
         if part.senses is not None:
             part.senses.begin(part.frame)
-        self._observations[worlds] = self.task.observe(part)
+        self._observations[worlds] = self.task.layout.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
         self._returns[worlds] = 0.0
@@ -497,7 +498,7 @@ class Matches:
 
     def _new_play(self, n: int, rng: WorldRng, senses_rng: WorldRng | None) -> Play:
         """State of n worlds before their episodes begin."""
-        play = self.task.new_play(n, self._viewpoint, rng, self._threads)
+        play = new_play(self.task, n, self._viewpoint, rng, self._threads)
         if self._sensing is not None and senses_rng is not None:
             play.senses = Senses.new(self._sensing, play.frame, senses_rng)
         return play

@@ -132,7 +132,7 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
             policy = _load(text)
         else:
             policy = _with_detail(name, detail, task) if colon else _MAKERS[name](task)
-    policy.check_fits(task, task.observation_size)
+    policy.check_fits(task, task.layout.size)
     return policy
 
 

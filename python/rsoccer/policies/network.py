@@ -121,7 +121,7 @@ class Network(HeldActions):
         metadata = {
             "format": policy_file.FORMAT,
             "task": task.name if task_name is None else task_name,
-            "layout": task.layout,
+            "layout": task.layout.text,
             "observation_size": str(arrays["mean"].size),
             "action_size": str(parts[-1][1].size),
             "activation": "tanh",
@@ -131,7 +131,7 @@ class Network(HeldActions):
         if task_options:
             metadata["task_options"] = json.dumps(dict(task_options), sort_keys=True)
         network = cls(arrays, metadata)
-        network.check_fits(task, task.observation_size)
+        network.check_fits(task, task.layout.size)
         return network
 
     @property
@@ -214,11 +214,11 @@ class Network(HeldActions):
                     f"a network trained on {self.task_name!r} has {name} {size}, "
                     f"but task {task.name!r} has {wanted[name]}"
                 )
-        layout = self.metadata.get("layout", task.layout)
-        if layout != task.layout:
+        layout = self.metadata.get("layout", task.layout.text)
+        if layout != task.layout.text:
             raise ValueError(
                 f"a network trained on {self.task_name!r} observes {layout}, "
-                f"but the observations of task {task.name!r} are {task.layout}"
+                f"but the observations of task {task.name!r} are {task.layout.text}"
             )
 
     def arrays(self) -> dict[str, NDArray[np.float32]]:

@@ -1,4 +1,4 @@
-"""The rule of a ball that leaves the field: it is repositioned inside the line, and play goes on."""
+"""The rule of a ball that leaves the field: it is repositioned, and play goes on."""
 
 from functools import cached_property
 from typing import Final

@@ -62,7 +62,7 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
 
     Attributes:
         num_envs: number of rows.
-        observation_space: Box (o,) float32 of one row; `task.blocks` names the parts.
+        observation_space: Box (o,) float32 of one row; `task.layout.blocks` names the parts.
         action_space: Box (action,) float32 or Discrete, of one row.
         render_mode: "rgb_array" or None.
         metadata: `name`, `render_modes` and `render_fps`.

@@ -1,16 +1,21 @@
-"""Base class of the tasks of both leagues: observation blocks and discrete actions."""
+"""Base class of the tasks of both leagues: shared options, observation blocks, discrete actions."""
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer._core import EgoFeatures
+from rsoccer import checks
+from rsoccer._core import EgoFeatures, Field, RobotModel
 from rsoccer.arrays import Floats
-from rsoccer.reflection import Reflection
+from rsoccer.encoded_blocks import EncodedBlocks
+from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.task import Play, Task
+from rsoccer.tasks import options
 from rsoccer.view import slot_counts
 
 OBSERVATION_LIMITS: Final = {
@@ -44,6 +49,7 @@ REFLECTIONS: Final = {
 """Reflection of the last axis of the blocks that are the same in both leagues."""
 
 
+@dataclass(frozen=True)
 class Soccer(Task):
     """Base class of tasks with a ball and two goals.
 
@@ -86,49 +92,66 @@ class Soccer(Task):
     Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
     Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
     teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
-    it shows the centre of the field. Values are clipped to [-limit, limit]. `Task.blocks` gives the
+    it shows the centre of the field. Values are clipped to [-limit, limit]. `Task.layout` gives the
     columns of each block.
     """
+
+    field: str | Field
+    """Field: a preset's name or a `Field`."""
+    robot: str | RobotModel
+    """Robot model: a preset's name or a `RobotModel`."""
+    max_steps: int = 1200
+    """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
+    reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
+    """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
+    discrete: bool = False
+    """True: agents choose from `DISCRETE_ACTIONS` instead of giving numbers."""
+    engine: str = "compact"
+    """Contact solver: "compact" or "rapier" (the reference, slower)."""
 
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
     """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
     """Weights of the rSoccer paper (2021) in these terms: `reward_weights` "paper"."""
-    reward_weights: Mapping[str, float] | str
-    """Option of each task. Weight of each reward term by name, once the task is created."""
     DISCRETE_ACTIONS: ClassVar[Floats]
     """(choices, action_size) actions that agents choose from with the option `discrete`."""
-    discrete: bool
-    """Option of each task. True: agents choose from `DISCRETE_ACTIONS`."""
+    ACTION_REFLECTION: ClassVar[Reflection]
+    """(action_size,) reflection of an action."""
 
-    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+    def __post_init__(self) -> None:
+        """Validate the options that both leagues share."""
+        checks.integer("max_steps", self.max_steps, 1)
+        weights = options.reward_weights(
+            self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
+        )
+        object.__setattr__(self, "reward_weights", weights)
+        checks.boolean("discrete", self.discrete)
+        options.preset("field", self.field, Field)
+        options.robot_models(self.robot)
+
+    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
         """Compute the blocks of the class's table, each (n, observers, ...)."""
-        flat = self._features(play)
-        blocks: dict[str, Floats] = {}
-        for name, columns, shape in self._flat_blocks:
-            block = flat[:, :, columns]
-            blocks[name] = block if len(shape) == 1 else block.reshape(*flat.shape[:2], *shape)
-        return blocks
 
-    def observe(self, play: Play, out: Floats | None = None) -> Floats:
-        """Compute the flat observation, (n, observers, observation_size)."""
-        if type(self).frame_to_observations is not Soccer.frame_to_observations:
-            return super().observe(play, out)
-        # No subclass adds blocks: the columns of the core's features are in order already.
-        return self._features(play, out, self.observation_high)
+        def encode(out: Floats, bounds: Floats | None) -> None:
+            self.ego_features.encode(
+                play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
+            )
+
+        return EncodedBlocks(encode, self._flat_blocks, (len(play.frame), len(play.observers)))
 
     def observation_limits(self) -> dict[str, float]:
         """Return a copy of `OBSERVATION_LIMITS`."""
         return dict(OBSERVATION_LIMITS)
 
-    def block_reflections(self) -> dict[str, Reflection]:
-        """Return the reflections of the blocks of the class's table."""
+    @property
+    def symmetry(self) -> Symmetry | None:
+        """Return the reflections of actions and of the blocks of the class's table."""
         has_mouth = self.config.robot.has_mouth  # then heights and break beams are observed, too
         robot = Reflection.of([*ROBOT_SIGNS, 1] if has_mouth else ROBOT_SIGNS)
         ball = Reflection.of([1, -1, 1, 1, -1, 1] if has_mouth else [1, -1, 1, -1])
-        own = {"action": self.action_reflection} if self.action_reflection is not None else {}
         robots = dict.fromkeys(("ego", "teammates", "opponents"), robot)
-        return {"ball": ball, **robots, **REFLECTIONS, **own}
+        action = self.ACTION_REFLECTION
+        return Symmetry(action, {"ball": ball, **robots, **REFLECTIONS, "action": action})
 
     @property
     def action_table(self) -> Floats | None:
@@ -157,21 +180,9 @@ class Soccer(Task):
 
     @cached_property
     def _flat_blocks(self) -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
-        """Name, columns and shape of each block in the result of `_features`."""
+        """Name, columns and shape of each block of the core's features."""
         blocks, first = [], 0
         for name, shape in (*self.ego_features.blocks, ("action", (self.action_size,))):
             blocks.append((name, slice(first, first + math.prod(shape)), shape))
             first += math.prod(shape)
         return tuple(blocks)
-
-    def _features(
-        self, play: Play, out: Floats | None = None, bounds: Floats | None = None
-    ) -> Floats:
-        """Flat observation (n, observers, columns) in `out` or a new array; clipped to `bounds`."""
-        if out is None:
-            columns = self._flat_blocks[-1][1].stop
-            out = np.empty((len(play.frame), len(play.observers), columns), np.float32)
-        self.ego_features.encode(
-            play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
-        )
-        return out

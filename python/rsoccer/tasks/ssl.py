@@ -1,14 +1,11 @@
 """Base class of the SSL tasks: options, field, actions and poses."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer import checks
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator, Steering
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
@@ -65,42 +62,31 @@ class Ssl(Soccer):
 
     field: str | Field = "ssl_challenge"
     """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m) or a `Field`."""
-    max_steps: int = 1200
-    """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
-    velocity_frame: str = "field"
-    """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
-    reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
-    """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
     robot: str | RobotModel = "ssl_generic"
     """Robot model with an omnidirectional drive: a preset's name or a `RobotModel`."""
-    ball: str | BallModel = "ssl_tigers"
-    """Ball model: a preset's name or a `BallModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
-    engine: str = "compact"
-    """Contact solver: "compact" or "rapier" (the reference, slower)."""
+    velocity_frame: str = "field"
+    """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
+    ball: str | BallModel = "ssl_tigers"
+    """Ball model: a preset's name or a `BallModel`."""
 
     action_size = 5
     """Velocity x and y, turn rate, kick speed, dribbler."""
     DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
     """(12, 5) actions."""
+    ACTION_REFLECTION: ClassVar[Reflection] = Reflection.of([1, -1, -1, 1, 1])
+    """(5,) velocity to the left and turn rate change sign."""
     half_only: ClassVar[bool] = False
     """True: blue_0 must stay in the opponents' half and out of their goal area."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
-        checks.integer("max_steps", self.max_steps, 1)
+        super().__post_init__()
         if self.velocity_frame not in VELOCITY_FRAMES:
             raise ValueError(
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
             )
-        weights = options.reward_weights(
-            self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
-        )
-        object.__setattr__(self, "reward_weights", weights)
-        checks.boolean("discrete", self.discrete)
-        options.preset("field", self.field, Field)
-        options.robot_models(self.robot)
         if self.ball is not None:
             options.preset("ball", self.ball, BallModel)
         options.drive(self.config, "omni", "with an omnidirectional drive")
@@ -125,11 +111,6 @@ class Ssl(Soccer):
     def action_meaning(self) -> str:
         """The axes of the velocity where they are the robot's."""
         return "velocity in the robot's axes" if self.velocity_frame == "robot" else ""
-
-    @property
-    def action_reflection(self) -> Reflection:
-        """Reflection of actions, (5,): velocity to the left and turn rate change sign."""
-        return Reflection.of([1, -1, -1, 1, 1])
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""

@@ -10,7 +10,7 @@ from rsoccer import checks, rewards, spawn
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.markers import Area, Marker
-from rsoccer.reflection import Reflection
+from rsoccer.reflection import Reflection, Symmetry, add_blocks
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
@@ -97,7 +97,7 @@ class SslAttack(Ssl):
         """Return `LEARN` for blue_0 and "hold" for opponents: at rest with the dribbler on."""
         return dict.fromkeys(self.robots, "hold") | {"blue_0": LEARN}
 
-    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
         """Compute the blocks of `Soccer` and the block "nearness" (n, observers, o, 3)."""
         return {**super().frame_to_observations(play), "nearness": self._nearness(play)}
 
@@ -105,9 +105,10 @@ class SslAttack(Ssl):
         """Return the bounds of `Soccer` and of the block "nearness"."""
         return {**super().observation_limits(), "nearness": 1.0}
 
-    def block_reflections(self) -> dict[str, Reflection]:
-        """Return the reflections of the blocks of `Soccer` and of the block "nearness"."""
-        return {**super().block_reflections(), "nearness": Reflection.of([1, 1, -1])}
+    @property
+    def symmetry(self) -> Symmetry | None:
+        """Return the reflections of `Soccer` and of the block "nearness"."""
+        return add_blocks(super().symmetry, nearness=Reflection.of([1, 1, -1]))
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a goal or a failure terminates."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from dataclasses import field as dataclass_field
 from functools import cached_property
 from typing import ClassVar, Final
 
@@ -85,20 +84,14 @@ class Vss(Soccer):
     """Robots of team blue, 1 to 5."""
     n_yellow: int = 3
     """Robots of team yellow, 0 to 5."""
-    max_steps: int = 1200
-    """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
     ball_speed: float = 0.0
     """Upper bound of the ball's uniform initial speed, m/s, 0 to 20."""
-    reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
-    """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
     robot: str | RobotModel = "vss_440rpm"
     """Robot model with a differential drive: a preset's name or a `RobotModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
     field: str | Field = "vss_3v3"
     """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
-    engine: str = "compact"
-    """Contact solver: "compact" or "rapier" (the reference, slower)."""
     free_ball: bool = False
     """True: a ball that is stuck for 10 s leads to a free ball at the mark of its quarter."""
 
@@ -106,6 +99,8 @@ class Vss(Soccer):
     """Left and right wheel."""
     DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
     """(9, 2) left and right wheel."""
+    ACTION_REFLECTION: ClassVar[Reflection] = Reflection.of([1, 1], order=[1, 0])
+    """(2,) the wheels are exchanged."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 10.0,
@@ -133,18 +128,8 @@ class Vss(Soccer):
         """Validate the options."""
         checks.integer("n_blue", self.n_blue, 1)
         checks.integer("n_yellow", self.n_yellow, 0)
-        checks.integer("max_steps", self.max_steps, 1)
+        super().__post_init__()
         checks.number_in_range("ball_speed", self.ball_speed, 0.0, MAX_PLACED_SPEED)
-        checks.boolean("discrete", self.discrete)
-        object.__setattr__(
-            self,
-            "reward_weights",
-            options.reward_weights(
-                self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
-            ),
-        )
-        options.preset("field", self.field, Field)
-        options.robot_models(self.robot)
         options.drive(self.config, "differential", "with a differential drive")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
@@ -163,11 +148,6 @@ class Vss(Soccer):
         return SimConfig(
             self.field, self.n_blue, self.n_yellow, robot=self.robot, engine=self.engine
         )
-
-    @property
-    def action_reflection(self) -> Reflection:
-        """Reflection of actions, (2,): the wheels are exchanged."""
-        return Reflection.of([1, 1], order=[1, 0])
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Draw random positions and headings, and a rolling ball where `ball_speed` is above 0."""

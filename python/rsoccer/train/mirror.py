@@ -37,7 +37,7 @@ def check_symmetric(task: Task) -> None:
     Raises:
         ValueError: a task that is not symmetric.
     """
-    if not task.is_symmetric:
+    if task.layout.reflection is None:
         raise ValueError(
             f"mirror_augmentation must be False, as {task.name} is not symmetric, got True"
         )
@@ -55,13 +55,14 @@ def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
         task: the task, which is symmetric.
         model: the networks before the update.
     """
-    assert task.action_reflection is not None, "a symmetric task"
-    observations = _reflect(batch.observations, task.observation_reflection) * model.mask
-    actions = _reflect(batch.actions, task.action_reflection)
+    symmetry, reflection = task.symmetry, task.layout.reflection
+    assert symmetry is not None and reflection is not None, "a symmetric task"
+    observations = _reflect(batch.observations, reflection) * model.mask
+    actions = _reflect(batch.actions, symmetry.action)
     log_probs = model.log_prob(model.actor(observations), actions)
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
     if batch.central_inputs is not None:
-        states = batch.central_inputs[:, : -task.observation_size]
+        states = batch.central_inputs[:, : -task.layout.size]
         reflection = StateEncoder(task.config).reflection
         reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
     likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)

@@ -27,14 +27,14 @@ def observation_mask(task: Task, parts: Iterable[str]) -> Floats:
         >>> int((mask == 0).sum())
         10
     """
-    mask = np.ones(task.observation_size, np.float32)
+    mask = np.ones(task.layout.size, np.float32)
     for part in parts:
         name, _, indices = part.partition(":")
-        if name not in task.blocks:
+        if name not in task.layout.blocks:
             raise ValueError(
-                f"masked_observations: expected blocks of {list(task.blocks)}, got {name!r}"
+                f"masked_observations: expected blocks of {list(task.layout.blocks)}, got {name!r}"
             )
-        block = task.blocks[name]
+        block = task.layout.blocks[name]
         columns = mask[block.columns].reshape(block.shape)  # a view
         columns[..., _indices(part, indices, block.shape[-1])] = 0.0
     return mask

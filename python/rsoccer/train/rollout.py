@@ -62,7 +62,7 @@ class RolloutCollector:
         """
         self._args, self._model, self._generator, self._clock = args, model, generator, clock
         self.gamma = discount_per_decision(args, progress=0.0)
-        reflection = task.observation_reflection if args.mirror_augmentation else None
+        reflection = task.layout.reflection if args.mirror_augmentation else None
         self.obs_rms = RunningMeanStd(model.observation_size, reflection=reflection)
         self.central: CentralInputs | None = None
         self.states: Floats | None = None

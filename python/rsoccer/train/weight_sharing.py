@@ -44,10 +44,10 @@ def robot_slots(task: Task) -> list[Indices]:
     """
     found, first = [], 1  # the first row of "body_positions" is the ball
     for name, robots in (("teammates", task.n_blue - 1), ("opponents", task.n_yellow)):
-        slots = task.blocks[name].shape[0] if name in task.blocks else 0
+        slots = task.layout.blocks[name].shape[0] if name in task.layout.blocks else 0
         if robots > 1:  # further slots are empty
             parts = [_columns(task, name), _columns(task, "body_positions")[first : first + slots]]
-            if name == "opponents" and "nearness" in task.blocks:
+            if name == "opponents" and "nearness" in task.layout.blocks:
                 parts.append(_columns(task, "nearness"))
             found.append(np.concatenate(parts, axis=1))
         first += slots
@@ -60,8 +60,8 @@ def robot_slots(task: Task) -> list[Indices]:
 
 def _columns(task: Task, name: str) -> Indices:
     """Columns of a block of the flat observation, in the block's shape."""
-    block = task.blocks[name]
-    return np.arange(task.observation_size)[block.columns].reshape(block.shape)
+    block = task.layout.blocks[name]
+    return np.arange(task.layout.size)[block.columns].reshape(block.shape)
 
 
 class WeightSharing:

@@ -50,14 +50,14 @@ def load_best(task: Task, mode: str | None = None) -> Network:
     if task.name in files:
         network = Network.load(files[task.name], mode)
         try:
-            network.check_fits(task, task.observation_size)
+            network.check_fits(task, task.layout.size)
         except ValueError as error:
             raise ValueError(f"{BEST}: {error}") from error
         return network
     names = list(files)
     if TEAM_TASK in files:
         network = Network.load(files[TEAM_TASK], mode)
-        if network.metadata.get("layout") == task.layout:
+        if network.metadata.get("layout") == task.layout.text:
             return network
         names[names.index(TEAM_TASK)] += " (and tasks with its observations)"
     raise ValueError(

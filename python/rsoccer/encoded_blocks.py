@@ -1,0 +1,62 @@
+"""Observation blocks that the core computes at once, when they are needed."""
+
+from collections import UserDict
+from collections.abc import Callable
+from functools import cached_property
+
+import numpy as np
+
+from rsoccer.arrays import Floats
+
+Encode = Callable[[Floats, Floats | None], None]
+"""Writes flat blocks (n, observers, columns) into the first array, clipped to the bounds
+(columns,) of the second one, or not clipped for None."""
+
+
+class EncodedBlocks(UserDict[str, Floats]):
+    """Blocks by name, computed when one of them is first read.
+
+    As long as none has been read or replaced, all of them can be written at once to the place where
+    the flat observation is wanted, which saves a copy.
+    """
+
+    def __init__(
+        self,
+        encode: Encode,
+        layout: tuple[tuple[str, slice, tuple[int, ...]], ...],
+        rows: tuple[int, int],
+    ) -> None:
+        """Prepare blocks.
+
+        Args:
+            encode: computes all blocks.
+            layout: name, columns and shape of each block.
+            rows: numbers of worlds and of observers.
+        """
+        # UserDict's constructor would set `data`.
+        self._encode, self._layout, self._rows = encode, layout, rows
+
+    @cached_property
+    def data(self) -> dict[str, Floats]:  # type: ignore[override]  # an attribute of UserDict
+        """Blocks (n, observers, ...) by name, views of one array."""
+        flat = np.empty((*self._rows, self._layout[-1][1].stop), np.float32)
+        self._encode(flat, None)
+        return {
+            name: flat[:, :, columns].reshape(*self._rows, *shape)
+            for name, columns, shape in self._layout
+        }
+
+    def write(self, out: Floats, bounds: Floats) -> bool:
+        """Write all blocks in their order, unless one of them has been read.
+
+        Args:
+            out: (n, observers, columns) output.
+            bounds: (columns,) bounds to which the numbers are clipped.
+
+        Returns:
+            Whether they were written.
+        """
+        if "data" in self.__dict__ or out.shape[-1] != self._layout[-1][1].stop:
+            return False
+        self._encode(out, bounds)
+        return True
