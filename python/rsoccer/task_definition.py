@@ -1,4 +1,4 @@
-"""What the author of a task defines: initial states, commands, observations, rewards, ends.
+"""The part of a task that its author defines: initial states, commands, observations, rewards.
 
 A task is stateless and batched: every method handles all worlds at once. State that two
 consecutive frames do not contain goes into `play.memory`. Options are the fields of a frozen
