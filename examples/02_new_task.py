@@ -40,7 +40,7 @@ class Reach(Task):
         ahead = (offset * ego.heading).sum(axis=-1)
         left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
         return {
-            "ball_polar": np.stack([ahead, left], axis=-1),
+            "ball_offset": np.stack([ahead, left], axis=-1),
             "turn_rate": ego.angular_velocity / 10,
         }
 

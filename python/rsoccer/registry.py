@@ -48,7 +48,7 @@ def register(name: str, task_class: type[Task]) -> None:
         raise ValueError(f"name: {name!r} is already taken by {_TASKS[name].__qualname__}")
     if name in _ALIASES:
         raise ValueError(f"name: {name!r} is already taken, for {_ALIASES[name].task}")
-    known = next((other for other, its in _TASKS.items() if its is task_class), name)
+    known = next((n for n, registered in _TASKS.items() if registered is task_class), name)
     if known != name:
         raise ValueError(
             f"task_class: {task_class.__qualname__} is known as {known!r} already; "

@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from rsoccer import Matches
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import SslGoToBall
 from tests.tasks.ssl_scenes import expect_solved, play, run, scene
@@ -69,3 +70,33 @@ def test_fetch_avoids_opponents() -> None:
 def test_too_many_opponents_are_refused(n_opponents: int) -> None:
     with pytest.raises(ValueError, match="n_opponents: expected at"):
         SslGoToBall(n_opponents=n_opponents)
+
+
+@pytest.mark.parametrize(("speed", "dribbler", "held"), [(0.1, 1.0, True), (1.0, -1.0, False)])
+def test_a_hold_asks_for_a_ball_that_stays(speed: float, dribbler: float, held: bool) -> None:
+    """A robot that rams the ball reaches it for some steps only."""
+    start = {"ball": (0.5, 0.0), "blue_0": (0.3 if held else -1.5, 0.0)}
+    action = (speed, 0.0, 0.0, -1.0, dribbler)
+    for hold_steps in (1, 20):
+        task = SslGoToBall(max_steps=100, hold_steps=hold_steps)
+        outcome, _ = run(task, scene(task, **start), action, 100)
+        assert outcome.metrics["reached"][0] == float(held or hold_steps == 1)
+        assert outcome.terms["reached"][0, 0] == (5.0 if held or hold_steps == 1 else 0.0)
+
+
+def test_the_steps_of_a_hold_are_in_a_row() -> None:
+    task = SslGoToBall(hold_steps=3)
+    matches = Matches(task, 2, autoreset="disabled")
+    matches.reset()
+    play = matches.play
+    found = []
+    for beam in ((1, 1), (1, 0), (0, 1), (1, 1), (1, 1), (1, 0)):
+        play.frame.blue.infrared[:, 0] = beam
+        found.append(task.calculate_reward_and_done(play)[1].tolist())
+    expected = [[False, False]] * 4 + [[False, True], [True, False]]
+    assert found == expected
+
+
+def test_a_hold_is_at_least_one_step() -> None:
+    with pytest.raises(ValueError, match="hold_steps: expected at least 1, got 0"):
+        SslGoToBall(hold_steps=0)

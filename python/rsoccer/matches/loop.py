@@ -100,7 +100,7 @@ class Matches:
             controllers: `LEARN`, a policy, its name or its file, by robot ("blue_0"), team
                 ("blue") or "all"; the task's defaults apply elsewhere.
             autoreset: reset of a match that ended: "same_step" (within the step that ends it),
-                "next_step" (the next step resets it, ignores its actions and pays no reward) or
+                "next_step" (the next step resets it, ignores its actions and gives no reward) or
                 "disabled" (it waits for `reset`).
             simulator: moves the robots in place of `rsoccer.Simulator`.
             sensing: model of what robots know of the true state; None if they know it exactly.

@@ -77,7 +77,7 @@ class Replay:
     commands: Floats
     """(f, robots, command) commands that led to each frame, SI units; 0 in initial states"""
     observers: tuple[str, ...]
-    """robots that are paid: those that learn or whose policy observes the match"""
+    """robots that have reward terms: those that learn or whose policy observes the match"""
     terms: Mapping[str, Floats]
     """(f, observers) weighted reward terms by name; 0 in initial states"""
     markers: tuple[tuple[Marker, ...], ...]

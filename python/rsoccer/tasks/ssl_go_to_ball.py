@@ -7,7 +7,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from rsoccer import checks, rewards, spawn
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.markers import Marker, Target
 from rsoccer.rng import WorldRng
@@ -34,15 +34,18 @@ class SslGoToBall(Ssl):
     ============  ==================================================================  ========
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
-    reached       1 if the ball is in the break beam, else 0                          episodes
+    reached       1 if the ball has been in the break beam for `hold_steps`, else 0   episodes
     approach      decrease of the distance between the ball and the mouth             m
     left_field    1 if blue_0 is off the field, else 0                                episodes
     energy        negative mean magnitude of the action                               steps
     ============  ==================================================================  ========
 
-    Termination: the ball in the break beam; blue_0 off the field. Truncation: after `max_steps`.
+    Termination: the ball reached; blue_0 off the field. Truncation: after `max_steps`.
 
     Metrics: `reached`, 1 or 0; `seconds`, duration of the episode.
+
+    With `hold_steps` 1, which is the paper's task, fast policies ram the ball: it touches the beam,
+    and springs off after the episode. A larger number asks for an arrival at which the ball stays.
 
     Source: the rSoccer paper (2021); there is no official challenge. rsoccer-gym's variant
     with the break beam and six opponents is the alias `SSLGoToBallIR-v0`.
@@ -50,6 +53,8 @@ class SslGoToBall(Ssl):
 
     n_opponents: int = 0
     """Opponents at rest as obstacles, 0 to 6."""
+    hold_steps: int = 1
+    """Control steps in a row in which the ball has to be in the break beam, at least 1."""
 
     success = "reached"
     """Metric that measures the success of an episode."""
@@ -72,6 +77,7 @@ class SslGoToBall(Ssl):
     def __post_init__(self) -> None:
         """Validate the options."""
         checks.integer_in_range("n_opponents", self.n_opponents, 0, MAX_OPPONENTS)
+        checks.integer("hold_steps", self.hold_steps, 1)
         super().__post_init__()
 
     def team_sizes(self) -> tuple[int, int]:
@@ -86,9 +92,16 @@ class SslGoToBall(Ssl):
         """Draw random positions and headings."""
         return spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
 
+    def new_memory(self, n: int) -> dict[str, Array]:
+        """Create `held`, (n,) control steps since which the ball is in the break beam."""
+        return {"held": np.zeros(n, np.int64)}
+
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; ball reached or field left terminates."""
-        reached = self._reached(play.frame)
+        held = play.memory["held"]
+        held += 1
+        held[play.frame.blue.infrared[:, 0] < 0.5] = 0
+        reached = self._reached(play)
         left = self.is_off_field(play.frame.blue.position[:, 0])
         terms = {
             "reached": reached[:, None].astype(np.float32),
@@ -106,10 +119,10 @@ class SslGoToBall(Ssl):
     def metrics(self, play: Play) -> dict[str, Floats]:
         """Compute `reached`, 1 or 0, and `seconds` since the start; each (n,)."""
         return {
-            "reached": self._reached(play.frame).astype(np.float32),
+            "reached": self._reached(play).astype(np.float32),
             "seconds": play.steps.astype(np.float32) * np.float32(self.config.time_step),
         }
 
-    def _reached(self, frame: Frame) -> Mask:
-        """(n,) whether the ball is in the break beam of blue_0."""
-        return np.greater(frame.blue.infrared[:, 0], 0.5)
+    def _reached(self, play: Play) -> Mask:
+        """(n,) whether the ball has been in the break beam of blue_0 for long enough."""
+        return np.greater_equal(play.memory["held"], self.hold_steps)

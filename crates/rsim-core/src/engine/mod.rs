@@ -113,7 +113,7 @@ impl Engine {
         }
     }
 
-    /// Takes note that a body was placed: its pose is not that of its motion in the last tick.
+    /// Marks a body as placed: its pose does not follow from its motion in the last tick.
     pub(crate) fn note_placed(&mut self, body: usize) {
         if let Solver::Rapier(solver) = &mut self.solver {
             solver.note_moved(1 << body);
