@@ -7,10 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from rsoccer.arrays import Floats
+from rsoccer.play import Play
 
-Encode = Callable[[Floats, Floats | None], None]
-"""Writes flat blocks (n, observers, columns) into the first array, clipped to the bounds
-(columns,) of the second one, or not clipped for None."""
+Encode = Callable[[Play, Floats, Floats | None], None]
+"""Writes the flat blocks of a state (n, observers, columns) into an array, clipped to bounds
+(columns,), or not clipped for None."""
 
 
 class EncodedBlocks(UserDict[str, Floats]):
@@ -23,26 +24,27 @@ class EncodedBlocks(UserDict[str, Floats]):
     def __init__(
         self,
         encode: Encode,
+        play: Play,
         layout: tuple[tuple[str, slice, tuple[int, ...]], ...],
-        rows: tuple[int, int],
     ) -> None:
         """Prepare blocks.
 
         Args:
             encode: computes all blocks.
+            play: state of n worlds.
             layout: name, columns and shape of each block.
-            rows: numbers of worlds and of observers.
         """
         # UserDict's constructor would set `data`.
-        self._encode, self._layout, self._rows = encode, layout, rows
+        self._encode, self._play, self._layout = encode, play, layout
 
     @cached_property
     def data(self) -> dict[str, Floats]:  # type: ignore[override]  # an attribute of UserDict
         """Blocks (n, observers, ...) by name, views of one array."""
-        flat = np.empty((*self._rows, self._layout[-1][1].stop), np.float32)
-        self._encode(flat, None)
+        rows = len(self._play.frame), len(self._play.observers)
+        flat = np.empty((*rows, self._layout[-1][1].stop), np.float32)
+        self._encode(self._play, flat, None)
         return {
-            name: flat[:, :, columns].reshape(*self._rows, *shape)
+            name: flat[:, :, columns].reshape(*rows, *shape)
             for name, columns, shape in self._layout
         }
 
@@ -58,5 +60,5 @@ class EncodedBlocks(UserDict[str, Floats]):
         """
         if "data" in self.__dict__ or out.shape[-1] != self._layout[-1][1].stop:
             return False
-        self._encode(out, bounds)
+        self._encode(self._play, out, bounds)
         return True

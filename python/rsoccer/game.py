@@ -55,9 +55,7 @@ class Event(NamedTuple):
 
 
 class NamedArrays(Mapping[str, Array]):
-    """Arrays (n, ...) by name, also as attributes."""
-
-    __slots__ = ("_arrays",)
+    """Arrays (n, ...) by name, which are attributes too: `arrays.name` is `arrays["name"]`."""
 
     def __init__(self, arrays: Mapping[str, Array]) -> None:
         """Name arrays.
@@ -65,26 +63,20 @@ class NamedArrays(Mapping[str, Array]):
         Args:
             arrays: arrays (n, ...) by name; not copied.
         """
-        self._arrays = dict(arrays)
+        self.__dict__.update(arrays)
 
     def __getitem__(self, name: str) -> Array:
-        return self._arrays[name]
+        array: Array = self.__dict__[name]
+        return array
 
     def __getattr__(self, name: str) -> Array:
-        if name == "_arrays":  # while an object is unpickled
-            raise AttributeError(name)
-        try:
-            return self._arrays[name]
-        except KeyError:
-            raise AttributeError(
-                f"{type(self).__name__} has no {name!r}; it has {list(self._arrays)}"
-            ) from None
+        raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {list(self)}")
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._arrays)
+        return iter(self.__dict__)
 
     def __len__(self) -> int:
-        return len(self._arrays)
+        return len(self.__dict__)
 
     def take(self, worlds: NDArray[np.intp]) -> Self:
         """Return a copy of some worlds.
@@ -92,7 +84,7 @@ class NamedArrays(Mapping[str, Array]):
         Args:
             worlds: (k,) indices of worlds.
         """
-        return type(self)({name: array[worlds] for name, array in self._arrays.items()})
+        return type(self)({name: array[worlds] for name, array in self.items()})
 
     def put(self, worlds: NDArray[np.intp], part: Mapping[str, Array]) -> None:
         """Overwrite some worlds.
@@ -101,19 +93,15 @@ class NamedArrays(Mapping[str, Array]):
             worlds: (k,) indices of worlds.
             part: arrays (k, ...) of the same names.
         """
-        for name, array in self._arrays.items():
+        for name, array in self.items():
             array[worlds] = part[name]
 
 
 class Game(NamedArrays):
-    """State of the game in n worlds: `score`, and the columns of the task's rules."""
+    """State of the game in n worlds: the score, and the columns of the task's rules."""
 
-    __slots__ = ()
-
-    @property
-    def score(self) -> NDArray[np.int64]:
-        """(n, 2) goals of blue and of yellow in the episode."""
-        return self._arrays["score"]
+    score: NDArray[np.int64]
+    """(n, 2) goals of blue and of yellow in the episode."""
 
 
 class Events(NamedArrays):
@@ -123,10 +111,19 @@ class Events(NamedArrays):
     them, so that its last goal can be read.
     """
 
-    __slots__ = ()
-
     SLOTS: Final = 8
     """Greatest number of events of one world in one step."""
+
+    count: NDArray[np.int64]
+    """(n,) number of events; they fill the first slots."""
+    kind: NDArray[np.int16]
+    """(n, slots) kinds, values of `EventKind`."""
+    team: NDArray[np.int8]
+    """(n, slots) teams: `BLUE`, `YELLOW` or `NOBODY`."""
+    robot: NDArray[np.int16]
+    """(n, slots) indices of robots in the order of a state row, or `NOBODY`."""
+    position: Floats
+    """(n, slots, 2) positions x, y, m."""
 
     @classmethod
     def empty(cls, n: int) -> "Events":
@@ -144,31 +141,6 @@ class Events(NamedArrays):
                 "position": np.zeros((n, cls.SLOTS, 2), np.float32),
             }
         )
-
-    @property
-    def count(self) -> NDArray[np.int64]:
-        """(n,) number of events; they fill the first slots."""
-        return self._arrays["count"]
-
-    @property
-    def kind(self) -> NDArray[np.int16]:
-        """(n, slots) kinds, values of `EventKind`."""
-        return self._arrays["kind"]
-
-    @property
-    def team(self) -> NDArray[np.int8]:
-        """(n, slots) teams: `BLUE`, `YELLOW` or `NOBODY`."""
-        return self._arrays["team"]
-
-    @property
-    def robot(self) -> NDArray[np.int16]:
-        """(n, slots) indices of robots in the order of a state row, or `NOBODY`."""
-        return self._arrays["robot"]
-
-    @property
-    def position(self) -> Floats:
-        """(n, slots, 2) positions x, y, m."""
-        return self._arrays["position"]
 
     def add(
         self,
@@ -195,7 +167,7 @@ class Events(NamedArrays):
             raise RuntimeError(f"events: expected at most {self.SLOTS} in a step of a world")
         values = {"kind": kind, "team": team, "robot": robot, "position": position}
         for name, value in values.items():
-            self._arrays[name][worlds, slots] = value
+            self[name][worlds, slots] = value
         self.count[worlds] += 1
 
     def forget(self, worlds: NDArray[np.intp] | slice = slice(None)) -> None:

@@ -73,17 +73,17 @@ class ObservationLayout:
         Returns:
             The output (n, observers, o).
         """
-        n, observers = len(play.frame), len(play.observers)
-        flat = np.empty((n, observers, self.size), np.float32) if out is None else out
-        if not observers:
-            return flat
+        if out is None:
+            out = np.empty((len(play.frame), len(play.observers), self.size), np.float32)
+        if not out.shape[1]:
+            return out
         blocks = self._task.frame_to_observations(play)
-        if isinstance(blocks, EncodedBlocks) and blocks.write(flat, self.high):
-            return flat
-        parts = [b if b.ndim == 3 else b.reshape(n, observers, -1) for b in blocks.values()]
-        np.concatenate(parts, axis=-1, out=flat, casting="same_kind")
-        clip_in_place(flat, self.high)
-        return flat
+        if isinstance(blocks, EncodedBlocks) and blocks.write(out, self.high):
+            return out
+        parts = [b if b.ndim == 3 else b.reshape(*out.shape[:2], -1) for b in blocks.values()]
+        np.concatenate(parts, axis=-1, out=out, casting="same_kind")
+        clip_in_place(out, self.high)
+        return out
 
     @cached_property
     def reflection(self) -> Reflection | None:

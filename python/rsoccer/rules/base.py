@@ -115,7 +115,7 @@ def judge(rules: Sequence[Rule], play: Play) -> list[Restart]:
         ValueError: worlds or numbers that do not fit.
     """
     restarts: list[Restart] = []
-    taken: Mask | None = None
+    taken: Mask | None = None  # worlds that have a restart
     for rule in rules:
         restart = rule.judge(play)
         if restart is None:
@@ -153,19 +153,22 @@ def _checked(rule: str, restart: object, play: Play) -> Restart:
         raise TypeError(f"{rule}.judge: expected a Restart or None, got {restart!r}")
     worlds = _checked_worlds(rule, restart.worlds, len(play.frame))
     order = np.argsort(worlds)
+    worlds = worlds[order]
+    if (worlds[1:] == worlds[:-1]).any():
+        raise ValueError(f"{rule}.judge: expected each world once, got {worlds.tolist()}")
     if (restart.balls is None) == (restart.rows is None):
         raise ValueError(f"{rule}.judge: expected a Restart with either balls or rows")
     if restart.balls is not None:
         shape = (len(worlds), _BALL_SIZE)
         balls = floats(f"{rule}.judge: balls", restart.balls, shape)
-        return Restart(worlds[order], balls=balls[order])
+        return Restart(worlds, balls=balls[order])
     shape = (len(worlds), play.frame.rows.shape[1])
     rows = floats(f"{rule}.judge: rows", restart.rows, shape)
-    return Restart(worlds[order], rows=rows[order])
+    return Restart(worlds, rows=rows[order])
 
 
 def _checked_worlds(rule: str, given: object, n: int) -> NDArray[np.intp]:
-    """Indices (k,) of different worlds."""
+    """Indices (k,) of worlds."""
     worlds = np.asarray(given)
     if worlds.shape == (0,):
         worlds = worlds.astype(np.intp)  # an empty list becomes floats
@@ -176,6 +179,4 @@ def _checked_worlds(rule: str, given: object, n: int) -> NDArray[np.intp]:
         )
     if len(worlds) and not (worlds.min() >= 0 and worlds.max() < n):
         raise ValueError(f"{rule}.judge: expected worlds 0 to {n - 1}, got {worlds.tolist()}")
-    if len(np.unique(worlds)) != len(worlds):
-        raise ValueError(f"{rule}.judge: expected each world once, got {worlds.tolist()}")
     return worlds.astype(np.intp)

@@ -131,13 +131,7 @@ class Soccer(Task):
 
     def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
         """Compute the blocks of the class's table, each (n, observers, ...)."""
-
-        def encode(out: Floats, bounds: Floats | None) -> None:
-            self.ego_features.encode(
-                play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
-            )
-
-        return EncodedBlocks(encode, self._flat_blocks, (len(play.frame), len(play.observers)))
+        return EncodedBlocks(self._encode, play, self._flat_blocks)
 
     def observation_limits(self) -> dict[str, float]:
         """Return a copy of `OBSERVATION_LIMITS`."""
@@ -186,3 +180,9 @@ class Soccer(Task):
             blocks.append((name, slice(first, first + math.prod(shape)), shape))
             first += math.prod(shape)
         return tuple(blocks)
+
+    def _encode(self, play: Play, out: Floats, bounds: Floats | None) -> None:
+        """Write the features of all observers to `out`, clipped to `bounds`."""
+        self.ego_features.encode(
+            play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
+        )

@@ -93,14 +93,18 @@ class SslGoToBall(Ssl):
         return spawn.random_frame(rng, self.config, MIN_START_DISTANCE)
 
     def new_memory(self, n: int) -> dict[str, Array]:
-        """Create `held`, (n,) control steps since which the ball is in the break beam."""
-        return {"held": np.zeros(n, np.int64)}
+        """Create `held`, (n,) control steps since which the ball is in the break beam.
+
+        None is kept with `hold_steps` 1.
+        """
+        return {"held": np.zeros(n, np.int64)} if self.hold_steps > 1 else {}
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; ball reached or field left terminates."""
-        held = play.memory["held"]
-        held += 1
-        held[play.frame.blue.infrared[:, 0] < 0.5] = 0
+        if self.hold_steps > 1:
+            held = play.memory["held"]
+            held += 1
+            held[play.frame.blue.infrared[:, 0] < 0.5] = 0
         reached = self._reached(play)
         left = self.is_off_field(play.frame.blue.position[:, 0])
         terms = {
@@ -125,4 +129,6 @@ class SslGoToBall(Ssl):
 
     def _reached(self, play: Play) -> Mask:
         """(n,) whether the ball has been in the break beam of blue_0 for long enough."""
-        return np.greater_equal(play.memory["held"], self.hold_steps)
+        if self.hold_steps > 1:
+            return np.greater_equal(play.memory["held"], self.hold_steps)
+        return np.greater(play.frame.blue.infrared[:, 0], 0.5)
