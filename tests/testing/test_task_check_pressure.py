@@ -1,6 +1,7 @@
 """`check_task` also finds faults that need robots pressing on each other."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -52,13 +53,27 @@ class RepositionsIntoARobot(SslSelfPlay):
         return result
 
 
+class RestartsFromSelf(VssSelfPlay):
+    """A free ball that is stuck is placed where the last one was."""
+
+    last: ClassVar[list[Floats]] = []
+
+    def restart_play(self, play: Play) -> tuple[NDArray[np.intp], Floats] | None:
+        stopped = np.flatnonzero(play.frame.ball.crossed > 0)
+        if not len(stopped):
+            return None
+        self.last.append(play.frame.rows[stopped])
+        return stopped, self.get_initial_positions_frame(play.rng).rows[stopped]
+
+
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
-        (RaisesUnderPressure, "IndexError in step .* under pressure.*too many to count"),
-        (RewardsNaNUnderPressure, "'gap' has NaN or infinite numbers in step .* pressure"),
-        (RepositionDependsOnTheBatch, "differ from the same worlds alone"),
-        (RepositionsIntoARobot, "ValueError in step .* under pressure.*ball and blue_0 overlap"),
+        (RaisesUnderPressure, "reward_and_done: IndexError: too many .*in step .* under pressure"),
+        (RewardsNaNUnderPressure, "'gap' has NaN or infinite numbers .*in step .* pressure"),
+        (RepositionDependsOnTheBatch, "reposition_ball: 'balls' of worlds .* differ from the same"),
+        (RestartsFromSelf, r"restart_play keeps state on self, in RestartsFromSelf\.last"),
+        (RepositionsIntoARobot, "ValueError: .*ball and blue_0 overlap.*in step .* under pressure"),
     ],
 )
 def test_a_fault_that_shows_only_under_pressure_is_found(
@@ -82,5 +97,5 @@ def test_robots_press_even_if_the_meaning_of_actions_is_unknown() -> None:
                 raise IndexError("too many to count")
             return super().calculate_reward_and_done(play)
 
-    with pytest.raises(TaskError, match="IndexError in step"):
+    with pytest.raises(TaskError, match="IndexError: too many"):
         check_task(Forward())

@@ -2,7 +2,9 @@
 //!
 //! The numbers come from the core's tables: each becomes a read-only property with its documentation.
 
-use pyo3::exceptions::{PyAttributeError, PyValueError};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple, PyType};
 use rsim_core::{Drive, Number};
@@ -44,10 +46,22 @@ pub(crate) trait Model: Sized + Clone {
                     valid.join(", ")
                 )));
             };
-            *place = value.extract()?;
+            *place = value.extract().map_err(|_| {
+                PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
+            })?;
         }
         self.validate()?;
         Ok(self)
+    }
+
+    /// A hash of the name and the numbers, equal for equal models.
+    fn hashed(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name().hash(&mut hasher);
+        let numbers = Self::numbers();
+        let values = numbers.iter().filter_map(|number| self.number(number.name).ok());
+        values.for_each(|value| (value + 0.0).to_bits().hash(&mut hasher)); // -0 equals 0
+        hasher.finish()
     }
 }
 
@@ -150,6 +164,10 @@ macro_rules! mirror {
                     PyValueError::new_err(format!("text is not a {}: {error}", stringify!($name)))
                 })?;
                 Self(model).with(None)
+            }
+
+            fn __hash__(&self) -> u64 {
+                self.hashed()
             }
 
             fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
