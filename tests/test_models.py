@@ -8,6 +8,7 @@ import pytest
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
 from rsoccer.tasks import VssSelfPlay
 
+HEAVY = RobotModel("vss_440rpm", mass=0.2)
 MIXED = SimConfig(robot=["vss_440rpm", "vss_650rpm"], n_blue=1, n_yellow=1)
 UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
 
@@ -76,7 +77,7 @@ def test_equal_models_have_equal_hashes(model: object, equal: object, other: obj
 def test_a_model_can_be_the_default_of_a_dataclass() -> None:
     @dataclass(frozen=True)
     class Heavy(VssSelfPlay):
-        robot: str | RobotModel = RobotModel("vss_440rpm", mass=0.2)
+        robot: str | RobotModel = HEAVY
 
     assert Heavy().config.robot.mass == 0.2
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple
 
-from rsoccer import checks
+from rsoccer import checks, option_values, plugins
 from rsoccer.envs import ids
 from rsoccer.task import Task
 
@@ -122,12 +122,14 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
 
     Args:
         name: a registered name or an alias.
-        **options: options of the task, the parameters of its class; see `list_options`.
+        **options: options of the task, the parameters of its class; see `list_options`. Values
+            from `options_of`, which JSON can hold, are decoded.
 
     Returns:
         The task.
 
     Raises:
+        ImportError: a package that offers the task cannot be loaded, see `rsoccer.plugins`.
         TypeError: an unknown option, or an option's value of the wrong type.
         ValueError: an unknown name, or an option's value that the task refuses.
 
@@ -136,12 +138,10 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         >>> rsoccer.make_task("VSSMulti-v0", n_blue=2, opponent="chase").agents
         ('blue_0', 'blue_1')
     """
+    _find(name)
     if name in _ALIASES:
         task, preset = _ALIASES[name]
         return make_task(task, **{**preset, **options})
-    if name not in _TASKS:
-        hint = _REMOVED.get(name, f"expected one of {list_tasks()}")
-        raise ValueError(f"unknown task {name!r}: {hint}")
     task_class = _TASKS[name]
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
@@ -149,7 +149,61 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         # Python's own words: TorchRL probes for options and reads them.
         names = ", ".join(map(repr, unknown))
         raise TypeError(f"{name}: got an unexpected keyword argument {names}; valid are {valid}")
-    return task_class(**options)
+    return task_class(**{name: option_values.decoded(name, v) for name, v in options.items()})
+
+
+def _find(name: str) -> None:
+    """Register a task of an entry point or of a parent's modules; ValueError for an unknown one."""
+    if name in _TASKS or name in _ALIASES:
+        return
+    if name not in _REMOVED:
+        plugins.import_inherited()
+        if name not in _TASKS and name not in _ALIASES:
+            _register_entry_point(name)
+    if name not in _TASKS and name not in _ALIASES:
+        hint = _REMOVED.get(
+            name,
+            f"expected one of {list_tasks()}; a task of your own is known after the import of the "
+            "module that registers it, as with --import MODULE",
+        )
+        raise ValueError(f"unknown task {name!r}: {hint}")
+
+
+def _register_entry_point(name: str) -> None:
+    """Register the task class that an installed package offers under a name, if one does."""
+    task_class = plugins.load(plugins.TASKS, name)
+    if task_class is None or name in _TASKS:
+        return
+    try:
+        register(name, task_class)
+    except Exception as error:
+        raise ImportError(
+            f"{name!r}: the entry point in {plugins.TASKS!r} names no task: {error}"
+        ) from error
+
+
+def options_of(task: Task) -> dict[str, Any] | None:
+    """Return the options of a task that differ from its defaults, as JSON values for `make_task`.
+
+    Args:
+        task: the task.
+
+    Returns:
+        Options by name; None if the task is not registered or an option is another object.
+    """
+    if _TASKS.get(task.name) is not type(task):
+        return None
+    try:
+        default = make_task(task.name)
+        names = list_options(type(task))
+        values = {name: (getattr(task, name), getattr(default, name)) for name in names}
+        return {
+            name: option_values.encoded(name, value)
+            for name, (value, usual) in values.items()
+            if value != usual
+        }
+    except (AttributeError, OSError, TypeError, ValueError):
+        return None
 
 
 def task_with_options(name: str, options: Mapping[str, Any]) -> Task:

@@ -7,10 +7,10 @@ dataclass. A task names only default controllers; `Matches` assigns the actual o
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import cached_property
-from typing import ClassVar, Final, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,9 @@ from rsoccer.play import Play
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.view import SIDES, Viewpoint
+
+if TYPE_CHECKING:
+    from rsoccer.policies.base import Policy
 
 __all__ = ["DEFAULT_LIMIT", "LEARN", "Block", "Learn", "Play", "Task"]
 
@@ -245,8 +248,8 @@ class Task(ABC):
         """(choices, action_size) actions of a discrete task; None for continuous actions."""
         return None
 
-    def default_controllers(self) -> dict[str, str | Learn]:
-        """Return the default controller of each robot by name: `LEARN` or a policy's name."""
+    def default_controllers(self) -> "Mapping[str, str | Policy | Learn]":
+        """Return the default controller of each robot by name: `LEARN`, a policy or its name."""
         return dict.fromkeys(self.robots, LEARN)
 
     def observation_limits(self) -> dict[str, float]:

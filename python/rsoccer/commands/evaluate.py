@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import (
     DEFAULT_OPPONENT_HINT,
@@ -29,7 +30,7 @@ from rsoccer.task import Task
 
 
 @dataclass(frozen=True)
-class Evaluate:
+class Evaluate(Imports):
     """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
     subject: Annotated[str | None, Positional, SUBJECT] = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from rsoccer import policies, registry
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import write
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import Score
@@ -12,7 +13,7 @@ from rsoccer.task import Task
 
 
 @dataclass(frozen=True)
-class List:
+class List(Imports):
     """Print the tasks with their options, and the policies."""
 
     def run(self) -> None:

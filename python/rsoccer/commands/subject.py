@@ -76,7 +76,7 @@ def team_name(player: str) -> str:
     Args:
         player: name of a policy, or path of its file.
     """
-    if player.partition(":")[0] in policies.list_policies():
+    if policies.is_registered(player):
         return player.upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import DEFAULT_TASK_HINT
 from rsoccer.commands.task_options import TASK_OPTIONS, named_task
@@ -25,7 +26,7 @@ _POLICIES = arg(
 
 
 @dataclass(frozen=True)
-class Tournament:
+class Tournament(Imports):
     """Play every policy against every other one, from both sides, and print their ratings."""
 
     policies: Annotated[tuple[str, ...], Positional, _POLICIES]

@@ -246,6 +246,8 @@ class Network(HeldActions):
             FileNotFoundError: no such file.
             ValueError: the file is not a usable policy file, or the mode does not fit it.
         """
+        if not os.path.exists(path):
+            raise FileNotFoundError(f"policy: the file {os.fspath(path)} does not exist")
         try:
             network = cls(*policy_file.read_file(Path(path)))
         except ValueError as error:

@@ -14,9 +14,10 @@ from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
+from rsoccer.registry import options_of
 from rsoccer.replay.events import Event, step_events
 from rsoccer.replay.replay import Episode, Replay
-from rsoccer.replay.resume import described_controllers, described_options
+from rsoccer.replay.resume import described_controllers
 from rsoccer.task import Task
 
 
@@ -158,7 +159,7 @@ class Recorder:
         last = [] if self._ended else [Episode(self._start, len(self._rows), "")]
         return Replay(
             task=task.name,
-            options=described_options(task),
+            options=options_of(task),
             controllers=self._controllers,
             names=self._names,
             config=task.config,

@@ -64,7 +64,8 @@ class Ssl(Soccer):
     """
 
     field: str | Field = "ssl_challenge"
-    """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m) or a `Field`."""
+    """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m), a .json file or
+    a `Field`."""
     max_steps: int = 1200
     """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
     velocity_frame: str = "field"
@@ -72,9 +73,10 @@ class Ssl(Soccer):
     reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
     """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
     robot: str | RobotModel = "ssl_generic"
-    """Robot model with an omnidirectional drive: a preset's name or a `RobotModel`."""
+    """Robot model with an omnidirectional drive: a preset's name, a .json file or a
+    `RobotModel`."""
     ball: str | BallModel = "ssl_tigers"
-    """Ball model: a preset's name or a `BallModel`."""
+    """Ball model: a preset's name, a .json file or a `BallModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
     engine: str = "compact"
@@ -99,10 +101,10 @@ class Ssl(Soccer):
         )
         object.__setattr__(self, "reward_weights", weights)
         checks.boolean("discrete", self.discrete)
-        options.preset("field", self.field, Field)
-        options.robot_models(self.robot)
+        object.__setattr__(self, "field", options.model("field", self.field, Field))
+        object.__setattr__(self, "robot", options.robot_models(self.robot))
         if self.ball is not None:
-            options.preset("ball", self.ball, BallModel)
+            object.__setattr__(self, "ball", options.model("ball", self.ball, BallModel))
         options.drive(self.config, "omni", "with an omnidirectional drive")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")

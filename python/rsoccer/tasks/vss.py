@@ -93,11 +93,11 @@ class Vss(Soccer):
     reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
     """Weights by reward term that replace those of `REWARD_WEIGHTS`, or "paper"."""
     robot: str | RobotModel = "vss_440rpm"
-    """Robot model with a differential drive: a preset's name or a `RobotModel`."""
+    """Robot model with a differential drive: a preset's name, a .json file or a `RobotModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
     field: str | Field = "vss_3v3"
-    """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
+    """VSSS field: "vss_3v3", "vss_5v5", a .json file or a `Field`, for any team sizes."""
     engine: str = "compact"
     """Contact solver: "compact" or "rapier" (the reference, slower)."""
     free_ball: bool = False
@@ -144,8 +144,8 @@ class Vss(Soccer):
                 self.reward_weights, self.REWARD_WEIGHTS, self.PAPER_REWARD_WEIGHTS
             ),
         )
-        options.preset("field", self.field, Field)
-        options.robot_models(self.robot)
+        object.__setattr__(self, "field", options.model("field", self.field, Field))
+        object.__setattr__(self, "robot", options.robot_models(self.robot))
         options.drive(self.config, "differential", "with a differential drive")
         if self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of VSSS, like 'vss_5v5', got {self.field!r}")
