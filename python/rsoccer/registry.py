@@ -3,7 +3,7 @@
 import copy
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
 from rsoccer import checks, option_values, plugins
@@ -108,6 +108,22 @@ def list_aliases() -> dict[str, Alias]:
     return dict(sorted(_ALIASES.items()))
 
 
+def task_class(name: str) -> type[Task]:
+    """Return the class of a task.
+
+    Args:
+        name: a registered name, or one that a package offers; no alias.
+
+    Raises:
+        ImportError: a package that offers the task cannot be loaded.
+        ValueError: an unknown name.
+    """
+    _find(name)
+    if name not in _TASKS:
+        raise ValueError(f"name: expected no alias, got {name!r}")
+    return _TASKS[name]
+
+
 def is_task_name(name: str) -> bool:
     """Return whether a text has the form of a task's name, registered or not.
 
@@ -138,17 +154,25 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         >>> rsoccer.make_task("VSSMulti-v0", n_blue=2, opponent="chase").agents
         ('blue_0', 'blue_1')
     """
+    return _make(name, options, ())
+
+
+def _make(name: str, options: Mapping[str, Any], arguments: Sequence[str]) -> Task:
+    """Make a task; an unknown option may also be meant as one of the caller's arguments."""
     _find(name)
     if name in _ALIASES:
         task, preset = _ALIASES[name]
-        return make_task(task, **{**preset, **options})
+        return _make(task, {**preset, **options}, arguments)
     task_class = _TASKS[name]
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
     if unknown:
         # Python's own words: TorchRL probes for options and reads them.
         names = ", ".join(map(repr, unknown))
-        raise TypeError(f"{name}: got an unexpected keyword argument {names}; valid are {valid}")
+        own = f"the arguments {list(arguments)} and the task's options " if arguments else ""
+        raise TypeError(
+            f"{name}: got an unexpected keyword argument {names}; valid are {own}{valid}"
+        )
     return task_class(**{name: option_values.decoded(name, v) for name, v in options.items()})
 
 
@@ -242,13 +266,19 @@ def as_task(task: object) -> Task:
     return task
 
 
-def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
+def resolve_task(
+    task: Task | str,
+    max_steps: int | None,
+    options: Mapping[str, Any],
+    caller: Callable[..., object],
+) -> Task:
     """Return the task that matches or an environment play.
 
     Args:
         task: a task, or the name of a registered one.
         max_steps: time limit of an episode in control steps; None for the task's own.
         options: options of a registered task, by name.
+        caller: function or class that got the options beside its own arguments, which errors list.
 
     Raises:
         TypeError: not a task, an unknown option, or options for a Task object.
@@ -256,13 +286,21 @@ def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, 
     """
     if isinstance(task, str):
         time_limit = {} if max_steps is None else {"max_steps": max_steps}
-        return make_task(task, **options, **time_limit)
+        return _make(task, {**options, **time_limit}, _arguments(caller))
     if options:
         raise TypeError(
-            f"options: a Task object has its own options, got {sorted(options)} in addition"
+            f"options: a Task object has its own options, got {sorted(options)} in addition; "
+            f"valid are the arguments {_arguments(caller)}"
         )
     task = as_task(task)
     return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
+
+
+def _arguments(caller: Callable[..., object]) -> list[str]:
+    """Names of the arguments of a function or class beside the task and its options."""
+    parameters = inspect.signature(caller).parameters.values()
+    names = [each.name for each in parameters if each.kind is not each.VAR_KEYWORD]
+    return [name for name in names if name != "task"]
 
 
 def with_max_steps(task: Task, max_steps: int, name: str) -> Task:

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,9 +24,6 @@ from rsoccer.play import Play
 from rsoccer.reflection import Reflection
 from rsoccer.rng import WorldRng
 from rsoccer.view import SIDES, Viewpoint
-
-if TYPE_CHECKING:
-    from rsoccer.policies.base import Policy
 
 __all__ = ["DEFAULT_LIMIT", "LEARN", "Block", "Learn", "Play", "Task"]
 
@@ -248,7 +245,7 @@ class Task(ABC):
         """(choices, action_size) actions of a discrete task; None for continuous actions."""
         return None
 
-    def default_controllers(self) -> "Mapping[str, str | Policy | Learn]":
+    def default_controllers(self) -> Mapping[str, Any]:
         """Return the default controller of each robot by name: `LEARN`, a policy or its name."""
         return dict.fromkeys(self.robots, LEARN)
 

@@ -13,6 +13,8 @@ from rsoccer.commands.task_options import named_task
 from rsoccer.human.teams import SCRIPTS
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
+from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.replay.replay import SUFFIX as REPLAY_SUFFIX
 from rsoccer.task import Task
 
 _SUBJECT_HELP = (
@@ -52,6 +54,7 @@ def policy_and_task(
             raise ValueError(f"task: expected one task, got {subject} and {task}")
         task = subject
     elif subject is not None:
+        check_policy_name(subject)
         if policy is not None:
             raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
         policy = subject
@@ -59,6 +62,28 @@ def policy_and_task(
     if made is None:
         made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
     return policy or _default_policy(made), made
+
+
+def check_policy_name(name: str) -> None:
+    """Refuse a word whose ending is that of another file than a policy's.
+
+    Args:
+        name: word in the place of a policy.
+
+    Raises:
+        ValueError: a replay, or a file that is neither a replay nor a policy.
+    """
+    ending = Path(name).suffix
+    if not ending or name.partition(SUFFIX)[1] or policies.is_registered(name):
+        return
+    if ending == REPLAY_SUFFIX:
+        raise ValueError(
+            f"policy: expected a policy, got the replay {name}: rsoccer watch plays it"
+        )
+    raise ValueError(
+        f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}), or in "
+        f"rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
+    )
 
 
 def _default_policy(task: Task) -> str:

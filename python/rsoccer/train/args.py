@@ -61,8 +61,6 @@ class Args:
 
     task: str = "VSSSelfPlay-v0"
     """registered task to train on (`rsoccer list` prints the names)"""
-    imports: tuple[str, ...] = ()
-    """modules to import first: those that register a task or policies of one's own"""
     out: Path = Path("out/train")
     """folder for the policy, the checkpoint and the logs"""
     samples: int = 10_000_000
@@ -70,6 +68,8 @@ class Args:
     task_options: Mapping[str, Any] = field(default_factory=dict)
     """options of the task by name (`rsoccer list` prints them), such as reward_weights=paper or
     opponent=chase: JSON values, and models of robots, balls and fields or their .json files"""
+    imports: tuple[str, ...] = ()
+    """modules to import first: those that register a task or policies of one's own"""
     seed: int = 0
     """random seed, at least 0; equal seed, settings, machine and threads give equal runs"""
     threads: int = 2
