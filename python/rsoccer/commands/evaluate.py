@@ -17,6 +17,7 @@ from rsoccer.commands.subject import (
     DEFAULT_TASK_HINT,
     POLICY,
     SUBJECT,
+    check_policy_names,
     policy_and_task,
     team_name,
 )
@@ -71,6 +72,7 @@ class Evaluate(Imports):
         check_output("save", self.save, SUFFIX)
         if (self.subject, self.policy, self.task) == (None, None, None):
             raise ValueError("policy: expected a policy or a task, got none")
+        check_policy_names(self.opponents)
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         evaluations = [
             evaluate(

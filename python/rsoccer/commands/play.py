@@ -11,7 +11,7 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import Imports
-from rsoccer.commands.subject import team_name
+from rsoccer.commands.subject import check_policy_names, team_name
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
@@ -65,6 +65,7 @@ class Play(Imports):
         """
         from rsoccer.human.session import Session
 
+        check_policy_names([self.policy, self.opponents])
         task = task_with_options(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)

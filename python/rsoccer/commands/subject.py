@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -54,36 +54,37 @@ def policy_and_task(
             raise ValueError(f"task: expected one task, got {subject} and {task}")
         task = subject
     elif subject is not None:
-        check_policy_name(subject)
         if policy is not None:
             raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
         policy = subject
+    check_policy_names([] if policy is None else [policy])
     made = named_task(task, options)
     if made is None:
         made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
     return policy or _default_policy(made), made
 
 
-def check_policy_name(name: str) -> None:
-    """Refuse a word whose ending is that of another file than a policy's.
+def check_policy_names(names: Iterable[str | None]) -> None:
+    """Refuse words whose ending is that of another file than a policy's.
 
     Args:
-        name: word in the place of a policy.
+        names: words in the place of policies; None where none is given.
 
     Raises:
         ValueError: a replay, or a file that is neither a replay nor a policy.
     """
-    ending = Path(name).suffix
-    if not ending or name.partition(SUFFIX)[1] or policies.is_registered(name):
-        return
-    if ending == REPLAY_SUFFIX:
+    for name in names:
+        ending = "" if name is None else Path(name).suffix
+        if name is None or not ending or SUFFIX in name or policies.is_registered(name):
+            continue
+        if ending == REPLAY_SUFFIX:
+            raise ValueError(
+                f"policy: expected a policy, got the replay {name}: rsoccer watch plays it"
+            )
         raise ValueError(
-            f"policy: expected a policy, got the replay {name}: rsoccer watch plays it"
+            f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}), or in "
+            f"rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
         )
-    raise ValueError(
-        f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}), or in "
-        f"rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
-    )
 
 
 def _default_policy(task: Task) -> str:

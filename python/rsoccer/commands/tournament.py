@@ -13,7 +13,7 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
-from rsoccer.commands.subject import DEFAULT_TASK_HINT
+from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names
 from rsoccer.commands.task_options import TASK_OPTIONS, named_task
 from rsoccer.evaluate import tournament
 from rsoccer.files import write_atomically
@@ -58,6 +58,7 @@ class Tournament(Imports):
         check_output("picture", self.picture, ".png")
         if self.picture is not None:
             import matplotlib  # noqa: F401  (a missing package is reported before the matches)
+        check_policy_names(self.policies)
         result = tournament(
             self.policies,
             self.matches,

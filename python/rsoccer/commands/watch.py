@@ -17,6 +17,7 @@ from rsoccer.commands.subject import (
     DEFAULT_TASK_HINT,
     POLICY,
     SUBJECT_OR_REPLAY,
+    check_policy_names,
     policy_and_task,
     team_name,
 )
@@ -131,6 +132,7 @@ class Watch(Imports):
 
     def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
         """The task, the controllers, and the names of the teams."""
+        check_policy_names([self.opponents])
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         opponents = opponents_of(task) if self.opponents is None else [self.opponents]
         names = (team_name(policy), " ".join(map(team_name, opponents)))
