@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import cli
+from rsoccer import cli, policies
 from rsoccer.policies.network import Network
-from rsoccer.replay import Replay
+from rsoccer.replay import Replay, record_replay
 from rsoccer.task import Task
 
 
@@ -103,7 +103,7 @@ def test_a_missing_policy_file_is_named(call: Callable[[str], object], tmp_path:
         (["watch", "match.rs"], "or in rsoccer watch a replay (*.rsr), got match.rs"),
         (["watch", "lost.rsr"], "replay: the file lost.rsr does not exist"),
         (["watch", "folder.rsr"], "replay: expected a file, got folder.rsr"),
-        (["watch", "run"], "it is a folder; the policy files in it are run/policy.safetensors"),
+        (["watch", "run"], "it is a folder; the policy file in it is run/policy.safetensors"),
         (["watch", "empty"], "unknown policy 'empty': expected one of"),
         (["watch", "lost.safetensors"], "policy: the file lost.safetensors does not exist"),
         (
@@ -112,16 +112,17 @@ def test_a_missing_policy_file_is_named(call: Callable[[str], object], tmp_path:
         ),
         (["evaluate", "match.rsr"], "expected a policy, got the replay match.rsr: rsoccer watch"),
         (["evaluate", "page.html"], "got page.html"),
-        (["evaluate", "ou", "--opponents", "run"], "it is a folder; the policy files in it are"),
+        (["evaluate", "ou", "--opponents", "run"], "it is a folder; the policy file in it is"),
         (["evaluate", "--policy", "match.rsr"], "got the replay match.rsr: rsoccer watch plays it"),
         (["evaluate", "ou", "--opponents", "match.rsr"], "got the replay match.rsr"),
         (["watch", "ou", "--opponents", "page.html"], "got page.html"),
         (["tournament", "ou", "match.rsr"], "got the replay match.rsr"),
-        (["tournament", "ou", "run"], "it is a folder; the policy files in it are run/policy"),
+        (["tournament", "ou", "run"], "it is a folder; the policy file in it is run/policy"),
         (["tournament", "ou", "lost.safetensors"], "the file lost.safetensors does not exist"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=lost.json"], "lost.json"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=vs"], "'vss_440rpm'"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=3"], "robot: expected a"),
+        (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "engine=3"], "'engine'"),
     ],
 )
 def test_commands_name_wrong_files(
@@ -177,6 +178,20 @@ def test_from_layers_refuses_a_whole_model() -> None:
         Network.from_layers(rsoccer.make_task("VSS-v0"), Model())
     with pytest.raises(ValueError, match="expected Linear with bias and Tanh in turn, got Model"):
         Network.from_layers("VSS-v0", [Model()])
+
+
+def test_names_of_other_types_are_refused() -> None:
+    with pytest.raises(TypeError, match="name: expected text, got 3"):
+        rsoccer.register(3, rsoccer.VssSelfPlay)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="task: expected a task or its name, got 3"):
+        policies.make_policy("ou", 3)  # type: ignore[arg-type]
+    assert policies.make_policy("ou", "VSS-v0").observes == "nothing"
+
+
+@pytest.mark.parametrize("seconds", ["3", None, True])
+def test_a_duration_of_another_type_is_refused_by_name(seconds: Any) -> None:  # noqa: ANN401
+    with pytest.raises(TypeError, match="seconds: expected a number"):
+        record_replay("VSS-v0", {"all": "zero"}, seconds=seconds)
 
 
 def test_the_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -45,6 +45,9 @@ def read_model(name: str, path: str, kind: type[M] | None = None) -> M:
         path: the file, such as one with `{"preset": "vss_440rpm", "mass": 0.21}`.
         kind: class of the model; None for any.
 
+    Returns:
+        The model.
+
     Raises:
         FileNotFoundError: no such file.
         ValueError: a file without such a model.

@@ -37,7 +37,7 @@ def register(name: str, task_class: type[Task]) -> None:
         task_class: a subclass of `Task`.
 
     Raises:
-        TypeError: `task_class` is not a subclass of `Task`.
+        TypeError: `name` is no text, or `task_class` is not a subclass of `Task`.
         ValueError: `name` has no version or is taken, or the class is registered already.
         Exception: any error of creating the task, where all its options have defaults.
     """
@@ -246,7 +246,8 @@ def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
     try:
         return make_task(name, **options)
     except TypeError as error:
-        raise ValueError(f"task_options: {error}") from error
+        notes = getattr(error, "__notes__", ())  # of the core, which name the argument
+        raise ValueError(f"task_options: {' '.join([str(error), *notes])}") from error
 
 
 def as_task(task: object) -> Task:
@@ -337,5 +338,7 @@ def _has_required_options(task_class: type[Task]) -> bool:
 
 
 def _check_name(name: str) -> None:
+    if not isinstance(name, str):
+        raise TypeError(f"name: expected text, got {name!r}")
     if not _NAME.fullmatch(name):
         raise ValueError(f"name: expected letters and a version, like 'MyTask-v0', got {name!r}")

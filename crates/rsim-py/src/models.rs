@@ -4,7 +4,7 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple, PyType};
 use rsim_core::{Drive, Number};
@@ -90,7 +90,13 @@ pub(crate) trait Model: Sized + Clone {
 
     /// The model in a file.
     fn read(path: &str) -> PyResult<Self> {
-        let text = std::fs::read_to_string(path)?;
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let reason = format!("cannot read {path}: {error}");
+            match error.kind() {
+                std::io::ErrorKind::NotFound => PyFileNotFoundError::new_err(reason),
+                _ => PyValueError::new_err(reason),
+            }
+        })?;
         Self::parsed(&text).map_err(|error| PyValueError::new_err(format!("{path}: {error}")))
     }
 
@@ -190,8 +196,8 @@ macro_rules! mirror {
         impl $name {
             #[new]
             #[pyo3(signature = (name, **numbers))]
-            fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-                Self::preset(name)?.with(numbers)
+            fn new(name: String, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+                Named::<Self>::Preset(name).found()?.with(numbers)
             }
 
             #[classattr]

@@ -28,7 +28,7 @@ from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
 from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.policy_file import SUFFIX
-from rsoccer.registry import make_task
+from rsoccer.registry import as_task, make_task
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def is_registered(policy: PolicyLike) -> bool:
     return names.find(_text(policy).partition(":")[0]) is not None
 
 
-def make_policy(policy: PolicyLike, task: Task) -> Policy:
+def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     """Make a policy for the robots of a task.
 
     Args:
@@ -78,7 +78,7 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
             "scripted:0.5" sets a skill. "policy.safetensors:mean" and "best:sample" choose how a
             network acts; the default is as in training.
-        task: the task that is played.
+        task: the task that is played, or its name.
 
     Returns:
         A policy that fits the task.
@@ -94,6 +94,7 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
         >>> from rsoccer import policies
         >>> policy = policies.make_policy("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
     """
+    task = as_task(task)
     if not isinstance(policy, Policy):
         text = _text(policy)
         name, colon, detail = text.partition(":")
@@ -189,9 +190,9 @@ def _load(text: str) -> Network:
 
 def _expected(path: str) -> str:
     """What a policy is named by; for a folder with a policy file, that file."""
-    inside = sorted(Path(path).glob(f"*{SUFFIX}")) if os.path.isdir(path) else []
-    if inside:
-        return f"it is a folder; the policy files in it are {', '.join(map(str, inside))}"
+    inside = Path(path) / f"policy{SUFFIX}"  # of a training run
+    if inside.is_file():
+        return f"it is a folder; the policy file in it is {inside}"
     return (
         f"expected one of {list_policies()}, or the path of a policy file (*{SUFFIX}); a policy of "
         "your own is known after the import of the module that registers it, as with --import "

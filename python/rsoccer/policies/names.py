@@ -72,8 +72,8 @@ def register_policy(name: str, maker: Maker) -> None:
         ...
         ...     def act(self, inputs, rng, memory):
         ...         return np.ones(inputs.action_shape, np.float32)
-        >>> rsoccer.register_policy("forward", Forward)
-        >>> env = rsoccer.parallel_env("VSSSelfPlay-v0", controllers={"yellow": "forward"})
+        >>> rsoccer.register_policy("forward", Forward)  # doctest: +SKIP
+        >>> rsoccer.evaluate("forward", "ou")  # doctest: +SKIP
     """
     if not isinstance(name, str):
         raise TypeError(f"name: expected text, got {name!r}")
@@ -121,6 +121,9 @@ def make(name: str, task: Task, skill: str | None = None) -> Policy:
         name: a known name.
         task: the task that is played.
         skill: text of a skill from 0 to 1; None without one.
+
+    Returns:
+        A new policy; it may not fit the task.
 
     Raises:
         TypeError: the maker returns something else than a policy.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -77,7 +76,7 @@ class Recorder:
         if checks.integer("world", world, 0) >= matches.worlds:
             raise ValueError(f"world: expected 0 to {matches.worlds - 1}, got {world}")
         if snapshot_interval is not None:
-            _check_interval(snapshot_interval)
+            checks.positive_number("snapshot_interval", snapshot_interval)
             if matches.worlds > 1:
                 raise ValueError(
                     f"snapshot_interval: expected None for {matches.worlds} worlds, "
@@ -248,9 +247,3 @@ def record_replay(
             recorder.begin()
         recorder.add(matches.step(actions))
     return recorder.replay()
-
-
-def _check_interval(seconds: float) -> None:
-    """Refuse an interval between snapshots that is not a positive number."""
-    if not (math.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"snapshot_interval: expected a positive number, got {seconds}")

@@ -70,7 +70,7 @@ def robot_models(value: object) -> Any:  # noqa: ANN401  (of the option's types)
 
 
 def policy(name: str, value: object) -> None:
-    """Validate the type of a policy's name; whoever plays it finds an unknown one.
+    """Validate the type of a policy's name; matches refuse an unknown one.
 
     Args:
         name: name of the argument, for the error.

@@ -1,4 +1,4 @@
-"""What each method of a task returns, as arrays with a row for each world."""
+"""Results of each method of a task, as arrays with a row for each world."""
 
 from __future__ import annotations
 
