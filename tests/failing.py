@@ -1,6 +1,6 @@
 """A task, a policy and a simulator in which a chosen method raises an error."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -81,7 +81,7 @@ class FailingTask(Crowd):
         self.failure.raise_in("get_commands")
         return super().get_commands(play, actions)
 
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         self.failure.raise_in("frame_to_observations")
         return super().frame_to_observations(play)
 

@@ -14,7 +14,7 @@ ROOT = Path(rsoccer.__file__).parent
 # Modules of the same layer do not import each other. The order is also a reading order.
 LAYERS = [
     {"_core"},
-    {"arrays", "files", "markers", "matches.consistency"},
+    {"arrays", "files", "markers", "matches.consistency", "option_values", "plugins"},
     {"frame", "reflection", "vectors"},
     {"rng", "game", "global_state", "view", "entities"},
     {"checks"},

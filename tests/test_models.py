@@ -1,11 +1,14 @@
 """Custom fields, robots and balls, and their configurations: errors and representations."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import pytest
 
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
+from rsoccer.tasks import VssSelfPlay
 
+HEAVY = RobotModel("vss_440rpm", mass=0.2)
 MIXED = SimConfig(robot=["vss_440rpm", "vss_650rpm"], n_blue=1, n_yellow=1)
 UNORDERED_WHEELS = RobotModel("ssl_generic").to_json().replace("[60.0", "[160.0")
 
@@ -52,3 +55,33 @@ def test_representations() -> None:
     assert repr(SimConfig()).startswith('SimConfig("vss_3v3", 3, 3, robot="vss_440rpm", ')
     assert 'robot=["vss_440rpm", "vss_650rpm"]' in repr(MIXED)
     assert repr(Simulator(MIXED, 2)) == "Simulator(2 worlds, 1 threads)"
+
+
+@pytest.mark.parametrize(
+    ("model", "equal", "other"),
+    [
+        (Field("ssl_b"), Field("ssl_b"), Field("ssl_b", width=5.0)),
+        (BallModel("vss_rsim"), BallModel("vss_rsim"), BallModel("ssl_tigers")),
+        (
+            RobotModel("vss_440rpm", mass=0.2),
+            RobotModel("vss_440rpm", mass=0.2),
+            RobotModel("vss_440rpm"),
+        ),
+    ],
+)
+def test_equal_models_have_equal_hashes(model: object, equal: object, other: object) -> None:
+    assert hash(model) == hash(equal)
+    assert {model, equal, other} == {model, other}
+
+
+def test_a_model_can_be_the_default_of_a_dataclass() -> None:
+    @dataclass(frozen=True)
+    class Heavy(VssSelfPlay):
+        robot: str | RobotModel = HEAVY
+
+    assert Heavy().config.robot.mass == 0.2
+
+
+def test_a_number_of_another_type_is_refused_by_name() -> None:
+    with pytest.raises(TypeError, match="mass: expected a number, got 'heavy'"):
+        RobotModel("vss_440rpm", mass="heavy")  # type: ignore[arg-type]

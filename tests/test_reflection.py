@@ -11,18 +11,17 @@ import pytest
 
 import rsoccer
 from rsoccer import LEARN, Frame, Matches
-from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.global_state import StateEncoder
 from rsoccer.reflection import Reflection, Symmetry, add_blocks
 from rsoccer.task import Play, Task
 from rsoccer.tasks import SslDribbling, VssSelfPlay
 from rsoccer.tasks.courses import PAPER, Course
+from rsoccer.testing.reflection_check import reflected
 from tests.helpers import same
 from tests.parallel_matches import TASKS
 
 WORLDS, STEPS = 40, 12
-LEFT, RIGHT = CROSSINGS.index("touch_line_left"), CROSSINGS.index("touch_line_right")
 WALL = 0.06  # distance of a VSSS robot's centre from a wall that it may touch, m
 
 
@@ -38,21 +37,6 @@ class ReversedDribbling(SslDribbling):
 
 def mirrored(task: Task) -> Task:
     return ReversedDribbling() if isinstance(task, SslDribbling) else task
-
-
-def reflected(frame: Frame) -> Frame:
-    """The same state with y reversed."""
-    other = frame.copy()
-    for vectors in (
-        *(other.ball.position, other.ball.velocity, other.ball.crossed_at),
-        *(other.robots.position, other.robots.velocity, other.robots.heading),
-    ):
-        vectors[..., 1] *= -1
-    other.robots.angular_velocity[...] *= -1
-    other.ball.spin[..., [0, 2]] *= -1
-    other.ball.crossed[frame.ball.crossed == LEFT] = RIGHT
-    other.ball.crossed[frame.ball.crossed == RIGHT] = LEFT
-    return other
 
 
 def reflected_actions(actions: Floats) -> Floats:

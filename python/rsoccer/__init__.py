@@ -28,6 +28,7 @@ from rsoccer.evaluate import evaluate, tournament
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
 from rsoccer.policies.base import Policy
+from rsoccer.policies.names import register_policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Restart, Rule
@@ -83,6 +84,7 @@ __all__ = [
     "make_task",
     "parallel_env",
     "register",
+    "register_policy",
     "robots_vector_env",
     "single_env",
     "tournament",

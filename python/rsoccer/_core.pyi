@@ -115,10 +115,12 @@ class Field:
         `Field("ssl_b", width=5.0)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
+        FileNotFoundError: no such file.
+        TypeError: a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -243,7 +245,8 @@ class Field:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`.
+            text: Result of `to_json`; or a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`.
 
         Returns:
             An equal model.
@@ -254,6 +257,7 @@ class Field:
 
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
@@ -266,10 +270,12 @@ class BallModel:
         `BallModel("ssl_tigers", rolling_deceleration=0.3)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
+        FileNotFoundError: no such file.
+        TypeError: a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -350,7 +356,8 @@ class BallModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`.
+            text: Result of `to_json`; or a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`.
 
         Returns:
             An equal model.
@@ -361,6 +368,7 @@ class BallModel:
 
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
@@ -375,10 +383,12 @@ class RobotModel:
         `RobotModel("ssl_generic", max_kick_speed=6.5)` is the preset with one number replaced.
 
     Args:
-        name: Name of a preset, one of `PRESETS`.
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`.
         **numbers: Numbers that replace those of the preset, by the names of the properties.
 
     Raises:
+        FileNotFoundError: no such file.
+        TypeError: a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -563,7 +573,8 @@ class RobotModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`.
+            text: Result of `to_json`; or a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`.
 
         Returns:
             An equal model.
@@ -574,6 +585,7 @@ class RobotModel:
 
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final

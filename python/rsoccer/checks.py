@@ -3,6 +3,7 @@
 Validation happens before any state changes.
 """
 
+import math
 from numbers import Real
 
 import numpy as np
@@ -74,6 +75,27 @@ def number_in_range(name: str, value: object, low: float, high: float) -> float:
         raise TypeError(f"{name}: expected a number, got {value!r}")
     if not low <= float(value) <= high:  # refuses NaN too
         raise ValueError(f"{name}: expected {low:g} to {high:g}, got {value}")
+    return float(value)
+
+
+def positive_number(name: str, value: object) -> float:
+    """Validate a finite number above 0.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Returns:
+        The value as a float.
+
+    Raises:
+        TypeError: not a number; bools are refused too.
+        ValueError: 0 or less, infinite, or NaN.
+    """
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name}: expected a number, got {value!r}")
+    if not 0.0 < float(value) < math.inf:
+        raise ValueError(f"{name}: expected a positive number, got {value}")
     return float(value)
 
 

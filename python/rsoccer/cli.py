@@ -55,18 +55,32 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str] | None) -> None:
     """Parse the arguments and run the command."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words == ["--version"]:
+        sys.stdout.write(f"{version()}\n")
+        return
     import tyro
 
     from rsoccer.commands import command_type
+    from rsoccer.commands.numbers import whole_numbers
 
-    words = sys.argv[1:] if arguments is None else arguments
     command = tyro.cli(
         command_type(words),
         prog="rsoccer",
-        description="Robot soccer for reinforcement learning.",
+        description="Robot soccer for reinforcement learning. `rsoccer --version` prints the "
+        "versions of the package and of its physics.",
         args=words,
+        registry=whole_numbers(),
     )
     command.run()
+
+
+def version() -> str:
+    """Return the versions of the package and of its physics in one line."""
+    from rsoccer._core import build_info
+
+    info = build_info()
+    return f"rsoccer {info['version']}, physics {info['physics']}"
 
 
 def _explain(error: Exception) -> str:

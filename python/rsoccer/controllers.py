@@ -1,5 +1,6 @@
 """Assignment of controllers to robots: external learners, or policies of this package."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -15,7 +16,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
 
-Controller = str | Policy | Learn
+Controller = str | os.PathLike[str] | Policy | Learn
 """`LEARN`, a policy, its name, or the path of its file."""
 Controllers = Mapping[str, Controller]
 """Controllers by robot name ("blue_0"), team ("blue") or "all"."""
@@ -177,11 +178,15 @@ def resolve(task: Task, controllers: Controllers | None) -> dict[str, Controller
     unknown = sorted(set(given) - set(valid), key=str)
     if unknown:
         raise ValueError(f"controllers: unknown {unknown}; valid are {valid}")
-    resolved: dict[str, Controller] = dict(task.default_controllers())
-    for name in resolved:
-        for key in ("all", team_of(name), name):
-            resolved[name] = given.get(key, resolved[name])
-    return {name: _checked(name, controller) for name, controller in resolved.items()}
+    resolved: dict[str, Controller] = {}
+    for robot, default in task.default_controllers().items():
+        key = next((key for key in (robot, team_of(robot), "all") if key in given), None)
+        if key is None:
+            name = f"{task.name}: default_controllers()[{robot!r}]"
+            resolved[robot] = _checked(name, default)
+        else:
+            resolved[robot] = _checked(f"controllers[{key!r}]", given[key])
+    return resolved
 
 
 def given_by_name(controllers: Controllers | None) -> dict[str, Controller]:
@@ -204,9 +209,12 @@ def given_by_name(controllers: Controllers | None) -> dict[str, Controller]:
 
 
 def _checked(name: str, controller: object) -> Controller:
+    """A controller, a path as text; `name` is for the error."""
+    if isinstance(controller, os.PathLike):
+        return str(os.fspath(controller))
     if not isinstance(controller, str | Policy | Learn):
         raise TypeError(
-            f"controllers[{name!r}]: expected {LEARN}, a policy or its name, got {controller!r}"
+            f"{name}: expected {LEARN}, a policy, its name or its file, got {controller!r}"
         )
     return controller
 

@@ -3,6 +3,7 @@
 from collections import UserDict
 from collections.abc import Callable
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -47,6 +48,18 @@ class EncodedBlocks(UserDict[str, Floats]):
             name: flat[:, :, columns].reshape(*rows, *shape)
             for name, columns, shape in self._layout
         }
+
+    def __or__(self, other: Any) -> Any:  # noqa: ANN401  (overloaded in UserDict)
+        """Return a dict of these blocks and others."""
+        return {**self.data, **other}
+
+    def __ror__(self, other: Any) -> Any:  # noqa: ANN401  (overloaded in UserDict)
+        """Return a dict of other blocks and these."""
+        return {**other, **self.data}
+
+    def copy(self) -> Any:  # noqa: ANN401  (UserDict's own type)
+        """Return a dict of the same blocks."""
+        return dict(self.data)
 
     def write(self, out: Floats, bounds: Floats) -> bool:
         """Write all blocks in their order, unless one of them has been read.

@@ -1,6 +1,5 @@
 """Line-ups: controllers for evaluation and films, where policies replace the learners."""
 
-import os
 from collections.abc import Mapping, Sequence
 from typing import Final
 
@@ -16,7 +15,7 @@ DEFAULT_OPPONENT: Final = "ou"
 """Policy of the other team where both teams learn and no opponent is given."""
 
 
-def task_for(*players: Controller | os.PathLike[str]) -> Task:
+def task_for(*players: Controller) -> Task:
     """Return the task that the first trained policy was trained on, see `policies.trained_on`.
 
     Args:
@@ -71,7 +70,10 @@ def opponents_of(task: Task) -> list[str]:
         ValueError: a task without learners.
     """
     defaults = _teams(task)[1].values()
-    names = (DEFAULT_OPPONENT if isinstance(default, Learn) else default for default in defaults)
+    names = (
+        DEFAULT_OPPONENT if isinstance(default, Learn) else policies.name_of(default)
+        for default in defaults
+    )
     return list(dict.fromkeys(names))
 
 
@@ -94,11 +96,13 @@ def _first_learner(task: Task) -> str:
     return task.agents[0]
 
 
-def _teams(task: Task) -> tuple[dict[str, str | Learn], dict[str, str | Learn]]:
+def _teams(task: Task) -> tuple[dict[str, Controller], dict[str, Controller]]:
     """Default controllers by robot: of the first learner's team, and of the other team."""
     team = team_of(_first_learner(task))
     defaults = task.default_controllers()
-    home = {robot: defaults[robot] for robot in task.robots if team_of(robot) == team}
+    home: dict[str, Controller] = {
+        robot: defaults[robot] for robot in task.robots if team_of(robot) == team
+    }
     return home, {robot: defaults[robot] for robot in task.robots if robot not in home}
 
 

@@ -3,10 +3,10 @@
 import copy
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
-from rsoccer import checks
+from rsoccer import checks, option_values, plugins
 from rsoccer.envs import ids
 from rsoccer.task import Task
 
@@ -37,7 +37,7 @@ def register(name: str, task_class: type[Task]) -> None:
         task_class: a subclass of `Task`.
 
     Raises:
-        TypeError: `task_class` is not a subclass of `Task`.
+        TypeError: `name` is no text, or `task_class` is not a subclass of `Task`.
         ValueError: `name` has no version or is taken, or the class is registered already.
         Exception: any error of creating the task, where all its options have defaults.
     """
@@ -108,6 +108,22 @@ def list_aliases() -> dict[str, Alias]:
     return dict(sorted(_ALIASES.items()))
 
 
+def task_class(name: str) -> type[Task]:
+    """Return the class of a task.
+
+    Args:
+        name: a registered name, or one that a package offers; no alias.
+
+    Raises:
+        ImportError: a package that offers the task cannot be loaded.
+        ValueError: an unknown name.
+    """
+    _find(name)
+    if name not in _TASKS:
+        raise ValueError(f"name: expected no alias, got {name!r}")
+    return _TASKS[name]
+
+
 def is_task_name(name: str) -> bool:
     """Return whether a text has the form of a task's name, registered or not.
 
@@ -122,12 +138,14 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
 
     Args:
         name: a registered name or an alias.
-        **options: options of the task, the parameters of its class; see `list_options`.
+        **options: options of the task, the parameters of its class; see `list_options`. Values
+            from `options_of`, which JSON can hold, are decoded.
 
     Returns:
         The task.
 
     Raises:
+        ImportError: a package that offers the task cannot be loaded, see `rsoccer.plugins`.
         TypeError: an unknown option, or an option's value of the wrong type.
         ValueError: an unknown name, or an option's value that the task refuses.
 
@@ -136,20 +154,80 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         >>> rsoccer.make_task("VSSMulti-v0", n_blue=2, opponent="chase").agents
         ('blue_0', 'blue_1')
     """
+    return _make(name, options, ())
+
+
+def _make(name: str, options: Mapping[str, Any], arguments: Sequence[str]) -> Task:
+    """Make a task; an unknown option may also be meant as one of the caller's arguments."""
+    _find(name)
     if name in _ALIASES:
         task, preset = _ALIASES[name]
-        return make_task(task, **{**preset, **options})
-    if name not in _TASKS:
-        hint = _REMOVED.get(name, f"expected one of {list_tasks()}")
-        raise ValueError(f"unknown task {name!r}: {hint}")
+        return _make(task, {**preset, **options}, arguments)
     task_class = _TASKS[name]
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
     if unknown:
         # Python's own words: TorchRL probes for options and reads them.
         names = ", ".join(map(repr, unknown))
-        raise TypeError(f"{name}: got an unexpected keyword argument {names}; valid are {valid}")
-    return task_class(**options)
+        own = f"the arguments {list(arguments)} and the task's options " if arguments else ""
+        raise TypeError(
+            f"{name}: got an unexpected keyword argument {names}; valid are {own}{valid}"
+        )
+    return task_class(**{name: option_values.decoded(name, v) for name, v in options.items()})
+
+
+def _find(name: str) -> None:
+    """Register a task of an entry point or of a parent's modules; ValueError for an unknown one."""
+    if name in _TASKS or name in _ALIASES:
+        return
+    if name not in _REMOVED:
+        plugins.import_inherited()
+        if name not in _TASKS and name not in _ALIASES:
+            _register_entry_point(name)
+    if name not in _TASKS and name not in _ALIASES:
+        hint = _REMOVED.get(
+            name,
+            f"expected one of {list_tasks()}; a task of your own is known after the import of the "
+            "module that registers it, as with --import MODULE",
+        )
+        raise ValueError(f"unknown task {name!r}: {hint}")
+
+
+def _register_entry_point(name: str) -> None:
+    """Register the task class that an installed package offers under a name, if one does."""
+    task_class = plugins.load(plugins.TASKS, name)
+    if task_class is None or name in _TASKS:
+        return
+    try:
+        register(name, task_class)
+    except Exception as error:
+        raise ImportError(
+            f"{name!r}: the entry point in {plugins.TASKS!r} names no task: {error}"
+        ) from error
+
+
+def options_of(task: Task) -> dict[str, Any] | None:
+    """Return the options of a task that differ from its defaults, as JSON values for `make_task`.
+
+    Args:
+        task: the task.
+
+    Returns:
+        Options by name; None if the task is not registered or an option is another object.
+    """
+    if _TASKS.get(task.name) is not type(task):
+        return None
+    try:
+        default = make_task(task.name)
+        names = list_options(type(task))
+        values = {name: (getattr(task, name), getattr(default, name)) for name in names}
+        return {
+            name: option_values.encoded(name, value)
+            for name, (value, usual) in values.items()
+            if value != usual
+        }
+    except (AttributeError, OSError, TypeError, ValueError):
+        return None
 
 
 def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
@@ -168,7 +246,8 @@ def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
     try:
         return make_task(name, **options)
     except TypeError as error:
-        raise ValueError(f"task_options: {error}") from error
+        notes = getattr(error, "__notes__", ())  # of the core, which name the argument
+        raise ValueError(f"task_options: {' '.join([str(error), *notes])}") from error
 
 
 def as_task(task: object) -> Task:
@@ -188,13 +267,19 @@ def as_task(task: object) -> Task:
     return task
 
 
-def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, Any]) -> Task:
+def resolve_task(
+    task: Task | str,
+    max_steps: int | None,
+    options: Mapping[str, Any],
+    caller: Callable[..., object],
+) -> Task:
     """Return the task that matches or an environment play.
 
     Args:
         task: a task, or the name of a registered one.
         max_steps: time limit of an episode in control steps; None for the task's own.
         options: options of a registered task, by name.
+        caller: function or class that got the options beside its own arguments, which errors list.
 
     Raises:
         TypeError: not a task, an unknown option, or options for a Task object.
@@ -202,13 +287,21 @@ def resolve_task(task: Task | str, max_steps: int | None, options: Mapping[str, 
     """
     if isinstance(task, str):
         time_limit = {} if max_steps is None else {"max_steps": max_steps}
-        return make_task(task, **options, **time_limit)
+        return _make(task, {**options, **time_limit}, _arguments(caller))
     if options:
         raise TypeError(
-            f"options: a Task object has its own options, got {sorted(options)} in addition"
+            f"options: a Task object has its own options, got {sorted(options)} in addition; "
+            f"valid are the arguments {_arguments(caller)}"
         )
     task = as_task(task)
     return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
+
+
+def _arguments(caller: Callable[..., object]) -> list[str]:
+    """Names of the arguments of a function or class beside the task and its options."""
+    parameters = inspect.signature(caller).parameters.values()
+    names = [each.name for each in parameters if each.kind is not each.VAR_KEYWORD]
+    return [name for name in names if name != "task"]
 
 
 def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
@@ -245,5 +338,7 @@ def _has_required_options(task_class: type[Task]) -> bool:
 
 
 def _check_name(name: str) -> None:
+    if not isinstance(name, str):
+        raise TypeError(f"name: expected text, got {name!r}")
     if not _NAME.fullmatch(name):
         raise ValueError(f"name: expected letters and a version, like 'MyTask-v0', got {name!r}")

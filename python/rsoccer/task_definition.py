@@ -10,7 +10,7 @@ Authors derive from `rsoccer.Task`, which adds what others read of a task.
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from enum import Enum
-from typing import ClassVar, Final
+from typing import Any, ClassVar, Final
 
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
@@ -113,7 +113,7 @@ class TaskDefinition(ABC):
         """
 
     @abstractmethod
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the observation of each observer as named blocks.
 
         Args:
@@ -169,8 +169,8 @@ class TaskDefinition(ABC):
         """(choices, action_size) actions of a discrete task; None for continuous actions."""
         return None
 
-    def default_controllers(self) -> dict[str, str | Learn]:
-        """Return the default controller of each robot by name: `LEARN` or a policy's name."""
+    def default_controllers(self) -> Mapping[str, Any]:
+        """Return the default controller of each robot by name: `LEARN`, a policy or its name."""
         return dict.fromkeys(robot_names(self.config.n_blue, self.config.n_yellow), LEARN)
 
     def observation_limits(self) -> dict[str, float]:

@@ -22,6 +22,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.frame import team_of
 from rsoccer.global_state import LIMIT
 from rsoccer.matches import Matches
+from rsoccer.registry import resolve_task
 from rsoccer.task import Task
 
 try:
@@ -114,14 +115,12 @@ class SoccerEnv(EnvBase):
         if seed is None:
             seed = int(np.random.SeedSequence().generate_state(1)[0])
         self.matches = Matches(
-            task,
+            resolve_task(task, max_steps, options, type(self)),
             worlds,
             seed,
             threads,
             controllers=controllers,
             autoreset="disabled",
-            max_steps=max_steps,
-            **options,
         )
         self.task = self.matches.task
         super().__init__(device=device, batch_size=(self.matches.worlds,))

@@ -56,7 +56,7 @@ def test_play_without_pygame_says_so() -> None:
 
 def test_play_gives_the_policies_to_the_other_robots(played: list[Any]) -> None:
     arguments = ["play", "VSSSelfPlay-v0", "--robot", "yellow_1", "--policy", "chase"]
-    arguments += ["--opponent", "ou", "--controllers", "blue_2=zero", "--seconds", "3"]
+    arguments += ["--opponents", "ou", "--controllers", "blue_2=zero", "--seconds", "3"]
     assert cli.main(arguments) == 0
     (name, controllers, robot, names), seconds = played
     assert (name, robot, seconds) == ("VSSSelfPlay-v0", "yellow_1", 3.0)

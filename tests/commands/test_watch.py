@@ -25,7 +25,7 @@ def test_watch_writes_a_video_without_a_display(
 def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
     arguments = ["watch", "strike", "--task", "SSLContestedPossession-v0", "--video", "never.mp4"]
     assert cli.main(arguments) == 0
-    assert cli.main([*arguments, "--opponent", "zero"]) == 0
+    assert cli.main([*arguments, "--opponents", "zero"]) == 0
     assert cli.main(["watch", "scripted", "--video", "never.mp4"]) == 0
     (_, default, names), (_, changed, _), (task, controllers, _) = filmed
     assert default == {"blue_0": "strike", "yellow_0": "hold"}
@@ -37,7 +37,7 @@ def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
 
 def test_watch_opens_a_window() -> None:
     pytest.importorskip("pygame")
-    arguments = ["watch", "chase", "--opponent", "zero", "--seconds", "0.5", "--speed", "10"]
+    arguments = ["watch", "chase", "--opponents", "zero", "--seconds", "0.5", "--speed", "10"]
     done = run(*arguments, "--width", "128", SDL_VIDEODRIVER="dummy")
     assert (done.returncode, done.stderr) == (0, "")
 
@@ -95,8 +95,8 @@ def test_watch_refuses_bad_replays_and_options_of_matches(
     file.write_bytes(b"something else")
     assert cli.main(["watch", str(file)]) == 2
     assert "match.rsr is not a usable replay: magic" in capsys.readouterr().err
-    assert cli.main(["watch", str(file), "--opponent", "ou"]) == 2
-    assert "opponent: expected none for a replay, got ou" in capsys.readouterr().err
+    assert cli.main(["watch", str(file), "--opponents", "ou"]) == 2
+    assert "opponents: expected none for a replay, got ou" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("speed", ["0", "-1", "nan"])

@@ -73,7 +73,7 @@ def test_wrong_options_are_named(
 
 def test_a_match_starts_from_a_given_frame() -> None:
     env = single_env("VSS-v0")
-    env.reset(seed=0, options={"frame": shot_at(1), "unknown": object()})
+    env.reset(seed=0, options={"frame": shot_at(1)})
     assert np.array_equal(env._matches.frame.rows[0], shot_at(1))
 
 

@@ -50,7 +50,7 @@ def test_wrong_options_are_named(
 def test_matches_start_from_given_frames() -> None:
     envs = vector_env("VSS-v0", N)
     left, right = shot_at(-1), shot_at(1)
-    envs.reset(seed=0, options={"frame": right, "unknown": object()})
+    envs.reset(seed=0, options={"frame": right})
     assert comparable(envs._matches.frame.rows) == comparable(np.stack([right] * N))
     rows, mask = np.stack([left, right, left]), np.array([True, False, True])
     envs.reset(options={"frame": rows, "reset_mask": mask})

@@ -134,7 +134,7 @@ class Traced(VssSelfPlay):
         self.trace.calls.append("metrics")
         return {}
 
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         self.trace.calls.append("observe")
         return super().frame_to_observations(play)
 

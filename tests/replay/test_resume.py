@@ -7,8 +7,8 @@ import rsoccer
 from rsoccer import LEARN, Field, Matches, RobotModel
 from rsoccer.controllers import Controller
 from rsoccer.policies.vss.chase import Chase
+from rsoccer.registry import options_of
 from rsoccer.replay import Recorder, Replay, ReplayError, record_replay
-from rsoccer.replay.resume import described_options
 from rsoccer.task import Task
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import same, zeros
@@ -81,9 +81,9 @@ def test_options_of_the_task_are_kept(task: Task) -> None:
 
 
 def test_default_options_are_not_written() -> None:
-    assert described_options(rsoccer.make_task("VSS-v0")) == {}
-    assert described_options(rsoccer.make_task("VSS-v0", max_steps=5)) == {"max_steps": 5}
-    assert described_options(Unregistered()) is None
+    assert options_of(rsoccer.make_task("VSS-v0")) == {}
+    assert options_of(rsoccer.make_task("VSS-v0", max_steps=5)) == {"max_steps": 5}
+    assert options_of(Unregistered()) is None
 
 
 def test_a_task_that_is_not_registered_has_to_be_given() -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -64,13 +65,35 @@ class RepositionsIntoARobot(SslSelfPlay):
         return Crossings(), FaultyBallOut(self.config, "robot"), Passes(0.5)
 
 
+class KeepsTheLastRows(Rule):
+    """Play restarts with states that depend on those of earlier restarts."""
+
+    last: ClassVar[list[Floats]] = []
+
+    def judge(self, play: Play) -> Restart | None:
+        stopped = np.flatnonzero(play.frame.ball.crossed > 0)
+        if not len(stopped):
+            return None
+        self.last.append(play.frame.rows[stopped])
+        return Restart(
+            stopped, rows=VssSelfPlay().get_initial_positions_frame(play.rng).rows[stopped]
+        )
+
+
+class RestartsFromSelf(VssSelfPlay):
+    @property
+    def rules(self) -> Sequence[Rule]:
+        return Crossings(), KeepsTheLastRows()
+
+
 @pytest.mark.parametrize(
     ("faulty", "message"),
     [
-        (RaisesUnderPressure, "IndexError in step .* under pressure.*too many to count"),
-        (RewardsNaNUnderPressure, "'gap' has NaN or infinite numbers in step .* pressure"),
-        (RepositionDependsOnTheBatch, "differ from the same worlds alone"),
-        (RepositionsIntoARobot, "ValueError in step .* under pressure.*ball and blue_0 overlap"),
+        (RaisesUnderPressure, "reward_and_done: IndexError: too many .*in step .* under pressure"),
+        (RewardsNaNUnderPressure, "'gap' has NaN or infinite numbers .*in step .* pressure"),
+        (RepositionDependsOnTheBatch, "rules: 'balls' of worlds .* differ from the same"),
+        (RestartsFromSelf, r"rules keeps state on self, in KeepsTheLastRows\.last"),
+        (RepositionsIntoARobot, "ValueError: .*ball and blue_0 overlap.*in step .* under pressure"),
     ],
 )
 def test_a_fault_that_shows_only_under_pressure_is_found(
@@ -94,5 +117,5 @@ def test_robots_press_even_if_the_meaning_of_actions_is_unknown() -> None:
                 raise IndexError("too many to count")
             return super().calculate_reward_and_done(play)
 
-    with pytest.raises(TaskError, match="IndexError in step"):
+    with pytest.raises(TaskError, match="IndexError: too many"):
         check_task(Forward())

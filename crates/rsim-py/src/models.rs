@@ -2,14 +2,20 @@
 //!
 //! The numbers come from the core's tables: each becomes a read-only property with its documentation.
 
-use pyo3::exceptions::{PyAttributeError, PyValueError};
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple, PyType};
 use rsim_core::{Drive, Number};
+use serde_json::Value;
 
 use crate::config::invalid;
 
-/// The name of a preset, or a model.
+/// End of the names of files that hold a model.
+const SUFFIX: &str = ".json";
+
+/// The name of a preset or of a file, or a model.
 #[derive(FromPyObject)]
 pub(crate) enum Named<T> {
     Preset(String),
@@ -19,6 +25,7 @@ pub(crate) enum Named<T> {
 /// A model class with presets and numbers.
 pub(crate) trait Model: Sized + Clone {
     fn preset(name: &str) -> PyResult<Self>;
+    fn decoded(text: &str) -> PyResult<Self>;
     fn numbers() -> Vec<Number>;
     fn number_mut(&mut self, name: &str) -> Option<&mut f32>;
     fn name(&self) -> &str;
@@ -35,29 +42,89 @@ pub(crate) trait Model: Sized + Clone {
     fn with(mut self, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         for (key, value) in numbers.into_iter().flatten() {
             let key: String = key.extract()?;
-            let Some(place) = self.number_mut(&key) else {
-                let names = Self::numbers().into_iter().map(|number| number.name);
-                let valid: Vec<&str> = names.filter(|name| self.number(name).is_ok()).collect();
-                return Err(PyValueError::new_err(format!(
-                    "{} has no {key:?}; its numbers are {}",
-                    self.name(),
-                    valid.join(", ")
-                )));
-            };
-            *place = value.extract()?;
+            self.set(&key, |place| {
+                *place = value.extract().map_err(|_| {
+                    PyTypeError::new_err(format!("{key}: expected a number, got {value:?}"))
+                })?;
+                Ok(())
+            })?;
         }
         self.validate()?;
         Ok(self)
+    }
+
+    /// Replaces a number; a `ValueError` if this kind of model does not have it.
+    fn set(&mut self, key: &str, write: impl FnOnce(&mut f32) -> PyResult<()>) -> PyResult<()> {
+        if let Some(place) = self.number_mut(key) {
+            return write(place);
+        }
+        let names = Self::numbers().into_iter().map(|number| number.name);
+        let valid: Vec<&str> = names.filter(|name| self.number(name).is_ok()).collect();
+        let (name, valid) = (self.name(), valid.join(", "));
+        Err(PyValueError::new_err(format!("{name} has no {key:?}; its numbers are {valid}")))
+    }
+
+    /// The model of a JSON text: of `to_json`, or a preset's name with the numbers that differ.
+    fn parsed(text: &str) -> PyResult<Self> {
+        let Ok(Value::Object(mut numbers)) = serde_json::from_str(text) else {
+            return Self::decoded(text)?.with(None);
+        };
+        let Some(Value::String(name)) = numbers.remove("preset") else {
+            return Self::decoded(text)?.with(None);
+        };
+        let mut model = Self::preset(&name)?;
+        for (key, value) in numbers {
+            let Some(number) = value.as_f64() else {
+                return Err(PyValueError::new_err(format!(
+                    "{key}: expected a number, got {value}"
+                )));
+            };
+            model.set(&key, |place| {
+                *place = narrowed(number);
+                Ok(())
+            })?;
+        }
+        model.validate()?;
+        Ok(model)
+    }
+
+    /// The model in a file.
+    fn read(path: &str) -> PyResult<Self> {
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            let reason = format!("cannot read {path}: {error}");
+            match error.kind() {
+                std::io::ErrorKind::NotFound => PyFileNotFoundError::new_err(reason),
+                _ => PyValueError::new_err(reason),
+            }
+        })?;
+        Self::parsed(&text).map_err(|error| PyValueError::new_err(format!("{path}: {error}")))
+    }
+
+    /// A hash of the name and the numbers, equal for equal models.
+    fn hashed(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name().hash(&mut hasher);
+        let numbers = Self::numbers();
+        let values = numbers.iter().filter_map(|number| self.number(number.name).ok());
+        values.for_each(|value| (value + 0.0).to_bits().hash(&mut hasher)); // -0 equals 0
+        hasher.finish()
     }
 }
 
 impl<T: Model> Named<T> {
     pub(crate) fn found(self) -> PyResult<T> {
         match self {
+            Self::Preset(path) if path.ends_with(SUFFIX) => T::read(&path),
             Self::Preset(name) => T::preset(&name),
             Self::Model(model) => Ok(model),
         }
     }
+}
+
+/// The nearest float.
+#[expect(clippy::cast_possible_truncation, reason = "rounding is meant; the range is checked")]
+fn narrowed(value: f64) -> f32 {
+    value as f32
 }
 
 /// The double that prints like this float: 0.005 and not 0.004999999888241291.
@@ -102,6 +169,12 @@ macro_rules! mirror {
                 Ok(Self(rsim_core::$name::preset(name).map_err(invalid)?))
             }
 
+            fn decoded(text: &str) -> PyResult<Self> {
+                serde_json::from_str(text).map(Self).map_err(|error| {
+                    PyValueError::new_err(format!("text is not a {}: {error}", stringify!($name)))
+                })
+            }
+
             fn numbers() -> Vec<Number> {
                 rsim_core::$name::numbers()
             }
@@ -123,8 +196,8 @@ macro_rules! mirror {
         impl $name {
             #[new]
             #[pyo3(signature = (name, **numbers))]
-            fn new(name: &str, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-                Self::preset(name)?.with(numbers)
+            fn new(name: String, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+                Named::<Self>::Preset(name).found()?.with(numbers)
             }
 
             #[classattr]
@@ -146,10 +219,11 @@ macro_rules! mirror {
 
             #[classmethod]
             fn from_json(_class: &Bound<'_, PyType>, text: &str) -> PyResult<Self> {
-                let model: rsim_core::$name = serde_json::from_str(text).map_err(|error| {
-                    PyValueError::new_err(format!("text is not a {}: {error}", stringify!($name)))
-                })?;
-                Self(model).with(None)
+                Self::parsed(text)
+            }
+
+            fn __hash__(&self) -> u64 {
+                self.hashed()
             }
 
             fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {

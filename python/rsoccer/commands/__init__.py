@@ -10,11 +10,13 @@ from typing import Annotated, Any
 from tyro.conf import subcommand
 
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import Train
 from rsoccer.commands.watch import Watch
+from rsoccer.plugins import import_modules
 
 
 def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
@@ -23,7 +25,12 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     Args:
         words: the words after `rsoccer`. Options of `train` that they do not give have the values
             of the run that they resume, or else the recommended ones for the task that they name.
+
+    Raises:
+        ImportError: a module that the words import does not exist or raises an error.
+        ValueError: another text in the place of a module's name.
     """
+    import_modules(imported(words))  # settings may be those of a task that one registers
     default = _train_defaults(words)
     return (
         Annotated[List, subcommand("list")]

@@ -10,12 +10,14 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import (
     DEFAULT_OPPONENT_HINT,
     DEFAULT_TASK_HINT,
     POLICY,
     SUBJECT,
+    check_policy_names,
     policy_and_task,
     team_name,
 )
@@ -29,7 +31,7 @@ from rsoccer.task import Task
 
 
 @dataclass(frozen=True)
-class Evaluate:
+class Evaluate(Imports):
     """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
     subject: Annotated[str | None, Positional, SUBJECT] = None
@@ -70,6 +72,7 @@ class Evaluate:
         check_output("save", self.save, SUFFIX)
         if (self.subject, self.policy, self.task) == (None, None, None):
             raise ValueError("policy: expected a policy or a task, got none")
+        check_policy_names(self.opponents)
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
         evaluations = [
             evaluate(

@@ -4,27 +4,29 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from rsoccer import policies, registry
+from rsoccer import plugins, policies, registry
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import write
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import Score
-from rsoccer.task import Task
 
 
 @dataclass(frozen=True)
-class List:
+class List(Imports):
     """Print the tasks with their options, and the policies."""
 
     def run(self) -> None:
         """Print the lists."""
-        for name in registry.list_tasks():
-            task = registry.make_task(name)
-            write(f"{name}: {_summary(task)}")
-            write("\n".join(f"    {option}" for option in _options(task)) + "\n")
+        for name in sorted({*registry.list_tasks(), *plugins.list_names(plugins.TASKS)}):
+            try:
+                write(_description(name))
+            except ImportError as error:
+                write(f"{error}\n")
         for name, (task_name, options) in registry.list_aliases().items():
             values = [f"{option}={value!r}" for option, value in options.items()]
             write(f"{name}: {', '.join([task_name, *values])}")
-        write(f"policies: {', '.join(policies.list_policies())}, or the path of a policy file")
+        names = sorted({*policies.list_policies(), *plugins.list_names(plugins.POLICIES)})
+        write(f"policies: {', '.join(names)}, or the path of a policy file")
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
         for name, path in trained.list_trained().items():
             scores = [_score_text(score) for score in trained.list_scores(path)]
@@ -43,12 +45,15 @@ def _score_text(score: Score) -> str:
     )
 
 
-def _summary(task: Task) -> str:
-    """First line of the task's docstring."""
-    return (type(task).__doc__ or "").strip().split("\n")[0]
-
-
-def _options(task: Task) -> list[str]:
-    """Options of a task for `make_task`, each with its default."""
-    names = registry.list_options(type(task))
-    return [f"{name}={getattr(task, name)!r}" for name in names]
+def _description(name: str) -> str:
+    """Name and summary of a task, and its options for `make_task`, each with its default."""
+    task_class = registry.task_class(name)
+    summary = (task_class.__doc__ or "").strip().split("\n")[0]
+    try:
+        task = registry.make_task(name)
+    except TypeError:  # an option has no default
+        options = registry.list_options(task_class)
+    else:
+        names = registry.list_options(task_class)
+        options = [f"{option}={getattr(task, option)!r}" for option in names]
+    return "\n".join([f"{name}: {summary}", *(f"    {option}" for option in options), ""])

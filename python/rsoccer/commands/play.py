@@ -10,7 +10,8 @@ from typing import Annotated, Any
 from tyro.conf import Positional, arg
 
 from rsoccer.commands.entries import check_entries
-from rsoccer.commands.subject import team_name
+from rsoccer.commands.imports import Imports
+from rsoccer.commands.subject import check_policy_names, team_name
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
@@ -25,7 +26,7 @@ _FIRST_ROBOT = "(default: the first learner)"
 
 
 @dataclass(frozen=True)
-class Play:
+class Play(Imports):
     """Drive a robot by keyboard or gamepad, against policies and with them."""
 
     task: Annotated[str, Positional, arg(metavar="TASK")] = DEFAULT_TASK
@@ -36,7 +37,7 @@ class Play:
     """robot to drive first, such as blue_0 or yellow_1"""
     policy: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = None
     """policy of the other learners in the driven robot's team"""
-    opponent: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = (
+    opponents: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_DEFAULT_PLAYER)] = (
         None
     )
     """policy of the other team"""
@@ -64,6 +65,7 @@ class Play:
         """
         from rsoccer.human.session import Session
 
+        check_policy_names([self.policy, self.opponents])
         task = task_with_options(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)
@@ -80,7 +82,7 @@ class Play:
 
     def _controllers(self, task: Task, robot: str) -> dict[str, Controller]:
         """Policies of all robots: the task's own, then the options, the most specific last."""
-        chosen = team_controllers(task, robot, self.policy, self.opponent)
+        chosen = team_controllers(task, robot, self.policy, self.opponents)
         check_entries("controllers", (entry.partition("=")[0] for entry in self.controllers))
         # A team's name overrules the names above it, and a robot's name that of its team.
         for entry in sorted(self.controllers, key=_rank):

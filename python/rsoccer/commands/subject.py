@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +13,8 @@ from rsoccer.commands.task_options import named_task
 from rsoccer.human.teams import SCRIPTS
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
+from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.replay.replay import SUFFIX as REPLAY_SUFFIX
 from rsoccer.task import Task
 
 _SUBJECT_HELP = (
@@ -55,10 +57,34 @@ def policy_and_task(
         if policy is not None:
             raise ValueError(f"policy: expected a task before --policy {policy}, got {subject}")
         policy = subject
+    check_policy_names([] if policy is None else [policy])
     made = named_task(task, options)
     if made is None:
         made = registry.make_task(DEFAULT_TASK) if policy is None else task_for(policy)
     return policy or _default_policy(made), made
+
+
+def check_policy_names(names: Iterable[str | None]) -> None:
+    """Refuse words whose ending is that of another file than a policy's.
+
+    Args:
+        names: words in the place of policies; None where none is given.
+
+    Raises:
+        ValueError: a replay, or a file that is neither a replay nor a policy.
+    """
+    for name in names:
+        ending = "" if name is None else Path(name).suffix
+        if name is None or not ending or SUFFIX in name or policies.is_registered(name):
+            continue
+        if ending == REPLAY_SUFFIX:
+            raise ValueError(
+                f"policy: expected a policy, got the replay {name}: rsoccer watch plays it"
+            )
+        raise ValueError(
+            f"policy: expected the name of a policy or a task, a policy file (*{SUFFIX}), or in "
+            f"rsoccer watch a replay (*{REPLAY_SUFFIX}), got {name}"
+        )
 
 
 def _default_policy(task: Task) -> str:
@@ -76,7 +102,7 @@ def team_name(player: str) -> str:
     Args:
         player: name of a policy, or path of its file.
     """
-    if player.partition(":")[0] in policies.list_policies():
+    if policies.is_registered(player):
         return player.upper()
     path = Path(player)
     return (path.parent.name or path.stem if path.suffix else player).upper()

@@ -11,8 +11,9 @@ from typing import Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
-from rsoccer.commands.subject import DEFAULT_TASK_HINT
+from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names
 from rsoccer.commands.task_options import TASK_OPTIONS, named_task
 from rsoccer.evaluate import tournament
 from rsoccer.files import write_atomically
@@ -25,7 +26,7 @@ _POLICIES = arg(
 
 
 @dataclass(frozen=True)
-class Tournament:
+class Tournament(Imports):
     """Play every policy against every other one, from both sides, and print their ratings."""
 
     policies: Annotated[tuple[str, ...], Positional, _POLICIES]
@@ -57,6 +58,7 @@ class Tournament:
         check_output("picture", self.picture, ".png")
         if self.picture is not None:
             import matplotlib  # noqa: F401  (a missing package is reported before the matches)
+        check_policy_names(self.policies)
         result = tournament(
             self.policies,
             self.matches,

@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
+from tyro.conf import UseAppendAction
 from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer.commands.entries import check_entries
+from rsoccer.commands.imports import IMPORTS
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.train import Args, train
@@ -42,9 +44,12 @@ _MIX = PrimitiveConstructorSpec[dict[str, float]](
 class Train(Args):
     """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
 
+    imports: Annotated[tuple[str, ...], UseAppendAction, IMPORTS] = ()
+    """module to import first, of the current folder or installed: one that registers a task or
+    policies of your own; resumed runs import it again"""
     task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
-    """options of the task (`rsoccer list` prints them), such as reward_weights=paper or
-    opponent=chase"""
+    """options of the task (`rsoccer list` prints them), such as reward_weights=paper,
+    opponent=chase or robot=heavy.json"""
     opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
     teammates: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
 

@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import Positional, arg
 
+from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
 from rsoccer.commands.subject import (
     DEFAULT_OPPONENT_HINT,
     DEFAULT_TASK_HINT,
     POLICY,
     SUBJECT_OR_REPLAY,
+    check_policy_names,
     policy_and_task,
     team_name,
 )
@@ -32,14 +34,14 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Watch:
+class Watch(Imports):
     """Show a match or a replay in a window, or write it to files: video, page, replay."""
 
     subject: Annotated[str | None, Positional, SUBJECT_OR_REPLAY] = None
     """policy in the place of the learners, the task, or a replay to play"""
     policy: Annotated[str | None, POLICY] = None
     """policy in the place of the learners, after a task"""
-    opponent: Annotated[
+    opponents: Annotated[
         str | None, arg(metavar="POLICY", help_behavior_hint=DEFAULT_OPPONENT_HINT)
     ] = None
     """policy of the yellow team, a name or path, against the policy in blue"""
@@ -89,7 +91,7 @@ class Watch:
 
     def _load(self, path: str) -> Replay:
         """The replay that is named in the place of a policy."""
-        for name in ("policy", "opponent", "task", "task_options", "snapshots"):
+        for name in ("policy", "opponents", "task", "task_options", "snapshots"):
             if getattr(self, name) not in (None, {}):
                 raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
         return Replay.load(path)
@@ -130,10 +132,11 @@ class Watch:
 
     def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
         """The task, the controllers, and the names of the teams."""
+        check_policy_names([self.opponents])
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
-        opponents = opponents_of(task) if self.opponent is None else [self.opponent]
+        opponents = opponents_of(task) if self.opponents is None else [self.opponents]
         names = (team_name(policy), " ".join(map(team_name, opponents)))
-        return task, lineup(task, policy, self.opponent), names
+        return task, lineup(task, policy, self.opponents), names
 
     def _show(self, title: str, images: Iterator[Image], fps: float) -> None:
         """Write images to the video file, or show them in a window."""

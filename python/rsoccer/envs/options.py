@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -87,18 +88,29 @@ def single_learner_controllers(
     return resolved
 
 
-def reset_options(options: object) -> Mapping[str, Any]:
+def reset_options(options: object, *keys: str, others: bool = False) -> Mapping[str, Any]:
     """Return the options of a `reset` as a dictionary; an empty one for None.
 
     Args:
-        options: argument of `reset`; unknown keys are ignored, wrappers may read them.
+        options: argument of `reset`.
+        *keys: the keys that it may have.
+        others: ignore other keys, unless they look like one of these misspelt: PettingZoo's own
+            tests pass a key that no environment has.
 
     Raises:
         TypeError: not a dictionary.
+        ValueError: an unknown key.
     """
-    if not isinstance(options, Mapping | None):
+    if options is None:
+        return {}
+    if not isinstance(options, Mapping):
         raise TypeError(f"options: expected a dictionary, got {type(options).__name__}")
-    return options or {}
+    unknown = [key for key in options if key not in keys]
+    if others:
+        unknown = [key for key in unknown if get_close_matches(str(key).lower(), keys)]
+    if unknown:
+        raise ValueError(f"options: unknown {unknown}; valid are {list(keys)}")
+    return options
 
 
 def initial_rows(options: Mapping[str, Any], task: Task, mask: Mask) -> Floats | None:

@@ -70,7 +70,7 @@ def parallel_env(
         ['blue_0', 'blue_1', 'blue_2']
     """
     time_limit = max_steps if max_cycles is None else max_cycles
-    task = resolve_task(task, time_limit, options)
+    task = resolve_task(task, time_limit, options, parallel_env)
     return SoccerParallelEnv(task, render_mode, controllers=controllers)
 
 
@@ -281,7 +281,8 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             seed: seed of the episode and of those that follow, at least 0. The same seed gives the
                 same episode, whatever was played before. None: the random streams continue.
             options: `options["frame"]` (row,) is an initial state in the layout of a row of
-                `Frame.rows`, in place of the task's own. Other keys are ignored.
+                `Frame.rows`, in place of the task's own. Other keys are ignored,
+                unless they look like a misspelt "frame".
 
         Returns:
             Observations (o,) and empty infos by agent name.
@@ -289,11 +290,13 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         Raises:
             ClosedEnvironmentError: the environment is closed.
             TypeError: a seed or options of the wrong type. Nothing has changed.
-            ValueError: a negative seed, or an initial state with a wrong shape or with bodies that
-                overlap or are outside. Nothing has changed.
+            ValueError: a negative seed, an unknown option, or an initial state with a wrong shape
+                or with bodies that overlap or are outside. Nothing has changed.
         """
         self.check_open("reset")
-        rows = initial_rows(reset_options(options), self.task, np.ones(1, np.bool_))
+        rows = initial_rows(
+            reset_options(options, "frame", others=True), self.task, np.ones(1, np.bool_)
+        )
         observations = self._matches.reset(seed, rows=rows)
         self.agents = self.possible_agents.copy()
         if self.render_mode == "human":

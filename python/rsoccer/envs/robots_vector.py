@@ -95,7 +95,7 @@ def robots_vector_env(
         4
     """
     time_limit = max_episode_steps if max_steps is None else max_steps
-    task = resolve_task(task, time_limit, options)
+    task = resolve_task(task, time_limit, options, robots_vector_env)
     resolved = learner_controllers(task, learner, controllers)
     return RobotsVectorEnv(
         task,
@@ -239,8 +239,7 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
             options: `options["reset_mask"]` (rows,) bool selects the matches to reset, all by
                 default; it has to be equal for the robots of a match. `options["frame"]` is an
                 initial state (row,) for all of them, or (n, row) with one for each of the n
-                matches, in the layout of `Frame.rows`, in place of the task's own. Other keys are
-                ignored.
+                matches, in the layout of `Frame.rows`, in place of the task's own.
 
         Returns:
             Observations (rows, o) float32 of all matches, and empty infos.
@@ -249,12 +248,12 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
             ClosedEnvironmentError: the environment is closed.
             RuntimeError: a reset of some matches while they are inconsistent after a failure.
             TypeError: a seed or options of the wrong type. Nothing has changed.
-            ValueError: a negative seed, a wrong shape, a mask without a match or with a part of
-                one, or an initial state with bodies that overlap or are outside. Nothing has
-                changed.
+            ValueError: a negative seed, an unknown option, a wrong shape, a mask without a match or
+                with a part of one, or an initial state with bodies that overlap or are outside.
+                Nothing has changed.
         """
         self._viewer.check_open("reset")
-        options = reset_options(options)
+        options = reset_options(options, "reset_mask", "frame")
         mask = _reset_mask(options, self.matches, len(self.robots))
         rows = initial_rows(options, self.task, mask)
         observations = self._matches.reset(seed, mask, rows)

@@ -79,7 +79,7 @@ def single_env(
         >>> env.action_space
         Box(-1.0, 1.0, (2,), float32)
     """
-    task = resolve_task(task, max_steps, options)
+    task = resolve_task(task, max_steps, options, single_env)
     return SoccerEnv(task, render_mode, learner=learner, controllers=controllers)
 
 
@@ -159,7 +159,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             seed: seed of the episode and of those that follow, at least 0. The same seed gives the
                 same episode, whatever was played before. None: the random streams continue.
             options: `options["frame"]` (row,) is an initial state in the layout of a row of
-                `Frame.rows`, in place of the task's own. Other keys are ignored.
+                `Frame.rows`, in place of the task's own.
 
         Returns:
             Observation (o,) float32 and an empty info.
@@ -167,12 +167,12 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
         Raises:
             ClosedEnvironmentError: the environment is closed.
             TypeError: a seed or options of the wrong type. Nothing has changed.
-            ValueError: a negative seed, or an initial state with a wrong shape or with bodies that
-                overlap or are outside. Nothing has changed.
+            ValueError: a negative seed, an unknown option, or an initial state with a wrong shape
+                or with bodies that overlap or are outside. Nothing has changed.
         """
         self._viewer.check_open("reset")
         seed = None if seed is None else checks.integer("seed", seed, 0)
-        rows = initial_rows(reset_options(options), self.task, np.ones(1, np.bool_))
+        rows = initial_rows(reset_options(options, "frame"), self.task, np.ones(1, np.bool_))
         observations = self._matches.reset(seed, rows=rows)
         super().reset(seed=seed)
         if self.render_mode == "human":

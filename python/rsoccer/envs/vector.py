@@ -75,7 +75,7 @@ def vector_env(
     """
     time_limit = max_episode_steps if max_steps is None else max_steps
     return SoccerVectorEnv(
-        resolve_task(task, time_limit, options),
+        resolve_task(task, time_limit, options, vector_env),
         num_envs,
         render_mode,
         learner=learner,

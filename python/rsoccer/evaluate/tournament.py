@@ -20,7 +20,7 @@ from rsoccer.evaluate.ratings import rate
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.lineup import task_for
-from rsoccer.policies import PolicyLike, check_policy_like, is_built_in, make_policy, name_of
+from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
 from rsoccer.policies.policy_file import SUFFIX
@@ -184,7 +184,7 @@ def summarise(
     """
     names, short = [name_of(policy) for policy in policies], labels(policies)
     # A file or a class may have the anchor's name, too.
-    anchors = [is_built_in(policy) and name_of(policy) == ANCHOR for policy in policies]
+    anchors = [is_registered(policy) and name_of(policy) == ANCHOR for policy in policies]
     anchor = anchors.index(True) if any(anchors) else None
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(names))))
     rated = rate(counts, anchor, rng)

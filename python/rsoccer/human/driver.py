@@ -13,7 +13,7 @@ from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controller, Controllers, resolve
 from rsoccer.frame import team_of
 from rsoccer.human.controls import Controls
-from rsoccer.policies import make_policy
+from rsoccer.policies import PolicyLike, make_policy
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.simulator_interface import SimulatorLike
@@ -262,7 +262,7 @@ def human_controllers(driver: Driver, controllers: Controllers) -> dict[str, Con
         ValueError: an unknown robot, a robot without a policy, or a policy that does not fit.
     """
     task = driver.task
-    policies: dict[str, str | Policy] = {}
+    policies: dict[str, PolicyLike] = {}
     for robot, controller in resolve(task, controllers).items():
         if isinstance(controller, Learn):
             raise ValueError(

@@ -115,7 +115,7 @@ class Matches:
         """
         if autoreset not in AUTORESETS:
             raise ValueError(f"autoreset: expected one of {AUTORESETS}, got {autoreset!r}")
-        self.task = resolve_task(task, max_steps, options)
+        self.task = resolve_task(task, max_steps, options, Matches)
         self._discrete = self.task.action_table is not None
         self.worlds = checks.integer("worlds", worlds, 1)
         self.autoreset = autoreset

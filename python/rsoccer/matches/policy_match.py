@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
+from rsoccer import checks
 from rsoccer.controllers import Controllers, given_by_name
 from rsoccer.lineup import task_for
 from rsoccer.matches.loop import Matches
@@ -28,8 +27,7 @@ def policy_match(
     Raises:
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    if not (math.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"seconds: expected a positive number, got {seconds}")
+    checks.positive_number("seconds", seconds)
     task = task_for(*given_by_name(controllers).values()) if task is None else task
     matches = Matches(task, seed=seed, controllers=controllers, autoreset="disabled")
     if matches.agents:

@@ -21,62 +21,25 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
+from rsoccer.policies import names
 from rsoccer.policies.base import Policy, PolicyInput
-from rsoccer.policies.noise import OrnsteinUhlenbeck, Uniform, Zero
+from rsoccer.policies.names import list_policies, list_policies_with_skill, register_policy
 from rsoccer.policies.policy_file import SUFFIX
-from rsoccer.policies.ssl.fetch import Fetch
-from rsoccer.policies.ssl.hold import Hold, Receive
-from rsoccer.policies.ssl.passer import Passer
-from rsoccer.policies.ssl.strike import Strike
-from rsoccer.policies.ssl.weave import Weave
-from rsoccer.policies.vss.chase import Chase
-from rsoccer.policies.vss.scripted import Scripted
-from rsoccer.registry import make_task
-from rsoccer.task import Learn, Task
+from rsoccer.registry import as_task, make_task
+from rsoccer.task import Task
 
 if TYPE_CHECKING:
     from rsoccer.policies.network import Network
 
 __all__ = ["Policy", "PolicyInput", "list_policies", "list_policies_with_skill"]
-__all__ += ["PolicyLike", "check_policy_like", "file_of", "is_built_in", "make_policy", "name_of"]
-__all__ += ["trained_on"]
+__all__ += ["PolicyLike", "check_policy_like", "file_of", "is_registered", "make_policy", "name_of"]
+__all__ += ["register_policy", "trained_on"]
 
 PolicyLike = str | os.PathLike[str] | Policy
 """A policy, its name (`zero`, `ou`, ...), or the path of its file."""
-
-_MAKERS: Final[dict[str, Callable[[Task], Policy]]] = {
-    "best": lambda task: _make_best(task, None),
-    "chase": Chase,
-    "fetch": Fetch,
-    "hold": Hold,
-    "ou": lambda task: OrnsteinUhlenbeck(),
-    "passer": Passer,
-    "receive": Receive,
-    "scripted": Scripted,
-    "strike": Strike,
-    "uniform": lambda task: Uniform(),
-    "weave": Weave,
-    "zero": lambda task: Zero(),
-}
-
-_MAKERS_WITH_SKILL: Final[dict[str, Callable[[Task, float], Policy]]] = {"scripted": Scripted}
-
-
-def list_policies() -> list[str]:
-    """Return the names that `make_policy` takes, sorted."""
-    return sorted(_MAKERS)
-
-
-def list_policies_with_skill() -> list[str]:
-    """Return the names that a skill from 0 to 1 may follow, as in "scripted:0.5", sorted.
-
-    Without a skill the policy plays at skill 1.
-    """
-    return sorted(_MAKERS_WITH_SKILL)
 
 
 def check_policy_like(name: str, value: object) -> None:
@@ -93,16 +56,21 @@ def check_policy_like(name: str, value: object) -> None:
         raise TypeError(f"{name}: expected a policy, its name or its file, got {value!r}")
 
 
-def is_built_in(policy: PolicyLike) -> bool:
-    """Return whether a policy is given by a name that `make_policy` takes, with or without a skill.
+def is_registered(policy: PolicyLike) -> bool:
+    """Return whether a policy is given by a name that stands for it, with or without a skill.
 
     Args:
-        policy: a policy, its name, or the path of its file.
+        policy: a policy, its name, or the path of a policy file.
+
+    Raises:
+        ImportError: a package that offers the policy cannot be loaded.
     """
-    return not isinstance(policy, Policy) and _text(policy).partition(":")[0] in _MAKERS
+    if isinstance(policy, Policy):
+        return False
+    return names.find(_text(policy).partition(":")[0]) is not None
 
 
-def make_policy(policy: PolicyLike, task: Task) -> Policy:
+def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     """Make a policy for the robots of a task.
 
     Args:
@@ -110,13 +78,14 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
             "scripted:0.5" sets a skill. "policy.safetensors:mean" and "best:sample" choose how a
             network acts; the default is as in training.
-        task: the task that is played.
+        task: the task that is played, or its name.
 
     Returns:
         A policy that fits the task.
 
     Raises:
         FileNotFoundError: no such policy file.
+        ImportError: a package that offers the policy cannot be loaded, see `rsoccer.plugins`.
         TypeError: not a `PolicyLike`.
         ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
 
@@ -125,13 +94,16 @@ def make_policy(policy: PolicyLike, task: Task) -> Policy:
         >>> from rsoccer import policies
         >>> policy = policies.make_policy("scripted:0.5", rsoccer.make_task("VSSSelfPlay-v0"))
     """
+    task = as_task(task)
     if not isinstance(policy, Policy):
         text = _text(policy)
         name, colon, detail = text.partition(":")
-        if name not in _MAKERS:
+        if not is_registered(text):
             policy = _load(text)
+        elif name == "best":
+            policy = _make_best(task, detail if colon else None)
         else:
-            policy = _with_detail(name, detail, task) if colon else _MAKERS[name](task)
+            policy = names.make(name, task, detail if colon else None)
     policy.check_fits(task, task.layout.size)
     return policy
 
@@ -149,7 +121,7 @@ def trained_on(policy: PolicyLike) -> Task | None:
         TypeError: not a `PolicyLike`.
         ValueError: an unknown name, or a task or an option of it that does not exist.
     """
-    if is_built_in(policy):
+    if is_registered(policy):
         return None
     if not isinstance(policy, Policy):
         policy = _load(_text(policy))
@@ -166,7 +138,7 @@ def trained_on(policy: PolicyLike) -> Task | None:
     except TypeError as error:
         raise ValueError(f"policy: trained on a task with other options: {error}") from error
     for player in task.default_controllers().values():
-        path = None if isinstance(player, Learn) else file_of(player)
+        path = file_of(player) if isinstance(player, str) else None
         if path is not None and not path.exists():
             raise ValueError(
                 f"policy: trained beside the policy {player}, which does not exist here; name a "
@@ -190,11 +162,6 @@ def _text(policy: str | os.PathLike[str]) -> str:
     return os.fspath(policy)
 
 
-def _with_detail(name: str, detail: str, task: Task) -> Policy:
-    """A policy from its name and the text of its skill, or of its mode."""
-    return _make_best(task, detail) if name == "best" else _with_skill(name, detail, task)
-
-
 def _make_best(task: Task, mode: str | None) -> Network:
     """The trained policy of a task."""
     from rsoccer.policies.trained import load_best
@@ -202,40 +169,35 @@ def _make_best(task: Task, mode: str | None) -> Network:
     return load_best(task, mode)
 
 
-def _with_skill(name: str, skill: str, task: Task) -> Policy:
-    """A policy from its name and the text of its skill."""
-    if name not in _MAKERS_WITH_SKILL:
-        raise ValueError(
-            f"policy {name!r} has no skill: expected {name!r}, got {f'{name}:{skill}'!r}; "
-            f"policies with a skill are {list_policies_with_skill()}"
-        )
-    try:
-        number = float(skill)
-    except ValueError:
-        raise ValueError(f"{name}: expected a skill from 0 to 1, got {skill!r}") from None
-    return _MAKERS_WITH_SKILL[name](task, number)
-
-
 def file_of(policy: str) -> Path | None:
-    """Return the file that a name stands for; None for a policy of the package.
+    """Return the file that a name stands for; None for a policy that is registered.
 
     Args:
         policy: a name, or the path of a file, which a mode may follow.
     """
-    return None if is_built_in(policy) else Path(_split_mode(policy)[0])
+    return None if is_registered(policy) else Path(_split_mode(policy)[0])
 
 
 def _load(text: str) -> Network:
     """A trained policy from its path, which a mode may follow."""
     path, mode = _split_mode(text)
-    if not (path.endswith(SUFFIX) or os.path.exists(path)):
-        raise ValueError(
-            f"unknown policy {text!r}: expected one of {list_policies()} or "
-            "the path of a policy file"
-        )
+    if not (path.endswith(SUFFIX) or os.path.isfile(path)):
+        raise ValueError(f"unknown policy {text!r}: {_expected(path)}")
     from rsoccer.policies.network import Network  # scripts do not need the file format
 
     return Network.load(path, mode)
+
+
+def _expected(path: str) -> str:
+    """What a policy is named by; for a folder with a policy file, that file."""
+    inside = Path(path) / f"policy{SUFFIX}"  # of a training run
+    if inside.is_file():
+        return f"it is a folder; the policy file in it is {inside}"
+    return (
+        f"expected one of {list_policies()}, or the path of a policy file (*{SUFFIX}); a policy of "
+        "your own is known after the import of the module that registers it, as with --import "
+        "MODULE"
+    )
 
 
 def _split_mode(text: str) -> tuple[str, str | None]:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable
 from itertools import count
 from pathlib import Path
 
-from rsoccer.policies import PolicyLike, is_built_in, list_policies, name_of
+from rsoccer.policies import PolicyLike, is_registered, name_of
 from rsoccer.policies.policy_file import SUFFIX
 
 GENERIC = "policy"
@@ -31,7 +31,7 @@ def labels(policies: Iterable[PolicyLike], reserved: Collection[str] = ()) -> li
     """
     policies = list(policies)
     names = [name_of(policy) for policy in policies]
-    given = Counter(name_of(policy) for policy in policies if is_built_in(policy))
+    given = Counter(name_of(policy) for policy in policies if is_registered(policy))
     short = [_short(name) for name in names]
     used = Counter(short)
     short = [
@@ -40,7 +40,7 @@ def labels(policies: Iterable[PolicyLike], reserved: Collection[str] = ()) -> li
     ]
     used = Counter(short)
     for index, (policy, text) in enumerate(zip(policies, short, strict=True)):
-        unique = given[text] == 1 if is_built_in(policy) else _is_free(text, used, reserved)
+        unique = given[text] == 1 if is_registered(policy) else _is_free(text, used, reserved)
         if not unique:
             numbered = (f"{text} {number}" for number in count(1))
             short[index] = next(name for name in numbered if name not in short)
@@ -48,9 +48,8 @@ def labels(policies: Iterable[PolicyLike], reserved: Collection[str] = ()) -> li
 
 
 def _is_free(label: str, used: Counter[str], reserved: Collection[str]) -> bool:
-    """Whether one policy alone has the label, which no policy of the package has as its name."""
-    is_name = label.partition(":")[0] in list_policies()
-    return used[label] == 1 and label not in reserved and not is_name
+    """Whether one policy alone has the label, which is no name of a policy."""
+    return used[label] == 1 and label not in reserved and not is_registered(label)
 
 
 def _short(name: str) -> str:

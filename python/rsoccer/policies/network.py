@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any, Final, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rsoccer import option_values
 from rsoccer.arrays import Array, Floats
 from rsoccer.policies import policy_file
 from rsoccer.policies.held_actions import HeldActions
+from rsoccer.registry import as_task, options_of
 
 if TYPE_CHECKING:
     from torch import nn
@@ -76,7 +78,7 @@ class Network(HeldActions):
     @classmethod
     def from_layers(
         cls,
-        task: Task,
+        task: Task | str,
         layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
         action_std: ArrayLike | None = None,
         *,
@@ -90,7 +92,7 @@ class Network(HeldActions):
         """Return a network of weights that another program has trained.
 
         Args:
-            task: the task of the training, such as `Matches.task`.
+            task: the task of the training, such as `Matches.task`, or its name.
             layers: weight (out, in) and bias (out,) of each linear layer, from the observation
                 to the action, with tanh between them; or the modules of torch, `nn.Linear` and
                 `nn.Tanh` in turn, such as an `nn.Sequential`.
@@ -101,12 +103,15 @@ class Network(HeldActions):
             std: (o,) or a number above 0: observations are divided by it.
             clip: bound of a normalised observation, above 0, standard deviations.
             task_name: name of the task for `make_task`; None for the task's own.
-            task_options: options of the task for `make_task`, if it has any but the defaults.
+            task_options: options of the task for `make_task`; None for those of the task that
+                differ from its defaults.
 
         Raises:
+            TypeError: neither a task nor its name, or something else than layers.
             ValueError: other modules, or weights or numbers that do not fit the policy file's
                 format or the task.
         """
+        task = as_task(task)
         parts = _weights_and_biases(layers)
         inputs = parts[0][0].shape[-1:]
         arrays: dict[str, Array] = {
@@ -128,8 +133,11 @@ class Network(HeldActions):
             "clip": f"{clip:g}",
             "action_repeat": str(action_repeat),
         }
+        if task_options is None and task_name is None:
+            task_options = options_of(task)
         if task_options:
-            metadata["task_options"] = json.dumps(dict(task_options), sort_keys=True)
+            encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
+            metadata["task_options"] = json.dumps(encoded, sort_keys=True)
         network = cls(arrays, metadata)
         network.check_fits(task, task.layout.size)
         return network
@@ -246,6 +254,8 @@ class Network(HeldActions):
             FileNotFoundError: no such file.
             ValueError: the file is not a usable policy file, or the mode does not fit it.
         """
+        if not os.path.exists(path):
+            raise FileNotFoundError(f"policy: the file {os.fspath(path)} does not exist")
         try:
             network = cls(*policy_file.read_file(Path(path)))
         except ValueError as error:
@@ -293,11 +303,18 @@ def _weights_and_biases(
     layers: Iterable[tuple[ArrayLike, ArrayLike] | nn.Module],
 ) -> list[tuple[Floats, Floats]]:
     """Weight and bias of each linear layer, given as pairs or as modules."""
+    if not isinstance(layers, Iterable) or isinstance(layers, str | Mapping):
+        raise TypeError(
+            "layers: expected pairs (weight, bias), or modules of torch in turn, as in an "
+            f"nn.Sequential, got {type(layers).__name__}; of a model pass the layers of its actor"
+        )
     given: list[Any] = list(layers)
     if not given:
         raise ValueError("layers: expected one or more, got none")
     if callable(given[0]):  # a module; torch is not imported for pairs of arrays
         given = _pairs_of_modules(given)
+    if wrong := [part for part in given if not isinstance(part, tuple | list) or len(part) != 2]:
+        raise TypeError(f"layers: expected pairs (weight, bias), got {type(wrong[0]).__name__}")
     return [(np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in given]
 
 

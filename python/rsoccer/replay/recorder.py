@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -14,9 +13,10 @@ from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
+from rsoccer.registry import options_of
 from rsoccer.replay.events import Event, ball_events, game_events
 from rsoccer.replay.replay import Episode, Replay
-from rsoccer.replay.resume import described_controllers, described_options
+from rsoccer.replay.resume import described_controllers
 from rsoccer.task import Task
 
 
@@ -76,7 +76,7 @@ class Recorder:
         if checks.integer("world", world, 0) >= matches.worlds:
             raise ValueError(f"world: expected 0 to {matches.worlds - 1}, got {world}")
         if snapshot_interval is not None:
-            _check_interval(snapshot_interval)
+            checks.positive_number("snapshot_interval", snapshot_interval)
             if matches.worlds > 1:
                 raise ValueError(
                     f"snapshot_interval: expected None for {matches.worlds} worlds, "
@@ -158,7 +158,7 @@ class Recorder:
         last = [] if self._ended else [Episode(self._start, len(self._rows), "")]
         return Replay(
             task=task.name,
-            options=described_options(task),
+            options=options_of(task),
             controllers=self._controllers,
             names=self._names,
             config=task.config,
@@ -239,9 +239,3 @@ def record_replay(
             recorder.begin()
         recorder.add(matches.step(actions))
     return recorder.replay()
-
-
-def _check_interval(seconds: float) -> None:
-    """Refuse an interval between snapshots that is not a positive number."""
-    if not (math.isfinite(seconds) and seconds > 0):
-        raise ValueError(f"snapshot_interval: expected a positive number, got {seconds}")

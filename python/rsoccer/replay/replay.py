@@ -175,8 +175,13 @@ class Replay:
             The replay.
 
         Raises:
+            FileNotFoundError: no such file.
             ReplayError: the file is no replay, of another version, cut off or damaged.
         """
+        if not Path(path).exists():
+            raise FileNotFoundError(f"replay: the file {path} does not exist")
+        if not Path(path).is_file():
+            raise ReplayError(f"replay: expected a file, got {path}")
         try:
             return Replay.from_bytes(Path(path).read_bytes())
         except ReplayError as error:

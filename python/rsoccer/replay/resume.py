@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 from rsoccer import registry
-from rsoccer._core import BallModel, Field, RobotModel, build_info
+from rsoccer._core import build_info
 from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
@@ -17,14 +18,11 @@ if TYPE_CHECKING:
     from rsoccer.replay.replay import Replay
 
 # A task's own checks of its options may meet values of any type.
-_REFUSALS: Final = (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError)
+_REFUSALS: Final = (
+    *(ArithmeticError, AttributeError, ImportError, LookupError, OSError, TypeError, ValueError),
+)
 LEARNER: Final = "LEARN"
 """Name of a learner among the controllers of a replay."""
-_MODELS: Final[dict[str, type[Field | BallModel | RobotModel]]] = {
-    "Field": Field,
-    "BallModel": BallModel,
-    "RobotModel": RobotModel,
-}
 
 
 def resume(
@@ -72,8 +70,7 @@ def _task(replay: Replay) -> Task:
     """The task of a replay, made from its name and options."""
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
-    options = {name: _decoded(value) for name, value in replay.options.items()}
-    return registry.make_task(replay.task, **options)
+    return registry.make_task(replay.task, **replay.options)
 
 
 def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
@@ -98,54 +95,6 @@ def described_controllers(controllers: Mapping[str, Controller]) -> dict[str, st
         if isinstance(controller, Learn)
         else None
         if isinstance(controller, Policy)
-        else controller
+        else os.fspath(controller)
         for robot, controller in controllers.items()
     }
-
-
-def described_options(task: Task) -> dict[str, Any] | None:
-    """Return the options of a task that differ from its defaults, as values for JSON.
-
-    Args:
-        task: the task.
-
-    Returns:
-        Options by name; None if the task is not registered or an option is an object.
-    """
-    if task.name not in registry.list_tasks():
-        return None
-    try:
-        default = registry.make_task(task.name)
-        if type(default) is not type(task):
-            return None
-        names = registry.list_options(type(task))
-        values = {name: (getattr(task, name), getattr(default, name)) for name in names}
-        return {name: _encoded(value) for name, (value, usual) in values.items() if value != usual}
-    except (AttributeError, TypeError, ValueError):
-        return None
-
-
-def _encoded(value: object) -> Any:  # noqa: ANN401  (JSON)
-    """A value for JSON; TypeError for another kind of object."""
-    if value is None or isinstance(value, bool | int | float | str):
-        return value
-    if isinstance(value, tuple | list):
-        return [_encoded(part) for part in value]
-    if isinstance(value, Mapping) and all(isinstance(key, str) for key in value):
-        return {"mapping": {key: _encoded(part) for key, part in value.items()}}
-    if isinstance(value, Field | BallModel | RobotModel):
-        return {"model": type(value).__name__, "json": value.to_json()}
-    raise TypeError(f"options: expected plain values, got {value!r}")
-
-
-def _decoded(value: Any) -> Any:  # noqa: ANN401  (JSON)
-    """A value from `_encoded`; lists become tuples."""
-    if isinstance(value, list):
-        return tuple(_decoded(part) for part in value)
-    if not isinstance(value, dict):
-        return value
-    if set(value) == {"mapping"} and isinstance(value["mapping"], dict):
-        return {key: _decoded(part) for key, part in value["mapping"].items()}
-    if set(value) == {"model", "json"} and value["model"] in _MODELS:
-        return _MODELS[value["model"]].from_json(value["json"])
-    raise ReplayError(f"options: expected a mapping or a model, got {value!s:.80}")

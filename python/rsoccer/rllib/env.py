@@ -11,6 +11,7 @@ from ray.rllib.callbacks.callbacks import RLlibCallback
 from ray.rllib.env.multi_agent_env import MultiAgentEnv
 
 from rsoccer.arrays import Array, Floats
+from rsoccer.envs.options import reset_options
 from rsoccer.matches import Matches
 
 METRICS: Final = "task_metrics"
@@ -74,11 +75,15 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
 
         Args:
             seed: seed of the match, as for `Matches.reset`; None continues the random streams.
-            options: ignored.
+            options: None or empty: there are none.
 
         Returns:
             Observations (o,) by agent, and empty infos.
+
+        Raises:
+            ValueError: an option.
         """
+        reset_options(options)
         return self._by_agent(self.matches.reset(seed)), {}
 
     def step(

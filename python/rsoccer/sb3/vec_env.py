@@ -108,7 +108,7 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
             ValueError: an unknown task, robot, controller or render mode, a value out of range, or
                 no robot that learns.
         """
-        task = resolve_task(task, max_steps, options)
+        task = resolve_task(task, max_steps, options, SoccerVecEnv)
         self._viewer = Viewer(render_mode, task, RENDER_MODES)
         self.render_mode = render_mode
         self._matches = EnvMatches.unseeded(
@@ -167,13 +167,13 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
 
         Raises:
             TypeError: options of the wrong type.
-            ValueError: an initial state with a wrong shape, or with bodies that overlap or are
-                outside.
+            ValueError: an unknown option, or an initial state with a wrong shape, or with bodies
+                that overlap or are outside.
         """
         self._viewer.check_open("reset")
         k = len(self.robots)
         seeds: list[int | None] = list(self._seeds[::k])
-        options = [reset_options(given) for given in self._options[::k]]
+        options = [reset_options(given, "frame") for given in self._options[::k]]
         framed = np.array([given.get("frame") is not None for given in options])
         if framed.any():
             observations = self._reset_to(options, framed, seeds)

@@ -1,40 +1,89 @@
-"""Validation of options that tasks share: presets, robots, reward weights."""
+"""Validation of options that tasks share: models, policies, reward weights."""
 
 import math
+import os
 from collections.abc import Mapping
 from numbers import Real
+from typing import Any, TypeVar
 
-from rsoccer._core import RobotModel, SimConfig
+from rsoccer import option_values
+from rsoccer._core import BallModel, Field, RobotModel, SimConfig
+
+M = TypeVar("M", Field, BallModel, RobotModel)
 
 
-def preset(name: str, value: object, kind: type) -> None:
-    """Validate the type of a preset's name or of a model; the simulator validates the name.
+def model(name: str, value: object, kind: type[M]) -> str | M:
+    """Validate a preset's name, a file or a model.
 
     Args:
         name: name of the argument, for the error.
         value: the argument.
         kind: class of the model, such as `RobotModel`.
 
+    Returns:
+        The preset's name, the model, or the model that the file holds.
+
     Raises:
+        FileNotFoundError: no such file.
         TypeError: neither text nor a `kind`.
+        ValueError: an unknown preset, or a file without such a model.
     """
-    if not isinstance(value, str | kind):
-        raise TypeError(f"{name}: expected a preset's name or a {kind.__name__}, got {value!r}")
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, kind):
+        return value
+    if not isinstance(value, str):
+        raise TypeError(
+            f"{name}: expected a preset's name, the path of a {option_values.SUFFIX} file or a "
+            f"{kind.__name__}, got {value!r}"
+        )
+    if option_values.is_file(value):
+        return option_values.read_model(name, value, kind)
+    if value not in kind.PRESETS:
+        raise ValueError(
+            f"{name}: expected one of {list(kind.PRESETS)}, or the path of a "
+            f"{option_values.SUFFIX} file, got {value!r}"
+        )
+    return value
 
 
-def robot_models(value: object) -> None:
-    """Validate the types of the option `robot`.
+def robot_models(value: object) -> Any:  # noqa: ANN401  (of the option's types)
+    """Validate the option `robot`.
 
     Args:
-        value: one robot model or preset's name for all robots, or a list with one for each; None
-            for the simulator's default.
+        value: one robot model, preset's name or file for all robots, or a list with one for each;
+            None for the simulator's default.
+
+    Returns:
+        The value, with the models of files in place of their paths.
 
     Raises:
+        FileNotFoundError: no such file.
         TypeError: an entry is neither text nor a `RobotModel`.
+        ValueError: an unknown preset, or a file without such a model.
     """
-    models = value if isinstance(value, list | tuple) else [] if value is None else [value]
-    for model in models:
-        preset("robot", model, RobotModel)
+    if value is None:
+        return None
+    if isinstance(value, list | tuple):
+        return [model("robot", entry, RobotModel) for entry in value]
+    return model("robot", value, RobotModel)
+
+
+def policy(name: str, value: object) -> None:
+    """Validate the type of a policy's name; matches refuse an unknown one.
+
+    Args:
+        name: name of the argument, for the error.
+        value: the argument.
+
+    Raises:
+        TypeError: not text.
+    """
+    if not isinstance(value, str):
+        raise TypeError(
+            f"{name}: expected a policy's name or the path of its file, got {value!r}; "
+            "a Policy object is given as controllers={'yellow': policy}"
+        )
 
 
 def drive(config: SimConfig, kind: str, description: str) -> None:

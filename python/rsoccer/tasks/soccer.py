@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from functools import cached_property
-from typing import ClassVar, Final
+from typing import ClassVar, Final, cast
 
 import numpy as np
 
@@ -97,9 +97,9 @@ class Soccer(Task):
     """
 
     field: str | Field
-    """Field: a preset's name or a `Field`."""
+    """Field: a preset's name, a .json file or a `Field`."""
     robot: str | RobotModel
-    """Robot model: a preset's name or a `RobotModel`."""
+    """Robot model: a preset's name, a .json file or a `RobotModel`."""
     max_steps: int = 1200
     """Control steps of 25 ms until truncation, at least 1; 1200 are 30 s."""
     reward_weights: Mapping[str, float] | str = dataclass_field(default_factory=dict)
@@ -126,12 +126,13 @@ class Soccer(Task):
         )
         object.__setattr__(self, "reward_weights", weights)
         checks.boolean("discrete", self.discrete)
-        options.preset("field", self.field, Field)
-        options.robot_models(self.robot)
+        object.__setattr__(self, "field", options.model("field", self.field, Field))
+        object.__setattr__(self, "robot", options.robot_models(self.robot))
 
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of the class's table, each (n, observers, ...)."""
-        return EncodedBlocks(self._encode, play, self._flat_blocks)
+        # Not a dict, but with all of a dict's methods, so authors may treat it as one.
+        return cast("dict[str, Floats]", EncodedBlocks(self._encode, play, self._flat_blocks))
 
     def observation_limits(self) -> dict[str, float]:
         """Return a copy of `OBSERVATION_LIMITS`."""

@@ -61,15 +61,17 @@ class Ssl(Soccer):
     """
 
     field: str | Field = "ssl_challenge"
-    """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m) or a `Field`."""
+    """SSL field: "ssl_challenge" (6 x 4 m), "ssl_b" (9 x 6 m), "ssl_a" (12 x 9 m), a .json file or
+    a `Field`."""
     robot: str | RobotModel = "ssl_generic"
-    """Robot model with an omnidirectional drive: a preset's name or a `RobotModel`."""
+    """Robot model with an omnidirectional drive: a preset's name, a .json file or a
+    `RobotModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving five numbers."""
     velocity_frame: str = "field"
     """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
     ball: str | BallModel = "ssl_tigers"
-    """Ball model: a preset's name or a `BallModel`."""
+    """Ball model: a preset's name, a .json file or a `BallModel`."""
 
     action_size = 5
     """Velocity x and y, turn rate, kick speed, dribbler."""
@@ -88,7 +90,7 @@ class Ssl(Soccer):
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
             )
         if self.ball is not None:
-            options.preset("ball", self.ball, BallModel)
+            object.__setattr__(self, "ball", options.model("ball", self.ball, BallModel))
         options.drive(self.config, "omni", "with an omnidirectional drive")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")

@@ -97,7 +97,7 @@ class SslAttack(Ssl):
         """Return `LEARN` for blue_0 and "hold" for opponents: at rest with the dribbler on."""
         return dict.fromkeys(self.robots, "hold") | {"blue_0": LEARN}
 
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block "nearness" (n, observers, o, 3)."""
         return {**super().frame_to_observations(play), "nearness": self._nearness(play)}
 

@@ -144,7 +144,7 @@ class SslDribbling(Ssl):
         chosen = ahead & (np.cumsum(ahead, axis=1) == rank[:, None] + 1.0)
         play.memory["passed"][:] = chosen.argmax(axis=1)  # 0 where no gate is ahead
 
-    def frame_to_observations(self, play: Play) -> Mapping[str, Floats]:
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block "gate" (n, observers, 4)."""
         gate = self._next_gate(play.memory["passed"])
         ego = play.sensed_view.ego

@@ -87,11 +87,11 @@ class Vss(Soccer):
     ball_speed: float = 0.0
     """Upper bound of the ball's uniform initial speed, m/s, 0 to 20."""
     robot: str | RobotModel = "vss_440rpm"
-    """Robot model with a differential drive: a preset's name or a `RobotModel`."""
+    """Robot model with a differential drive: a preset's name, a .json file or a `RobotModel`."""
     discrete: bool = False
     """True: agents choose from `DISCRETE_ACTIONS` instead of giving two wheel speeds."""
     field: str | Field = "vss_3v3"
-    """VSSS field: "vss_3v3", "vss_5v5" or a `Field`; independent of the team sizes."""
+    """VSSS field: "vss_3v3", "vss_5v5", a .json file or a `Field`, for any team sizes."""
     free_ball: bool = False
     """True: a ball that is stuck for 10 s leads to a free ball at the mark of its quarter."""
 

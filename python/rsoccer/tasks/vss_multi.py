@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from rsoccer.frame import robot_names
 from rsoccer.task import LEARN, Learn
+from rsoccer.tasks import options
 from rsoccer.tasks.vss import Vss
 
 
@@ -18,6 +19,11 @@ class VssMulti(Vss):
 
     opponent: str = "ou"
     """Policy of the yellow robots: a policy's name or the path of a policy file."""
+
+    def __post_init__(self) -> None:
+        """Validate the options."""
+        super().__post_init__()
+        options.policy("opponent", self.opponent)
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for blue robots and the policy `opponent` for yellow ones."""

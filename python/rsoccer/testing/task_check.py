@@ -1,44 +1,77 @@
 """Check of a task by its author: `check_task(MyTask())`.
 
 Typical faults of batched tasks do not show in a single match: a forgotten axis, state on self, a
-world that reads another world's numbers. The check plays the same worlds in a batch and alone and
-compares every bit. Other faults need contacts, so the robots also drive at the ball.
+world that reads another world's numbers. First each method is called by itself, so that an error
+names the cause. Then the same worlds are played in a batch and alone, and every bit is compared.
+Some faults need contacts, so the robots also drive at the ball.
 """
 
+from __future__ import annotations
+
 import copy
-import pickle
-import random
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cached_property
 from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Array, Floats
-from rsoccer.matches import Matches, Outcome
-from rsoccer.task import Play, Task
+from rsoccer.arrays import Floats, Mask
+from rsoccer.controllers import Controller
+from rsoccer.frame import team_of
+from rsoccer.matches import Matches
+from rsoccer.new_play import new_play, new_viewpoint
+from rsoccer.policies.base import Policy
+from rsoccer.rng import WorldRng
+from rsoccer.rules import Restart
+from rsoccer.task import LEARN, Learn, Play, Task
+from rsoccer.testing.errors import TaskError, expect
+from rsoccer.testing.kept_state import KeptState
+from rsoccer.testing.limit_check import Excesses
+from rsoccer.testing.match_check import check_batch, check_history
+from rsoccer.testing.method_check import check_method, check_reading
+from rsoccer.testing.method_results import (
+    DURING_EPISODES,
+    INITIAL_POSITIONS,
+    NEW_MEMORY,
+    RULES,
+    START_EPISODE,
+)
 from rsoccer.testing.pressure import Pressing
+from rsoccer.testing.reflection_check import check_reflection
+from rsoccer.testing.senses_check import check_senses
 
 PRESSURE_WORLDS: Final = 8
 """Worlds of the check under pressure per compared world; faults that need contacts are rare."""
-
-
-class TaskError(AssertionError):
-    """Fault of a task that `check_task` found."""
+CHECKED_STATES: Final = 20
+"""States under pressure in which every method is checked by itself."""
 
 
 def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> None:
     """Check that a task keeps the rules of batches and of reproducibility.
 
+    Each method is checked by itself, on states of the start, of play and of ends of episodes:
+
+    - It returns arrays of the documented shapes, float32 and finite.
+    - It only reads: frames, views, actions and commands never change. Memory changes in
+      `start_episode` and `calculate_reward_and_done` alone, and keeps the names, shapes and types
+      of `new_memory`. `play.game` and `play.events` change in the rules alone.
+    - It keeps no state on self or on the class, and draws no global random numbers. Two calls with
+      the same state return the same. `metrics` and `markers` do not draw.
+    - Commands and observations follow from `play.sensed`, rules, rewards, ends and metrics from
+      `play.frame`.
+    - A world of a batch gets what it gets alone, and so many random numbers.
+    - What a robot gets does not depend on which other robots observe.
+
+    Then whole matches are played:
+
+    - No method raises while every learner drives at the ball, so that robots press on each other
+      and on walls and the ball leaves the field.
+    - Half of the numbers of an observation or more are within its limits, beyond which they are
+      clipped.
+    - The reflections of `symmetry` are true.
     - Row i of a batch equals a single world seeded `seed + i`, bit for bit, in every autoreset mode
-      and through resets of some worlds.
-    - An episode after others equals the same episode in fresh matches.
-    - The task keeps no state on self and draws no global random numbers.
-    - The task reads frames and views and never writes to them.
-    - Observations, rewards, metrics and commands are float32 and finite.
-    - All of this holds too while every learner drives at the ball, so that robots press on each
-      other and on walls and the ball leaves the field; no method raises then.
+      and through resets of some worlds. An episode after others equals the same episode in fresh
+      matches.
 
     Args:
         task: the task to check; it does not change.
@@ -59,12 +92,19 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
     if worlds < 2:
         raise ValueError(f"worlds: expected at least 2, to compare neighbours, got {worlds}")
     long, task = _with_time_limit(task, steps), _with_time_limit(task, max(2, steps // 5))
-    with _unchanged(task):
-        _check_play(task, worlds, seed)
-        _check_pressure(long, worlds, steps, seed)
+    _check_controllers(task)
+    _check_start(task, worlds, seed)
+    _check_pressure(long, worlds, steps, seed)
+    kept = KeptState(task)
+    try:
+        check_reflection(task, PRESSURE_WORLDS * worlds, seed)
         for autoreset, divisor in {"same_step": 1, "next_step": 2, "disabled": 2}.items():
-            _check_batch(task, worlds, max(4, steps // divisor), seed, autoreset)
-        _check_history(task, worlds, steps, seed)
+            check_batch(task, worlds, max(4, steps // divisor), seed, autoreset)
+        check_history(task, worlds, steps // 2, seed)
+    except TaskError:
+        kept.expect_unchanged("it")  # the cause, if it shows in rare states alone
+        raise
+    kept.expect_unchanged("it")
 
 
 def _with_time_limit(task: Task, max_steps: int) -> Task:
@@ -74,145 +114,114 @@ def _with_time_limit(task: Task, max_steps: int) -> Task:
     return limited
 
 
-@contextmanager
-def _unchanged(task: Task) -> Iterator[None]:
-    """Expect that the block changes neither the task nor the global random state."""
-    attributes, random_state = _attributes(task), _global_random_state()
-    yield
-    same_task, same_state = _attributes(task) == attributes, _global_random_state() == random_state
-    _expect(same_task, "it keeps state on self; state of an episode belongs in play.memory")
-    _expect(same_state, "it draws global random numbers instead of numbers from its rng")
+def _check_controllers(task: Task) -> None:
+    """Check that each robot has a default controller."""
+    controllers, robots = task.default_controllers(), list(task.robots)
+    expect(
+        sorted(controllers) == sorted(robots)
+        and all(isinstance(each, str | Policy | Learn) for each in controllers.values()),
+        f"default_controllers: expected LEARN, a policy or its name for each of {robots}, "
+        f"got {controllers}",
+    )
 
 
-def _attributes(task: Task) -> bytes:
-    """All attributes of a task except its cached properties."""
-    attributes = vars(task).items()
-    cached = {
-        name for name, _ in attributes if isinstance(_class_attribute(task, name), cached_property)
-    }
-    return pickle.dumps({name: value for name, value in attributes if name not in cached})
+def _check_start(task: Task, worlds: int, seed: int) -> None:
+    """Check the methods that begin episodes, and all others in the first state."""
+    observers = [i for i, name in enumerate(task.robots) if team_of(name) in task.sides]
+    rng = WorldRng.seeded(seed, worlds)
+    try:
+        play = new_play(task, worlds, new_viewpoint(task, observers), rng)
+    except ValueError as error:  # of the memory, which it names
+        raise TaskError(str(error)) from error
+    check_method(task, NEW_MEMORY, play)
+    check_method(task, INITIAL_POSITIONS, play)
+    frame = task.get_initial_positions_frame(play.rng)
+    _check_fresh_starts(task, frame.rows, play.rng, seed)
+    play.start(frame.rows)
+    check_method(task, START_EPISODE, play)
+    task.start_episode(play)
+    for rule in task.rules:
+        rule.begin(play, np.arange(worlds))
+    for method in DURING_EPISODES:
+        check_method(task, method, play)
 
 
-def _class_attribute(task: Task, name: str) -> object:
-    return next((vars(c)[name] for c in type(task).__mro__ if name in vars(c)), None)
-
-
-def _global_random_state() -> bytes:
-    return pickle.dumps((random.getstate(), np.random.get_state()))  # noqa: NPY002  (only read)
-
-
-def _check_play(task: Task, worlds: int, seed: int) -> None:
-    """Check that all methods only read a match in progress and return finite float32."""
-    matches = Matches(task, worlds, seed)
-    matches.reset()
-    rng = np.random.default_rng(seed)
-    for _ in range(3):
-        matches.step(_actions(rng, matches))
-    play = matches.play.take(np.arange(worlds))
-    before = [array.copy() for array in _state_arrays(play)]
-    results: dict[str, Array] = {"get_commands": task.get_commands(play, play.actions)}
-    results |= task.frame_to_observations(play)
-    results |= task.calculate_reward_and_done(play)[0]
-    results |= task.metrics(play)
-    for name, array in results.items():
-        _expect(array.dtype == np.float32, f"{name!r} is {array.dtype}, not float32")
-        _expect(len(array) == worlds, f"{name!r} is {array.shape}, not ({worlds}, ...)")
-        _expect(bool(np.isfinite(array).all()), f"{name!r} has NaN or infinite numbers")
-    unchanged = all(map(_same, before, _state_arrays(play)))
-    _expect(unchanged, "it writes into play.frame or play.view, which are read-only")
-
-
-def _state_arrays(play: Play) -> list[Floats]:
-    """Arrays that a task must not change."""
-    views = [part.data for view in (play.view, play.last_view) for part in (view.ball, view.robots)]
-    return [play.frame.rows, play.last_frame.rows, *views, play.actions]
-
-
-def _check_batch(task: Task, worlds: int, steps: int, seed: int, autoreset: str) -> None:
-    """Check that row i of a batch equals a single world seeded `seed + i`."""
-    batch = Matches(task, worlds, seed, autoreset=autoreset)
-    singles = [Matches(task, 1, seed + i, autoreset=autoreset) for i in range(worlds)]
-    rng, pressing = np.random.default_rng(seed), Pressing(task, seed)
-    ended = 0
-    _compare(batch.reset(), [single.reset() for single in singles], "the first observations")
-    for step in range(steps):
-        actions = _actions(rng, batch) if autoreset == "same_step" else pressing.actions(batch)
-        outcome = batch.step(actions)
-        outcomes = [single.step(actions[i : i + 1]) for i, single in enumerate(singles)]
-        where = f"in step {step} ({autoreset})"
-        _compare_outcomes(outcome, outcomes, where)
-        _compare(batch.frame.rows, [single.frame.rows for single in singles], f"the frame {where}")
-        ended += int(outcome.ended.sum())
-        mask = rng.random(worlds) < 0.02
-        if autoreset == "disabled":
-            mask |= batch.done & (rng.random(worlds) < 0.3)  # the others wait for a while
-        if mask.any():
-            rows = [single.reset() for single, resets in zip(singles, mask, strict=True) if resets]
-            _compare(batch.reset(mask=mask)[mask], rows, f"a reset of some worlds {where}")
-    _expect(ended > 0, "no episode ended, so resets were not compared; give it more steps")
-
-
-def _check_history(task: Task, worlds: int, steps: int, seed: int) -> None:
-    """Check that episodes after others equal the same episodes in fresh matches."""
-    used, fresh = Matches(task, worlds, seed + worlds), Matches(task, worlds, seed)
-    rng = np.random.default_rng(seed)
-    used.reset()
-    for _ in range(steps // 4):
-        used.step(_actions(rng, used))
-    _compare(used.reset(seed), [fresh.reset()], "a reset after other episodes")
-    for step in range(steps // 4):
-        actions = _actions(rng, fresh)
-        outcome, expected = used.step(actions), fresh.step(actions)
-        _compare_outcomes(outcome, [expected], f"in step {step} after other episodes")
+def _check_fresh_starts(task: Task, first: Floats, rng: WorldRng, seed: int) -> None:
+    """Check that draws of an initial state advance the streams, so that episodes differ."""
+    second = task.get_initial_positions_frame(rng).rows
+    others = task.get_initial_positions_frame(WorldRng.seeded(seed + 1000, len(rng))).rows
+    random = not np.array_equal(first, others)
+    expect(
+        not (random and np.array_equal(first, second)),
+        "get_initial_positions_frame: every episode of a world starts alike; its draws do not "
+        "advance rng, as those of rng.split and of rng[...] without rng.put",
+    )
 
 
 def _check_pressure(task: Task, worlds: int, steps: int, seed: int) -> None:
-    """Check that no method raises or returns NaN while all learners drive at the ball."""
-    matches, pressing = Matches(task, PRESSURE_WORLDS * worlds, seed), Pressing(task, seed)
+    """Check that no method raises while all learners drive at the ball, and each by itself."""
+    excesses, states = Excesses(task), 0
+    for step, play, ending in _pressed(task, PRESSURE_WORLDS * worlds, steps, seed):
+        # Each time other worlds, but first of all those that have just ended.
+        order = (np.arange(len(ending)) + step * worlds) % len(ending)
+        part = play.take(order[np.argsort(~ending[order], kind="stable")][:worlds])
+        with _under_pressure(step):
+            check_reading(task, part)
+            excesses.count(play)
+            if states < CHECKED_STATES and (ending.any() or step in (5, 25)):
+                states += 1
+                for method in DURING_EPISODES:
+                    check_method(task, method, part)
+                check_senses(task, part)
+    excesses.check()
+
+
+def _pressed(task: Task, worlds: int, steps: int, seed: int) -> Iterator[tuple[int, Play, Mask]]:
+    """Each step, its state, and the mask (n,) of the matches that ended in it."""
+    controllers: dict[str, Controller] = {
+        name: LEARN for name in task.robots if team_of(name) in task.sides
+    }
+    matches = _CheckedRestarts(task, worlds, seed, controllers=controllers, autoreset="disabled")
+    pressing, kept = Pressing(task, seed), KeptState(task)
     matches.reset()
     for step in range(steps):
-        where = f"in step {step} under pressure, when all drive at the ball"
-        try:
-            outcome = matches.step(pressing.actions(matches))
-        except Exception as error:
-            raise TaskError(f"{type(error).__name__} {where}: {error}") from error
-        terms, metrics = outcome.terms.items(), outcome.metrics.items()
-        arrays = {"the observation": outcome.final_observations, **dict(terms), **dict(metrics)}
-        for name, array in arrays.items():
-            finite = bool(np.isfinite(array).all())
-            _expect(finite, f"{name!r} has NaN or infinite numbers {where}")
+        with _under_pressure(step):
+            try:
+                if matches.done.any():
+                    matches.reset(mask=matches.done)
+                outcome = matches.step(pressing.actions(matches))
+            except TaskError:
+                raise
+            except Exception as error:
+                kept.expect_unchanged("it")
+                check_reading(task, matches.play)  # it names the method
+                raise TaskError(f"{type(error).__name__}: {error}") from error
+        yield step, matches.play, outcome.ended
+    kept.expect_unchanged("it")
 
 
-def _actions(rng: np.random.Generator, matches: Matches) -> Floats:
-    """Random actions (n, agents, action), mostly forward, so that robots meet."""
-    shape = (matches.worlds, len(matches.agents), matches.action_size)
-    return rng.uniform(-0.5, 1.0, shape).astype(np.float32)
+class _CheckedRestarts(Matches):
+    """Matches that check the rules on the first states in which play restarts."""
+
+    _checked = 0
+
+    def _judge(self) -> list[Restart]:
+        before = self.play.take(np.arange(self.worlds))
+        restarts = super()._judge()
+        stopped = [world for restart in restarts for world in restart.worlds.tolist()]
+        if stopped and self._checked < CHECKED_STATES:
+            self._checked += 1
+            order = np.unique([*stopped, 0, 1])  # two worlds at least
+            check_method(self.task, RULES, before.take(order))
+        return restarts
 
 
-def _compare_outcomes(batch: Outcome, singles: list[Outcome], where: str) -> None:
-    for name in ("observations", "final_observations", "rewards", "terminated", "truncated"):
-        parts = [getattr(single, name) for single in singles]
-        _compare(getattr(batch, name), parts, f"{name} {where}")
-    for name, term in batch.terms.items():
-        _compare(term, [single.terms[name] for single in singles], f"term {name!r} {where}")
-    for name, metric in batch.metrics.items():
-        _compare(metric, [single.metrics[name] for single in singles], f"metric {name!r} {where}")
-
-
-def _compare(batch: Array, singles: list[Array], label: str) -> None:
-    """Expect that the rows of an array equal the rows of the other arrays, bit for bit."""
-    expected = np.concatenate(singles)
-    if not _same(batch, expected):
-        pairs = enumerate(zip(batch, expected, strict=True))
-        worlds = [i for i, (row, single) in pairs if not _same(row, single)]
-        raise TaskError(f"{label}: worlds {worlds} of a batch differ from the same worlds alone")
-
-
-def _same(a: Array, b: Array) -> bool:
-    """Compare every bit, so NaN equals itself."""
-    return a.shape == b.shape and a.dtype == b.dtype and a.tobytes() == b.tobytes()
-
-
-def _expect(holds: bool, fault: str) -> None:
-    if not holds:
-        raise TaskError(fault)
+@contextmanager
+def _under_pressure(step: int) -> Iterator[None]:
+    """Say in errors when they happened."""
+    try:
+        yield
+    except TaskError as error:
+        raise TaskError(
+            f"{error} (in step {step} under pressure, when all drive at the ball)"
+        ) from error

@@ -6,7 +6,6 @@ This module does not import torch, because the command line builds its help from
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -14,6 +13,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Literal, Self, get_args, get_type_hints
 
+from rsoccer import plugins
+from rsoccer.option_values import encoded
 from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 from rsoccer.train.setting_types import converted
@@ -29,6 +30,7 @@ Schedule = Literal["linear", "adaptive"]
 """Names of schedules of the learning rate."""
 
 CHANGEABLE_ON_RESUME = (
+    "imports",
     "out",
     "device",
     "resume",
@@ -51,8 +53,9 @@ class Args:
     """Settings of one training run. A sample is one decision of one learning robot.
 
     Raises:
+        ImportError: a module of `imports` does not exist or raises an error.
         ValueError: a value of another type or outside its range, fractions of opponents whose sum
-            is above 1, options of the task that are not JSON values, `resume` together with
+            is above 1, options of the task that JSON cannot hold, `resume` together with
             `overwrite`, or an adaptive learning rate with one epoch.
     """
 
@@ -63,8 +66,10 @@ class Args:
     samples: int = 10_000_000
     """decisions to learn from, over all learning robots; at least 1, rounded up to full updates"""
     task_options: Mapping[str, Any] = field(default_factory=dict)
-    """options of the task, JSON values by name (`rsoccer list` prints them), such as
-    reward_weights=paper or opponent=chase"""
+    """options of the task by name (`rsoccer list` prints them), such as reward_weights=paper or
+    opponent=chase: JSON values, and models of robots, balls and fields or their .json files"""
+    imports: tuple[str, ...] = ()
+    """modules to import first: those that register a task or policies of one's own"""
     seed: int = 0
     """random seed, at least 0; equal seed, settings, machine and threads give equal runs"""
     threads: int = 2
@@ -194,6 +199,7 @@ class Args:
         """Convert every value to the type of its field, and check it."""
         for name, kind in _types().items():
             object.__setattr__(self, name, converted(name, getattr(self, name), kind))
+        plugins.import_modules(self.imports)
         object.__setattr__(self, "task_options", _as_json(self.task_options))
         for name in _MIXES:  # sorted, so that equal mixes give equal runs
             object.__setattr__(self, name, dict(sorted(getattr(self, name).items())))
@@ -261,6 +267,7 @@ class Args:
             >>> Args.for_task("VSS-v0", samples=1_000_000).samples
             1000000
         """
+        plugins.import_modules(changes.get("imports", ()))  # one may register the name
         return cls(**{"task": task, **recommended_settings(task), **changes})
 
     def make_task(self) -> Task:
@@ -279,6 +286,7 @@ class Args:
             "hidden_sizes": list(self.hidden_sizes),
             "initial_action": list(self.initial_action),
             "masked_observations": list(self.masked_observations),
+            "imports": list(self.imports),
         }
 
     def differences(self, saved: dict[str, Any]) -> list[str]:
@@ -325,13 +333,11 @@ _MIXES = ("opponents", "teammates")
 
 
 def _as_json(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Copy of the task's options as `json.loads` returns them."""
+    """Copy of the task's options as JSON values, with the models of files."""
     try:
-        return dict(json.loads(json.dumps(dict(options), allow_nan=False)))
-    except (TypeError, ValueError) as error:
-        raise ValueError(
-            f"task_options must be JSON values by name, got {options!r}: {error}"
-        ) from error
+        return {name: encoded(f"task_options: {name}", value) for name, value in options.items()}
+    except (OSError, TypeError) as error:
+        raise ValueError(str(error)) from error
 
 
 def _expect(args: Args, name: str, valid: bool, expected: str) -> None:

@@ -11,7 +11,6 @@ from typing import IO, Any
 
 from rsoccer.files import write_atomically
 from rsoccer.policies import file_of
-from rsoccer.task import Learn
 from rsoccer.train import checkpoint
 from rsoccer.train.args import SETTINGS_FILE, Args
 from rsoccer.train.checkpoint import Checkpoint
@@ -72,7 +71,7 @@ def policy_digests(args: Args) -> dict[str, str]:
         args: settings of the run.
     """
     players = args.make_task().default_controllers().values()
-    own = (player for player in players if not isinstance(player, Learn))
+    own = (player for player in players if isinstance(player, str))
     names = {*args.opponents, *args.teammates, args.solo_partners, *own}
     files = {name: file_of(name) for name in sorted(names)}
     return {

@@ -63,8 +63,8 @@ def _convert_one(value: Any, kind: Any) -> Any:  # noqa: ANN401
         return value
     if kind is bool:
         return bool(value) if is_bool else _WRONG
-    if kind is int and isinstance(value, numbers.Integral) and not is_bool:
-        return int(value)
+    if kind is int and not is_bool:
+        return _as_integer(value)
     if kind is float and isinstance(value, numbers.Real) and not is_bool:
         return _as_number(value)
     if kind is str and isinstance(value, str):
@@ -72,6 +72,13 @@ def _convert_one(value: Any, kind: Any) -> Any:  # noqa: ANN401
     if kind is Path and isinstance(value, str | os.PathLike):
         return Path(value)
     return _WRONG
+
+
+def _as_integer(value: Any) -> Any:  # noqa: ANN401
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    is_whole = isinstance(value, float | np.floating) and float(value).is_integer()  # 1e6
+    return int(value) if is_whole else _WRONG
 
 
 def _as_number(value: numbers.Real) -> Any:  # noqa: ANN401

@@ -1,0 +1,85 @@
+"""Policies by name."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import policies
+from rsoccer.arrays import Floats
+from rsoccer.policies import names
+from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.rng import WorldRng
+from rsoccer.task import Task
+
+
+class Turning(Policy):
+    observes = "nothing"
+
+    def __init__(self, task: Task | None = None, skill: float = 1.0) -> None:
+        super().__init__(task)
+        self.skill = skill
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        return np.full(inputs.action_shape, self.skill, np.float32)
+
+
+class Unfinished(Policy):
+    observes = "nothing"
+
+
+@pytest.fixture(autouse=True)
+def _registered(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(names, "_MAKERS", dict(names._MAKERS))
+
+
+def test_a_registered_policy_is_known_by_its_name_everywhere() -> None:
+    rsoccer.register_policy("turning", Turning)
+    rsoccer.register_policy("turning", Turning)  # twice is once
+    task = rsoccer.make_task("VSSMulti-v0", opponent="turning:0.5")
+    matches = rsoccer.Matches(task, controllers={"blue": "turning"})
+    matches.reset()
+    matches.step(np.zeros((1, 0, 2), np.float32))
+    assert matches.play.actions[0, :, 0].tolist() == [1.0, 1.0, 1.0, 0.5, 0.5, 0.5]
+    assert rsoccer.evaluate("turning", "ou", matches=2).policy == "turning"
+    assert "turning" in policies.list_policies()
+    assert "turning" in policies.list_policies_with_skill()
+    assert policies.file_of("turning:0.5") is None
+
+
+def test_a_function_may_make_a_policy() -> None:
+    rsoccer.register_policy("slow", lambda task: Turning(task, 0.25))
+    made = policies.make_policy("slow", rsoccer.make_task("VSS-v0"))
+    assert isinstance(made, Turning)
+    assert made.skill == 0.25
+    with pytest.raises(ValueError, match="policy 'slow' has no skill"):
+        policies.make_policy("slow:0.5", rsoccer.make_task("VSS-v0"))
+
+
+@pytest.mark.parametrize(
+    ("name", "maker", "message"),
+    [
+        ("ou", Turning, "name: 'ou' is already taken"),
+        ("latest", Turning, "name: 'latest' is already taken"),
+        ("my policy", Turning, "name: expected letters, digits and underscores, got 'my policy'"),
+        ("turn:1", Turning, "name: expected letters"),
+        ("Turn-v0", Turning, "name: expected letters"),
+        (3, Turning, "name: expected text, got 3"),
+        ("turning", Turning(), "maker: expected a subclass of Policy, or a function"),
+        ("turning", dict, "maker: expected a subclass of Policy"),
+        ("turning", "Turning", "maker: expected a subclass of Policy"),
+        ("turning", Unfinished, "has no `act` of its own"),
+        ("turning", lambda: Turning(), "maker: expected to be called with the task alone"),
+        ("turning", lambda task, robot: Turning(), "called with the task alone.*robot"),
+    ],
+)
+def test_wrong_registrations_are_refused(name: Any, maker: Any, message: str) -> None:  # noqa: ANN401
+    with pytest.raises((TypeError, ValueError), match=message):
+        rsoccer.register_policy(name, maker)
+
+
+def test_a_maker_has_to_return_a_policy() -> None:
+    rsoccer.register_policy("nothing", lambda task: None)  # type: ignore[arg-type, return-value]
+    with pytest.raises(TypeError, match="nothing: expected its maker to return a Policy, got None"):
+        policies.make_policy("nothing", rsoccer.make_task("VSS-v0"))
