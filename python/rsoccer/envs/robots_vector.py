@@ -148,6 +148,10 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         metadata: `name`, `render_modes`, `render_fps` and `autoreset_mode`.
     """
 
+    # Before Gymnasium 1.3 a VectorEnv closes itself when it is deleted, even one whose arguments
+    # were refused and that has nothing to close.
+    closed = True
+
     def __init__(
         self,
         task: Task,
@@ -190,6 +194,7 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         self.single_action_space = spaces.action_space(task)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
+        self.closed = False
 
     @property
     def task(self) -> Task:

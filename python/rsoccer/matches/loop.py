@@ -4,6 +4,8 @@ All environments, the evaluation, the trainer and the videos call `Matches`. A s
 batch of one. All resets, of all worlds or of some, go through `Matches._begin`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, Final
