@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from rsoccer.matches import Matches
+from tests.ray_start import patiently
 
 torch = pytest.importorskip("torch")
 ray = pytest.importorskip("ray")
@@ -82,7 +83,8 @@ def runner_of(**options: Any) -> Any:  # noqa: ANN401
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[None]:
     """Ray with two processors and little memory."""
-    ray.init(num_cpus=2, object_store_memory=200e6, include_dashboard=False, log_to_driver=False)
+    size = {"num_cpus": 2, "object_store_memory": 200e6}
+    patiently(lambda: ray.init(**size, include_dashboard=False, log_to_driver=False), ray.shutdown)
     yield
     ray.shutdown()
 
