@@ -21,7 +21,7 @@ def test_the_lowest_version_is_that_of_the_bound_for_this_python() -> None:
 def test_every_dependency_has_a_lower_bound() -> None:
     lowest = lowest_versions(declared())
     assert {"numpy", "gymnasium", "pettingzoo", "pygame-ce", "torch", "tyro"} <= lowest.keys()
-    with pytest.raises(ValueError, match="expected a lower bound.*'tqdm<5'"):
+    with pytest.raises(ValueError, match=r"expected a lower bound.*'tqdm<5'"):
         lowest_versions(["tqdm<5"])
 
 
