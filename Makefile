@@ -96,6 +96,9 @@ check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/ti
 	$(RECIPES)/pufferlib/bin/python -m pytest tests/wrappers/test_recipes.py -k pufferlib
 	$(RECIPES)/tianshou/bin/python -m pytest tests/wrappers/test_recipes.py -k tianshou
 
+check-installs: $(VENV)/built ## run every documented install line and its program, each in an empty environment (many minutes)
+	$(BIN)/python -m tools.check_installs
+
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
 	$(BIN)/ruff check --fix

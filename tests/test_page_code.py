@@ -10,6 +10,7 @@ import pytest
 
 from rsoccer import cli
 from tests.ray_start import patiently
+from tools.markdown import FENCE
 
 ROOT = Path(__file__).parents[1]
 WRITTEN = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
@@ -23,7 +24,6 @@ for path in sorted(Path.cwd().glob("*.py")):
         names = {"__name__": "__main__"}
     exec(compile(path.read_text(), str(path), "exec"), names)
 """
-FENCE = re.compile(r"^```python *(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 NEEDS = "needs_"
 """Start of the kind of a block that runs only where a library is installed: `needs_ray`."""
 PAGES = sorted(page for page in WRITTEN if FENCE.search(page.read_text()))
