@@ -104,3 +104,12 @@ def test_commands_have_the_options_that_are_shown(
 def test_make_targets_exist(line: str) -> None:
     makefile = (ROOT / "Makefile").read_text()
     assert re.search(rf"^{re.escape(line.split()[1])}:", makefile, re.MULTILINE), line
+
+
+def test_a_target_runs_the_blocks_of_every_library() -> None:
+    """Recipes have tests of their own; the other libraries are listed in the Makefile."""
+    makefile = (ROOT / "Makefile").read_text()
+    recipes = set(re.findall(r"^RECIPE_(\w+) :=", makefile, re.MULTILINE))
+    listed = re.findall(r"\$\(foreach library,([\w ]+),|\$\(OF_LIBRARY\)\[(\w+)\]", makefile)
+    named = {name for several, one in listed for name in f"{several} {one}".split()}
+    assert named | recipes == set(LIBRARIES)

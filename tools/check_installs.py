@@ -1,6 +1,6 @@
-"""Each documented install line, run as it is written in an empty environment: `make check-installs`.
+"""Each documented install line, run as it is written in an empty environment.
 
-python -m tools.check_installs [--only TEXT] [--folder FOLDER]
+`make check-installs`, or python -m tools.check_installs [--only TEXT] [--folder FOLDER]
 
 The package itself is built once, and installed first where a line is for something beside it.
 Then the program that the documentation shows for the line runs in the new environment.
@@ -146,11 +146,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--folder", type=Path, help="folder of the environments; a temporary one")
     options = parser.parse_args(arguments)
     failed = 0
-    with tempfile.TemporaryDirectory(dir=options.folder) as folder:
-        wheel = build_wheel(Path(folder))
-        for number, line in enumerate(line for line in INSTALLS if options.only in line):
+    with tempfile.TemporaryDirectory(dir=options.folder) as name:
+        folder = Path(name).resolve()
+        wheel = build_wheel(folder)
+        for line in (line for line in INSTALLS if options.only in line):
             try:
-                try_line(line, Path(folder) / str(number), wheel)
+                # One environment at a time: with torch it takes some gigabytes.
+                with tempfile.TemporaryDirectory(dir=folder) as environment:
+                    try_line(line, Path(environment), wheel)
             except subprocess.CalledProcessError as error:
                 failed += 1
                 print(f"FAILED  pip install {line}: {error}", flush=True)
