@@ -5,14 +5,20 @@ CARGO ?= cargo
 
 VENV := .venv
 LIBRARIES := .venv-libraries
+RLLIB := .venv-rllib
+LOWEST := .venv-lowest$(if $(TORCH),-torch)
 RECIPES := .venv-recipes
 BIN := $(VENV)/bin
 # --no-compile: modules are compiled when imported; most of torch and sympy never is.
-PIP := $(BIN)/python -m pip install --disable-pip-version-check --no-compile --constraint constraints.txt
+PIP_OPTIONS := --disable-pip-version-check --no-compile
+PIP := $(BIN)/python -m pip install $(PIP_OPTIONS) --constraint constraints.txt
 RUST := Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 
 export PYTHON CARGO
 export PYO3_PYTHON := $(CURDIR)/$(BIN)/python# one interpreter for every build, so that nothing compiles twice
+
+# Tests start hundreds of processes; without its bytecode each of them would compile torch again.
+unexport PYTHONDONTWRITEBYTECODE
 
 # Keeps the output of parallel targets apart, with make 4.0 or newer.
 WHOLE := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
@@ -22,7 +28,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-recipes format docs site physics golden soak agreement coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs format docs site physics golden soak agreement coverage bench clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -33,9 +39,10 @@ venv: $(VENV)/made ## create the empty virtual environment, to install a PyTorch
 demo: $(VENV)/built ## train robots by self-play for a few minutes, evaluate them, record a match
 	$(BIN)/python -m rsoccer.demo
 
-test: ## run every check: formatting, lints, types, all tests, the documentation site
+test: ## run every check: formatting, lints, types, all tests, trainer libraries, the documentation site
 	@echo "running two checks at a time; each prints its output when it has finished"
-	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) check-python check-rust check-lint check-site check-format
+	@$(MAKE) --no-print-directory --jobs 2 $(WHOLE) \
+		check-python check-rust check-libraries check-rllib check-lowest check-lint check-site check-format
 
 check-format: $(VENV)/tools ## check the formatting
 	$(CARGO) fmt --all --check
@@ -62,14 +69,35 @@ check-python: $(VENV)/built ## run the tests of the package, the README and the 
 check-site: $(VENV)/site ## build the documentation site without the crates; warnings are errors
 	$(BIN)/python -m tools.site --without-rust
 
-check-libraries: $(LIBRARIES)/made ## run the tests with other trainer libraries, in an environment of their own
-	$(LIBRARIES)/bin/python -m pytest tests/wrappers tests/test_page_code.py tests/test_docstrings.py \
-		tests/benches/learning/test_sb3.py tests/benches/learning/test_pace.py
+# The tests in which versions of dependencies can matter: interfaces, files, pictures, commands.
+BY_VERSION := tests/envs tests/matches tests/render tests/commands tests/compat tests/test_core.py \
+	tests/test_registry.py tests/test_rng.py tests/test_cli.py tests/test_files.py tests/test_tournament.py \
+	tests/policies/test_policy_file.py
+
+# Each of these environments is made for its tests: under tests.no_skips a missing library fails.
+STRICT := -m pytest -p tests.no_skips
+OF_LIBRARY := tests/test_page_code.py::test_blocks_run_with_their_library
+
+check-libraries: $(LIBRARIES)/made ## run the tests with Stable-Baselines3, SuperSuit and TorchRL, in an environment of their own
+	$(LIBRARIES)/bin/python $(STRICT) tests/wrappers --ignore-glob='*rllib*' --ignore-glob='*recipes*' \
+		tests/test_docstrings.py tests/benches/learning/test_sb3.py tests/benches/learning/test_pace.py \
+		$(foreach library,stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
+
+check-rllib: $(RLLIB)/made ## run the tests with RLlib and the Gymnasium that Ray pins, in an environment of their own
+	$(RLLIB)/bin/python $(STRICT) tests/wrappers/test_rllib*.py tests/test_docstrings.py '$(OF_LIBRARY)[ray]'
+
+# Old versions warn of newer ones of what they import.
+check-lowest: $(LOWEST)/made ## run tests with the lowest versions of all dependencies but torch (TORCH=1: of torch too)
+	$(LOWEST)/bin/python -m pytest -W ignore::DeprecationWarning --numprocesses auto \
+		$(if $(TORCH),tests --ignore=tests/benches --ignore=tests/tools --ignore=tests/wrappers,$(BY_VERSION))
 
 check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/tianshou/made ## run the recipes for libraries that need other versions, each in an environment of its own
 	$(RECIPES)/benchmarl/bin/python -m pytest tests/wrappers/test_recipes.py -k benchmarl
 	$(RECIPES)/pufferlib/bin/python -m pytest tests/wrappers/test_recipes.py -k pufferlib
 	$(RECIPES)/tianshou/bin/python -m pytest tests/wrappers/test_recipes.py -k tianshou
+
+check-installs: $(VENV)/built ## run every documented install line and its program, each in an empty environment (many minutes)
+	$(BIN)/python -m tools.check_installs
 
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
@@ -108,8 +136,12 @@ bench: $(VENV)/built ## measure the speed of this machine (some minutes; no othe
 	$(BIN)/python -m benches.throughput
 
 clean: ## remove all outputs of make, installed Python packages included
-	rm -rf $(VENV) $(LIBRARIES) $(RECIPES) target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) $(VENV)-* target out .mypy_cache .pytest_cache .ruff_cache .hypothesis
 	rm -f python/rsoccer/_core*.so
+
+# An environment beside .venv whose stamp file is the target, and installing into it.
+BESIDE = $(BIN)/python -m venv --clear --without-pip $(@D) && $(@D)/bin/python tools/see_packages.py $(VENV)
+INTO = $(BIN)/python -m pip --python $(@D)/bin/python install $(PIP_OPTIONS) --quiet
 
 # Stamp files mark completed steps, so that a second `make` skips them.
 
@@ -132,13 +164,27 @@ $(VENV)/built: $(VENV)/tools $(RUST)
 	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status
 	@touch $@
 
-# It sees the packages of .venv, and has the group's own ones beside them.
+# These see the packages of .venv, and have own ones beside them.
 $(LIBRARIES)/made: pyproject.toml constraints.txt $(VENV)/built
-	@echo "downloading the trainer libraries (0.3 GB)"
-	$(BIN)/python -m venv --clear --without-pip $(LIBRARIES)
-	@$(LIBRARIES)/bin/python tools/see_packages.py $(VENV)
-	$(BIN)/python -m pip --python $(LIBRARIES)/bin/python install --disable-pip-version-check --no-compile \
-		--quiet --constraint constraints.txt --group wrappers
+	@echo "downloading Stable-Baselines3, SuperSuit and TorchRL"
+	$(BESIDE)
+	$(INTO) --constraint constraints.txt --group wrappers
+	@touch $@
+
+$(RLLIB)/made: pyproject.toml constraints.txt $(VENV)/built
+	@echo "downloading RLlib (0.2 GB)"
+	$(BESIDE)
+	@grep -v '^gymnasium==' constraints.txt >$(@D)/constraints.txt # Ray pins an older one
+	$(INTO) --constraint $(@D)/constraints.txt --group rllib
+	@touch $@
+
+# It sees no other packages but this one.
+$(LOWEST)/made: pyproject.toml constraints.txt tools/lowest_versions.py $(VENV)/built
+	@echo "downloading the lowest versions of all dependencies"
+	$(BIN)/python -m venv --clear --without-pip $(@D)
+	$(BIN)/python -m tools.lowest_versions $(@D) $(if $(TORCH),--torch)
+	$(INTO) --only-binary :all: --constraint $(@D)/others.txt --requirement $(@D)/lowest.txt
+	@cp -r $(VENV)/lib/python3*/site-packages/rsoccer* $(@D)/lib/python3*/site-packages/
 	@touch $@
 
 # Without constraints.txt: they replace some of its versions. PufferLib asks for older ones than this package.
@@ -147,9 +193,8 @@ RECIPE_pufferlib := --no-deps pufferlib==2.0.2 gym==0.23.0
 RECIPE_tianshou := tianshou==2.0.1
 
 $(RECIPES)/%/made: $(VENV)/built
-	$(BIN)/python -m venv --clear --without-pip $(@D)
-	@$(@D)/bin/python tools/see_packages.py $(VENV)
-	$(BIN)/python -m pip --python $(@D)/bin/python install --disable-pip-version-check --no-compile --quiet $(RECIPE_$*)
+	$(BESIDE)
+	$(INTO) $(RECIPE_$*)
 	@touch $@
 
 $(VENV)/site: $(VENV)/built

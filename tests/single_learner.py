@@ -2,7 +2,10 @@
 
 from typing import Any
 
+import gymnasium
 import numpy as np
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.wrappers import RecordEpisodeStatistics
 
 import rsoccer
 from rsoccer.arrays import Array
@@ -47,6 +50,28 @@ def play_episode(env: SoccerEnv, seed: int | None, **reset: Any) -> list[Any]:  
         ended = given[2] or given[3]
         transcript.append(comparable(given))
     return transcript
+
+
+def one_by_one(name: str, n: int, mode: AutoresetMode, **options: Any) -> SyncVectorEnv:  # noqa: ANN401
+    """Gymnasium's own loop over n single matches.
+
+    With "same_step" each records the statistics of its episodes, which our environments report.
+    """
+
+    def make() -> gymnasium.Env[Any, Any]:
+        env = single_env(name, **learner_options(name), **options)
+        return RecordEpisodeStatistics(env) if mode is AutoresetMode.SAME_STEP else env
+
+    return SyncVectorEnv([make] * n, autoreset_mode=mode)
+
+
+def without_times(infos: dict[str, Any]) -> dict[str, Any]:
+    """Infos whose statistics of episodes have no wall time."""
+    timed = ("t", "_t")
+    shown = infos.copy()
+    for name in {"episode", "final_info"} & infos.keys():
+        shown[name] = without_times({k: v for k, v in infos[name].items() if k not in timed})
+    return shown
 
 
 def short_env(name: str, max_steps: int = 40) -> SoccerEnv:

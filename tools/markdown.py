@@ -6,6 +6,10 @@ A generated part stands between `<!-- begin:NAME -->` and `<!-- end:NAME -->`.
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Mapping
+from typing import Final
+
+FENCE: Final = re.compile(r"^```python *(\w*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+"""A block of Python: its kind, such as `needs_ray` (often none), and its code."""
 
 
 def filled(page: str, parts: Mapping[str, Callable[[], str]], name: str) -> str:

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+import gymnasium
 import numpy as np
 import pytest
 
@@ -19,10 +20,14 @@ MAKERS: list[Callable[[], Any]] = [
     lambda: rsoccer.parallel_env("VSSSelfPlay-v0"),
     lambda: rsoccer.vector_env("VSS-v0", 2),
     lambda: rsoccer.Matches("VSSSelfPlay-v0", 3),
+    lambda: rsoccer.robots_vector_env("VSSMulti-v0", 3),
+    lambda: gymnasium.make("rsoccer/VSS-v0").unwrapped,
+    lambda: gymnasium.make_vec("rsoccer/VSS-v0", num_envs=2).unwrapped,
 ]
+NAMES = ["single", "SSL", "parallel", "vector", "Matches", "robots", "make", "make_vec"]
 
 
-@pytest.mark.parametrize("make", MAKERS, ids=["single", "SSL", "parallel", "vector", "Matches"])
+@pytest.mark.parametrize("make", MAKERS, ids=NAMES)
 def test_a_notebook_shows_the_match(make: Callable[[], Any]) -> None:
     shown = make()
     assert shown._repr_png_() is None  # nothing to show before the reset
@@ -46,6 +51,14 @@ def test_the_picture_is_the_rendered_image() -> None:
     image = env.render()
     assert type(image) is np.ndarray
     assert env._repr_png_() == Picture(image).to_png()
+
+
+def test_an_image_of_a_wrapped_match_is_shown_by_picture() -> None:
+    env = rsoccer.env("VSSSelfPlay-v0", render_mode="rgb_array")
+    env.reset(seed=1)
+    image = env.render()
+    assert type(image) is np.ndarray
+    assert Picture(image)._repr_png_().startswith(b"\x89PNG")
 
 
 def test_without_pygame_the_text_remains() -> None:

@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
+from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.wrappers import vector as wrappers
 
-from rsoccer.envs.single import single_env
+from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.vector import vector_env
 from tests.helpers import comparable
-from tests.single_learner import learner_options
+from tests.single_learner import learner_options, one_by_one, without_times
 
 N = 3
 NAMES = ["VSS-v0", "SSLPassEndurance-v0"]  # two suffice: wrappers do not depend on the task
@@ -22,9 +22,8 @@ Wrap = Callable[[Envs], Envs]
 
 
 def both(name: str, mode: AutoresetMode, wrap: Wrap) -> list[Envs]:
-    settings: dict[str, Any] = {"max_steps": 7, **learner_options(name)}
-    theirs = SyncVectorEnv([lambda: single_env(name, **settings)] * N, autoreset_mode=mode)
-    return [wrap(vector_env(name, N, autoreset_mode=mode, **settings)), wrap(theirs)]
+    ours = vector_env(name, N, autoreset_mode=mode, max_steps=7, **learner_options(name))
+    return [wrap(ours), wrap(one_by_one(name, N, mode, max_steps=7))]
 
 
 def rescaled(envs: Envs) -> Envs:
@@ -39,8 +38,7 @@ def played(envs: Envs, mode: AutoresetMode, high: float = 1.0) -> list[Any]:
     for _ in range(24):
         actions = rng.uniform(-high, high, envs.action_space.shape or ())
         *arrays, infos = envs.step(actions.astype(np.float32))
-        infos.get("episode", {}).pop("t", None)
-        transcript.append(comparable([*arrays, infos]))
+        transcript.append(comparable([*arrays, without_times(infos)]))
         if mode is AutoresetMode.DISABLED and (arrays[2] | arrays[3]).any():
             transcript.append(comparable(envs.reset()))
     return transcript
@@ -89,3 +87,21 @@ def test_episode_statistics_come_with_our_metrics() -> None:
         infos = envs.step(np.zeros((2, 2), np.float32))[4]
     assert infos["episode"]["l"].tolist() == infos["steps"].tolist() == [9, 9]
     assert infos["_goal_score"].all()
+
+
+def test_the_statistics_of_episodes_are_where_scripts_for_the_same_step_read_them() -> None:
+    """CleanRL's scripts for Gymnasium 1.1 read them, without a wrapper around all rows."""
+    envs = robots_vector_env("VSSMulti-v0", 6, autoreset_mode="same_step", max_steps=40)
+    envs.reset(seed=0)
+    total = np.zeros(6)
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        actions = rng.uniform(-1, 1, (6, 2)).astype(np.float32)
+        _, rewards, _, truncated, infos = envs.step(actions)
+        total += rewards
+    assert truncated.all()
+    final = infos["final_info"]
+    assert final["_episode"].tolist() == [True] * 6
+    assert final["episode"]["l"].tolist() == [40] * 6
+    np.testing.assert_allclose(final["episode"]["r"], total, rtol=1e-6)
+    assert np.ptp(total) > 0

@@ -34,6 +34,7 @@ def recipe(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], A
 @pytest.mark.filterwarnings("ignore")  # of other libraries' affairs
 def test_benchmarl_trains(recipe: Callable[[str], Any], tmp_path: Path) -> None:
     task = recipe("benchmarl").task
+    task.config["max_steps"] = 20
     from benchmarl.algorithms import MappoConfig
     from benchmarl.experiment import Experiment, ExperimentConfig
     from benchmarl.models.mlp import MlpConfig

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from rsoccer.matches import Matches
+from tests.ray_start import patiently
 
 torch = pytest.importorskip("torch")
 ray = pytest.importorskip("ray")
@@ -82,7 +83,8 @@ def runner_of(**options: Any) -> Any:  # noqa: ANN401
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[None]:
     """Ray with two processors and little memory."""
-    ray.init(num_cpus=2, object_store_memory=200e6, include_dashboard=False, log_to_driver=False)
+    size = {"num_cpus": 2, "object_store_memory": 200e6}
+    patiently(lambda: ray.init(**size, include_dashboard=False, log_to_driver=False), ray.shutdown)
     yield
     ray.shutdown()
 
@@ -395,7 +397,7 @@ def test_a_run_survives_the_death_of_a_runner(cluster: None) -> None:
     algorithm.train()  # without samples
     assert learned() == before
     sampled = 0
-    for _ in range(20):
+    for _ in range(60):  # at most 5 s each; the new process needs many of them on a busy machine
         result = algorithm.train()
         sampled = result["env_runners"]["num_env_steps_sampled_lifetime"]
         if sampled >= 4 * WORLDS * FRAGMENT:

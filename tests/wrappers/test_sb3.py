@@ -253,6 +253,14 @@ def test_attributes_and_methods_are_by_row() -> None:
         envs.set_attr("task", None)
 
 
+def test_a_notebook_shows_the_first_match() -> None:
+    pytest.importorskip("pygame")
+    shown = many()
+    assert shown._repr_png_() is None
+    shown.reset()
+    assert shown._repr_png_().startswith(b"\x89PNG")
+
+
 def test_images_are_of_matches() -> None:
     pytest.importorskip("pygame")
     envs = many("VSSMulti-v0", 2, render_mode="rgb_array")

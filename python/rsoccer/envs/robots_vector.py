@@ -124,7 +124,9 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
     for each metric of the task, such as `goal_score`, and for `steps`; each has a mask (rows,) bool
     under the same name with an underscore, such as `_goal_score`. With "same_step" these arrays are
     inside `final_info`, and `final_obs` (rows,) holds the last observations (o,) of the episodes
-    that ended, None elsewhere; both with masks.
+    that ended, None elsewhere; both with masks. `final_info` then also has `episode`, with each
+    row's return `r` (rows,) float64 and length `l` (rows,) int64, as Gymnasium's own loop over
+    environments in `RecordEpisodeStatistics` reports them.
 
     Seeding: `reset(seed=s)` seeds match i with `s + i`. Match i then equals, bit for bit, a
     `SoccerParallelEnv` with the seed `s + i`. Without a seed the random streams continue; those of
@@ -147,6 +149,10 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         render_mode: "rgb_array" or None.
         metadata: `name`, `render_modes`, `render_fps` and `autoreset_mode`.
     """
+
+    # Before Gymnasium 1.3 a VectorEnv closes itself when it is deleted, even one whose arguments
+    # were refused and that has nothing to close.
+    closed = True
 
     def __init__(
         self,
@@ -190,6 +196,7 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         self.single_action_space = spaces.action_space(task)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
+        self.closed = False
 
     @property
     def task(self) -> Task:
@@ -329,20 +336,30 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         if episodes is None:
             return {}
         mask = self._rows(outcome.ended)
-        infos: Infos = {}
         metrics: dict[str, Array] = {**episodes.metrics, "steps": episodes.lengths}
-        for name, values in metrics.items():
-            every = np.zeros(self.matches)
-            every[episodes.worlds] = values
-            infos[name] = self._rows(every)
+        infos: Infos = {
+            name: self._of_rows(episodes.worlds, values[:, None].astype(np.float64))
+            for name, values in metrics.items()
+        }
         infos = _with_masks(infos, mask)
         if self.autoreset_mode is not AutoresetMode.SAME_STEP:
             return infos
+        episode = {
+            "r": self._of_rows(episodes.worlds, episodes.returns),
+            "l": self._of_rows(episodes.worlds, episodes.lengths[:, None]),
+        }
+        infos |= _with_masks({"episode": _with_masks(episode, mask)}, mask)
         last = np.full(self.num_envs, None, np.object_)
         final = self._flat(outcome.final_observations)
         for row in np.flatnonzero(mask):
             last[row] = final[row].copy()
         return _with_masks({"final_obs": last, "final_info": infos}, mask)
+
+    def _of_rows(self, worlds: Array, values: Array) -> Array:
+        """Values (rows,) of values (k, robots) or (k, 1) of k matches; 0 in the other matches."""
+        every = np.zeros((self.matches, len(self.robots)), values.dtype)
+        every[worlds] = values
+        return every.reshape(-1)
 
     def _rows(self, values: A) -> A:
         """Values (rows, ...) of values (n, ...)."""

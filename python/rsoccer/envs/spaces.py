@@ -4,6 +4,10 @@ Actions are vectors of numbers in [-1, 1]. For a task with an `action_table`, an
 index of one of the table's rows.
 """
 
+from __future__ import annotations  # `Box` has parameters at run time since Gymnasium 1.4 only
+
+from typing import TypeAlias
+
 import numpy as np
 from gymnasium.spaces import Box, Discrete
 
@@ -11,7 +15,7 @@ from rsoccer.arrays import Array, Floats
 from rsoccer.global_state import LIMIT, StateEncoder
 from rsoccer.task import Task
 
-ActionSpace = Box[np.float32] | Discrete[np.int64]
+ActionSpace: TypeAlias = "Box[np.float32] | Discrete[np.int64]"
 
 
 def observation_space(task: Task) -> Box[np.float32]:

@@ -98,7 +98,8 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
     each metric of the task, such as `goal_score`, and for `steps`; each has a mask (n,) bool under
     the same name with an underscore, such as `_goal_score`. With "same_step" these arrays are
     inside `final_info`, and `final_obs` (n,) holds the last observations (o,) of the episodes that
-    ended, None elsewhere; both with masks.
+    ended, None elsewhere; both with masks. `final_info` then also has `episode`, with the return
+    `r` (n,) float64 and the length `l` (n,) int64 of each match.
 
     Seeding: `reset(seed=s)` seeds match i with `s + i`. Match i then equals, bit for bit, a
     `SoccerEnv` with the seed `s + i`. Without a seed the random streams continue; those of a new

@@ -5,6 +5,8 @@ batch of one. `Matches._step` is the order of a step. All resets, of all worlds 
 through `Matches._begin`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, Final

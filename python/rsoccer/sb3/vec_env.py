@@ -262,6 +262,10 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         """
         return self._matches.states().repeat(len(self.robots), axis=0)
 
+    def _repr_png_(self) -> bytes | None:
+        """An image of the first match, for notebooks."""
+        return self._viewer.png(self._matches)
+
     def get_images(self) -> list[Image | None]:
         """Return an image of each match.
 
