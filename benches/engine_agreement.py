@@ -150,11 +150,11 @@ def load(path: Path = FILE) -> tuple[dict[str, Any], list[Comparison], list[Comp
 
 def train(samples: int) -> Path:
     """Train a policy on VSS-v0 under the default engine and return its file."""
-    from rsoccer.train import Args
+    from rsoccer.train import Args, RunSettings
     from rsoccer.train import train as run
 
-    args = Args(TRAINED_TASK, TRAINED, samples=samples, overwrite=True, progress=False)
-    return run(args)
+    settings = RunSettings(progress=False)
+    return run(Args(TRAINED_TASK, TRAINED, samples=samples, overwrite=True, run=settings))
 
 
 def play(worlds: int) -> Iterator[Comparison]:

@@ -14,7 +14,7 @@ from benches.learning.learned import Learned
 from benches.learning.run_files import Folders
 from rsoccer._core import build_info
 from rsoccer.registry import make_task
-from rsoccer.train.observation_mask import observation_mask
+from rsoccer.train.network.observation_mask import observation_mask
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -28,7 +28,8 @@ def settings(run: Run) -> dict[str, Any]:
     """
     values = _settings_of_algorithm(run)
     task = make_task(run.experiment.task, **values.get("task_options", {}))
-    observation_mask(task, values.get("masked_observations", ()))  # refuses unknown parts
+    for name in ("network.masked_observations", "masked_observations"):
+        observation_mask(task, values.get(name, ()))  # refuses unknown parts
     return {**values, "observation": task.layout}
 
 
@@ -97,7 +98,7 @@ def learn(run: Run, folder: Path, folders: Folders, identity: Mapping[str, Any])
         restart_clock(folder)
         run_files.set_identity(folder, identity)
     if algorithm == PPO:
-        return ppo_run.learn(run, folder, folders)
+        return ppo_run.learn(run, folder)
     if algorithm == CLONES:
         return clones.learn(run, folders)
     return sb3_run.learn(run, folder)

@@ -58,7 +58,7 @@ def _benchmark(experiments: list[Experiment]) -> Benchmark:
     def variant(experiment: Experiment) -> Variant:
         run = Run(experiment, 0)
         if experiment.algorithm == "ppo":
-            worlds = ppo_run.args(run).worlds
+            worlds = ppo_run.args(run).rollout.worlds
             start = _start_ppo
         else:
             settings = sb3_run.settings(run)
@@ -76,12 +76,11 @@ def _start_ppo(run: Run) -> Measure:
     """Return a measure of updates after the first ones, in which all robots learn."""
     import torch
 
-    from rsoccer.train.trainer import Trainer
+    from rsoccer.train.run.trainer import Trainer
 
-    # `Trainer.run` alone writes to the folder, so none is made.
-    trainer = Trainer(ppo_run.args(run, Path("nowhere")))
+    trainer = Trainer(ppo_run.args(run, Path("nowhere")))  # it writes no files
     if trainer.is_solo:
-        trainer.start_self_play()
+        trainer.start_team()
 
     def update() -> int:
         torch.set_num_threads(1)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from benches.learning.experiments import Run
-from rsoccer.train.stop_signal import StopSignal
+from rsoccer.train.run.stop_signal import StopSignal
 
 POLL: Final = 0.2  # s
 BUSY: Final = 75

@@ -13,13 +13,13 @@ from benches.learning.clock import timed
 from benches.learning.curves import thinned
 from benches.learning.experiments import Run
 from benches.learning.learned import Learned
-from benches.learning.run_files import Folders, with_policies
 from rsoccer.arrays import Array
 from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
-from rsoccer.train.args import CHANGEABLE_ON_RESUME, Args
-from rsoccer.train.ladder import OPPONENTS
-from rsoccer.train.log import ladder_column
+from rsoccer.train import Args, RunSettings
+from rsoccer.train.args import CHANGEABLE_ON_RESUME
+from rsoccer.train.run.ladder import OPPONENTS
+from rsoccer.train.run.log import ladder_column
 
 NOT_COMPARED: Final = (*(name for name in CHANGEABLE_ON_RESUME if name != "samples"), "seed")
 """Settings that leave the result as it is, and the seed, which the name of a run holds."""
@@ -27,43 +27,31 @@ LADDER_POINTS: Final = 20
 """Measurements against fixed opponents in a run."""
 LADDER_MATCHES: Final = 200
 """Matches of a measurement, over all opponents."""
-SELF_PLAY_ONLY: Final = (
-    *("latest_fraction", "past_fraction", "pool_size", "pool_interval", "pfsp_power"),
-)
+SELF_PLAY_ONLY: Final = ("opponents.latest_fraction", "opponents.past_fraction")
 """Settings without effect where one team learns."""
 
 
-def args(run: Run, folder: Path = Path("out"), folders: Folders | None = None) -> Args:
+def args(run: Run, folder: Path = Path("out")) -> Args:
     """Return the settings of a run on one core: recommended ones, and those of the experiment.
 
     Args:
         run: The run.
         folder: Folder for its files.
-        folders: Folders of the study, in which the policies "@group/name" of the settings are; None
-            keeps these names.
 
     Raises:
         TypeError: This trainer has no such setting.
         ValueError: A setting outside its range.
     """
-    given = run.experiment.settings
-    if folders is not None:
-        given = with_policies(given, folders, run)
-    fixed: dict[str, Any] = {
-        "task": run.experiment.task,
-        "seed": run.seed,
-        "out": folder,
-        "threads": 1,
-        "torch_threads": 1,
-        "progress": False,
-        "match_page": False,
-        "ladder_matches": LADDER_MATCHES,
-    }
-    wanted = Args.for_task(**{**given, **fixed})
+    fixed: dict[str, Any] = {"seed": run.seed, "out": folder, "threads": 1, "torch_threads": 1}
+    experiment = run.experiment
+    wanted = Args.for_task(experiment.task, **{**experiment.settings, **fixed})
     learners = learning_team(wanted.make_task())
-    per_update = wanted.worlds * wanted.horizon * len(learners)
+    per_update = wanted.rollout.worlds * wanted.rollout.horizon * len(learners)
     interval = max(1, round(wanted.samples / per_update / LADDER_POINTS))
-    return dataclasses.replace(wanted, ladder_interval=interval)
+    shown = RunSettings(
+        progress=False, match_page=False, ladder_interval=interval, ladder_matches=LADDER_MATCHES
+    )
+    return dataclasses.replace(wanted, run=shown)
 
 
 def settings(run: Run) -> dict[str, Any]:
@@ -80,7 +68,7 @@ def without_effect(run: Run) -> frozenset[str]:
     if len(learners) == len(task.agents):
         names += SELF_PLAY_ONLY
     if len(learners) == 1:
-        names += ("solo_fraction", "solo_partners", "solo_copies")
+        names.append("opponents.solo_fraction")
     return frozenset(names)
 
 
@@ -91,7 +79,7 @@ def defaults() -> dict[str, Any]:
 
 def samples_so_far(folder: Path) -> int | None:
     """Return the samples of the checkpoint in a folder; None without one that can be read."""
-    from rsoccer.train import checkpoint
+    from rsoccer.train.run import checkpoint
 
     try:
         return int(checkpoint.load(folder / checkpoint.FILE_NAME).info["samples"])
@@ -101,18 +89,17 @@ def samples_so_far(folder: Path) -> int | None:
 
 def forget(folder: Path) -> None:
     """Remove the checkpoint in a folder, if there is one."""
-    from rsoccer.train import checkpoint
+    from rsoccer.train.run import checkpoint
 
     (folder / checkpoint.FILE_NAME).unlink(missing_ok=True)
 
 
-def learn(run: Run, folder: Path, folders: Folders) -> Learned:
+def learn(run: Run, folder: Path) -> Learned:
     """Train a policy, from the last checkpoint if there is one.
 
     Args:
         run: The run.
         folder: Folder for its files.
-        folders: Folders of the study.
 
     Returns:
         The policy.
@@ -121,9 +108,9 @@ def learn(run: Run, folder: Path, folders: Folders) -> Learned:
         Interrupted: A signal came; the checkpoint is saved.
     """
     from rsoccer.train import train
-    from rsoccer.train.log import read_progress
+    from rsoccer.train.run.log import read_progress
 
-    wanted = args(run, folder, folders)
+    wanted = args(run, folder)
     resume = samples_so_far(folder) is not None
     with timed(folder):
         policy = str(train(dataclasses.replace(wanted, resume=resume, overwrite=not resume)))

@@ -192,24 +192,3 @@ def reference(folders: Folders, name: str, run: Run) -> Path:
             f"`python -m benches.learning --again --only {key}` learns it"
         )
     return folders.policy(key)
-
-
-def with_policies(value: Any, folders: Folders, run: Run) -> Any:  # noqa: ANN401
-    """Return settings with paths in the place of policies "@group/name".
-
-    Args:
-        value: Settings: JSON values, also as names of a dictionary.
-        folders: Folders of the study.
-        run: The run, whose seed the policies have.
-
-    Raises:
-        ValueError: A policy is not in the work folder.
-    """
-    if isinstance(value, str) and value.startswith("@"):
-        return str(reference(folders, value, run))
-    if isinstance(value, Mapping):
-        items = value.items()
-        return {with_policies(k, folders, run): with_policies(v, folders, run) for k, v in items}
-    if isinstance(value, list | tuple):
-        return type(value)(with_policies(item, folders, run) for item in value)
-    return value

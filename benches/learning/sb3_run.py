@@ -19,7 +19,7 @@ from benches.learning.relu_actor import ReluActor
 from rsoccer.lineup import learning_team
 from rsoccer.registry import make_task
 from rsoccer.task import Task
-from rsoccer.train.args import Args
+from rsoccer.train import NetworkSettings, PpoSettings, RolloutSettings
 from rsoccer.train.setting_types import converted
 
 DEFAULTS: Final[dict[str, Any]] = {
@@ -27,9 +27,9 @@ DEFAULTS: Final[dict[str, Any]] = {
     "task_options": {},
     "rows": 60,
     "samples_per_gradient_step": 10,
-    "action_repeat": Args.action_repeat,
-    "gamma": Args.gamma,
-    "hidden_sizes": list(Args.hidden_sizes),
+    "action_repeat": RolloutSettings.action_repeat,
+    "gamma": PpoSettings.gamma,
+    "hidden_sizes": list(NetworkSettings.hidden_sizes),
     "learning_rate": 1e-3,
     "batch_size": 256,
     "buffer_size": 1_000_000,

@@ -22,7 +22,7 @@ from rsoccer.arrays import Floats
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.registry import make_task
 from rsoccer.sb3 import SoccerVecEnv
-from rsoccer.train.observation_mask import observation_mask
+from rsoccer.train.network.observation_mask import observation_mask
 
 SNAPSHOTS: Final = np.geomspace(0.03, 1.0, 12)
 """Shares of the samples after which the actor is measured."""

@@ -55,24 +55,25 @@ def test_pictures_are_drawn(folders: Folders, tmp_path: Path) -> None:
     assert all(path.read_bytes().startswith(SIGNATURE) for path in paths)
 
 
-def study_of(**settings: float) -> Study:
+def study_of(gamma: float | None = None, **settings: float) -> Study:
+    settings |= {} if gamma is None else {"ppo.gamma": gamma}
     experiment = Experiment("ppo", "VSS-v0", "VSS-v0", settings=settings, seeds=2)
     return Study((experiment,))
 
 
 def test_stale_results_are_marked_until_there_is_a_current_one(tmp_path: Path) -> None:
     folders = Folders(tmp_path / "results", tmp_path / "work")
-    store(study_of(gamma=0.9), folders)
+    store(study_of(0.9), folders)
     old = load(folders, "ppo/VSS-v0/seed-1")
     assert old is not None
-    assert not collect(study_of(gamma=0.9), folders)[0].stale
-    stale = collect(study_of(gamma=0.8), folders)
+    assert not collect(study_of(0.9), folders)[0].stale
+    stale = collect(study_of(0.8), folders)
     assert stale[0].stale
     assert len(stale[0].results) == 2
     assert r"| `VSS-v0`\* |" in tables.results(stale)
-    store(study_of(gamma=0.8), folders)
+    store(study_of(0.8), folders)
     save(folders, "ppo/VSS-v0/seed-1", old)
-    mixed = collect(study_of(gamma=0.8), folders)[0]
+    mixed = collect(study_of(0.8), folders)[0]
     assert not mixed.stale
     assert [result["run"] for result in mixed.results] == ["ppo/VSS-v0/seed-0"]
     assert mixed.missing == 1
@@ -95,7 +96,7 @@ def test_results_with_another_observation_are_stale(tmp_path: Path) -> None:
 
 def test_results_are_stale_if_a_run_that_they_needed_has_changed(tmp_path: Path) -> None:
     def made(gamma: float) -> Study:
-        learned = Experiment("ppo", "VSS-v0", "VSS-v0", settings={"gamma": gamma}, seeds=1)
+        learned = Experiment("ppo", "VSS-v0", "VSS-v0", settings={"ppo.gamma": gamma}, seeds=1)
         policy = {"policy": "@ppo/VSS-v0"}
         clones = Experiment("a", "x", "VSSMulti-v0", "clones", policy, 1, needs=(learned,))
         return Study((learned, clones))
@@ -140,8 +141,8 @@ def test_curves_without_points_have_no_band() -> None:
 
 def test_stale_variants_of_the_ablation_are_marked(tmp_path: Path) -> None:
     folders = Folders(tmp_path / "results", tmp_path / "work")
-    variant = Experiment("ablation", "paper", "VSS-v0", settings={"gamma": 0.9}, seeds=1)
+    variant = Experiment("ablation", "paper", "VSS-v0", settings={"ppo.gamma": 0.9}, seeds=1)
     store(Study((variant,)), folders)
-    changed = Study((replace(variant, settings={"gamma": 0.8}),))
+    changed = Study((replace(variant, settings={"ppo.gamma": 0.8}),))
     assert STALE_MARK not in tables.ablation(collect(Study((variant,)), folders))
     assert tables.ablation(collect(changed, folders)).count(STALE_MARK) == 2  # its cell, the note

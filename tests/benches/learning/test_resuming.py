@@ -8,7 +8,7 @@ from benches.learning import algorithms
 from benches.learning.clock import spent
 from benches.learning.experiments import Experiment, Run
 from benches.learning.run_files import IDENTITY_FILE, Folders
-from rsoccer.train import checkpoint
+from rsoccer.train.run import checkpoint
 from tests.benches.learning.tiny_table import TINY
 
 pytest.importorskip("torch")
@@ -30,7 +30,7 @@ def test_a_checkpoint_of_the_same_settings_continues(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("changes", "samples"),
-    [({"samples": 400}, 400), ({"samples": 800}, 800), ({"gamma": 0.9}, 600)],
+    [({"samples": 400}, 400), ({"samples": 800}, 800), ({"ppo.gamma": 0.9}, 600)],
 )
 def test_other_settings_start_again(
     changes: dict[str, float], samples: int, tmp_path: Path

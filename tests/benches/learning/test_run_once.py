@@ -6,7 +6,7 @@ import pytest
 
 from benches.learning import algorithms
 from benches.learning.__main__ import main
-from rsoccer.train.args import Args
+from rsoccer.train import PpoSettings
 
 TABLE = "tests.benches.learning.tiny_table"
 
@@ -27,7 +27,7 @@ def result_of(options: list[str], key: str) -> Path:
 def test_a_run_leaves_its_result_and_its_policy(folders: list[str]) -> None:
     result = json.loads(result_of(folders, "ppo/VSS-v0/seed-0").read_text())
     assert result["samples"] == 600
-    assert result["settings"]["hidden_sizes"] == [8]
+    assert result["settings"]["network.hidden_sizes"] == [8]
     assert result["seconds"]["cpu"] > 0
     modes = [(row["opponent"], row["mode"], row["matches"]) for row in result["evaluations"]]
     assert modes == [(name, mode, 4) for name in ("ou", "zero") for mode in ("sample", "mean")]
@@ -185,10 +185,10 @@ def test_changed_settings_make_a_run_stale(
 ) -> None:
     path = result_of(folders, "ppo/VSS-v0/seed-0")
     before = path.read_text()
-    path.write_text(before.replace(f'"gamma": {Args.gamma}', '"gamma": 0.9'))
+    path.write_text(before.replace(f'"ppo.gamma": {PpoSettings.gamma}', '"ppo.gamma": 0.9'))
     try:
         main([*folders, "--list", "--only", "VSS-v0/seed-0"])
-        assert f"stale  gamma was 0.9, now {Args.gamma}" in capsys.readouterr().out
+        assert f"stale  ppo.gamma was 0.9, now {PpoSettings.gamma}" in capsys.readouterr().out
         assert main([*folders, "--only", "VSS-v0/seed-0"]) == 0
         printed = capsys.readouterr().out
         assert "stale, kept as it is: ppo/VSS-v0/seed-0" in printed
