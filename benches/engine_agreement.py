@@ -19,10 +19,10 @@ import rsoccer
 from benches.play_statistics import Statistics, in_batches, play_ou, play_scenario
 from benches.result_files import RESULTS, ROOT, this_machine
 from benches.scenarios import SCENARIOS, Scenario
+from benches.solvers import SOLVERS
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Evaluation
 from rsoccer.evaluate.results import MIN_PER_SIDE
-from tools.solvers import SOLVERS
 
 FILE: Final = RESULTS / "engine_agreement.json"
 REFERENCE: Final = "rapier"

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import rsoccer
-from benches.learning.evaluation import opponents_of
+from benches.learning.opponents import opponents_of
 from rsoccer import checks
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE

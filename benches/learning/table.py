@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Final
 
 from benches.learning import ablation
-from benches.learning.evaluation import VSSS
 from benches.learning.experiments import Experiment, Study
+from benches.learning.opponents import VSSS
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
@@ -56,8 +56,9 @@ IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
 }
 """Samples of DDPG and SAC in the time of PPO's run, by task.
 
-Products of PPO's samples and the ratio of the speeds, from `python -m benches.learning.pace`, which
-measures them in turn. A limit in seconds would depend on what else the machine does.
+Products of PPO's samples and the ratio of the speeds, which
+`python -m benches.learning.running.pace` measures in turn. A limit in seconds would depend on what
+else the machine does.
 """
 
 BASELINES: Final = tuple(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import rsoccer
-from tools.markdown import table
+from benches.markdown import table
 from tools.paths import ROOT
 from tools.site import stub
 

@@ -7,9 +7,9 @@ from typing import Any, Final
 import numpy as np
 
 import rsoccer
+from benches.markdown import table
 from rsoccer import Matches, Task
 from rsoccer.task import LEARN, Block
-from tools.markdown import table
 from tools.site import matches, meanings, solved, task_docs
 from tools.site.meanings import ROBOT, Number, Part
 

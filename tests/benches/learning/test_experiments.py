@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import pytest
 
-from benches.learning import ablation, algorithms
+from benches.learning import ablation, conditions
 from benches.learning.experiments import Experiment, Study
-from benches.learning.ppo_run import NOT_COMPARED, SELF_PLAY_ONLY, defaults
+from benches.learning.ppo_settings import NOT_COMPARED, SELF_PLAY_ONLY, defaults
 from benches.learning.table import STUDY
 from rsoccer.train import Args
 
@@ -51,7 +51,7 @@ def test_the_ablation_goes_from_all_changes_to_none() -> None:
 
 def test_settings_without_effect_on_a_task_do_not_count() -> None:
     study = Study(tuple(Experiment("a", n, n) for n in ("VSS-v0", "VSSSelfPlay-v0")))
-    single, both = (algorithms.settings(study.run(f"a/{e.name}/seed-0")) for e in study.experiments)
+    single, both = (conditions.settings(study.run(f"a/{e.name}/seed-0")) for e in study.experiments)
     without_effect = {"opponents.past_fraction", "opponents.solo_fraction"}
     assert without_effect <= set(both)
     assert not (without_effect | {"seed", "out"}) & set(single)
