@@ -30,6 +30,7 @@ README = ROOT / "README.md"
 WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
+    DOCS / "getting-started.md",
     DOCS / "index.md",
     *learning.PAGES,
     DOCS / "libraries.md",
