@@ -38,7 +38,9 @@ def graph() -> dict[str, set[str]]:
     edges: dict[str, set[str]] = {}
     for module, path in files.items():
         pairs = imported(ast.parse(path.read_text()))
-        names = (f"{start}.{name}" if f"{start}.{name}" in files else start for start, name in pairs)
+        names = (
+            f"{start}.{name}" if f"{start}.{name}" in files else start for start, name in pairs
+        )
         edges[module] = {name for name in names if name in files and name != module}
     return edges
 

@@ -27,6 +27,16 @@ def test_a_run_ends_with_a_match_of_its_policy(
     np.testing.assert_allclose(replay.rows, rows, atol=0.06)
 
 
+def test_the_match_at_the_end_has_no_options_for_training_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(training, "MATCH_SECONDS", 0.1)
+    options = {"max_steps": 20, "reward_weights": {"goal": 3.0}}
+    train(tiny(tmp_path, match_page=True, samples=1, task_options=options))
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert replay.options == {"max_steps": 20}
+
+
 def test_a_folder_with_a_run_is_not_overwritten_by_default(finished: Path) -> None:
     before = digest(finished)
     with pytest.raises(ValueError, match="holds a run"):

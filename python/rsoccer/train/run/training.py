@@ -67,7 +67,8 @@ def _train(loop: Loop, saved: Checkpoint | None) -> None:
 def _write_match(trainer: Trainer) -> None:
     """Play a match of the trained policy, and write its replay and its page."""
     args, network = trainer.args, trainer.network()
-    task = trained_on(network) or trainer.task  # without options for training alone
+    task = trained_on(network)  # without options for training alone
+    assert task is not None, "the network names its task"
     names = ("TRAINED", " ".join(opponents_of(task)).upper())
     controllers = lineup(task, network)
     replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
