@@ -9,7 +9,7 @@ import pytest
 import rsoccer
 from rsoccer import registry
 from rsoccer.cli import main
-from rsoccer.evaluate.tournament import summarise
+from rsoccer.evaluate.tournament import summarize
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.policies.noise import Zero
@@ -144,7 +144,7 @@ def counted(k: int) -> np.ndarray:
 
 
 def test_the_report_names_cycles() -> None:
-    result = summarise(["rock", "scissors", "paper"], counted(3), "VSSSelfPlay-v0", 0)
+    result = summarize(["rock", "scissors", "paper"], counted(3), "VSSSelfPlay-v0", 0)
     assert result.cycles == (("rock", "scissors", "paper"),)
     text = str(result)
     assert "rock beats scissors beats paper beats rock" in text
@@ -163,7 +163,7 @@ def test_few_matches_have_neither_intervals_nor_cycles(tmp_path: Path) -> None:
     for a in range(3):
         one[a, (a + 1) % 3, 0] = one[(a + 1) % 3, a, 2] = 1
     for per_side in (1, 9, 10):
-        result = summarise(names, one * per_side, "VSSSelfPlay-v0", 0)
+        result = summarize(names, one * per_side, "VSSSelfPlay-v0", 0)
         assert result.matches == 2 * per_side and result.scores[0][1] == 1.0
         assert result.save_picture(tmp_path / "result.png").stat().st_size > 1000
         text, loaded = str(result), json.loads(json.dumps(result.as_dict(), allow_nan=False))

@@ -62,7 +62,7 @@ CHANGES: Final = (
         },
     ),
     Change(
-        "normalisation",
+        "normalization",
         "observations and rewards normalized",
         {"rollout.normalize_observations": False, "rollout.normalize_rewards": False},
     ),

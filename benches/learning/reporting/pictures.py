@@ -15,7 +15,7 @@ from benches.learning.reporting.curves import band
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLOURS: Final = {"ppo": "#1f6f8b", "ddpg": "#c8553d", "sac": "#d9a441"}
+COLORS: Final = {"ppo": "#1f6f8b", "ddpg": "#c8553d", "sac": "#d9a441"}
 BAR, REFERENCE, POINT = "#7fb7c9", "#1f6f8b", "#333333"
 COLUMNS: Final = 2
 PANEL: Final = (4.4, 2.3)  # inches
@@ -58,17 +58,17 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
     metric = ""
     for part in parts:
         curves = [result["curve"] for result in part.results]
-        drawn, colour = band(curves), COLOURS[part.experiment.algorithm]
+        drawn, color = band(curves), COLORS[part.experiment.algorithm]
         if drawn is None:
             continue
         samples, means, low, high = drawn
         metric = curves[0]["metric"]
-        axes.fill_between(samples, low, high, color=colour, alpha=0.25, linewidth=0)
+        axes.fill_between(samples, low, high, color=color, alpha=0.25, linewidth=0)
         label = part.experiment.algorithm.upper()
-        axes.plot(samples, means, color=colour, linewidth=1.8, label=label)
+        axes.plot(samples, means, color=color, linewidth=1.8, label=label)
         for curve in curves:
-            axes.plot(curve["samples"], curve["values"], color=colour, alpha=0.3, linewidth=0.6)
-        _draw_script(axes, part, colour)
+            axes.plot(curve["samples"], curve["values"], color=color, alpha=0.3, linewidth=0.6)
+        _draw_script(axes, part, color)
     # DDPG and SAC have a tenth of the samples of PPO, or fewer.
     axes.set_xscale("log")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
@@ -87,7 +87,7 @@ def _draw_task(axes: Axes, task: str, parts: Sequence[Collected]) -> None:
         axes.spines[side].set_visible(False)
 
 
-def _draw_script(axes: Axes, part: Collected, colour: str) -> None:
+def _draw_script(axes: Axes, part: Collected, color: str) -> None:
     """Mean of the curves against the strongest script, if the run was measured against one."""
     ladders = [result.get("ladder", {}) for result in part.results]
     for script in SCRIPTS:
@@ -95,7 +95,7 @@ def _draw_script(axes: Axes, part: Collected, colour: str) -> None:
         if drawn is not None:
             samples, means, _, _ = drawn
             label = f"{part.experiment.algorithm.upper()} against {script}"
-            axes.plot(samples, means, color=colour, linewidth=1.2, linestyle="--", label=label)
+            axes.plot(samples, means, color=color, linewidth=1.2, linestyle="--", label=label)
 
 
 def draw_ablation(collected: Sequence[Collected], path: Path) -> Path | None:

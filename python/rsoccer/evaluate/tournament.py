@@ -119,10 +119,10 @@ def tournament(
             counts[blue, yellow] = [(np.sign(scores) == sign).sum() for sign in (1, 0, -1)]
         if on_pair is not None:
             on_pair(done, len(pairs))
-    return summarise(policies, counts, task.name, seed)
+    return summarize(policies, counts, task.name, seed)
 
 
-def summarise(
+def summarize(
     policies: Sequence[PolicyLike], counts: NDArray[np.int64], task: str, seed: int
 ) -> Tournament:
     """Return the ratings, scores and cycles of counted results.

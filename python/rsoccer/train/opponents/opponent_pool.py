@@ -108,7 +108,7 @@ class OpponentPool(PolicyMix):
             self.freeze(network, update)
 
     def freeze(self, network: Network, update: int) -> None:
-        """Add a past policy. A full pool evicts the one closest in age to its neighbours.
+        """Add a past policy. A full pool evicts the one closest in age to its neighbors.
 
         The ages in the pool thus stay spread over the whole run. Matches in progress against the
         evicted policy continue against its replacement.

@@ -50,7 +50,7 @@ class PoolSlots:
     def take(self, update: int) -> int:
         """Return the slot of a new past policy, and record its age.
 
-        A full pool evicts the one closest in age to its neighbours. The ages in the pool thus stay
+        A full pool evicts the one closest in age to its neighbors. The ages in the pool thus stay
         spread over the whole run.
 
         Args:
@@ -90,7 +90,7 @@ class PoolSlots:
         return shares
 
     def _most_crowded(self) -> int:
-        """Slot whose removal leaves the smallest gap between the ages of its neighbours."""
+        """Slot whose removal leaves the smallest gap between the ages of its neighbors."""
         order = np.argsort(self.frozen_at)
         if len(order) < 3:
             return int(order[0])

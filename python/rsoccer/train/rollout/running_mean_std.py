@@ -15,7 +15,7 @@ class RunningMeanStd:
     """Mean and variance of each column over all batches so far, in double precision.
 
     With a reflection the statistics are those of the rows and of the reflected rows, so that
-    normalised rows can be reflected.
+    normalized rows can be reflected.
 
     Attributes:
         count: number of rows so far.

@@ -102,8 +102,8 @@ def _by_opponent(progress: dict[str, Array], start: str, end: str) -> dict[str, 
 
 def _plot(axes: Axes, name: str, x: Array, y: Array, **style: Any) -> None:  # noqa: ANN401
     """Plot the scores against one opponent."""
-    label, colour = LABELS.get(name, name), COLORS.get(name)
-    axes.plot(x, y, label=label, color=colour, linewidth=2, **style)
+    label, color = LABELS.get(name, name), COLORS.get(name)
+    axes.plot(x, y, label=label, color=color, linewidth=2, **style)
 
 
 def _set_scale(axes: Axes, task: Task | None, metric: str, exploring: bool) -> None:
