@@ -156,6 +156,17 @@ def test_the_report_names_cycles() -> None:
     assert "+0.70" in text and "-0.70" in text
 
 
+def test_the_score_of_a_standing_is_a_mean_over_its_matches() -> None:
+    counts = np.zeros((2, 2, 3), np.int64)
+    counts[0, 1] = 3, 1, 1  # as blue
+    counts[1, 0] = 0, 2, 3
+    result = summarize(["chase", "zero"], counts, "VSSSelfPlay-v0", 0)
+    assert [(s.label, s.wins, s.draws, s.losses, s.score) for s in result.standings] == [
+        ("chase", 6, 3, 1, 0.5),
+        ("zero", 1, 3, 6, -0.5),
+    ]
+
+
 def test_few_matches_have_neither_intervals_nor_cycles(tmp_path: Path) -> None:
     """Formerly one match a side had intervals of width 0, and cycles of them."""
     names = ["rock", "scissors", "paper"]

@@ -7,7 +7,7 @@ import math
 import numbers
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, get_args, get_origin, get_type_hints
 
@@ -20,11 +20,11 @@ class Range:
 
     words: str
     """Description for errors."""
-    low: float
+    low: float = field(repr=False)  # the words are enough in signatures of the reference
     """Least number."""
-    high: float = math.inf
+    high: float = field(default=math.inf, repr=False)
     """Greatest number."""
-    without_low: bool = False
+    without_low: bool = field(default=False, repr=False)
     """`low` itself is outside."""
 
     def holds(self, value: float) -> bool:
@@ -66,9 +66,9 @@ def convert_fields(settings: Any, prefix: str = "") -> None:  # noqa: ANN401  (a
         ValueError: a value of another type or outside its range.
     """
     kinds = get_type_hints(type(settings), include_extras=True)
-    for field in dataclasses.fields(settings):
-        value = converted(f"{prefix}{field.name}", getattr(settings, field.name), kinds[field.name])
-        object.__setattr__(settings, field.name, value)
+    for name in (each.name for each in dataclasses.fields(settings)):
+        value = converted(f"{prefix}{name}", getattr(settings, name), kinds[name])
+        object.__setattr__(settings, name, value)
 
 
 def converted(name: str, value: Any, kind: Any) -> Any:  # noqa: ANN401  (any field, any type)

@@ -13,6 +13,7 @@ from rsoccer.train import train
 from rsoccer.train.ppo import update
 from rsoccer.train.ppo.batch import Batch
 from rsoccer.train.run import checkpoint
+from rsoccer.train.run.log import read_progress
 from rsoccer.train.run.loop import Loop
 from rsoccer.train.run.state import capture
 from rsoccer.train.run.stop_signal import StopSignal
@@ -28,6 +29,9 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert sum(int(row["episodes"]) for row in rows) > 10
     assert sum(float(row["goals_for"]) for row in rows) > 0
     assert sum(float(row["goals_against"]) for row in rows) > 0
+    log = read_progress(finished)
+    elapsed = np.diff(log["seconds"], prepend=0.0)
+    np.testing.assert_allclose(log["samples_per_second"] * elapsed, 144, rtol=1e-6)
     arrays = checkpoint.load(finished / checkpoint.FILE_NAME).arrays
     assert set(arrays["worlds.yellow_0.drawn"].tolist()) & {2, 3}, "no past policy plays"
     assert arrays["pool.frozen_at"].tolist() == [5, 6]
