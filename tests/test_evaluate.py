@@ -246,7 +246,7 @@ class Push(Policy):
 class BeforeTheGoal(VssSelfPlay):
     """The ball lies between one robot and a goal; the robot is the policy's in half of the cases.
 
-    Robot 0 of a team faces the goal at -x, which is blue's, in even worlds and the other in odd ones.
+    Robot 0 of the team faces blue's goal in even worlds, and the other one in odd worlds.
     """
 
     name = "BeforeTheGoal-v0"

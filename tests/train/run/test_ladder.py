@@ -13,6 +13,7 @@ from rsoccer.train import RunSettings, train
 from rsoccer.train.run.ladder import SEED, Ladder
 from rsoccer.train.run.log import read_progress
 from rsoccer.train.run.trainer import Trainer
+from tests.train.one_update import one_update
 from tests.train.short_task import NAME, tiny
 
 
@@ -60,3 +61,11 @@ def test_each_opponent_plays_as_it_plays_alone(tmp_path: Path) -> None:
         scores = runner.run(24, SEED).scores[first::4]
         assert row[f"ladder_{name}_goal_score"] == pytest.approx(scores.mean())
     assert len(set(row.values())) > 1
+
+
+def test_a_task_for_one_team_is_measured_as_it_is(tmp_path: Path) -> None:
+    args = one_update("SSLGoToBall-v0", tmp_path)
+    network, task = Trainer(args).network(), make_task("SSLGoToBall-v0")
+    row = Ladder(RunSettings(ladder_matches=6), task, threads=1).measure(network)
+    scores = EpisodeRunner(task, lineup(task, LEARN), network, 6, 1).run(6, SEED).scores
+    assert row == {"ladder_reached": scores.mean()}

@@ -12,7 +12,7 @@ import pytest
 
 from rsoccer.train import train
 from rsoccer.train.run import checkpoint
-from rsoccer.train.run.stop_signal import Stopped, StopSignal
+from rsoccer.train.run.stop_signal import SIGNALS, Stopped, StopSignal
 from tests.train.short_task import tiny
 
 SCRIPT = """
@@ -74,6 +74,14 @@ def test_the_first_signal_sets_a_flag_and_the_second_acts_as_usual() -> None:
         assert signal.getsignal(signal.SIGINT) is handler
     finally:
         signal.signal(signal.SIGINT, previous)
+
+
+def test_without_a_signal_the_handlers_are_restored_at_the_end() -> None:
+    previous = [signal.getsignal(number) for number in SIGNALS]
+    with StopSignal() as stop:
+        assert all(signal.getsignal(number) not in previous for number in SIGNALS)
+    assert (stop.name, stop.exit_status) == ("", 0)
+    assert [signal.getsignal(number) for number in SIGNALS] == previous
 
 
 def test_other_threads_do_not_catch_signals() -> None:
