@@ -80,7 +80,8 @@ OF_LIBRARY := tests/test_page_code.py::test_blocks_run_with_their_library
 
 check-libraries: $(LIBRARIES)/made ## run the tests with Stable-Baselines3, SuperSuit and TorchRL, in an environment of their own
 	$(LIBRARIES)/bin/python $(STRICT) tests/wrappers --ignore-glob='*rllib*' --ignore-glob='*recipes*' \
-		tests/test_docstrings.py tests/benches/learning/test_sb3.py tests/benches/learning/test_pace.py \
+		tests/test_docstrings.py tests/benches/learning/running/test_sb3.py \
+		tests/benches/learning/running/test_pace.py \
 		$(foreach library,stable_baselines3 supersuit torchrl,'$(OF_LIBRARY)[$(library)]')
 
 check-rllib: $(RLLIB)/made ## run the tests with RLlib and the Gymnasium that Ray pins, in an environment of their own

@@ -19,10 +19,10 @@ import rsoccer
 from benches.play_statistics import Statistics, in_batches, play_ou, play_scenario
 from benches.result_files import RESULTS, ROOT, this_machine
 from benches.scenarios import SCENARIOS, Scenario
+from benches.solvers import SOLVERS
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Evaluation
 from rsoccer.evaluate.results import MIN_PER_SIDE
-from tools.solvers import SOLVERS
 
 FILE: Final = RESULTS / "engine_agreement.json"
 REFERENCE: Final = "rapier"
@@ -150,11 +150,11 @@ def load(path: Path = FILE) -> tuple[dict[str, Any], list[Comparison], list[Comp
 
 def train(samples: int) -> Path:
     """Train a policy on VSS-v0 under the default engine and return its file."""
-    from rsoccer.train import Args
+    from rsoccer.train import Args, RunSettings
     from rsoccer.train import train as run
 
-    args = Args(TRAINED_TASK, TRAINED, samples=samples, overwrite=True, progress=False)
-    return run(args)
+    settings = RunSettings(progress=False)
+    return run(Args(TRAINED_TASK, TRAINED, samples=samples, overwrite=True, run=settings))
 
 
 def play(worlds: int) -> Iterator[Comparison]:

@@ -22,9 +22,9 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from benches.criterion import LEAGUES
+from benches.markdown import table
 from benches.result_files import RESULTS, ROOT
 from benches.scenarios import ENGINES
-from tools.markdown import table
 
 STORED: Final = RESULTS / "instructions.md"
 BUILD: Final = ROOT / "target" / "counting"

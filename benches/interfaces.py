@@ -24,7 +24,7 @@ from benches.measuring import (
 )
 from benches.scenarios import DEFAULT_ENGINE, HELD
 from rsoccer.arrays import Array, Floats
-from rsoccer.train.timing import Clock, TimedSimulator
+from rsoccer.train.clock import Clock, TimedSimulator
 
 OUTSIDE: Final = Quantity("time outside physics", "us per world-step")
 N_ACTIONS: Final = 16  # different random actions, drawn in advance so as not to be measured

@@ -18,18 +18,16 @@ def training(task: str, engine: str, worlds: int, threads: int) -> Measure:
     """Measure updates in which all robots of a team learn, as in most of a run; at least one."""
     import torch
 
-    from rsoccer.train.args import Args
-    from rsoccer.train.trainer import Trainer
+    from rsoccer.train import Args, OpponentSettings, RolloutSettings
+    from rsoccer.train.run.trainer import Trainer
 
-    # `Trainer.run` alone writes to the folder, so it stays empty here.
     args = Args(
         task,
-        Path("nowhere"),
+        Path("nowhere"),  # a trainer alone writes no files
         task_options={"engine": engine},
-        worlds=worlds,
         threads=threads,
-        solo_fraction=0.0,
-        progress=False,
+        rollout=RolloutSettings(worlds=worlds),
+        opponents=OpponentSettings(solo_fraction=0.0),
     )
     trainer = Trainer(args)
 

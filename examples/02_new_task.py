@@ -72,10 +72,11 @@ def main(samples: int = 150_000) -> None:
     """Train for some seconds and compare with the untrained network."""
     from pathlib import Path
 
-    from rsoccer.train import Args, train  # needs torch; the task does not
+    from rsoccer.train import Args, RolloutSettings, train  # needs torch; the task does not
 
     out = Path("out/reach")
-    policy = train(Args("Reach-v0", out, samples=samples, threads=1, worlds=128, overwrite=True))
+    rollout = RolloutSettings(worlds=128)
+    policy = train(Args("Reach-v0", out, samples, threads=1, overwrite=True, rollout=rollout))
     before, after = share_reached(str(out / "untrained.safetensors")), share_reached(str(policy))
     print(f"reaches the ball in {before:.0%} of matches untrained, in {after:.0%} trained")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import rsoccer
 from rsoccer.render.record import record_match
-from rsoccer.train import Args, train
+from rsoccer.train import Args, OpponentSettings, train
 
 OUT = Path("out/self_play")
 
@@ -18,9 +18,9 @@ def main(samples: int = 1_500_000) -> None:
         task="VSSSelfPlay-v0",
         out=OUT,
         samples=samples,
-        latest_fraction=0.5,
-        past_fraction=0.3,
-        opponents={"ou": 3, "scripted": 1},
+        opponents=OpponentSettings(
+            latest_fraction=0.5, past_fraction=0.3, fixed={"ou": 3, "scripted": 1}
+        ),
         overwrite=True,  # without it a second run does not replace the first
     )
     policy = train(args)  # Ctrl-C saves; Args(..., resume=True) continues

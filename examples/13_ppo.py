@@ -15,8 +15,8 @@ from torch.distributions import Normal
 
 from rsoccer import Matches
 from rsoccer.policies.network import Network
-from rsoccer.train.running_mean_std import RunningMeanStd
-from rsoccer.train.transition import repeat_action
+from rsoccer.train.rollout.running_mean_std import RunningMeanStd
+from rsoccer.train.rollout.transition import repeat_action
 
 HORIZON, REPEAT, EPOCHS, MINIBATCHES = 16, 3, 4, 8  # a decision is held for REPEAT steps
 GAMMA, LAMBDA, CLIP, ENTROPY, RATE = 0.985**REPEAT, 0.9, 0.2, 0.002, 2e-3

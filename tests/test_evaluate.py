@@ -246,19 +246,21 @@ class Push(Policy):
 class BeforeTheGoal(VssSelfPlay):
     """The ball lies between one robot and a goal; the robot is the policy's in half of the cases.
 
-    Blue robot 0 faces the own goal in even worlds and the other goal in odd ones.
+    Robot 0 of the team faces blue's goal in even worlds, and the other one in odd worlds.
     """
 
     name = "BeforeTheGoal-v0"
+    team: str = "blue"
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
         side = np.where(np.arange(len(rng)) % 2 == 0, -1.0, 1.0)
         frame.ball.position[:, 0] = 0.7 * side
         frame.robots.position[..., 0] = 0.0
-        frame.yellow.position[..., 1] = 0.6
-        frame.blue.position[:, 0] = np.stack([0.62 * side, np.zeros(len(rng))], axis=-1)
-        frame.blue.heading[:, 0] = np.stack([side, np.zeros(len(rng))], axis=-1)
+        frame.robots.position[..., 1] = 0.6 * np.linspace(-1.0, 1.0, self.n_blue + self.n_yellow)
+        robots = frame.blue if self.team == "blue" else frame.yellow
+        robots.position[:, 0] = np.stack([0.62 * side, np.zeros(len(rng))], axis=-1)
+        robots.heading[:, 0] = np.stack([side, np.zeros(len(rng))], axis=-1)
         return frame
 
 
@@ -270,6 +272,16 @@ def test_own_goals_are_goals_after_a_last_touch_of_the_own_team() -> None:
     assert (result.decided, result.own_goals) == (8, 4)
     pushed = evaluate("zero", Push(), matches=16, task=task)
     assert counts(pushed.sides["yellow"]) == (4, 0, 4)
+    assert (pushed.decided, pushed.own_goals) == (8, 0), "these are own goals of the opponent"
+
+
+def test_own_goals_of_the_first_yellow_robot_are_yellows() -> None:
+    task = BeforeTheGoal(n_blue=1, n_yellow=1, max_steps=40, team="yellow")
+    result = evaluate(Push(), "zero", matches=16, task=task)
+    assert counts(result.sides["blue"]) == (0, 8, 0)
+    assert counts(result.sides["yellow"]) == (4, 0, 4)
+    assert (result.decided, result.own_goals) == (8, 4)
+    pushed = evaluate("zero", Push(), matches=16, task=task)
     assert (pushed.decided, pushed.own_goals) == (8, 0), "these are own goals of the opponent"
 
 

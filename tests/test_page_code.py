@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from benches.markdown import FENCE
 from rsoccer import cli
 from tests.ray_start import patiently
-from tools.markdown import FENCE
 
 ROOT = Path(__file__).parents[1]
 WRITTEN = [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md", ROOT / "CONTRIBUTING.md"]

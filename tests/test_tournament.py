@@ -9,7 +9,7 @@ import pytest
 import rsoccer
 from rsoccer import registry
 from rsoccer.cli import main
-from rsoccer.evaluate.tournament import summarise
+from rsoccer.evaluate.tournament import summarize
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.policies.noise import Zero
@@ -144,7 +144,7 @@ def counted(k: int) -> np.ndarray:
 
 
 def test_the_report_names_cycles() -> None:
-    result = summarise(["rock", "scissors", "paper"], counted(3), "VSSSelfPlay-v0", 0)
+    result = summarize(["rock", "scissors", "paper"], counted(3), "VSSSelfPlay-v0", 0)
     assert result.cycles == (("rock", "scissors", "paper"),)
     text = str(result)
     assert "rock beats scissors beats paper beats rock" in text
@@ -156,6 +156,17 @@ def test_the_report_names_cycles() -> None:
     assert "+0.70" in text and "-0.70" in text
 
 
+def test_the_score_of_a_standing_is_a_mean_over_its_matches() -> None:
+    counts = np.zeros((2, 2, 3), np.int64)
+    counts[0, 1] = 3, 1, 1  # as blue
+    counts[1, 0] = 0, 2, 3
+    result = summarize(["chase", "zero"], counts, "VSSSelfPlay-v0", 0)
+    assert [(s.label, s.wins, s.draws, s.losses, s.score) for s in result.standings] == [
+        ("chase", 6, 3, 1, 0.5),
+        ("zero", 1, 3, 6, -0.5),
+    ]
+
+
 def test_few_matches_have_neither_intervals_nor_cycles(tmp_path: Path) -> None:
     """Formerly one match a side had intervals of width 0, and cycles of them."""
     names = ["rock", "scissors", "paper"]
@@ -163,7 +174,7 @@ def test_few_matches_have_neither_intervals_nor_cycles(tmp_path: Path) -> None:
     for a in range(3):
         one[a, (a + 1) % 3, 0] = one[(a + 1) % 3, a, 2] = 1
     for per_side in (1, 9, 10):
-        result = summarise(names, one * per_side, "VSSSelfPlay-v0", 0)
+        result = summarize(names, one * per_side, "VSSSelfPlay-v0", 0)
         assert result.matches == 2 * per_side and result.scores[0][1] == 1.0
         assert result.save_picture(tmp_path / "result.png").stat().st_size > 1000
         text, loaded = str(result), json.loads(json.dumps(result.as_dict(), allow_nan=False))

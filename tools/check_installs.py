@@ -17,8 +17,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from benches.markdown import FENCE
 from rsoccer.cli import EXTRAS
-from tools.markdown import FENCE
 from tools.paths import DOCS, ROOT
 
 LIBRARIES: Final = DOCS / "libraries.md"

@@ -2,8 +2,8 @@
 
 from benches import engine_agreement
 from benches.engine_agreement import COMPARED, REFERENCE, Comparison, play_agrees, score_agrees
+from benches.markdown import table
 from benches.result_files import format_number
-from tools.markdown import table
 
 DIFFERENCE = "difference (95% interval)"
 

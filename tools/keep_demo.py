@@ -16,7 +16,7 @@ import numpy as np
 from benches.result_files import this_machine
 from rsoccer.render.record import film_match
 from rsoccer.render.video import write_video
-from rsoccer.train.log import read_progress
+from rsoccer.train.run.log import read_progress
 from tools.paths import DOCS, ROOT
 
 DEMO = ROOT / "out" / "demo"
@@ -49,7 +49,7 @@ def training(folder: Path) -> dict[str, Any]:
     shares = {part: float(np.average(progress[part], weights=seconds)) for part in parts}
     return {
         "samples_per_second": samples,
-        "agent_steps_per_second": samples * settings["action_repeat"],
+        "agent_steps_per_second": samples * settings["rollout.action_repeat"],
         "shares": {part.removeprefix("time_"): share for part, share in shares.items()},
     }
 

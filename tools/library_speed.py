@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
+from benches.markdown import table
 from benches.result_files import RESULTS, Figure, format_number, load
-from tools.markdown import table
 from tools.speed import SPEED, ratio
 
 NOT_MEASURED = "`make bench` measures the libraries that are installed."

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import rsoccer
-from benches.learning.evaluation import opponents_of
+from benches.learning.opponents import opponents_of
 from rsoccer import checks
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
@@ -24,7 +24,7 @@ from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
 from rsoccer.task import Task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
-from rsoccer.train.log import read_progress
+from rsoccer.train.run.log import read_progress
 
 STARTS: Final = 500
 """Starts of an evaluation; a two-sided task plays each number of them for each team."""
@@ -135,8 +135,9 @@ def command_of(settings: dict[str, Any]) -> str:
         if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue
         option = name.replace("_", "-")
+        part, dot, setting = option.rpartition(".")
         if isinstance(value, bool):
-            words.append(f"--{option}" if value else f"--no-{option}")
+            words.append(f"--{option}" if value else f"--{part}{dot}no-{setting}")
         elif name == "task_options":
             words += [f"--{option}", *(f"{key}={each}" for key, each in value.items())]
         elif isinstance(value, dict):  # policies with their shares

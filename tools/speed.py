@@ -5,12 +5,12 @@ from itertools import groupby
 
 from benches.instructions import STORED
 from benches.interfaces import OUTSIDE
+from benches.markdown import table
 from benches.measuring import MATCH_TIME
 from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
 from benches.result_files import RESULTS, Figure, Machine, format_number, format_ratio, load
 from benches.scenarios import DEFAULT_ENGINE, ENGINES
 from benches.thread_scaling import TIMED
-from tools.markdown import table
 from tools.paths import ROOT
 
 SPEED = "speed"

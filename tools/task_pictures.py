@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 import rsoccer
+from benches.solvers import SOLVERS
 from rsoccer import Matches, make_task
 from rsoccer.controllers import Controllers
 from rsoccer.render.effects import Effects
@@ -13,7 +14,6 @@ from rsoccer.render.image import Image, draw_image
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.pygame_import import pygame
 from tools.paths import DOCS
-from tools.solvers import SOLVERS
 
 FOLDER: Final = DOCS / "tasks"
 WIDTH: Final = 640  # pixels

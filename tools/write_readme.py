@@ -15,13 +15,13 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
-from benches.learning import report as learning
+from benches.learning.reporting import report as learning
+from benches.markdown import filled, table
 from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
 from tools.library_speed import libraries
-from tools.markdown import filled, table
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
 from tools.speed import feature, instructions, speed, summary
@@ -30,8 +30,9 @@ README = ROOT / "README.md"
 WRITTEN = (
     README,
     DOCS / "coming-from-rsoccer-gym.md",
+    DOCS / "getting-started.md",
     DOCS / "index.md",
-    DOCS / "learning.md",
+    *learning.PAGES,
     DOCS / "libraries.md",
     DOCS / "policies.md",
     DOCS / "speed.md",
@@ -214,17 +215,10 @@ def _thousands(value: float) -> str:
 
 
 PARTS: dict[str, Callable[[], str]] = {
+    **learning.PARTS,
     "curve": curve_picture,
     "demo": demo,
     "instructions": instructions,
-    "learning_ablation": learning.ablation,
-    "learning_baselines": learning.baselines,
-    "learning_compute": learning.compute,
-    "learning_cooperation": learning.cooperation,
-    "learning_headline": learning.headline,
-    "learning_results": learning.results,
-    "learning_settings": learning.settings,
-    "learning_tournament": learning.tournament,
     "libraries": libraries,
     "match": match_picture,
     "new_task": new_task,

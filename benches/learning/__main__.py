@@ -14,13 +14,14 @@ import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from benches.learning import algorithms, run_files, worker
+from benches.learning import conditions
 from benches.learning.experiments import CLONES, Run, Study
-from benches.learning.listing import best, listing
-from benches.learning.pool import BUSY, Pool
-from benches.learning.report import report
+from benches.learning.reporting.report import report
 from benches.learning.run_files import Folders
-from benches.learning.status import (
+from benches.learning.running import worker, workplace
+from benches.learning.running.listing import best, listing
+from benches.learning.running.pool import BUSY, Pool
+from benches.learning.running.status import (
     DONE,
     INVALID,
     OPEN,
@@ -136,14 +137,14 @@ def repeated(chosen: Sequence[Status], folders: Folders) -> set[str]:
     # Clones learn nothing, so they lack no policy.
     runs = [entry.run for entry in chosen if entry.state == DONE]
     keys = (run.key for run in runs if run.experiment.algorithm != CLONES)
-    return {key for key in keys if not run_files.keeps_policy(folders, key)}
+    return {key for key in keys if not workplace.keeps_policy(folders, key)}
 
 
 def with_libraries(runs: Iterable[Run]) -> list[Run]:
     """Return the runs whose libraries are installed, and name the others."""
     found = []
     for run in runs:
-        if library := algorithms.missing_library(run):
+        if library := conditions.missing_library(run):
             sys.stderr.write(f"{UNAVAILABLE}: {run.key}: {library} is not installed\n")
         else:
             found.append(run)
@@ -167,7 +168,7 @@ def parse_arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     add = parser.add_argument
     add("--list", action="store_true", help="print the runs that are done and open, run nothing")
     add("--best", action="store_true", help="print the best seed of each experiment, its policy")
-    add("--report", action="store_true", help="write docs/learning.md, its pictures, README.md")
+    add("--report", action="store_true", help="write the pages of the study and their pictures")
     add("--group", action="append", help="only this group; may be repeated")
     add("--only", action="append", help="only runs whose name contains this; may be repeated")
     add("--seeds", type=int, help="only the first seeds")

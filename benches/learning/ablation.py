@@ -34,23 +34,27 @@ CHANGES: Final = (
         "goals are most of the return, instead of a tenth",
         {"task_options": {"reward_weights": "paper"}},
     ),
-    Change("discount", "a longer horizon than .95 per control step of 25 ms", {"gamma": 0.95}),
-    Change("repeat", "decisions held, instead of one in every control step", {"action_repeat": 1}),
+    Change("discount", "a longer horizon than .95 per control step of 25 ms", {"ppo.gamma": 0.95}),
+    Change(
+        "repeat",
+        "decisions held, instead of one in every control step",
+        {"rollout.action_repeat": 1},
+    ),
     Change(
         "time-limits",
         "values bootstrapped at time limits, and random truncations, instead of ends",
-        {"bootstrap_time_limits": False, "random_truncation": 0.0},
+        {"ppo.bootstrap_time_limits": False, "rollout.random_truncation": 0.0},
     ),
     Change(
         "headings",
         "headings of opponents observed",
-        {"masked_observations": ("opponents:2,3",)},
+        {"network.masked_observations": ("opponents:2,3",)},
     ),
     Change(
         "features",
         "the own action and features in the robot's coordinates observed",
         {
-            "masked_observations": (
+            "network.masked_observations": (
                 *("ball_polar", "goal_polar", "shot", "own_goal_polar", "own_goal_shot"),
                 *("body_velocities", "body_positions"),
                 "action",
@@ -58,21 +62,21 @@ CHANGES: Final = (
         },
     ),
     Change(
-        "normalisation",
-        "observations and rewards normalised",
-        {"normalise_observations": False, "normalise_rewards": False},
+        "normalization",
+        "observations and rewards normalized",
+        {"rollout.normalize_observations": False, "rollout.normalize_rewards": False},
     ),
     Change(
         "reflections",
         "samples learned from a second time with left and right swapped",
-        {"mirror_augmentation": False},
+        {"ppo.mirror_augmentation": False},
     ),
 )
 """The learner itself is the same in all runs: the paper does not name the settings of its PPO."""
 
 
 PAPER_MASK: Final = tuple(
-    part for change in CHANGES for part in change.paper.get("masked_observations", ())
+    part for change in CHANGES for part in change.paper.get("network.masked_observations", ())
 )
 """Parts of the observation that the paper's task does not have."""
 

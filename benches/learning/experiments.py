@@ -32,8 +32,7 @@ class Experiment:
     nothing: it evaluates the policy of another task."""
     settings: Mapping[str, Any] = field(default_factory=dict)
     """Settings that differ from the defaults of the algorithm; for PPO, from those recommended for
-    the task. In settings of PPO "@group/name" is the policy of another experiment, of the same
-    seed."""
+    the task."""
     seeds: int = 5
     """Number of runs."""
     opponents: tuple[str | None, ...] | None = None

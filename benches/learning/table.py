@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Final
 
 from benches.learning import ablation
-from benches.learning.evaluation import VSSS
 from benches.learning.experiments import Experiment, Study
+from benches.learning.opponents import VSSS
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
@@ -24,12 +24,25 @@ TASKS: Final = (
 """Tasks in the order of the tables."""
 
 PPO: Final = {
-    task: Experiment("ppo", task, task, settings=recommended_settings(task), text=f"PPO on {task}")
+    task: Experiment(
+        "ppo",
+        task,
+        task,
+        settings={**recommended_settings(task), "network.central_critic": False},
+        text=f"PPO on {task}",
+    )
     for task in TASKS
 }
-"""The experiment of PPO by task."""
+"""The experiment of PPO by task, with a critic that reads what the policy reads. A centralized one
+is a variant in the group `cooperation`, also where the recommended settings have it."""
 
-SHARED_WITH_PPO: Final = ("hidden_sizes", "gamma", "action_repeat", "task_options")
+SHARED_WITH_PPO: Final = {
+    "hidden_sizes": "network.hidden_sizes",
+    "gamma": "ppo.gamma",
+    "action_repeat": "rollout.action_repeat",
+    "task_options": "task_options",
+}
+"""Settings of the baselines that are those of PPO, by its name for them."""
 
 IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
     "VSS-v0": {"ddpg": 1_100_000, "sac": 700_000},
@@ -43,8 +56,9 @@ IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
 }
 """Samples of DDPG and SAC in the time of PPO's run, by task.
 
-Products of PPO's samples and the ratio of the speeds, from `python -m benches.learning.pace`, which
-measures them in turn. A limit in seconds would depend on what else the machine does.
+Products of PPO's samples and the ratio of the speeds, which
+`python -m benches.learning.running.pace` measures in turn. A limit in seconds would depend on what
+else the machine does.
 """
 
 BASELINES: Final = tuple(
@@ -55,7 +69,7 @@ BASELINES: Final = tuple(
         algorithm,
         settings={
             "samples": samples,
-            **{name: Args.for_task(task).to_json()[name] for name in SHARED_WITH_PPO},
+            **{name: Args.for_task(task).to_json()[own] for name, own in SHARED_WITH_PPO.items()},
         },
         seeds=3,
     )
@@ -138,7 +152,7 @@ COOPERATION: Final = (
             "cooperation",
             f"{task}-central-critic",
             task,
-            settings={**PPO[task].settings, "central_critic": True},
+            settings={**PPO[task].settings, "network.central_critic": True},
             seeds=3,
             text="a centralized critic, on the state of the match",
         )
@@ -148,7 +162,7 @@ COOPERATION: Final = (
         "cooperation",
         f"{TEAM}-team-only",
         TEAM,
-        settings={**PPO[TEAM].settings, "solo_fraction": 0.0},
+        settings={**PPO[TEAM].settings, "opponents.solo_fraction": 0.0},
         seeds=3,
         text="all learn as a team from the start, without a part with one learner",
     ),

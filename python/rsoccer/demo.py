@@ -14,12 +14,16 @@ from rsoccer.render.video import write_video
 from rsoccer.replay.film import film_replay
 from rsoccer.replay.recorder import record_replay
 from rsoccer.train import Args, train
-from rsoccer.train.learning_curve import plot_learning_curve
+from rsoccer.train.run.learning_curve import plot_learning_curve
 
 TASK = "VSSSelfPlay-v0"
 SAMPLES = 2_400_000
 """Default number of decisions to learn from: two to three minutes of training on two cores."""
-SHORT_RUN: Final[Mapping[str, Any]] = {"worlds": 512, "n_minibatches": 8, "solo_fraction": 0.8}
+SHORT_RUN: Final[Mapping[str, Any]] = {
+    "rollout": {"worlds": 512},
+    "ppo": {"n_minibatches": 8},
+    "opponents": {"solo_fraction": 0.8},
+}
 """Settings of a run that ends before teams play well: most of it has one learner per match, and
 small batches make progress sooner."""
 LADDER_INTERVAL = 25
@@ -51,8 +55,7 @@ def demo(out: Path, samples: int = SAMPLES, matches: int = 200) -> dict[str, Any
         out=out,
         samples=samples,
         overwrite=True,
-        match_page=False,
-        ladder_interval=LADDER_INTERVAL,
+        run={"match_page": False, "ladder_interval": LADDER_INTERVAL},
         **SHORT_RUN,
     )
     policy = train(args)

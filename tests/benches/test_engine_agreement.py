@@ -21,8 +21,8 @@ from benches.play_statistics import (
     play_scenario,
 )
 from benches.scenarios import CROWD, ENGINES, Scenario
+from benches.solvers import SOLVERS
 from tools.engine_agreement import play_table, policy_table
-from tools.solvers import SOLVERS
 
 SHORT = Scenario("VSSS 3 v 3", "vss_3v3", 3, "crowd", episode=40)
 

@@ -53,7 +53,8 @@ def test_a_run_records_its_modules_and_its_robot(tmp_path: Path) -> None:
     pytest.importorskip("torch")
     write_module(tmp_path)
     own = ["--task", "Duel-v0", "--import", "mine", "--task-options", "robot=heavy.json"]
-    small = ["--worlds", "16", "--no-progress", "--ladder-matches", "2", "--out", "out"]
+    small = ["--rollout.worlds", "16", "--run.no-progress", "--run.ladder-matches", "2"]
+    small += ["--out", "out"]
     done = run_in(tmp_path, "train", *own, *small, "--samples", "1e3", "--opponents", "spin", "1")
     assert done.returncode == 0, done.stderr
     saved = json.loads((tmp_path / "out" / "args.json").read_text())
@@ -61,7 +62,7 @@ def test_a_run_records_its_modules_and_its_robot(tmp_path: Path) -> None:
     assert saved["task_options"]["robot"]["RobotModel"]["mass"] == 0.21
     (tmp_path / "heavy.json").unlink()
     done = run_in(
-        tmp_path, "train", "--resume", "--samples", "2e3", "--no-progress", "--out", "out"
+        tmp_path, "train", "--resume", "--samples", "2e3", "--run.no-progress", "--out", "out"
     )
     assert done.returncode == 0, done.stderr
     shown = ["watch", "out/policy.safetensors", "--seconds", "0.2", "--save", "a.rsr"]
@@ -75,6 +76,6 @@ def test_training_goes_on_where_a_policy_object_is_the_default(tmp_path: Path) -
     """Formerly the names of policies were sorted with the object among them."""
     pytest.importorskip("torch")
     write_module(tmp_path)
-    words = ["--task", "Duel-v0", "--import", "mine", "--samples", "100", "--worlds", "16"]
-    done = run_in(tmp_path, "train", *words, "--no-progress", "--ladder-matches", "2")
+    words = ["--task", "Duel-v0", "--import", "mine", "--samples", "100", "--rollout.worlds", "16"]
+    done = run_in(tmp_path, "train", *words, "--run.no-progress", "--run.ladder-matches", "2")
     assert done.returncode == 0, done.stderr

@@ -16,7 +16,7 @@ def test_the_module_runs_as_the_command() -> None:
     ("command", "words"),
     [
         ([], ["list", "train", "evaluate", "watch", "play", "Robot soccer"]),
-        (["train"], ["--samples", "decisions to learn from", "--resume"]),
+        (["train"], ["--samples", "decisions of all learning robots", "--resume"]),
         (
             ["evaluate"],
             [

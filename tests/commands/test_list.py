@@ -36,4 +36,4 @@ def test_list_and_help_import_no_heavy_package() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    assert "--learning-rate" in done.stdout
+    assert "--ppo.learning-rate" in done.stdout

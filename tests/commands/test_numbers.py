@@ -26,10 +26,15 @@ def test_all_commands_take_them(
 ) -> None:
     received: list[Args] = []
     monkeypatch.setattr(train_command, "train", received.append)
-    words = ["train", "--samples", "1e6", "--hidden-sizes", "1e1", "20", "--worlds", "1_000"]
+    words = ["train", "--samples", "1e6", "--network.hidden-sizes", "1e1", "20"]
+    words += ["--rollout.worlds", "1_000"]
     assert cli.main(words) == 0
     (args,) = received
-    assert (args.samples, args.hidden_sizes, args.worlds) == (1_000_000, (10, 20), 1000)
+    assert (args.samples, args.network.hidden_sizes, args.rollout.worlds) == (
+        1_000_000,
+        (10, 20),
+        1000,
+    )
     assert cli.main(["evaluate", "zero", "--matches", "2e0", "--seed", "1e1"]) == 0
     with pytest.raises(SystemExit):
         cli.main(["evaluate", "zero", "--matches", "1.5"])
@@ -39,5 +44,5 @@ def test_all_commands_take_them(
 def test_settings_take_whole_floats() -> None:
     samples: float = 1e6
     assert Args(samples=samples).samples == 1_000_000  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match=r"samples must be an integer, got 0\.5"):
+    with pytest.raises(ValueError, match=r"samples must be an integer at least 1, got 0\.5"):
         Args(samples=0.5)  # type: ignore[arg-type]

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from benches.solvers import SOLVERS
 from rsoccer import Matches
 from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
@@ -18,7 +19,6 @@ from rsoccer.matches import Outcome
 from rsoccer.task import Play, Task
 from tests.helpers import Crowd, pushing, same, ssl_crowd, touches
 from tests.parallel_matches import TASKS, VSS_TASKS
-from tools.solvers import SOLVERS
 
 WORLDS = 5
 STEPS = 130

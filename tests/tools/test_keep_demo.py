@@ -22,7 +22,7 @@ def test_the_speed_is_a_median_and_the_shares_are_of_the_whole_time(tmp_path: Pa
     lines = ["samples_per_second,time_physics,time_learning", "100,0.2,0.7", "300,0.4,0.4"]
     lines.append("200,0.3,0.6")
     (tmp_path / "progress.csv").write_text("\n".join(lines) + "\n")
-    (tmp_path / "args.json").write_text(json.dumps({"action_repeat": 3}))
+    (tmp_path / "args.json").write_text(json.dumps({"rollout.action_repeat": 3}))
     found = training(tmp_path)
     assert found["samples_per_second"] == 200
     assert found["agent_steps_per_second"] == 600

@@ -13,7 +13,7 @@ from rsoccer import cli
 from rsoccer.commands import train as train_command
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
-from rsoccer.train import Args, train
+from rsoccer.train import Args, NetworkSettings, train
 from tests.policies.networks import network_for
 from tests.train.one_update import one_update
 from tools.ship_policy import MAX_SIZE, command_of, ship
@@ -42,7 +42,11 @@ def test_a_run_becomes_the_best_policy_of_its_task(
     made = json.loads(best.metadata["training"])
     command = shlex.split(made["command"])
     assert command[:4] == ["rsoccer", "train", "--task", "VSS-v0"]
-    for words in ("--samples 1", "--hidden-sizes 8", "--task-options opponent=zero max_steps=300"):
+    for words in (
+        "--samples 1",
+        "--network.hidden-sizes 8",
+        "--task-options opponent=zero max_steps=300",
+    ):
         assert f" {words} " in f"{made['command']} "
     assert not {"--out", "--resume", "--progress", "--no-progress"} & set(command)
     assert (made["seed"], made["samples"]) == (0, 12)
@@ -86,6 +90,7 @@ def test_the_recorded_command_has_the_settings_of_the_run(
 ) -> None:
     received: list[Args] = []
     monkeypatch.setattr(train_command, "train", received.append)
-    for args in (Args.for_task(task), Args(task=task), Args(task=task, robot_units=3)):
+    shared = Args(task=task, network=NetworkSettings(robot_units=3))
+    for args in (Args.for_task(task), Args(task=task), shared):
         assert cli.main(shlex.split(command_of(args.to_json()))[1:]) == 0
         assert received[-1].to_json() == args.to_json()

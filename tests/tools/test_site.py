@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 import rsoccer
+from benches.solvers import SOLVERS
 from rsoccer._core import BALL_COLUMNS, build_info
 from rsoccer.registry import list_options
 from tools.paths import DOCS
 from tools.site import api, docstrings, matches, meanings, solved, source, stub, task_docs, tasks
-from tools.solvers import SOLVERS
 
 TASKS = rsoccer.list_tasks()
 

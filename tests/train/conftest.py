@@ -7,6 +7,7 @@ import pytest
 
 from rsoccer import registry
 from rsoccer.train import train
+from rsoccer.train.opponents import opponent_pool
 from tests.train.short_task import register_all, tiny
 
 
@@ -15,6 +16,9 @@ def short_tasks() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(registry, "_TASKS", dict(registry._TASKS))
         register_all()
+        # A run of six updates fills the pool, and evicts past policies from it.
+        patch.setattr(opponent_pool, "POOL_SIZE", 2)
+        patch.setattr(opponent_pool, "FREEZE_INTERVAL", 1)
         yield
 
 

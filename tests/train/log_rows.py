@@ -1,6 +1,13 @@
 """Rows of a log with a gap, as a run writes them."""
 
-from rsoccer.train.log import Logger
+from pathlib import Path
+
+from rsoccer.train.run.log import Logger
+
+
+def new_logger(folder: Path, samples: int = 0, size: int = 0) -> Logger:
+    """Return the logs of a run without a progress bar, new or after a checkpoint."""
+    return Logger(folder, samples, 1000, size, progress=False)
 
 
 def write_rows(logger: Logger, first: int, last: int) -> int:

@@ -2,7 +2,14 @@
 
 from pathlib import Path
 
-from rsoccer.train import Args
+from rsoccer.train import (
+    Args,
+    NetworkSettings,
+    OpponentSettings,
+    PpoSettings,
+    RolloutSettings,
+    RunSettings,
+)
 
 
 def one_update(task: str, folder: Path) -> Args:
@@ -12,12 +19,9 @@ def one_update(task: str, folder: Path) -> Args:
         folder,
         samples=1,  # rounded up to one update
         threads=1,
-        progress=False,
-        solo_fraction=0.0,
-        worlds=3,
-        horizon=4,
-        hidden_sizes=(8,),
-        n_epochs=1,
-        n_minibatches=1,
-        ladder_interval=0,
+        rollout=RolloutSettings(worlds=3, horizon=4),
+        network=NetworkSettings(hidden_sizes=(8,)),
+        ppo=PpoSettings(n_epochs=1, n_minibatches=1),
+        opponents=OpponentSettings(solo_fraction=0.0),
+        run=RunSettings(progress=False, ladder_interval=0),
     )

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer.train import Args, checkpoint
-from rsoccer.train.stop_signal import Stopped, StopSignal
-from rsoccer.train.trainer import Trainer
+from rsoccer.train import Args
+from rsoccer.train.run import checkpoint
+from rsoccer.train.run.loop import Loop
+from rsoccer.train.run.stop_signal import Stopped, StopSignal
+from rsoccer.train.run.trainer import Trainer
 
 
 def digest(folder: Path) -> str:
@@ -46,5 +48,5 @@ def run_until(args: Args, checks: int) -> int:
     """Train until a signal at the given check, and return the number of updates."""
     trainer = Trainer(args)
     with pytest.raises(Stopped):
-        trainer.run(StopAfter(checks), 0)
+        Loop(trainer, {}).run(StopAfter(checks), 0)
     return trainer.updates

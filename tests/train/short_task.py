@@ -13,6 +13,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.train import Args
+from rsoccer.train.args import PARTS
 
 NAME = "ShortSelfPlay-v0"
 FORWARD = "Forward-v0"
@@ -61,12 +62,9 @@ TINY = {
     "n_epochs": 2,
     "n_minibatches": 2,
     "random_truncation": 0.01,  # three in a run
-    "final_action_std": None,  # learned; tests of ablations anneal it
     "threads": 1,
     "latest_fraction": 0.4,
     "past_fraction": 0.4,
-    "pool_size": 2,
-    "pool_interval": 1,
     "ladder_interval": 4,
     "ladder_matches": 8,
     "progress": False,
@@ -75,6 +73,12 @@ TINY = {
 """Settings of a run of six updates that takes about a second."""
 
 
+def by_name(settings: dict[str, Any]) -> dict[str, Any]:
+    """Return settings with their parts before their names, which are unique over all parts."""
+    parts = {name: part for part in PARTS for name in vars(getattr(Args(), part))}
+    return {f"{parts[k]}.{k}" if k in parts else k: value for k, value in settings.items()}
+
+
 def tiny(out: Path, **changes: Any) -> Args:  # noqa: ANN401  (any field)
-    """Return the settings `TINY` with changes."""
-    return Args(**{**TINY, "out": out, **changes})
+    """Return the settings `TINY` with changes, by names without their parts."""
+    return Args.from_json(by_name({**TINY, "out": out, **changes}))

@@ -1,5 +1,6 @@
 """Settings of a run: invalid values raise errors that name the field."""
 
+import dataclasses
 import json
 import re
 import subprocess
@@ -10,103 +11,136 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rsoccer.train.args import Args
+from rsoccer.train import (
+    Args,
+    NetworkSettings,
+    OpponentSettings,
+    PpoSettings,
+    RolloutSettings,
+    RunSettings,
+)
+from rsoccer.train.args import PARTS
 
 INVALID: list[tuple[str, Any]] = [
     ("samples", 0),
     ("device", "gpu"),
-    ("learning_rate_schedule", "cosine"),
-    ("worlds", 0),
+    ("ppo.learning_rate_schedule", "cosine"),
+    ("rollout.worlds", 0),
     ("threads", 0),
-    ("horizon", 0),
-    ("action_repeat", 0),
-    ("n_epochs", 0),
-    ("n_minibatches", 0),
+    ("rollout.horizon", 0),
+    ("rollout.action_repeat", 0),
+    ("ppo.n_epochs", 0),
+    ("ppo.n_minibatches", 0),
     ("seed", -1),
-    ("learning_rate", 0.0),
-    ("learning_rate", float("nan")),
-    ("action_std", -0.5),
-    ("max_grad_norm", float("inf")),
-    ("checkpoint_interval", 0.0),
-    ("gamma", 1.5),
-    ("gae_lambda", -0.1),
-    ("entropy_coef", -1.0),
-    ("value_coef", float("nan")),
-    ("hidden_sizes", ()),
-    ("hidden_sizes", (64, 0)),
-    ("latest_fraction", 0.9),
-    ("opponents", {"ou": -1.0}),
-    ("opponents", {"ou": 0.0}),
-    ("teammates", {"ou": float("nan")}),
-    ("pool_size", 0),
-    ("final_action_std", 0.0),
-    ("final_action_std", float("inf")),
-    ("final_gamma", 1.01),
-    ("final_gamma", float("nan")),
-    ("initial_action", (0.0, 1.5)),
+    ("ppo.learning_rate", 0.0),
+    ("ppo.learning_rate", float("nan")),
+    ("ppo.learning_rate", float("inf")),
+    ("network.action_std", -0.5),
+    ("network.robot_units", -1),
+    ("run.checkpoint_interval", 0.0),
+    ("run.ladder_interval", -1),
+    ("run.ladder_matches", 0),
+    ("rollout.random_truncation", 1.5),
+    ("ppo.gamma", 1.5),
+    ("ppo.gamma", float("nan")),
+    ("ppo.gae_lambda", -0.1),
+    ("network.hidden_sizes", ()),
+    ("network.hidden_sizes", (64, 0)),
+    ("opponents.latest_fraction", 0.9),
+    ("opponents.solo_fraction", -0.1),
+    ("opponents.fixed", {"ou": -1.0}),
+    ("opponents.fixed", {"ou": 0.0}),
+    ("opponents.fixed", {"ou": float("nan")}),
+    ("network.final_action_std", 0.0),
+    ("network.final_action_std", float("inf")),
+    ("network.final_action_std", None),
+    ("ppo.final_gamma", 1.01),
+    ("ppo.final_gamma", float("nan")),
+    ("network.initial_action", (0.0, 1.5)),
     ("task_options", {"robot": object()}),
     ("task_options", {"ball_speed": float("nan")}),
     ("task_options", ["n_blue"]),
-    ("pfsp_power", -1.0),
-    ("worlds", "64"),
-    ("worlds", 64.5),
-    ("worlds", True),
+    ("rollout.worlds", "64"),
+    ("rollout.worlds", 64.5),
+    ("rollout.worlds", True),
     ("seed", 1.5),
-    ("n_epochs", 2.5),
-    ("gamma", None),
-    ("gamma", "0.9"),
-    ("final_gamma", "0.9"),
+    ("ppo.n_epochs", 2.5),
+    ("ppo.gamma", None),
+    ("ppo.gamma", "0.9"),
+    ("ppo.final_gamma", "0.9"),
     ("resume", "no"),
-    ("progress", 1),
+    ("run.progress", 1),
     ("task", 3),
     ("out", 3),
     ("device", None),
-    ("opponents", "ou"),
-    ("opponents", ["ou"]),
-    ("opponents", None),
-    ("opponents", {"ou": "1"}),
-    ("opponents", {3: 1.0}),
-    ("hidden_sizes", 64),
-    ("hidden_sizes", (64.5,)),
-    ("masked_observations", "ball"),
-    ("initial_action", (None,)),
-    ("hidden_sizes", np.array(64)),
-    ("value_coef", 10**400),
+    ("opponents.fixed", "ou"),
+    ("opponents.fixed", ["ou"]),
+    ("opponents.fixed", None),
+    ("opponents.fixed", {"ou": "1"}),
+    ("opponents.fixed", {3: 1.0}),
+    ("network.hidden_sizes", 64),
+    ("network.hidden_sizes", (64.5,)),
+    ("network.masked_observations", "ball"),
+    ("network.initial_action", (None,)),
+    ("network.hidden_sizes", np.array(64)),
+    ("ppo.learning_rate", 10**400),
+    ("ppo", {"gamma": 0.9}),
+    ("rollout", PpoSettings()),
 ]
 
 
 @pytest.mark.parametrize(("name", "value"), INVALID)
 def test_an_invalid_value_is_refused_by_name(name: str, value: Any) -> None:  # noqa: ANN401
     with pytest.raises(ValueError, match=name):
-        Args(**{name: value})
+        Args.from_json({name: value})
 
 
 def test_numbers_and_arrays_of_numpy_are_converted() -> None:
     values: dict[str, Any] = {
-        "worlds": np.int64(8),
-        "gamma": np.float64(0.5),
-        "progress": np.bool_(False),
-        "hidden_sizes": np.array([8, 16]),
-        "initial_action": [0, np.float32(0.5)],
-        "opponents": {"ou": np.float64(2.0)},
+        "rollout.worlds": np.int64(8),
+        "ppo.gamma": np.float64(0.5),
+        "run.progress": np.bool_(False),
+        "network.hidden_sizes": np.array([8, 16]),
+        "network.initial_action": [0, np.float32(0.5)],
+        "opponents.fixed": {"ou": np.float64(2.0)},
         "out": "out/some",
     }
-    args = Args(**values)
-    assert (args.worlds, args.gamma, args.progress) == (8, 0.5, False)
-    assert (args.hidden_sizes, args.initial_action) == ((8, 16), (0, 0.5))
+    args = Args.from_json(values)
+    assert (args.rollout.worlds, args.ppo.gamma, args.run.progress) == (8, 0.5, False)
+    assert (args.network.hidden_sizes, args.network.initial_action) == ((8, 16), (0, 0.5))
     assert args.out == Path("out/some")
-    assert Args(**json.loads(json.dumps(args.to_json()))) == args
+    assert Args.from_json(json.loads(json.dumps(args.to_json()))) == args
 
 
 def test_the_error_says_what_was_expected() -> None:
-    for changes, message in (
-        ({"worlds": "64"}, "worlds must be an integer, got '64'"),
-        ({"final_gamma": "1"}, "final_gamma must be a number or None, got '1'"),
-        ({"hidden_sizes": 64}, "hidden_sizes must be a sequence, each an integer, got 64"),
-        ({"opponents": "ou"}, "opponents must be a mapping from names, each a number, got 'ou'"),
+    for name, value, message in (
+        ("rollout.worlds", "64", "rollout.worlds must be an integer at least 1, got '64'"),
+        ("rollout.worlds", 0, "rollout.worlds must be an integer at least 1, got 0"),
+        ("ppo.final_gamma", "1", "ppo.final_gamma must be a number between 0 and 1 or None"),
+        ("network.hidden_sizes", 64, "network.hidden_sizes must be a sequence, each an integer"),
+        ("opponents.fixed", "ou", "opponents.fixed must be a mapping from names, each a number"),
+        ("device", "gpu", "device must be one of auto, cpu, cuda, got 'gpu'"),
+        ("ppo", 3, "ppo must be an instance of PpoSettings, got 3"),
     ):
-        with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
-            Args(**changes)
+        with pytest.raises(ValueError, match=f"^{re.escape(message)}"):
+            Args.from_json({name: value})
+
+
+def test_unknown_settings_are_refused_by_name() -> None:
+    with pytest.raises(TypeError, match="horizons"):
+        Args.from_json({"horizons": 3})
+    with pytest.raises(TypeError, match="gammas"):
+        Args.from_json({"ppo.gammas": 3})
+    with pytest.raises(TypeError, match=r"a part of \['rollout', .*got 'learning'"):
+        Args.from_json({"learning.gamma": 0.9})
+
+
+def test_parts_are_the_nested_settings() -> None:
+    """Names are unique over all parts, so that a name alone says which setting is meant."""
+    nested = [name for name, value in vars(Args()).items() if dataclasses.is_dataclass(value)]
+    assert tuple(nested) == PARTS
+    names = [name.rpartition(".")[2] for name in Args().to_json()]
+    assert len(names) == len(set(names)) > 30
 
 
 def test_resume_and_overwrite_exclude_each_other() -> None:
@@ -115,41 +149,40 @@ def test_resume_and_overwrite_exclude_each_other() -> None:
 
 
 def test_an_adaptive_learning_rate_needs_updates_that_can_be_cut_short() -> None:
-    with pytest.raises(ValueError, match="n_epochs must be at least 2"):
-        Args(learning_rate_schedule="adaptive", n_epochs=1)
-    assert Args(learning_rate_schedule="adaptive", n_epochs=2).n_epochs == 2
+    with pytest.raises(ValueError, match=r"ppo\.n_epochs must be at least 2"):
+        PpoSettings(learning_rate_schedule="adaptive", n_epochs=1)
+    assert PpoSettings(learning_rate_schedule="adaptive", n_epochs=2).n_epochs == 2
 
 
 def test_settings_make_a_round_trip_through_json() -> None:
     args = Args(
         out=Path("somewhere"),
-        hidden_sizes=(32, 16),
         task_options={"n_blue": 2, "reward_weights": {"goal": 5.0}},
-        final_action_std=0.2,
-        opponents={"ou": 2, "chase": 1},
-        masked_observations=("shot",),
+        network=NetworkSettings((32, 16), final_action_std=0.2, masked_observations=("shot",)),
+        opponents=OpponentSettings(fixed={"ou": 2, "chase": 1}),
     )
     saved = json.loads(json.dumps(args.to_json()))
+    assert saved["network.hidden_sizes"] == [32, 16]
     assert args.differences(saved) == []
-    assert Args(**saved) == args
+    assert Args.from_json(saved) == args
 
 
-def test_differences_are_the_fields_that_change_the_run() -> None:
+def test_differences_are_the_settings_that_change_the_run() -> None:
     saved = Args(seed=1).to_json()
-    assert Args(seed=1, samples=5, resume=True, out=Path("x")).differences(saved) == []
-    assert Args(seed=2, worlds=8).differences(saved) == [
+    free = RunSettings(1.0, progress=False, ladder_interval=0)
+    assert Args(seed=1, samples=5, resume=True, out=Path("x"), run=free).differences(saved) == []
+    assert Args(seed=2, rollout=RolloutSettings(worlds=8)).differences(saved) == [
         "seed was 1, now 2",
-        f"worlds was {Args().worlds}, now 8",
+        f"rollout.worlds was {RolloutSettings.worlds}, now 8",
     ]
 
 
 def test_a_saved_run_may_lack_settings_that_are_newer() -> None:
     saved = Args(seed=1).to_json()
-    del saved["final_action_std"], saved["task_options"]
+    del saved["network.final_action_std"], saved["task_options"]
     assert Args(seed=1).differences(saved) == []
-    assert Args(seed=1, final_action_std=0.2).differences(saved) == [
-        "final_action_std was 0.1, now 0.2"
-    ]
+    changed = Args(seed=1, network=NetworkSettings(final_action_std=0.2))
+    assert changed.differences(saved) == ["network.final_action_std was 0.1, now 0.2"]
 
 
 def test_task_folder_and_samples_are_given_by_position() -> None:
@@ -168,8 +201,9 @@ def test_a_wrong_task_option_is_refused_with_the_valid_ones() -> None:
 
 
 def test_the_order_of_opponents_does_not_matter() -> None:
-    saved = Args(opponents={"ou": 2.0, "chase": 1.0}).to_json()
-    assert Args(opponents={"chase": 1.0, "ou": 2.0}).differences(saved) == []
+    saved = Args(opponents=OpponentSettings(fixed={"ou": 2.0, "chase": 1.0})).to_json()
+    other = OpponentSettings(fixed={"chase": 1.0, "ou": 2.0})
+    assert Args(opponents=other).differences(saved) == []
 
 
 def test_reading_the_settings_needs_no_torch() -> None:

@@ -1,6 +1,7 @@
 """Every registered task can be trained: the first update of a tiny network is finite."""
 
 import csv
+import dataclasses
 import math
 from pathlib import Path
 
@@ -9,8 +10,9 @@ import pytest
 
 import rsoccer
 from rsoccer.policies.network import Network
-from rsoccer.train import Args, train
-from rsoccer.train.log import EpisodeStats, read_progress
+from rsoccer.train import train
+from rsoccer.train.rollout.episode_stats import EpisodeStats
+from rsoccer.train.run.log import read_progress
 from tests.train.one_update import one_update
 
 TASKS = rsoccer.list_tasks()  # without the short tasks of the other tests here
@@ -32,21 +34,9 @@ def test_the_first_update_is_finite(name: str, tmp_path: Path) -> None:
 
 
 def test_metrics_of_a_task_do_not_replace_columns_of_the_run(tmp_path: Path) -> None:
-    args = Args(
-        "SSLGoToBall-v0",
-        tmp_path,
-        samples=2 * 3 * 4,
-        threads=1,
-        progress=False,
-        match_page=False,
-        worlds=3,
-        horizon=4,
-        hidden_sizes=(8,),
-        n_minibatches=1,
-        random_truncation=0.0,
-        ladder_interval=0,
-    )
-    train(args)
+    args = one_update("SSLGoToBall-v0", tmp_path)
+    rollout = dataclasses.replace(args.rollout, random_truncation=0.0)
+    train(dataclasses.replace(args, samples=2 * 3 * 4, rollout=rollout))
     seconds = read_progress(tmp_path)["seconds"]
     assert len(seconds) == 2
     assert 0.0 < seconds[0] < seconds[1], "not the elapsed time"

@@ -1,17 +1,22 @@
-"""Recommended settings: each entry names a task and fields, and its values are accepted."""
+"""Recommended settings: each entry names a task and settings, and those of the trained policies."""
 
-import dataclasses
+import json
+import shlex
 
 import pytest
 
 import rsoccer
+from rsoccer import cli
+from rsoccer.commands import train as train_command
+from rsoccer.policies import trained
+from rsoccer.policies.policy_file import read_file
 from rsoccer.registry import list_aliases
-from rsoccer.train import Args, task_settings
+from rsoccer.train import Args, RolloutSettings, task_settings
 from rsoccer.train.args import CHANGEABLE_ON_RESUME
-from rsoccer.train.mirror import check_symmetric
-from rsoccer.train.observation_mask import observation_mask
+from rsoccer.train.network.observation_mask import observation_mask
+from rsoccer.train.ppo.mirror import check_symmetric
 
-FIELDS = {field.name for field in dataclasses.fields(Args)} - {"task", "seed"}
+FIELDS = set(Args().to_json()) - {"task", "seed"}
 FREE = FIELDS - set(CHANGEABLE_ON_RESUME) | {"samples"}
 
 
@@ -25,17 +30,34 @@ def test_entries_name_tasks_and_fields_of_the_settings() -> None:
 def test_recommended_values_fit_the_task(name: str) -> None:
     args = Args.for_task(name)
     task = args.make_task()
-    observation_mask(task, args.masked_observations)
-    if args.mirror_augmentation:
+    observation_mask(task, args.network.masked_observations)
+    if args.ppo.mirror_augmentation:
         check_symmetric(task)
 
 
 def test_given_values_replace_recommended_ones(monkeypatch: pytest.MonkeyPatch) -> None:
-    settings = {"gamma": 0.5, "worlds": 8}
+    settings = {"ppo.gamma": 0.5, "rollout.worlds": 8, "opponents.fixed": {"ou": 1.0}}
     monkeypatch.setattr(task_settings, "TASK_SETTINGS", {"VSS-v0": settings})
-    args = Args.for_task("VSS-v0", worlds=9)
-    assert (args.task, args.gamma, args.worlds) == ("VSS-v0", 0.5, 9)
+    args = Args.for_task("VSS-v0", rollout={"worlds": 9}, opponents={"fixed": {"chase": 2.0}})
+    assert (args.task, args.ppo.gamma, args.rollout.worlds) == ("VSS-v0", 0.5, 9)
+    assert args.opponents.fixed == {"chase": 2.0}, "as a whole"
+    whole = Args.for_task("VSS-v0", rollout=RolloutSettings(horizon=4))
+    assert whole.rollout == RolloutSettings(horizon=4)
     assert Args.for_task("VSSMulti-v0") == Args("VSSMulti-v0")
-    assert Args.for_task("VSSFIRA-v0").gamma == 0.5, "the alias of VSS-v0"
+    assert Args.for_task("VSSFIRA-v0").ppo.gamma == 0.5, "the alias of VSS-v0"
     with pytest.raises(TypeError, match="horizons"):
         Args.for_task("VSS-v0", horizons=3)
+
+
+@pytest.mark.parametrize("name", trained.list_trained())
+def test_each_trained_policy_was_made_with_the_settings_of_its_task(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Formerly that of SSLPassEnduranceMulti-v0 was not: it had a centralized critic."""
+    received: list[Args] = []
+    monkeypatch.setattr(train_command, "train", received.append)
+    _, metadata = read_file(trained.list_trained()[name])
+    training = json.loads(metadata["training"])
+    assert cli.main(shlex.split(training["command"])[1:]) == 0
+    expected = Args.for_task(name, seed=training["seed"], threads=1).to_json()
+    assert received[0].to_json() == expected

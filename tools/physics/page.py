@@ -6,9 +6,9 @@ from collections.abc import Callable
 from functools import partial
 from math import ceil, log10
 
+from benches.markdown import filled, table
 from benches.scenarios import ENGINES
 from tools import engine_agreement
-from tools.markdown import filled, table
 from tools.paths import DOCS
 from tools.physics import ball_rolling, parameters, presets, single_contacts
 from tools.physics.check import Check, Tolerance

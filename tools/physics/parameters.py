@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from benches.markdown import table
 from rsoccer._core import BALL_PARAMETERS, ROBOT_PARAMETERS
 from rsoccer.arrays import Array
-from tools.markdown import table
 from tools.physics.check import EXACT, Checks, Criterion, percent
 from tools.physics.cited import BALLS, GENERIC, G
 from tools.physics.dribbler import turning_scene

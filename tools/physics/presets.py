@@ -3,8 +3,8 @@
 from dataclasses import asdict
 from math import pi
 
+from benches.markdown import table
 from rsoccer._core import BallModel, Field, RobotModel
-from tools.markdown import table
 from tools.physics.check import Checks, Criterion, percent
 from tools.physics.cited import (
     BALLS,

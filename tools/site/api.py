@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 import rsoccer
-from tools.markdown import table
+from benches.markdown import table
 from tools.paths import ROOT
 from tools.site import stub
 
@@ -106,18 +106,25 @@ GROUPS: Final = (
         (
             "rsoccer.train",
             "rsoccer.train.args",
+            "rsoccer.train.rollout.settings",
+            "rsoccer.train.network.settings",
+            "rsoccer.train.ppo.settings",
+            "rsoccer.train.opponents.settings",
+            "rsoccer.train.run.settings",
             "rsoccer.train.task_settings",
-            "rsoccer.train.running_mean_std",
-            "rsoccer.train.transition",
+            "rsoccer.train.run.learning_curve",
+            "rsoccer.train.rollout.running_mean_std",
+            "rsoccer.train.rollout.transition",
         ),
     ),
     Group(
         "Evaluation",
         (
             "rsoccer.evaluate",
+            "rsoccer.evaluate.evaluation",
             "rsoccer.evaluate.results",
-            "rsoccer.evaluate.tables",
             "rsoccer.evaluate.tournament",
+            "rsoccer.evaluate.standings",
             "rsoccer.evaluate.ratings",
         ),
     ),

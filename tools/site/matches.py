@@ -4,9 +4,9 @@ from pathlib import Path
 from typing import Final
 
 import rsoccer
+from benches.solvers import SOLVERS
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.replay import Replay, record_replay
-from tools.solvers import SOLVERS
 from tools.task_pictures import SEEDS
 
 FOLDER: Final = "matches"

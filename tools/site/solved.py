@@ -7,9 +7,9 @@ import json
 from typing import Any, Final
 
 import rsoccer
+from benches.solvers import SOLVERS
 from rsoccer._core import build_info
 from tools.paths import DOCS
-from tools.solvers import SOLVERS
 
 FILE: Final = DOCS / "solved.json"
 MATCHES: Final = 200

@@ -7,10 +7,10 @@ from typing import Any, Final
 import numpy as np
 
 import rsoccer
+from benches.markdown import table
 from rsoccer import Matches, Task
 from rsoccer.observation_layout import Block
 from rsoccer.task import LEARN
-from tools.markdown import table
 from tools.site import matches, meanings, solved, task_docs
 from tools.site.meanings import ROBOT, Number, Part
 

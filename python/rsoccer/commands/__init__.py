@@ -14,9 +14,10 @@ from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
 from rsoccer.commands.tournament import Tournament
-from rsoccer.commands.train import Train
+from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
 from rsoccer.plugins import import_modules
+from rsoccer.train import Args
 
 
 def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
@@ -46,8 +47,8 @@ def _train_defaults(words: Sequence[str]) -> Train:
     """Values of the options of `train` that the words do not give."""
     resumed = None
     if _resumes(words):
-        resumed = Train.of_run(Path(_last_value(words, "--out") or Train.out))
-    return resumed or Train.for_task(_last_value(words, "--task") or Train.task)
+        resumed = CommandArgs.of_run(Path(_last_value(words, "--out") or Args.out))
+    return Train(resumed or CommandArgs.for_task(_last_value(words, "--task") or Args.task))
 
 
 def _resumes(words: Sequence[str]) -> bool:

@@ -8,17 +8,17 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Final, Self
 
-from tyro.conf import UseAppendAction
+from tyro.conf import UseAppendAction, arg
 from tyro.constructors import PrimitiveConstructorSpec
 
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import IMPORTS
 from rsoccer.commands.output import write
 from rsoccer.commands.task_options import TASK_OPTIONS
-from rsoccer.train import Args, train
+from rsoccer.train import Args, OpponentSettings, train
 from rsoccer.train.args import SETTINGS_FILE
 
-_NOT_RESUMED: Final = {"out", "resume", "overwrite", "progress"}
+_NOT_RESUMED: Final = {"out", "resume", "overwrite", "run.progress"}
 """Settings that belong to one call of the command, and not to the run."""
 
 
@@ -41,17 +41,28 @@ _MIX = PrimitiveConstructorSpec[dict[str, float]](
 
 
 @dataclass(frozen=True)
-class Train(Args):
-    """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
+class Opponents(OpponentSettings):
+    """Opponents of the learners, by share of the matches."""
+
+    # By the word for opponents that all commands have.
+    fixed: Annotated[dict[str, float], _MIX, arg(name="opponents", prefix_name=False)] = field(
+        default_factory=dict
+    )
+    """policies with their shares in all other matches, else ou or the task's own"""
+
+
+@dataclass(frozen=True)
+class CommandArgs(Args):
+    """Settings as the command line takes them."""
 
     imports: Annotated[tuple[str, ...], UseAppendAction, IMPORTS] = ()
     """module to import first, of the current folder or installed: one that registers a task or
     policies of your own; resumed runs import it again"""
     task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
-    """options of the task (`rsoccer list` prints them), such as reward_weights=paper,
-    opponent=chase or robot=heavy.json"""
-    opponents: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
-    teammates: Annotated[dict[str, float], _MIX] = field(default_factory=dict)
+    """options of the task (`rsoccer list` prints them), such as opponent=chase or
+    robot=heavy.json"""
+    opponents: Opponents = field(default_factory=Opponents)
+    """opponents of the learners, by share of the matches"""
 
     @classmethod
     def of_run(cls, folder: Path) -> Self | None:
@@ -65,10 +76,18 @@ class Train(Args):
         """
         try:
             saved = json.loads((folder / SETTINGS_FILE).read_bytes())
-            return cls(**{name: saved[name] for name in saved if name not in _NOT_RESUMED})
+            return cls.from_json({name: saved[name] for name in saved if name not in _NOT_RESUMED})
         except (OSError, TypeError, ValueError):  # resuming reports what is wrong with the run
             return None
 
+
+@dataclass(frozen=True)
+class Train:
+    """Train one policy for all learning robots with PPO, by self-play where both teams learn."""
+
+    args: Annotated[CommandArgs, arg(name="")]
+    """settings of the run"""
+
     def run(self) -> None:
         """Train, and print the path of the policy file."""
-        write(f"policy: {train(self)}")
+        write(f"policy: {train(self.args)}")

@@ -17,16 +17,11 @@ import numpy as np
 from rsoccer import checks
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate.episodes import EpisodeRunner, Episodes
-from rsoccer.evaluate.results import (
-    Evaluation,
-    Interval,
-    Results,
-    bootstrap_interval,
-    count_results,
-)
+from rsoccer.evaluate.evaluation import Evaluation, table
+from rsoccer.evaluate.results import Interval, Results, bootstrap_interval, count_results
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
-from rsoccer.evaluate.tables import table
-from rsoccer.evaluate.tournament import Standing, Tournament, tournament
+from rsoccer.evaluate.standings import Standing
+from rsoccer.evaluate.tournament import Tournament, tournament
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy

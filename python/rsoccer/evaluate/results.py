@@ -10,7 +10,6 @@ have no interval.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -55,47 +54,6 @@ class Results:
     """lower bound of the score's 95% interval, as in `Interval`; None for too few matches"""
     high: float | None
     """upper bound of the score's 95% interval, or None"""
-
-
-@dataclass(frozen=True)
-class Evaluation(Results):
-    """Result of `evaluate`; `print` shows it, and `table` compares several."""
-
-    policy: str
-    """name or file of the policy, or its class"""
-    opponent: str
-    """policies of the other team, as `policy`; "-" if there is none"""
-    task: str
-    """name of the task"""
-    seed: int
-    """seed of the evaluation"""
-    metric: str
-    """metric whose mean is the score: the task's success, or "return" if it names none"""
-    sides: dict[str, Results]
-    """results by the team that the policy played for, "blue" and "yellow"; empty if one-sided"""
-    returns: Interval
-    """undiscounted return of an episode, a mean over the policy's robots"""
-    seconds: Interval
-    """duration of an episode"""
-    seconds_to_decision: float | None
-    """mean seconds of episodes that ended with a goal of either team (two-sided tasks) or with
-    full success; None if none did"""
-    decided: int
-    """number of these episodes"""
-    own_goals: int
-    """goals against the policy's team after a last touch by one of its own robots"""
-    metrics: dict[str, float]
-    """mean per episode of each other metric of the task, by name; in two-sided tasks metrics of
-    blue and yellow, such as `blue_passes`, are `own_passes` and `opponent_passes`"""
-
-    def as_dict(self) -> dict[str, object]:
-        """Return the fields as numbers, texts and dictionaries, ready for JSON."""
-        return dataclasses.asdict(self)
-
-    def __str__(self) -> str:
-        from rsoccer.evaluate.tables import table
-
-        return table([self])
 
 
 def count_results(strata: Sequence[Doubles], rng: np.random.Generator) -> Results:

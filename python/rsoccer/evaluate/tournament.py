@@ -19,6 +19,8 @@ from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.evaluate.ratings import rate
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
+from rsoccer.evaluate.standings import Standing, Standings
+from rsoccer.evaluate.tournament_report import draw, report
 from rsoccer.lineup import task_for
 from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_policy, name_of
 from rsoccer.policies.base import Policy
@@ -32,54 +34,8 @@ ANCHOR = "ou"
 
 
 @dataclass(frozen=True)
-class Standing:
-    """Results of one policy in a tournament."""
-
-    policy: str
-    """name or file of the policy, or its class"""
-    label: str
-    """short name, different from all others; never a name of the package for a file"""
-    rating: float
-    """Bradley-Terry rating on the Elo scale"""
-    low: float | None
-    """lower bound of the rating's 95% bootstrap interval; None with fewer than 20 matches between
-    each two policies, which are too few for one"""
-    high: float | None
-    """upper bound of the rating's interval, or None; both bounds are the rating if all matches of
-    each pair end alike"""
-    wins: int
-    """matches won"""
-    draws: int
-    """matches drawn"""
-    losses: int
-    """matches lost"""
-    score: float
-    """(wins - losses) / matches, from -1 to 1"""
-
-
-@dataclass(frozen=True)
-class Tournament:
+class Tournament(Standings):
     """Result of `tournament`; `print` shows it."""
-
-    task: str
-    """name of the task"""
-    seed: int
-    """seed of the tournament"""
-    matches: int
-    """matches between each two policies"""
-    anchor: str | None
-    """label of the policy whose rating is 1000; None if the mean of all ratings is"""
-    standings: tuple[Standing, ...]
-    """results of each policy, best rating first"""
-    scores: tuple[tuple[float, ...], ...]
-    """goal score of the row against the column, in the order of the standings"""
-    low: tuple[tuple[float, ...], ...] | None
-    """lower bounds of the scores' 95% bootstrap intervals; None with fewer than 20 matches"""
-    high: tuple[tuple[float, ...], ...] | None
-    """upper bounds of the scores' intervals, or None"""
-    cycles: tuple[tuple[str, ...], ...]
-    """labels of policies of which each beats the next, and the last the first: the lower bounds of
-    these scores are above 0. None are named without intervals"""
 
     def as_dict(self) -> dict[str, object]:
         """Return the fields as numbers, texts, lists and dictionaries, ready for JSON."""
@@ -94,13 +50,9 @@ class Tournament:
         Returns:
             `path`.
         """
-        from rsoccer.evaluate.tournament_report import draw
-
         return draw(self, Path(path))
 
     def __str__(self) -> str:
-        from rsoccer.evaluate.tournament_report import report
-
         return report(self)
 
 
@@ -167,10 +119,10 @@ def tournament(
             counts[blue, yellow] = [(np.sign(scores) == sign).sum() for sign in (1, 0, -1)]
         if on_pair is not None:
             on_pair(done, len(pairs))
-    return summarise(policies, counts, task.name, seed)
+    return summarize(policies, counts, task.name, seed)
 
 
-def summarise(
+def summarize(
     policies: Sequence[PolicyLike], counts: NDArray[np.int64], task: str, seed: int
 ) -> Tournament:
     """Return the ratings, scores and cycles of counted results.

@@ -11,18 +11,17 @@ import numpy as np
 from rsoccer.evaluate.cycles import in_words
 from rsoccer.evaluate.ratings import ANCHOR_RATING
 from rsoccer.evaluate.results import MIN_PER_SIDE
+from rsoccer.evaluate.standings import Standings
 from rsoccer.evaluate.tables import align
 from rsoccer.files import write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from rsoccer.evaluate.tournament import Tournament
-
-BAR_COLOUR = "#2f6db3"
+BAR_COLOR = "#2f6db3"
 
 
-def report(result: Tournament) -> str:
+def report(result: Standings) -> str:
     """Return the ratings, the goal scores of each pair and the cycles as lines of text.
 
     Args:
@@ -42,7 +41,7 @@ def report(result: Tournament) -> str:
     )
 
 
-def _ratings(result: Tournament) -> list[tuple[str, ...]]:
+def _ratings(result: Standings) -> list[tuple[str, ...]]:
     """Cells of the table of ratings."""
     header = ("policy", "rating", "95% interval", "won", "drawn", "lost", "goal score")
     rows = [
@@ -58,7 +57,7 @@ def _ratings(result: Tournament) -> list[tuple[str, ...]]:
     return [header, *rows]
 
 
-def _matrix(result: Tournament) -> list[tuple[str, ...]]:
+def _matrix(result: Standings) -> list[tuple[str, ...]]:
     """Cells of the table of goal scores."""
     labels = [standing.label for standing in result.standings]
     rows = [
@@ -68,7 +67,7 @@ def _matrix(result: Tournament) -> list[tuple[str, ...]]:
     return [("", *labels), *rows]
 
 
-def draw(result: Tournament, path: Path) -> Path:
+def draw(result: Standings, path: Path) -> Path:
     """Draw the goal scores as a heat map and the ratings as bars, as a PNG file.
 
     Args:
@@ -92,7 +91,7 @@ def draw(result: Tournament, path: Path) -> Path:
     return path
 
 
-def _draw_matrix(axes: Axes, result: Tournament) -> None:
+def _draw_matrix(axes: Axes, result: Standings) -> None:
     """Heat map of the goal scores, with numbers."""
     labels = [standing.label for standing in result.standings]
     scores = np.array(result.scores)
@@ -100,15 +99,15 @@ def _draw_matrix(axes: Axes, result: Tournament) -> None:
     axes.imshow(scores, cmap="RdBu", vmin=-1.0, vmax=1.0, aspect="auto")
     for (row, column), score in np.ndenumerate(scores):
         if row != column:
-            colour = "white" if abs(score) > 0.6 else "black"
+            color = "white" if abs(score) > 0.6 else "black"
             text = f"{score:+.2f}"
-            axes.text(column, row, text, ha="center", va="center", color=colour, fontsize=9)
+            axes.text(column, row, text, ha="center", va="center", color=color, fontsize=9)
     axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right", rotation_mode="anchor")
     axes.set_yticks(range(len(labels)), labels)
     axes.set_title("goal score of the row against the column", fontsize=10)
 
 
-def _draw_ratings(axes: Axes, result: Tournament) -> None:
+def _draw_ratings(axes: Axes, result: Standings) -> None:
     """Bars of the ratings with their intervals, beside the rows of the heat map."""
     ratings = np.array([standing.rating for standing in result.standings])
     low, high = (
@@ -118,7 +117,7 @@ def _draw_ratings(axes: Axes, result: Tournament) -> None:
     # A percentile interval may leave out the rating of an unbeaten policy.
     errors = np.maximum([ratings - low, high - ratings], 0.0)
     rows = range(len(ratings))
-    axes.barh(rows, ratings - ANCHOR_RATING, left=ANCHOR_RATING, color=BAR_COLOUR, height=0.6)
+    axes.barh(rows, ratings - ANCHOR_RATING, left=ANCHOR_RATING, color=BAR_COLOR, height=0.6)
     axes.axvline(ANCHOR_RATING, color="black", linewidth=0.8)
     axes.errorbar(ratings, rows, xerr=errors, fmt="none", ecolor="black", capsize=3, linewidth=1.2)
     end = np.fmax(high, ratings)

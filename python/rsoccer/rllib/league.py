@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from rsoccer.frame import team_of
-from rsoccer.train.pool_slots import PoolSlots, draw
+from rsoccer.train.opponents.pool_slots import PoolSlots, draw
 
 MAIN: Final = "main"
 """Name of the module that learns."""

@@ -1,6 +1,15 @@
 """Training with PPO, by self-play where both teams learn; needs torch.
 
-`Args` holds the settings of a run, `Args.for_task` the recommended ones, `train` runs it.
+`Args` holds the settings of a run, `Args.for_task` the recommended ones, `train` runs it. Settings
+of the parts of the trainer are nested in `Args`, under the name of the folder with the part:
+
+| field | settings of | class |
+| --- | --- | --- |
+| `rollout` | matches from which an update learns | `RolloutSettings` |
+| `network` | policy and value network | `NetworkSettings` |
+| `ppo` | advantages and updates | `PpoSettings` |
+| `opponents` | opponents, and the part of a run with one learner per match | `OpponentSettings` |
+| `run` | checkpoints, progress, measurements | `RunSettings` |
 """
 
 from __future__ import annotations
@@ -8,15 +17,22 @@ from __future__ import annotations
 from pathlib import Path
 
 from rsoccer.train.args import Args
+from rsoccer.train.network.settings import NetworkSettings
+from rsoccer.train.opponents.settings import OpponentSettings
+from rsoccer.train.ppo.settings import PpoSettings
+from rsoccer.train.rollout.settings import RolloutSettings
+from rsoccer.train.run.settings import RunSettings
 
-__all__ = ["Args", "train"]
+__all__ = ["Args", "NetworkSettings", "OpponentSettings", "PpoSettings", "RolloutSettings"]
+__all__ += ["RunSettings", "train"]
 
 
 def train(args: Args) -> Path:
     """Train a policy with PPO and save it.
 
     Example:
-        >>> path = train(Args.for_task("VSS-v0", out=Path("out/mine")))  # doctest: +SKIP
+        >>> args = Args.for_task("VSS-v0", out=Path("out/mine"), ppo={"gamma": 0.99})
+        >>> path = train(args)  # doctest: +SKIP
 
     Args:
         args: settings of the run.
@@ -30,6 +46,6 @@ def train(args: Args) -> Path:
             damaged or of a run with other settings.
         Interrupted: Ctrl-C or SIGTERM ended the run, after a checkpoint was saved.
     """
-    from rsoccer.train.run import run
+    from rsoccer.train.run.training import run_training
 
-    return run(args)
+    return run_training(args)

@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from benches.learning.run_files import FIELDS, LEARNED_FILE, Folders, save, set_identity
+from benches.learning.run_files import FIELDS, Folders, save
+from benches.learning.running.workplace import LEARNED_FILE, set_identity
 
 
 def finish(folders: Folders, key: str) -> Path:

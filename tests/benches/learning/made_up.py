@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from benches.learning import algorithms, evaluation
+from benches.learning import conditions
+from benches.learning import opponents as evaluated_opponents
 from benches.learning.experiments import Experiment, Run, Study
 from benches.learning.run_files import Folders, save
 from benches.learning.run_files import needs as run_needs
@@ -19,7 +20,7 @@ def store(study: Study, folders: Folders, *, missing: tuple[str, ...] = ()) -> N
     """Write a result of each run that can run with this trainer, except the missing ones."""
     for run in study.runs():
         try:
-            settings = algorithms.settings(run)
+            settings = conditions.settings(run)
         except TypeError:
             continue
         if not any(name in run.key for name in missing):
@@ -69,9 +70,9 @@ def result(
 
 def opponents_of(experiment: Experiment) -> list[str | None]:
     """Return the opponents of the rows of an experiment."""
-    opponents = experiment.opponents or evaluation.opponents_of(experiment.task)
-    has_scenarios = experiment.task in evaluation.SCENARIOS
-    return [*opponents, *([evaluation.OFFICIAL] if has_scenarios else [])]
+    opponents = experiment.opponents or evaluated_opponents.opponents_of(experiment.task)
+    has_scenarios = experiment.task in evaluated_opponents.SCENARIOS
+    return [*opponents, *([evaluated_opponents.OFFICIAL] if has_scenarios else [])]
 
 
 def row(experiment: Experiment, opponent: str, mode: str, score: float) -> dict[str, Any]:

@@ -1,15 +1,12 @@
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from benches.learning import ablation, algorithms
-from benches.learning.experiments import Experiment, Run, Study
-from benches.learning.ppo_run import NOT_COMPARED, SELF_PLAY_ONLY, defaults
-from benches.learning.run_files import LEARNED_FILE, Folders, with_policies
+from benches.learning import ablation, conditions
+from benches.learning.experiments import Experiment, Study
+from benches.learning.ppo_settings import NOT_COMPARED, SELF_PLAY_ONLY, defaults
 from benches.learning.table import STUDY
 from rsoccer.train import Args
-from tests.benches.learning.finished import finish
 
 
 def test_the_study_has_all_groups_and_runs() -> None:
@@ -42,34 +39,20 @@ def test_the_ablation_goes_from_all_changes_to_none() -> None:
     experiments = {e.name: e for e in ablation.experiments("VSS-v0", 1000, 3)}
     assert experiments["ours"].settings == {"samples": 1000}
     paper = dict(experiments["paper"].settings)
-    assert paper["gamma"] == 0.95
-    assert {"opponents:2,3", "shot"} <= set(paper["masked_observations"])
-    assert "gamma" not in experiments["paper+discount"].settings
-    assert experiments["ours-discount"].settings == {"samples": 1000, "gamma": 0.95}
-    with_headings = experiments["paper+headings"].settings["masked_observations"]
-    assert set(paper["masked_observations"]) - set(with_headings) == {"opponents:2,3"}
+    assert paper["ppo.gamma"] == 0.95
+    assert {"opponents:2,3", "shot"} <= set(paper["network.masked_observations"])
+    assert "ppo.gamma" not in experiments["paper+discount"].settings
+    assert experiments["ours-discount"].settings == {"samples": 1000, "ppo.gamma": 0.95}
+    with_headings = experiments["paper+headings"].settings["network.masked_observations"]
+    assert set(paper["network.masked_observations"]) - set(with_headings) == {"opponents:2,3"}
     for experiment in experiments.values():
-        Args(task=experiment.task, **experiment.settings).make_task()
+        Args.from_json({"task": experiment.task, **experiment.settings}).make_task()
 
 
 def test_settings_without_effect_on_a_task_do_not_count() -> None:
     study = Study(tuple(Experiment("a", n, n) for n in ("VSS-v0", "VSSSelfPlay-v0")))
-    single, both = (algorithms.settings(study.run(f"a/{e.name}/seed-0")) for e in study.experiments)
-    assert {"pool_size", "solo_fraction"} <= set(both)
-    assert not {"pool_size", "solo_fraction", "seed", "out"} & set(single)
+    single, both = (conditions.settings(study.run(f"a/{e.name}/seed-0")) for e in study.experiments)
+    without_effect = {"opponents.past_fraction", "opponents.solo_fraction"}
+    assert without_effect <= set(both)
+    assert not (without_effect | {"seed", "out"}) & set(single)
     assert {*NOT_COMPARED, *SELF_PLAY_ONLY} <= set(defaults())
-
-
-def test_settings_name_the_policies_of_other_experiments(tmp_path: Path) -> None:
-    folders = Folders(tmp_path, tmp_path)
-    run = Run(Experiment("a", "x", "VSSMulti-v0", settings={"solo_partners": "@b/y"}), 3)
-    path = finish(folders, "b/y/seed-3")
-    (path.parent / LEARNED_FILE).unlink()  # as while the run is repeated
-    with pytest.raises(ValueError, match=r"a/x/seed-3 needs the policy of b/y/seed-3.*--again"):
-        with_policies(run.experiment.settings, folders, run)
-    finish(folders, "b/y/seed-3")
-    assert with_policies(run.experiment.settings, folders, run) == {"solo_partners": str(path)}
-    mix = {"opponents": {"@b/y": 0.5, "ou": 0.5}, "sizes": (8, 8)}
-    expected = {"opponents": {str(path): 0.5, "ou": 0.5}, "sizes": (8, 8)}
-    assert with_policies(mix, folders, run) == expected
-    assert algorithms.settings(run)["solo_partners"] == "@b/y"

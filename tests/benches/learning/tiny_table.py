@@ -6,12 +6,11 @@ from benches.learning.experiments import Experiment, Protocol, Study
 
 TINY: Final[dict[str, Any]] = {
     "samples": 600,
-    "worlds": 10,
-    "horizon": 20,
-    "hidden_sizes": (8,),
-    "n_epochs": 2,
-    "n_minibatches": 1,
-    "ladder_matches": 4,
+    "rollout.worlds": 10,
+    "rollout.horizon": 20,
+    "network.hidden_sizes": (8,),
+    "ppo.n_epochs": 2,
+    "ppo.n_minibatches": 1,
 }
 LONGER: Final = {**TINY, "samples": 6_000}
 PROTOCOL: Final = Protocol(starts=2)

@@ -107,8 +107,8 @@ impl Tick<'_> {
             state.bodies.set_velocity(BALL, squeeze.velocity);
         }
         let squeezed = squeeze.map(|squeeze| squeeze.solver);
-        let hooks = self.hooks(BallPhase::Floor, squeezed, length);
-        state.engine.step(&mut state.bodies, scratch, &hooks, &self.setup.free_space)?;
+        let rules = self.ball_rules(BallPhase::Floor, squeezed, length);
+        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space)?;
         let mut now = GroundMotion { velocity: state.bodies.motion(BALL).velocity, spin: end.spin };
         if squeezed.is_some_and(|squeezed| squeezed.jammed) {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
@@ -139,8 +139,8 @@ impl Tick<'_> {
         } else {
             BallPhase::Air
         };
-        let hooks = self.hooks(phase, squeeze.map(|squeeze| squeeze.solver), length);
-        state.engine.step(&mut state.bodies, scratch, &hooks, &self.setup.free_space)?;
+        let rules = self.ball_rules(phase, squeeze.map(|squeeze| squeeze.solver), length);
+        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space)?;
         if squeeze.is_some() {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
         }
@@ -165,7 +165,12 @@ impl Tick<'_> {
         Squeeze::find(&state.bodies, self.params, free_space, velocity, height, time)
     }
 
-    fn hooks(&self, phase: BallPhase, squeezed: Option<SqueezedBall>, time: f32) -> BallRules<'_> {
+    fn ball_rules(
+        &self,
+        phase: BallPhase,
+        squeezed: Option<SqueezedBall>,
+        time: f32,
+    ) -> BallRules<'_> {
         BallRules { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
     }
 

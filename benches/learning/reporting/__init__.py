@@ -1,0 +1,1 @@
+"""Reporting a study: tables, pictures and pages, from the files of its results alone."""

@@ -1,0 +1,1 @@
+"""Running a study: learning, evaluation, and the state of its runs."""

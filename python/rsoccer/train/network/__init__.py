@@ -1,0 +1,1 @@
+"""Policy network and value network, their shared weights and what they read."""

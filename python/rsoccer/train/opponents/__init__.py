@@ -1,0 +1,1 @@
+"""Opponents of the learners, and the part of a run with one learner per match."""

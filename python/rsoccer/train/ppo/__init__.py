@@ -1,0 +1,1 @@
+"""Proximal policy optimization: advantages, loss, optimizer and schedules."""

@@ -1,0 +1,76 @@
+"""Symmetry augmentation: each sample of a rollout is learned from a second time, reflected.
+
+Data augmentation as in MARLadona (ICRA 2025) and in Mittal et al., "Symmetry Considerations for
+Learning Task Symmetric Robot Policies" (2024): a reflected sample has the advantage and the return
+of its original. Its log density is that of the policy before the update for the reflected
+observation, so an update starts at a probability ratio of 1 for every sample.
+
+A policy is not symmetric by itself. Reflected actions that it would hardly draw have gradients
+without bound, as PPO clips the ratio of a bad action from below only: training diverged. Such
+samples are left out.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import torch
+from torch import Tensor
+
+from rsoccer.global_state import StateEncoder
+from rsoccer.reflection import Reflection
+from rsoccer.task import Task
+from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.ppo.batch import Batch
+
+MIN_DENSITY_RATIO: Final = 0.5
+"""Least density of a reflected action under the policy, relative to that of the original."""
+
+
+def check_symmetric(task: Task) -> None:
+    """Refuse a task that is another one with left and right swapped.
+
+    Args:
+        task: the task to train on.
+
+    Raises:
+        ValueError: a task that is not symmetric.
+    """
+    if task.layout.reflection is None:
+        raise ValueError(
+            f"ppo.mirror_augmentation must be False, as {task.name} is not symmetric, got True"
+        )
+
+
+@torch.no_grad()
+def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
+    """Return a batch of up to twice the size: the samples, then those that can be reflected.
+
+    Reflected actions below `MIN_DENSITY_RATIO` are left out.
+
+    Args:
+        batch: samples of one rollout. Their observations are normalized by statistics that the
+            reflection does not change.
+        task: the task, which is symmetric.
+        model: the networks before the update.
+    """
+    symmetry, reflection = task.symmetry, task.layout.reflection
+    assert symmetry is not None and reflection is not None, "a symmetric task"
+    observations = _reflect(batch.observations, reflection) * model.mask
+    actions = _reflect(batch.actions, symmetry.action)
+    log_probs = model.log_prob(model.actor(observations), actions)
+    reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
+    if batch.central_inputs is not None:
+        states = batch.central_inputs[:, : -task.layout.size]
+        reflection = StateEncoder(task.config).reflection
+        reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
+    likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)
+    others = reflected.select(likely.nonzero().squeeze(-1)).parts()
+    return Batch(**{name: torch.cat([part, others[name]]) for name, part in batch.parts().items()})
+
+
+def _reflect(vectors: Tensor, reflection: Reflection) -> Tensor:
+    """Reflected vectors (..., k)."""
+    order = torch.as_tensor(reflection.order, device=vectors.device)
+    return vectors[..., order] * torch.as_tensor(reflection.signs, device=vectors.device)

@@ -1,0 +1,142 @@
+"""Proximal policy optimization (PPO, Schulman et al. 2017): the clipped loss and the update."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from typing import Final
+
+import torch
+from torch import Tensor, nn
+
+from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.network.weight_sharing import WeightSharing
+from rsoccer.train.ppo.adam import Adam
+from rsoccer.train.ppo.batch import Batch
+from rsoccer.train.ppo.learning_rate import TARGET_KL
+from rsoccer.train.ppo.settings import PpoSettings
+
+CLIP_RANGE: Final = 0.2
+"""Largest change of an action's probability ratio that the loss rewards."""
+VALUE_COEF: Final = 0.5
+"""Weight of the value loss."""
+MAX_GRAD_NORM: Final = 0.5
+"""Largest norm of a gradient; longer gradients are shortened to it."""
+
+
+class PPO:
+    """Updates a policy and its value network on batches of samples.
+
+    The model acts on the CPU. An update trains a copy on the device of the settings, which may be
+    the CPU too, and copies the parameters back at its end.
+
+    Attributes:
+        device: device of the updates.
+        optimizer: Adam over all parameters of the copy.
+    """
+
+    def __init__(
+        self,
+        settings: PpoSettings,
+        model: ActorCritic,
+        generator: torch.Generator,
+        device: torch.device,
+        sharing: WeightSharing | None = None,
+    ) -> None:
+        """Create the copy and the optimizer.
+
+        Args:
+            settings: settings of PPO.
+            model: the networks to train, on the CPU.
+            generator: draws the minibatches, on the CPU.
+            device: device of the updates.
+            sharing: groups of parameters that stay equal; None for none.
+        """
+        self._settings, self._model, self._generator = settings, model, generator
+        self._sharing, self.device = sharing, device
+        if sharing is not None:
+            sharing.move(self.device)
+        self._learner = copy.deepcopy(model).to(self.device)
+        # The parameters become views of one vector: one norm to clip, one step of Adam.
+        vector = nn.utils.parameters_to_vector(self._learner.parameters()).detach()
+        nn.utils.vector_to_parameters(vector, self._learner.parameters())
+        self.optimizer = Adam(vector)
+
+    @torch.no_grad()
+    def update(
+        self, batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+    ) -> dict[str, float]:
+        """Train on a batch for `n_epochs`, or until `approx_kl` exceeds `TARGET_KL`.
+
+        Args:
+            batch: samples of one rollout, on the CPU.
+            learning_rate: step size of Adam.
+            check_stop: called before each minibatch; an exception that it raises ends the update.
+
+        Returns:
+            Columns of the log: clip_fraction, value_loss and approx_kl, which are means over the
+            minibatches of the last epoch, n_epochs, learning_rate, and the mean action_std.
+        """
+        self._learner.load_state_dict(self._model.state_dict())
+        batch = batch.to(self.device)
+        row: dict[str, float] = {}
+        n_epochs, approx_kl = 0, 0.0
+        while n_epochs < self._settings.n_epochs and approx_kl <= TARGET_KL:
+            approx_kl, clip_fraction, value_loss = self._train_epoch(
+                batch, learning_rate, check_stop
+            )
+            row.update(clip_fraction=clip_fraction, value_loss=value_loss)
+            n_epochs += 1
+        self._model.load_state_dict(self._learner.state_dict())
+        row.update(
+            approx_kl=approx_kl,
+            n_epochs=n_epochs,
+            learning_rate=learning_rate,
+            action_std=float(self._model.log_std.exp().mean()),
+        )
+        return row
+
+    def _train_epoch(
+        self, batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+    ) -> list[float]:
+        """One pass over the batch; the mean of the minibatches' statistics from `_gradients`."""
+        order = torch.randperm(len(batch), generator=self._generator)
+        stats = []
+        for minibatch in batch.select(order.to(self.device)).chunk(self._settings.n_minibatches):
+            check_stop()
+            gradients, minibatch_stats = self._gradients(minibatch)
+            gradient = torch.cat([part.flatten() for part in gradients])
+            if self._sharing is not None:
+                gradient = self._sharing.average(gradient)
+            scale = MAX_GRAD_NORM / (gradient.norm() + 1e-6)
+            self.optimizer.step(gradient.mul_(scale.clamp(max=1.0)), learning_rate)
+            stats.append(minibatch_stats)
+        means: list[float] = torch.stack(stats).mean(0).tolist()
+        return means
+
+    def _gradients(self, minibatch: Batch) -> tuple[list[Tensor], Tensor]:
+        """Gradients of the loss by parameter, and (approx_kl, clip_fraction, value_loss), (3,).
+
+        With ratios r, advantages A, values V and returns R the loss is
+        -mean(min(r A, clip(r) A)) + VALUE_COEF mean((V - R)^2).
+        A test compares the gradients with those of autograd.
+        """
+        model = self._learner
+        advantages = minibatch.advantages
+        advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+        actor = model.actor.activations(minibatch.observations)
+        offset = model.standardize(actor[-1], minibatch.actions)
+        log_ratio = model.log_density(offset) - minibatch.log_probs
+        ratio = log_ratio.exp()
+        clipped_ratio = ratio.clamp(1 - CLIP_RANGE, 1 + CLIP_RANGE)
+        gain = ratio * advantages
+        unclipped = gain <= clipped_ratio * advantages
+        by_log_prob = torch.where(unclipped, gain, 0.0).mul_(-1.0 / len(minibatch))[:, None]
+        by_mean = offset * by_log_prob * (-model.log_std).exp()
+        critic = model.critic.activations(minibatch.critic_inputs)
+        error = critic[-1] - minibatch.returns[:, None]
+        by_value = error * (2.0 * VALUE_COEF / len(minibatch))
+        gradients = model.actor.gradients(actor, by_mean) + model.critic.gradients(critic, by_value)
+        approx_kl = (ratio - 1 - log_ratio).mean()  # never negative, Schulman (2020)
+        clip_fraction = (clipped_ratio != ratio).float().mean()
+        return gradients, torch.stack([approx_kl, clip_fraction, error.square().mean()])

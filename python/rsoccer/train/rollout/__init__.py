@@ -1,0 +1,1 @@
+"""Rollouts: matches with the current policy, recorded as samples."""

@@ -1,0 +1,112 @@
+"""The loop of a run: one update after the other, with its log and its checkpoints."""
+
+from __future__ import annotations
+
+import time
+
+from rsoccer.train.rollout.episode_stats import Row
+from rsoccer.train.run import checkpoint
+from rsoccer.train.run.checkpoint import Checkpoint
+from rsoccer.train.run.folder import POLICY_FILE
+from rsoccer.train.run.ladder import Ladder
+from rsoccer.train.run.log import Logger
+from rsoccer.train.run.state import capture, restore
+from rsoccer.train.run.stop_signal import Stopped, StopSignal
+from rsoccer.train.run.trainer import Trainer
+
+
+class Loop:
+    """Trains until the samples are used up.
+
+    Attributes:
+        trainer: the run.
+        ladder: measures the policy against fixed opponents.
+    """
+
+    def __init__(self, trainer: Trainer, policy_files: dict[str, str]) -> None:
+        """Prepare the loop of a run.
+
+        Args:
+            trainer: the run.
+            policy_files: digests of the policies that play beside the learners, for checkpoints.
+        """
+        self.trainer, self._policy_files = trainer, policy_files
+        self.ladder = Ladder(trainer.args.run, trainer.task, trainer.args.threads)
+
+    def run(self, stop: StopSignal, log_size: int) -> None:
+        """Train until the samples are used up or a signal comes, and save in both cases.
+
+        Args:
+            stop: reports a signal.
+            log_size: bytes of the log's CSV file to keep; 0 for a new run.
+
+        Raises:
+            Stopped: a signal came. The update in progress was dropped.
+        """
+        trainer, args = self.trainer, self.trainer.args
+        logger = Logger(
+            args.out, trainer.samples, args.samples, log_size, progress=args.run.progress
+        )
+        saved, saved_at = self._capture(logger), time.monotonic()
+        self.save(saved)
+        try:
+            while trainer.samples < args.samples:
+                self._update(stop, logger)
+                saved = self._capture(logger)
+                if time.monotonic() - saved_at > args.run.checkpoint_interval:
+                    self.save(saved)
+                    saved_at = time.monotonic()
+                stop.check()
+        except Stopped:
+            restore(trainer, saved)  # drop the update that the signal cut short
+            self.save(saved)
+            raise
+        finally:
+            logger.close()
+        self.save(saved)
+
+    def save(self, saved: Checkpoint) -> None:
+        """Write a checkpoint and the current policy to the run's folder.
+
+        Args:
+            saved: state of the run, captured after the last update.
+        """
+        out = self.trainer.args.out
+        checkpoint.save(out / checkpoint.FILE_NAME, saved)
+        self.trainer.network().save(out / POLICY_FILE)
+
+    def _update(self, stop: StopSignal, logger: Logger) -> None:
+        """Play and learn once; whole teams follow after the first part of the samples."""
+        trainer, args = self.trainer, self.trainer.args
+        batch = trainer.collect_rollout(stop.check)
+        trainer.update(batch, stop.check)
+        logger.write(trainer.samples, self._row(len(batch)))
+        if trainer.is_solo and trainer.samples >= args.opponents.solo_fraction * args.samples:
+            trainer.start_team()
+
+    def _capture(self, logger: Logger) -> Checkpoint:
+        return capture(self.trainer, self._policy_files, logger.size)
+
+    def _row(self, batch_size: int) -> Row:
+        """Columns of the log for the last update, which learned from `batch_size` samples."""
+        trainer = self.trainer
+        strength = self.ladder.skip()
+        if self.ladder.is_due(trainer.updates, last=trainer.samples >= trainer.args.samples):
+            with trainer.clock.measure("ladder"):
+                strength = self.ladder.measure(trainer.network())
+        seconds, shares = trainer.clock.take()
+        trainer.elapsed += seconds
+        # The columns are the same in all updates: solo learners meet no pool.
+        shares = {"ladder": 0.0, "opponents": 0.0, "physics": 0.0, **shares}
+        shares["tasks"] = shares.pop("matches") - shares["physics"] - shares["opponents"]
+        return {
+            "update": trainer.updates,
+            "samples": trainer.samples,
+            "seconds": trainer.elapsed,
+            "samples_per_second": batch_size / seconds,
+            **trainer.collector.episode_stats.take(),
+            **strength,
+            **trainer.collector.reward_means,
+            **trainer.update_stats,
+            **{f"time_{part}": share for part, share in sorted(shares.items())},
+        }

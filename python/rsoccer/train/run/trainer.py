@@ -1,0 +1,191 @@
+"""The parts of a training run: the matches, the networks, their updates, and what they count.
+
+One policy is shared by all learners. `opponents` chooses the matches, `rollout` plays them, `ppo`
+updates the networks. `loop` runs one update after the other, `state` captures and restores them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import torch
+
+from rsoccer.policies.network import Network
+from rsoccer.train.args import Args
+from rsoccer.train.clock import Clock
+from rsoccer.train.network.build import build_networks
+from rsoccer.train.opponents.curriculum import Curriculum
+from rsoccer.train.ppo.batch import Batch
+from rsoccer.train.ppo.device import find_device
+from rsoccer.train.ppo.discount import discount_per_decision
+from rsoccer.train.ppo.gae import make_batch
+from rsoccer.train.ppo.learning_rate import LearningRate
+from rsoccer.train.ppo.mirror import check_symmetric, with_reflections
+from rsoccer.train.ppo.update import PPO
+from rsoccer.train.rollout.central_inputs import CentralInputs
+from rsoccer.train.rollout.collector import RolloutCollector
+from rsoccer.train.rollout.episode_stats import Row
+
+
+class Trainer:
+    """State of a training run, and its updates.
+
+    Attributes:
+        args: settings of the run.
+        task: the task to train on.
+        clock: measures the time of each part.
+        generator: draws weights, actions, truncations and minibatches.
+        curriculum: creates the matches.
+        pool: opponents of the learners if both teams learn, else None.
+        is_solo: True while one robot per match learns.
+        model: policy and value network.
+        collector: plays the matches.
+        ppo: updates the model.
+        learning_rate: step size of the updates.
+        update_stats: columns of the log from the last update of the model.
+        samples: decisions that were learned from.
+        updates: number of updates.
+        elapsed: seconds of training, summed over resumed runs.
+    """
+
+    def __init__(self, args: Args) -> None:
+        """Create a new run; `state.restore` continues a saved one.
+
+        Args:
+            args: settings of the run.
+
+        Raises:
+            ValueError: settings that do not fit the task or each other, or a GPU where torch finds
+                none.
+        """
+        torch.set_num_threads(args.torch_threads)
+        words = np.random.SeedSequence(args.seed).generate_state(3, np.uint64) >> np.uint64(1)
+        torch_seed, first_seed, self._team_seed = words.tolist()
+        self.args, self.clock = args, Clock()
+        self.task = args.make_task()
+        if args.ppo.mirror_augmentation:
+            check_symmetric(self.task)
+        self.generator = torch.Generator().manual_seed(torch_seed)
+        self.curriculum = Curriculum(
+            args.opponents,
+            self.task,
+            self.clock,
+            worlds=args.rollout.worlds,
+            threads=args.threads,
+            action_repeat=args.rollout.action_repeat,
+        )
+        _check_batch(args, len(self.curriculum.learners))
+        self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
+        create = self.curriculum.solo if self.is_solo else self.curriculum.team
+        matches = create(first_seed)
+        self.model, sharing = build_networks(
+            args.network, self.task, matches.state_size, self.generator
+        )
+        self.collector = _collector(args, self)
+        self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
+        device = find_device(args.device)
+        self.ppo = PPO(args.ppo, self.model, self.generator, device, sharing)
+        self.learning_rate = LearningRate(args.ppo)
+        self.update_stats: Row = {}
+        self.samples, self.updates, self.elapsed = 0, 0, 0.0
+        self.show_policy()
+
+    def show_policy(self) -> None:
+        """Make the current policy the latest one of the pool."""
+        if self.pool is not None:
+            self.pool.latest = self.network()
+
+    def start_team(self) -> None:
+        """Begin the second part of the run, in which all learners play."""
+        self.is_solo = False
+        self.collector.enter(self.curriculum.team(self._team_seed), self.curriculum.opponents)
+
+    @property
+    def progress(self) -> float:
+        """Share of the run's samples so far, 0 to 1."""
+        return min(self.samples / self.args.samples, 1.0)
+
+    def collect_rollout(self, check_stop: Callable[[], None]) -> Batch:
+        """Play `horizon` decisions in every world, and count them as samples.
+
+        Args:
+            check_stop: called before each decision; an exception that it raises ends the rollout.
+
+        Returns:
+            Batch of horizon x worlds x agents samples.
+        """
+        args = self.args
+        gamma = discount_per_decision(args.ppo, args.rollout.action_repeat, self.progress)
+        rollout = self.collector.collect(gamma, check_stop)
+        with self.clock.measure("learning"):
+            batch = make_batch(rollout, self.model, args.ppo, gamma)
+        self.samples += len(batch)
+        return batch
+
+    def update(self, batch: Batch, check_stop: Callable[[], None]) -> None:
+        """Train the model on a batch, and put its new policy into the pool.
+
+        Args:
+            batch: samples from `collect_rollout`.
+            check_stop: called before each minibatch; an exception that it raises ends the update.
+
+        Raises:
+            ValueError: the networks have NaN or infinite weights now.
+        """
+        learning_rate = self.learning_rate.start_update(self.progress)
+        with self.clock.measure("learning"):
+            if self.args.ppo.mirror_augmentation:
+                batch = with_reflections(batch, self.task, self.model)
+            self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
+        self._check_finite()
+        stats = self.update_stats
+        self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
+        self.updates += 1
+        first, last = self.args.network.action_std, self.args.network.final_action_std
+        self.model.set_action_std(first * (last / first) ** self.progress)
+        if self.pool is not None:
+            self.pool.show(self.network(), self.updates)
+
+    def _check_finite(self) -> None:
+        """Raise ValueError if training has diverged, before it replaces the last checkpoint."""
+        if not all(bool(part.isfinite().all()) for part in self.model.state_dict().values()):
+            raise ValueError(
+                f"training diverged after {self.samples:,} samples: weights are NaN or infinite; "
+                f"lower ppo.learning_rate ({self.args.ppo.learning_rate:g}); the last checkpoint "
+                "is kept"
+            )
+
+    def network(self) -> Network:
+        """Return the current policy in NumPy."""
+        args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
+        repeat = args.rollout.action_repeat
+        return self.model.export(self.task, mean, std, repeat, args.task, args.task_options)
+
+
+def _check_batch(args: Args, learners: int) -> None:
+    """Raise ValueError if a batch is too small for its minibatches."""
+    samples = args.rollout.worlds * args.rollout.horizon * learners
+    samples *= 2 if args.ppo.mirror_augmentation else 1
+    if samples < 2 * args.ppo.n_minibatches:  # advantages are normalized within a minibatch
+        raise ValueError(
+            f"ppo.n_minibatches must be at most half of the {samples} samples of an update "
+            f"(worlds x horizon x learners), got {args.ppo.n_minibatches}"
+        )
+
+
+def _collector(args: Args, trainer: Trainer) -> RolloutCollector:
+    """A collector for the networks of a trainer."""
+    task, symmetric = trainer.task, args.ppo.mirror_augmentation
+    central: CentralInputs | None = None
+    if args.network.central_critic:
+        central = CentralInputs(task, symmetric=symmetric)
+    return RolloutCollector(
+        args.rollout,
+        trainer.model,
+        trainer.generator,
+        trainer.clock,
+        trainer.curriculum.kinds,
+        central=central,
+        reflection=task.layout.reflection if symmetric else None,
+    )

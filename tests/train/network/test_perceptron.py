@@ -1,0 +1,44 @@
+"""Perceptron: outputs and gradients equal those of autograd."""
+
+import itertools
+
+import pytest
+import torch
+from torch import nn
+
+from rsoccer.train.network.perceptron import Perceptron
+
+
+def new_perceptron(*sizes: int) -> Perceptron:
+    generator = torch.Generator().manual_seed(len(sizes))
+    layers: list[nn.Module] = []
+    for inputs, outputs in itertools.pairwise(sizes):
+        layers += [nn.Linear(inputs, outputs, dtype=torch.float64), nn.Tanh()]
+    network = Perceptron(*layers[:-1])
+    for parameter in network.parameters():
+        parameter.data = torch.randn(parameter.shape, generator=generator, dtype=torch.float64)
+    return network
+
+
+@pytest.mark.parametrize("sizes", [(5, 2), (5, 7, 1), (5, 7, 6, 2), (5, 8, 8, 8, 3)])
+def test_gradients_equal_those_of_autograd(sizes: tuple[int, ...]) -> None:
+    network = new_perceptron(*sizes)
+    inputs = torch.linspace(-2, 2, 55, dtype=torch.float64).reshape(11, 5)
+    outputs = network(inputs)
+    weights = torch.linspace(1, 3, outputs.numel(), dtype=torch.float64).reshape(outputs.shape)
+    expected = torch.autograd.grad((outputs * weights).sum(), list(network.parameters()))
+    activations = network.activations(inputs)
+    torch.testing.assert_close(activations[-1], outputs.detach())
+    gradients = network.gradients(activations, weights)
+    for gradient, wanted in zip(gradients, expected, strict=True):
+        torch.testing.assert_close(gradient, wanted)
+
+
+def test_outputs_are_equal_with_and_without_autograd() -> None:
+    network = new_perceptron(5, 7, 6, 2)
+    inputs = torch.linspace(-2, 2, 60, dtype=torch.float64).reshape(3, 4, 5)
+    expected = network(inputs)
+    assert expected.requires_grad and expected.shape == (3, 4, 2)
+    with torch.no_grad():
+        torch.testing.assert_close(network(inputs), expected.detach())
+        torch.testing.assert_close(network(inputs[0, 0]), expected[0, 0].detach())

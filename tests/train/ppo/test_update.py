@@ -1,0 +1,133 @@
+"""PPO: statistics of the first update, early stopping, and the log's columns."""
+
+from typing import Any
+
+import pytest
+import torch
+
+from rsoccer.train import PpoSettings
+from rsoccer.train.network.actor_critic import ActorCritic
+from rsoccer.train.ppo import update
+from rsoccer.train.ppo.adam import BETA_1
+from rsoccer.train.ppo.batch import Batch
+from rsoccer.train.ppo.update import PPO
+
+SIZE, OBSERVATION_SIZE, ACTION_SIZE, ACTION_STD = 64, 5, 2, 0.6
+
+
+def new_ppo(state_size: int = 0, **changes: int) -> tuple[PPO, Batch]:
+    """Return PPO for a small network, and a batch that this network has drawn."""
+    values: dict[str, Any] = {"n_epochs": 1, "n_minibatches": 1, **changes}
+    settings = PpoSettings(**values)
+    generator = torch.Generator().manual_seed(0)
+    sizes = (OBSERVATION_SIZE, ACTION_SIZE, (8,))
+    model = ActorCritic(*sizes, ACTION_STD, generator, state_size=state_size)
+    observations = torch.randn((SIZE, OBSERVATION_SIZE), generator=generator)
+    with torch.no_grad():
+        mean = model.actor(observations)
+        actions = mean + torch.randn(mean.shape, generator=generator) * ACTION_STD
+        log_probs = model.log_prob(mean, actions)
+    advantages = torch.randn(SIZE, generator=generator)
+    batch = Batch(observations, actions, log_probs, advantages, torch.ones(SIZE))
+    if state_size:
+        states = torch.randn((SIZE, state_size), generator=generator)
+        batch.central_inputs = torch.cat([states, observations], dim=1)
+    return PPO(settings, model, generator, torch.device("cpu")), batch
+
+
+def test_the_first_epoch_starts_at_the_policy_that_played() -> None:
+    ppo, batch = new_ppo()
+    stats = ppo.update(batch, 1e-3, lambda: None)
+    assert stats["approx_kl"] == pytest.approx(0.0, abs=1e-6)
+    assert stats["clip_fraction"] == 0.0
+    assert stats["value_loss"] > 0.0
+    assert list(stats) == [
+        *("clip_fraction", "value_loss", "approx_kl", "n_epochs", "learning_rate", "action_std")
+    ]
+
+
+def test_the_epochs_stop_above_the_target_kl(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(update, "TARGET_KL", 1e-4)
+    ppo, batch = new_ppo(n_epochs=10)
+    stats = ppo.update(batch, 0.05, lambda: None)
+    assert stats["n_epochs"] == 2  # the first epoch has no divergence yet
+    assert stats["approx_kl"] > 1e-4
+    monkeypatch.setattr(update, "TARGET_KL", 1e3)
+    ppo, batch = new_ppo(n_epochs=10)
+    assert ppo.update(batch, 0.05, lambda: None)["n_epochs"] == 10
+
+
+def test_updates_raise_the_probability_of_better_actions(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(update, "TARGET_KL", 1e3)
+    ppo, batch = new_ppo(n_epochs=5)
+    ppo.update(batch, 0.01, lambda: None)
+    model = ppo._model
+    assert model is not ppo._learner
+    ratio = (model.log_prob(model.actor(batch.observations), batch.actions) - batch.log_probs).exp()
+    better = batch.advantages > batch.advantages.mean()
+    assert ratio[better].mean() > 1.0 > ratio[~better].mean()
+
+
+def textbook_loss(model: ActorCritic, minibatch: Batch) -> torch.Tensor:
+    """Return the loss of PPO for autograd."""
+    advantages = minibatch.advantages
+    advantages = (advantages - advantages.mean()) / (advantages.std() + 1e-8)
+    log_probs = model.log_prob(model.actor(minibatch.observations), minibatch.actions)
+    ratio = (log_probs - minibatch.log_probs).exp()
+    clipped = ratio.clamp(1 - update.CLIP_RANGE, 1 + update.CLIP_RANGE)
+    policy_loss = -torch.minimum(ratio * advantages, clipped * advantages).mean()
+    value_loss = (model.value(minibatch.critic_inputs) - minibatch.returns).square().mean()
+    return policy_loss + update.VALUE_COEF * value_loss
+
+
+@pytest.mark.parametrize("state_size", [0, 3])
+@pytest.mark.parametrize("clip_range", [0.001, 0.2, 10.0])
+def test_gradients_equal_those_of_autograd(
+    clip_range: float, state_size: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(update, "CLIP_RANGE", clip_range)
+    monkeypatch.setattr(update, "VALUE_COEF", 0.7)
+    ppo, batch = new_ppo(state_size)
+    ppo.update(batch, 0.05, lambda: None)  # so that ratios differ from 1
+    gradients, stats = ppo._gradients(batch)
+    model = ppo._model
+    loss = textbook_loss(model, batch)
+    expected = torch.autograd.grad(loss, list(model.parameters()))
+    for gradient, wanted in zip(gradients, expected, strict=True):
+        torch.testing.assert_close(gradient, wanted)
+    low, high = {0.001: (0.9, 1.0), 0.2: (0.1, 0.9), 10.0: (0.0, 0.0)}[clip_range]
+    assert low <= stats[1] <= high, "clipped samples"
+
+
+def test_long_gradients_are_shortened(monkeypatch: pytest.MonkeyPatch) -> None:
+    moved = []
+    for max_grad_norm in (1e-6, 1e-3, 0.5):
+        monkeypatch.setattr(update, "MAX_GRAD_NORM", max_grad_norm)
+        ppo, batch = new_ppo()
+        before = ppo.optimizer._vector.clone()
+        ppo.update(batch, 1e-3, lambda: None)
+        moved.append(float((ppo.optimizer._vector - before).norm()))
+        norm = float(ppo.optimizer._mean.norm()) / (1.0 - BETA_1)
+        assert norm == pytest.approx(max_grad_norm, rel=1e-3)
+    assert moved[0] < moved[1] < moved[2]
+
+
+def test_an_update_that_is_stopped_leaves_the_model_unchanged() -> None:
+    ppo, batch = new_ppo(n_minibatches=2)
+    before = {name: part.clone() for name, part in ppo._model.state_dict().items()}
+    checks = iter([None])  # the second check raises
+    with pytest.raises(StopIteration):
+        ppo.update(batch, 1e-3, lambda: next(checks))
+    for name, part in ppo._model.state_dict().items():
+        assert torch.equal(part, before[name])
+
+
+def test_a_minibatch_has_the_selected_samples() -> None:
+    _, batch = new_ppo()
+    minibatch = batch.select(torch.tensor([3, 1]))
+    assert len(minibatch) == 2
+    assert torch.equal(minibatch.actions, batch.actions[[3, 1]])
+    assert torch.equal(minibatch.returns, batch.returns[[3, 1]])
+    parts = list(batch.chunk(3))
+    assert [len(part) for part in parts] == [22, 22, 20]
+    assert torch.equal(torch.cat([part.actions for part in parts]), batch.actions)

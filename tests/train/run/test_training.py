@@ -1,0 +1,87 @@
+"""The folder of a run: the match at its end, and refused settings and files."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rsoccer.lineup import lineup
+from rsoccer.registry import make_task
+from rsoccer.replay import Replay, record_replay
+from rsoccer.train import PpoSettings, train
+from rsoccer.train.run import checkpoint, training
+from tests.train.runs import digest
+from tests.train.short_task import NAME, tiny
+
+
+def test_a_run_ends_with_a_match_of_its_policy(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(training, "MATCH_SECONDS", 2.0)
+    policy = train(tiny(tmp_path, match_page=True))
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert (replay.task, replay.seconds, replay.names) == (NAME, 2.0, ("TRAINED", "OU"))
+    assert (tmp_path / "match.html").read_text() == replay.to_html()
+    rows = record_replay(NAME, lineup(make_task(NAME), str(policy)), seconds=2.0).rows
+    np.testing.assert_allclose(replay.rows, rows, atol=0.06)
+
+
+def test_the_match_at_the_end_has_no_options_for_training_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(training, "MATCH_SECONDS", 0.1)
+    options = {"max_steps": 20, "reward_weights": {"goal": 3.0}}
+    train(tiny(tmp_path, match_page=True, samples=1, task_options=options))
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert replay.options == {"max_steps": 20}
+
+
+def test_a_folder_with_a_run_is_not_overwritten_by_default(finished: Path) -> None:
+    before = digest(finished)
+    with pytest.raises(ValueError, match="holds a run"):
+        train(tiny(finished))
+    assert digest(finished) == before
+
+
+def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="does not exist"):
+        train(tiny(tmp_path, resume=True))
+
+
+def test_resuming_with_other_settings_is_refused(finished: Path) -> None:
+    with pytest.raises(ValueError, match=f"ppo.gamma was {PpoSettings.gamma}, now 0.9"):
+        train(tiny(finished, resume=True, gamma=0.9))
+    with pytest.raises(ValueError, match="task was 'ShortSelfPlay-v0', now 'VSSMulti-v0'"):
+        train(tiny(finished, resume=True, task="VSSMulti-v0"))
+
+
+@pytest.mark.parametrize("missing", ["model.log_std", "worlds.simulator", "run.generator"])
+def test_an_incomplete_checkpoint_is_refused(missing: str, finished: Path, tmp_path: Path) -> None:
+    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
+    del saved.arrays[missing]
+    checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
+    with pytest.raises(ValueError, match="does not fit"):
+        train(tiny(tmp_path, resume=True))
+
+
+@pytest.mark.parametrize("info", ["[]", "{}", '{"args": 3, "log_size": 0}', '{"args": {}}'])
+def test_a_checkpoint_without_its_settings_is_refused(
+    info: str, finished: Path, tmp_path: Path
+) -> None:
+    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
+    wrong = checkpoint.Checkpoint(saved.arrays, json.loads(info))
+    checkpoint.save(tmp_path / checkpoint.FILE_NAME, wrong)
+    with pytest.raises(ValueError, match="is damaged or not a checkpoint"):
+        train(tiny(tmp_path, resume=True))
+
+
+def test_an_unwritable_folder_is_refused_before_training(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(ValueError, match="out must be a folder to write in"):
+        train(tiny(tmp_path / "file" / "run"))
+
+
+def test_an_unknown_task_is_refused_with_the_valid_ones(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="VSSSelfPlay-v0"):
+        train(tiny(tmp_path, task="Chess-v0"))
