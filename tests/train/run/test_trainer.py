@@ -78,6 +78,16 @@ def test_a_resumed_run_equals_the_uninterrupted_one(
     assert all(resumed[name].tobytes() == expected[name].tobytes() for name in expected)
 
 
+def test_a_run_that_is_killed_in_its_first_update_has_a_checkpoint(tmp_path: Path) -> None:
+    class Killed(StopSignal):
+        def check(self) -> None:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        Loop(Trainer(tiny(tmp_path)), {}).run(Killed(), 0)
+    assert checkpoint.load(tmp_path / checkpoint.FILE_NAME).info["updates"] == 0
+
+
 def test_rows_after_the_checkpoint_are_dropped(finished: Path, tmp_path: Path) -> None:
     run_until(tiny(tmp_path), 2 * 13)
     with (tmp_path / "progress.csv").open("a") as file:
