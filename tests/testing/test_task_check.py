@@ -383,6 +383,21 @@ class ReflectsActionsWrongly(Correct):
         return Reflection.of([1, -1])
 
 
+EPISODES: list[int] = []
+
+
+class StartsByTheModule(Correct):
+    """Its starts depend on a list of the module, which only another method changes."""
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        frame = super().get_initial_positions_frame(rng)
+        frame.ball.velocity[:, 0] = 0.001 * len(EPISODES)
+        return frame
+
+    def start_episode(self, play: Play) -> None:
+        EPISODES.append(1)
+
+
 def test_the_base_of_the_faulty_tasks_is_correct() -> None:
     check_task(Correct(), worlds=4, steps=60)
 
@@ -443,6 +458,7 @@ def test_the_base_of_the_faulty_tasks_is_correct() -> None:
         (ForgetsARobot, "default_controllers: expected LEARN.*for each of .*yellow_2"),
         (ClaimsToBeSymmetric, "is_symmetric: the reward term 'left'"),
         (ReflectsABlockWrongly, "block_reflections: block 'ball'"),
+        (StartsByTheModule, "differ from the same worlds alone"),
         (ReflectsActionsWrongly, "action_reflection: the states that follow"),
     ],
 )
