@@ -59,7 +59,7 @@ def test_large_actions_are_clipped_and_float64_is_cast() -> None:
         ({"controllers": {"green": "ou"}}, ValueError, r"unknown \['green'\].*'all', 'blue'"),
         ({"controllers": {"blue_3": "ou"}}, ValueError, "unknown"),
         ({"controllers": {"blue": "chess"}}, ValueError, "unknown policy 'chess'.*'ou'"),
-        ({"controllers": {"blue": 7}}, TypeError, r"controllers\['blue_0'\]: expected"),
+        ({"controllers": {"blue": 7}}, TypeError, r"controllers\['blue'\]: expected"),
         ({"controllers": ["ou"]}, TypeError, r"controllers: expected a mapping.*, got \['ou'\]"),
         ({"controllers": []}, TypeError, r"controllers: expected a mapping.*, got \[\]"),
         ({"controllers": {7: "ou", "green": "ou"}}, ValueError, r"unknown \[7, 'green'\]"),

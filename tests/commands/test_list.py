@@ -6,8 +6,9 @@ import sys
 import pytest
 
 import rsoccer
-from rsoccer import cli
+from rsoccer import cli, registry
 from rsoccer.policies import trained
+from rsoccer.tasks import VssSelfPlay
 
 
 def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str]) -> None:
@@ -25,6 +26,24 @@ def test_list_shows_the_scores_of_trained_policies(capsys: pytest.CaptureFixture
         score = trained.list_scores(path)[0]
         assert f"{name}: {score.metric} {score.score:.3f} ({score.low:.3f} to " in printed
     assert trained.list_trained()
+
+
+def test_a_task_whose_options_have_no_defaults_is_listed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Formerly it ended the list with a TypeError."""
+
+    class Sized(VssSelfPlay):
+        """A match of as many robots as are asked for."""
+
+        def __init__(self, robots: int) -> None:
+            super().__init__(n_blue=robots, n_yellow=robots)
+
+    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    rsoccer.register("Sized-v0", Sized)
+    assert cli.main(["list"]) == 0
+    shown = "Sized-v0: A match of as many robots as are asked for.\n    robots\n"
+    assert shown in capsys.readouterr().out
 
 
 def test_list_and_help_import_no_heavy_package() -> None:

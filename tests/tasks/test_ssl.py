@@ -47,10 +47,22 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
         ({"robot": "ssl_9000"}, ValueError, "ssl_9000"),
         ({"field": "ssl_z"}, ValueError, "ssl_z"),
         ({"field": "vss_5v5"}, ValueError, "field: expected one of the SSL|at most 5 on a vss_5v5"),
-        ({"ball": "tennis"}, ValueError, "ball must be one of.*tennis"),
-        ({"field": None}, TypeError, "field: expected a preset's name or a Field, got None$"),
-        ({"robot": 3}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
-        ({"ball": 3}, TypeError, "ball: expected a preset's name or a BallModel, got 3$"),
+        ({"ball": "tennis"}, ValueError, "ball: expected one of.*tennis"),
+        (
+            {"field": None},
+            TypeError,
+            "field: expected a preset's name, the path of a .json file or a Field, got None$",
+        ),
+        (
+            {"robot": 3},
+            TypeError,
+            "robot: expected a preset's name, the path of a .json file or a RobotModel, got 3$",
+        ),
+        (
+            {"ball": 3},
+            TypeError,
+            "ball: expected a preset's name, the path of a .json file or a BallModel, got 3$",
+        ),
         (
             {"reward_weights": None},
             TypeError,

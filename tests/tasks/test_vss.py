@@ -216,7 +216,7 @@ def test_reward_weights_are_options() -> None:
         ({"discrete": "no"}, TypeError, "discrete: expected True or False, got 'no'"),
         ({"robot": "ssl_generic"}, ValueError, "robot: expected one with a differential drive"),
         ({"robot": ["vss_440rpm"] * 3 + ["vss_650rpm"] * 3}, ValueError, "robot: expected one mod"),
-        ({"field": "vss_9v9"}, ValueError, "field must be one of.*vss_9v9"),
+        ({"field": "vss_9v9"}, ValueError, "field: expected one of.*vss_9v9"),
         (
             {"field": "ssl_b"},
             ValueError,
@@ -233,9 +233,21 @@ def test_reward_weights_are_options() -> None:
             "reward_weights: expected a finite number",
         ),
         ({"robot": "vss_9000rpm"}, ValueError, "vss_9000rpm"),
-        ({"robot": 3}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
-        ({"robot": [3] * 6}, TypeError, "robot: expected a preset's name or a RobotModel, got 3$"),
-        ({"field": 3}, TypeError, "field: expected a preset's name or a Field, got 3$"),
+        (
+            {"robot": 3},
+            TypeError,
+            "robot: expected a preset's name, the path of a .json file or a RobotModel, got 3$",
+        ),
+        (
+            {"robot": [3] * 6},
+            TypeError,
+            "robot: expected a preset's name, the path of a .json file or a RobotModel, got 3$",
+        ),
+        (
+            {"field": 3},
+            TypeError,
+            "field: expected a preset's name, the path of a .json file or a Field, got 3$",
+        ),
     ],
 )
 def test_invalid_options_are_refused(

@@ -404,6 +404,21 @@ class ScoresInRewards(Correct):
         return super().calculate_reward_and_done(play)
 
 
+EPISODES: list[int] = []
+
+
+class StartsByTheModule(Correct):
+    """Its starts depend on a list of the module, which only another method changes."""
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        frame = super().get_initial_positions_frame(rng)
+        frame.ball.velocity[:, 0] = 0.001 * len(EPISODES)
+        return frame
+
+    def start_episode(self, play: Play) -> None:
+        EPISODES.append(1)
+
+
 def test_the_base_of_the_faulty_tasks_is_correct() -> None:
     check_task(Correct(), worlds=4, steps=60)
 
@@ -469,6 +484,7 @@ def test_the_base_of_the_faulty_tasks_is_correct() -> None:
         (CommandsByTheTruth, "get_commands: 'commands': it reads the true state; robots know"),
         (RewardsTheSenses, "calculate_reward_and_done: 'x': it reads what robots sense instead"),
         (ScoresInRewards, "calculate_reward_and_done: it writes into play.game, which"),
+        (StartsByTheModule, "differ from the same worlds alone"),
     ],
 )
 def test_a_planted_fault_is_found(faulty: type[Correct], message: str) -> None:

@@ -65,15 +65,9 @@ def register_policy(name: str, maker: Maker) -> None:
         ValueError: a name of another form, or one that is taken.
 
     Example:
-        >>> import numpy as np
-        >>> import rsoccer
-        >>> class Forward(rsoccer.Policy):
-        ...     observes = "nothing"
-        ...
-        ...     def act(self, inputs, rng, memory):
-        ...         return np.ones(inputs.action_shape, np.float32)
-        >>> rsoccer.register_policy("forward", Forward)  # doctest: +SKIP
-        >>> rsoccer.evaluate("forward", "ou")  # doctest: +SKIP
+        >>> from rsoccer import register_policy
+        >>> register_policy("beginner", lambda task: Scripted(task, 0.2))  # doctest: +SKIP
+        >>> rsoccer.evaluate("beginner", "ou")  # doctest: +SKIP
     """
     if not isinstance(name, str):
         raise TypeError(f"name: expected text, got {name!r}")
