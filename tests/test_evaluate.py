@@ -215,7 +215,7 @@ INVALID: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"task": 5}, TypeError, "task: expected a task or its name, got 5"),
     ({"task": "VSS-v9"}, ValueError, "unknown task 'VSS-v9'"),
     ({"task": VssSelfPlay(n_yellow=0), "opponent": "ou"}, ValueError, "opponent: VSS.*one team"),
-    ({"task": "SSLPassEndurance-v0", "opponent": "ou"}, ValueError, "opponent: SSL.*one team"),
+    ({"task": "SSLPassEndurance-v1", "opponent": "ou"}, ValueError, "opponent: SSL.*one team"),
     ({"task": Unscored()}, ValueError, "'Unscored-v0' has no metric 'goal_score'"),
 ]
 

@@ -25,7 +25,7 @@ def test_the_state_is_the_scaled_frame() -> None:
 
 
 def test_the_state_of_ssl_has_heights_and_beams_too() -> None:
-    match = parallel_env("SSLPassEnduranceMulti-v0")
+    match = parallel_env("SSLPassEnduranceMulti-v1")
     config = match.task.config
     top, half_length = config.robot.top_speed, config.field.half_length
     frame = Frame.empty(1, 2, 0)

@@ -16,7 +16,7 @@ from rsoccer.tasks import VssSelfPlay
         ("VSS-v0", ("blue_0",)),
         ("VSSMulti-v0", ("blue_0", "blue_1", "blue_2")),
         ("VSSSelfPlay-v0", ("blue_0", "blue_1", "blue_2")),
-        ("SSLPassEnduranceMulti-v0", ("blue_0", "blue_1")),
+        ("SSLPassEnduranceMulti-v1", ("blue_0", "blue_1")),
     ],
 )
 def test_one_team_learns_in_training(task: str, expected: tuple[str, ...]) -> None:

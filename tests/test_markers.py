@@ -12,8 +12,8 @@ MARKERS = {
     "SSLStaticDefenders-v0": {Area},
     "SSLContestedPossession-v0": {Area},
     "SSLDribbling-v0": {Gate},
-    "SSLPassEndurance-v0": {Target, Segment},
-    "SSLPassEnduranceMulti-v0": {Target, Segment},
+    "SSLPassEndurance-v1": {Target, Segment},
+    "SSLPassEnduranceMulti-v1": {Target, Segment},
 }
 
 

@@ -18,8 +18,8 @@ M: Final = 1_000_000
 
 TASKS: Final = (
     *("VSS-v0", "VSSMulti-v0", "VSSSelfPlay-v0"),
-    *("SSLGoToBall-v0", "SSLPassEndurance-v0", "SSLContestedPossession-v0"),
-    *("SSLStaticDefenders-v0", "SSLDribbling-v0", "SSLPassEnduranceMulti-v0", "SSLSelfPlay-v0"),
+    *("SSLGoToBall-v0", "SSLPassEndurance-v1", "SSLContestedPossession-v0"),
+    *("SSLStaticDefenders-v0", "SSLDribbling-v0", "SSLPassEnduranceMulti-v1", "SSLSelfPlay-v0"),
 )
 """Tasks in the order of the tables."""
 
@@ -48,11 +48,11 @@ IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
     "VSS-v0": {"ddpg": 1_100_000, "sac": 700_000},
     "VSSMulti-v0": {"ddpg": 1_700_000, "sac": 1_000_000},
     "SSLGoToBall-v0": {"ddpg": 180_000, "sac": 110_000},
-    "SSLPassEndurance-v0": {"ddpg": 210_000, "sac": 130_000},
+    "SSLPassEndurance-v1": {"ddpg": 210_000, "sac": 130_000},
     "SSLContestedPossession-v0": {"ddpg": 2_300_000, "sac": 1_600_000},
     "SSLStaticDefenders-v0": {"ddpg": 2_900_000, "sac": 1_900_000},
     "SSLDribbling-v0": {"ddpg": 300_000, "sac": 180_000},
-    "SSLPassEnduranceMulti-v0": {"ddpg": 1_300_000, "sac": 700_000},
+    "SSLPassEnduranceMulti-v1": {"ddpg": 1_300_000, "sac": 700_000},
 }
 """Samples of DDPG and SAC in the time of PPO's run, by task.
 
@@ -104,7 +104,7 @@ CALIBRATION: Final = tuple(
 ABLATION: Final = ablation.experiments("VSS-v0", samples=3 * M, seeds=3)
 
 TEAM: Final = "VSSMulti-v0"
-PASSES: Final = "SSLPassEnduranceMulti-v0"
+PASSES: Final = "SSLPassEnduranceMulti-v1"
 
 COOPERATION: Final = (
     Experiment(

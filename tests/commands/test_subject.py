@@ -83,16 +83,16 @@ def test_watch_and_evaluate_play_the_task_that_the_file_names(
     filmed: list[Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "policy.safetensors"
-    network_for(rsoccer.make_task("SSLPassEndurance-v0")).save(file)
+    network_for(rsoccer.make_task("SSLPassEndurance-v1")).save(file)
     assert cli.main(["watch", f"{file}:mean", "--video", "never.mp4"]) == 0
     ((task, controllers, names),) = filmed
-    assert task == "SSLPassEndurance-v0"
+    assert task == "SSLPassEndurance-v1"
     assert controllers == {"blue_0": f"{file}:mean", "blue_1": "receive"}
     assert names[1] == ""
     capsys.readouterr()
     assert cli.main(["evaluate", str(file), "--matches", "3"]) == 0
     task, _, header, row = capsys.readouterr().out.splitlines()
-    assert task == "SSLPassEndurance-v0"
+    assert task == "SSLPassEndurance-v1"
     assert header.split()[:4] == ["policy", "opponent", "matches", "received"]
     assert row.split()[:3] == [str(file), "-", "3"]
 

@@ -14,7 +14,7 @@ from tests.helpers import comparable
 from tests.single_learner import learner_options, one_by_one, without_times
 
 N = 3
-NAMES = ["VSS-v0", "SSLPassEndurance-v0"]  # two suffice: wrappers do not depend on the task
+NAMES = ["VSS-v0", "SSLPassEndurance-v1"]  # two suffice: wrappers do not depend on the task
 MODES = list(AutoresetMode)
 
 Envs = VectorEnv[Any, Any, Any]

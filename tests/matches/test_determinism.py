@@ -31,7 +31,7 @@ DRIVEN: list[tuple[str, Controllers | None]] = [
     ("SSLSelfPlay-v0", {"all": "ou", "blue_0": "strike"}),
     ("SSLDribbling-v0", {"all": "ou", "blue_0": "weave"}),
     ("SSLGoToBall-v0", {"all": "ou", "blue_0": "fetch"}),
-    ("SSLPassEnduranceMulti-v0", {"all": "ou", "blue_0": "passer"}),
+    ("SSLPassEnduranceMulti-v1", {"all": "ou", "blue_0": "passer"}),
 ]
 """Every policy once, with its random numbers and memory."""
 
@@ -47,7 +47,7 @@ everywhere = pytest.mark.parametrize(("name", "controllers"), ALONE + DRIVEN)
 # Threads share the work of physics, views, observations and potentials.
 every_kind = pytest.mark.parametrize(
     ("name", "controllers"),
-    [*DRIVEN[:3], ("SSLStaticDefenders-v0", None), ("SSLPassEnduranceMulti-v0", None)],
+    [*DRIVEN[:3], ("SSLStaticDefenders-v0", None), ("SSLPassEnduranceMulti-v1", None)],
 )
 
 

@@ -29,8 +29,8 @@ def run(policy: Policy, n: int, steps: int, robots: int = 3, seed: int = 0) -> n
 SSL_TASKS = {
     "fetch": "SSLGoToBall-v0",
     "hold": "SSLSelfPlay-v0",
-    "passer": "SSLPassEndurance-v0",
-    "receive": "SSLPassEndurance-v0",
+    "passer": "SSLPassEndurance-v1",
+    "receive": "SSLPassEndurance-v1",
     "strike": "SSLStaticDefenders-v0",
     "weave": "SSLDribbling-v0",
 }

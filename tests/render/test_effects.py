@@ -98,7 +98,7 @@ def test_dribbling_is_marked_where_the_dribbler_turns_and_has_the_ball(
 
 
 def test_kicks_of_real_matches_are_found() -> None:
-    task = make_task("SSLPassEndurance-v0")
+    task = make_task("SSLPassEndurance-v1")
     matches = Matches(task, controllers={"all": "passer"}, autoreset="disabled")
     matches.reset()
     effects, kicks, marks = Effects(task.config), 0, 0

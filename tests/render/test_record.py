@@ -41,7 +41,7 @@ def film(seconds: float, spy: Spy) -> list[Image]:
 
 def test_the_default_task_is_that_of_a_trained_policy(tmp_path: Path) -> None:
     file = tmp_path / "policy.safetensors"
-    network_for(make_task("SSLPassEndurance-v0")).save(file)
+    network_for(make_task("SSLPassEndurance-v1")).save(file)
     images, _ = film_match(controllers={"blue_0": f"{file}:mean"}, seconds=0.05)
     assert len(list(images)) == 3
     with pytest.raises(ValueError, match=r"chase.*SSLPassEndurance|SSLPassEndurance.*chase"):

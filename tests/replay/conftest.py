@@ -24,7 +24,7 @@ def vss() -> Replay:
 @cache
 def ssl() -> Replay:
     """Passes between two robots: kicks, and markers that move."""
-    task = make_task("SSLPassEnduranceMulti-v0")
+    task = make_task("SSLPassEnduranceMulti-v1")
     return record_replay(task, lineup(task, "passer"), seconds=4.0)
 
 

@@ -53,7 +53,7 @@ def test_given_values_replace_recommended_ones(monkeypatch: pytest.MonkeyPatch) 
 def test_each_trained_policy_was_made_with_the_settings_of_its_task(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Formerly that of SSLPassEnduranceMulti-v0 was not: it had a centralized critic."""
+    """Formerly that of SSLPassEnduranceMulti-v1 was not: it had a centralized critic."""
     received: list[Args] = []
     monkeypatch.setattr(train_command, "train", received.append)
     _, metadata = read_file(trained.list_trained()[name])

@@ -184,7 +184,7 @@ def test_matches_equal_the_librarys_own_vector_environment() -> None:
 
 
 def test_an_end_by_the_task_is_not_bootstrapped() -> None:
-    envs = many("SSLPassEndurance-v0", 4, max_steps=300)
+    envs = many("SSLPassEndurance-v1", 4, max_steps=300)
     envs.reset()
     rng = np.random.default_rng(0)
     found: list[Any] = []

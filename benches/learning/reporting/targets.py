@@ -15,11 +15,11 @@ TARGETS: Final[dict[tuple[str, str], float]] = {
     ("VSSSelfPlay-v0", "chase"): 0.9,
     ("VSSSelfPlay-v0", "scripted"): 0.9,
     ("SSLGoToBall-v0", "-"): 0.99,
-    ("SSLPassEndurance-v0", "-"): 0.98,
+    ("SSLPassEndurance-v1", "-"): 0.98,
     ("SSLContestedPossession-v0", "-"): 0.9,
     ("SSLStaticDefenders-v0", "-"): 0.85,
     ("SSLStaticDefenders-v0", OFFICIAL): 0.85,
-    ("SSLPassEnduranceMulti-v0", "-"): 10.0,
+    ("SSLPassEnduranceMulti-v1", "-"): 10.0,
     ("SSLSelfPlay-v0", "strike"): 0.0,  # more wins than losses
 }
 """Score by task and opponent; "-" is the task's own, "@ppo/TASK" a policy of another task."""

@@ -14,7 +14,6 @@ KEPT: Final = (
     "SSLStaticDefenders-v0",
     "SSLDribbling-v0",
     "SSLContestedPossession-v0",
-    "SSLPassEndurance-v0",
 )
 """Names that tasks of this package have too."""
 ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
@@ -25,7 +24,9 @@ ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "VSSFIRA-v0": ("VSS-v0", {}),
     "SSLGoToBallIR-v0": ("SSLGoToBall-v0", {"n_opponents": 6}),
     "SSLGoToBallShoot-v0": ("SSLStaticDefenders-v0", {"n_opponents": 0, "max_steps": 2400}),
-    "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v0", {}),
+    # There a ball that was carried to the receiver counted, too.
+    "SSLPassEndurance-v0": ("SSLPassEndurance-v1", {}),
+    "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v1", {}),
 }
 """Tasks and options by alias."""
 REMOVED: Final = {

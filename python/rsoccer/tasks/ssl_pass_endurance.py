@@ -1,4 +1,4 @@
-"""`SSLPassEndurance-v0`: one pass to a waiting teammate. Hardware challenge 4, single robot."""
+"""`SSLPassEndurance-v1`: one pass to a waiting teammate. Hardware challenge 4, single robot."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""`SSLPassEnduranceMulti-v0`: two learners pass to each other. Hardware challenge 4."""
+"""`SSLPassEnduranceMulti-v1`: two learners pass to each other. Hardware challenge 4."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -83,11 +83,16 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         "opponents.past_fraction": 0.1,
     },
     "SSLGoToBall-v0": {**_SSL, "samples": 3 * M, "network.action_std": 0.3},
-    "SSLPassEndurance-v0": {
+    "SSLPassEndurance-v1": {
         **_SSL,
-        "samples": 3 * M,
+        "samples": 30 * M,
         "network.action_std": 0.3,
         "network.final_action_std": 0.02,
+        "network.initial_action": _KEEP_BALL,
+        # A pass has to meet a mouth of some centimeters from meters away, so aiming takes long.
+        "ppo.mirror_augmentation": True,
+        # With the defaults of 1 and -1 policies kick at once, in about the right direction.
+        "task_options": {"reward_weights": {"failed": -0.5, "ball_to_teammate": 0.3}},
     },
     "SSLStaticDefenders-v0": {
         **_STATIC_DEFENDERS,
@@ -129,7 +134,7 @@ TASK_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
         # failure the next gate is not worth the risk until it can be crossed.
         "task_options": {"random_start": True, "reward_weights": {"failed": -0.3}},
     },
-    "SSLPassEnduranceMulti-v0": {
+    "SSLPassEnduranceMulti-v1": {
         **_SSL,
         "samples": 20 * M,
         "network.action_std": 0.3,

@@ -29,7 +29,7 @@ STUDY: Final = Study(
             opponents=("@ppo/VSS-v0",),
             needs=(VSS,),
         ),
-        Experiment("interrupted", "run", "SSLPassEndurance-v0", settings=LONGER, seeds=1),
+        Experiment("interrupted", "run", "SSLPassEndurance-v1", settings=LONGER, seeds=1),
     ),
     PROTOCOL,
 )

@@ -144,7 +144,7 @@ def test_an_asymmetric_task_is_refused_before_a_folder_is_made(tmp_path: Path) -
 
 
 def test_ssl_tasks_are_reflected_too(tmp_path: Path) -> None:
-    task = make_task("SSLPassEnduranceMulti-v0")
+    task = make_task("SSLPassEnduranceMulti-v1")
     args = one_update(task.name, tmp_path).to_json()
     trainer = Trainer(Args.from_json({**args, **by_name(SYMMETRIC)}))
     batch = trainer.collect_rollout(lambda: None)

@@ -26,7 +26,7 @@ from tests.train.short_task import NAME, tiny
         ),
         ("SSLSelfPlay-v0", [f"ladder_{name}_goal_score" for name in ("zero", "ou", "strike")]),
         ("SSLStaticDefenders-v0", ["ladder_goal_score"]),
-        ("SSLPassEnduranceMulti-v0", ["ladder_passes"]),
+        ("SSLPassEnduranceMulti-v1", ["ladder_passes"]),
     ],
 )
 def test_each_task_has_its_columns(task: str, columns: list[str]) -> None:

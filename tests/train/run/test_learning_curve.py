@@ -27,7 +27,7 @@ def test_the_plot_is_a_png_file_even_with_gaps(tmp_path: Path) -> None:
     ("task", "title"),
     [
         ("VSSMulti-v0", "Learning to play VSSMulti-v0, 3 v 3"),
-        ("SSLPassEndurance-v0", "Learning to play SSLPassEndurance-v0, 2 v 0"),
+        ("SSLPassEndurance-v1", "Learning to play SSLPassEndurance-v1, 2 v 0"),
     ],
 )
 def test_the_title_names_the_task(
@@ -84,7 +84,7 @@ def test_without_a_ladder_the_curve_shows_the_opponents_in_training(tmp_path: Pa
 def test_tasks_for_one_team_show_their_metric(ladder: bool, tmp_path: Path) -> None:
     values = {"ladder_passes": 3.0} if ladder else {}
     rows = [{**values, "episode/passes": 2.0}] * 2
-    axes = plotted(tmp_path, rows, "SSLPassEnduranceMulti-v0")
+    axes = plotted(tmp_path, rows, "SSLPassEnduranceMulti-v1")
     (line,) = axes.get_lines()
     assert np.array(line.get_ydata()).tolist() == [3.0 if ladder else 2.0] * 2
     assert axes.get_ylabel() == ("passes" if ladder else "passes while exploring")

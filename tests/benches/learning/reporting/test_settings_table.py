@@ -32,7 +32,7 @@ def test_each_setting_of_a_task_is_in_the_table() -> None:
         ("rollout.worlds", "SSLDribbling-v0", "128"),
         ("ppo.gamma", "SSLGoToBall-v0", "0.99"),
         ("ppo.gamma", "VSS-v0", ""),
-        ("network.central_critic", "SSLPassEnduranceMulti-v0", "on"),
+        ("network.central_critic", "SSLPassEnduranceMulti-v1", "on"),
         ("network.hidden_sizes", "default", "128 128"),
         ("ppo.final_gamma", "default", "none"),
         ("ppo.mirror_augmentation", "VSS-v0", "on"),

@@ -8,7 +8,7 @@ from benches.learning.running import pace
 from benches.learning.table import IN_TIME_OF_PPO, PPO
 from benches.result_files import load
 
-ROBOTS = {"VSSMulti-v0": 3, "SSLPassEnduranceMulti-v0": 2}
+ROBOTS = {"VSSMulti-v0": 3, "SSLPassEnduranceMulti-v1": 2}
 """Robots that learn in a match, where they are several."""
 
 

@@ -17,7 +17,7 @@ pytest.importorskip("stable_baselines3")
 QUICK = {"samples": 1_000, "rows": 10, "learning_starts": 100, "hidden_sizes": [8], "n_steps": 3}
 
 
-def experiment(algorithm: str, task: str = "SSLPassEndurance-v0") -> Experiment:
+def experiment(algorithm: str, task: str = "SSLPassEndurance-v1") -> Experiment:
     return Experiment("baselines", algorithm, task, algorithm, settings=QUICK, seeds=1)
 
 
