@@ -107,7 +107,8 @@ class FailingSimulator:
 
     def __init__(self, task: FailingTask, worlds: int) -> None:
         self._own, self._fuse = Simulator(task.config, worlds), task.failure
-        self.place, self.reposition_balls = self._own.place, self._own.reposition_balls
+        self.place, self.restart = self._own.place, self._own.restart
+        self.reposition_balls = self._own.reposition_balls
         self.snapshot, self.restore = self._own.snapshot, self._own.restore
 
     def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:

@@ -14,8 +14,12 @@ class Frozen:
     def __init__(self) -> None:
         self.calls: list[str] = []
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
         self.calls.append("place")
+        out[worlds] = rows
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        self.calls.append("restart")
         out[worlds] = rows
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:

@@ -1143,7 +1143,8 @@ class Simulator:
             worlds: Mask of these worlds (n,), bool.
             rows: State rows of the starts (number of True, row), float32; positions, headings,
                 velocities and the ball's spin are used. Speeds are at most `MAX_PLACED_SPEED`.
-            out: Output (n, row), float32; the rows of these worlds are written.
+            out: Output (n, row), float32; the rows of these worlds are written. It may share memory
+                with `rows`.
             params: Factors on the models' numbers in these worlds (number of True, parameters),
                 float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot. None for factors
                 of 1.
@@ -1151,6 +1152,26 @@ class Simulator:
         Raises:
             ValueError: A start is invalid (bodies overlap, are outside the field or too fast), a
                 factor is out of its range, or an array has another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+        """
+
+    def restart(
+        self, worlds: NDArray[np.bool_], rows: NDArray[np.float32], out: NDArray[np.float32]
+    ) -> None:
+        """Restart play in some worlds: all bodies get a new state, as a referee puts them.
+
+        Worlds keep their own factors on the models' numbers. Nothing else of the old state remains:
+        kickers are charged, and touches, crossings and collisions are cleared.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            rows: State rows (number of True, row), float32, as for `place`.
+            out: Output (n, row), float32; the rows of these worlds are written. It may share memory
+                with `rows`.
+
+        Raises:
+            ValueError: A row is invalid (bodies overlap, are outside the field or too fast), or an
+                array has another shape. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
         """
 
@@ -1168,7 +1189,8 @@ class Simulator:
             worlds: Mask of these worlds (n,), bool.
             balls: Ball columns (number of True, ball columns), float32; position, velocity and spin
                 are used.
-            out: Output (n, row), float32; the rows of these worlds are written.
+            out: Output (n, row), float32; the rows of these worlds are written. It may share memory
+                with `balls`.
 
         Raises:
             ValueError: A ball is in a robot or outside the field, a world became non-finite before
@@ -1194,8 +1216,8 @@ class Simulator:
             ValueError: An array has another shape, or a command is not finite. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
             RuntimeError: The states of some worlds, which the message names, are non-finite, now or
-                since an earlier step. They are lost until `place`; the others have stepped, and
-                their rows are written.
+                since an earlier step. They are lost until `place` or `restart`; the others have
+                stepped, and their rows are written.
         """
 
     def read(self, out: NDArray[np.float32]) -> None:

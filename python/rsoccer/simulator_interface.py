@@ -8,15 +8,33 @@ from rsoccer.arrays import Floats, Mask
 class SimulatorLike(Protocol):
     """Simulator of the robots and balls of n worlds, such as `rsoccer.Simulator`."""
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
         """Start new matches in some worlds.
 
-        `Matches` calls this method for new episodes, and where `Task.restart_play` places all
-        bodies within an episode.
+        `Matches` calls this method for new episodes, without `params`.
 
         Args:
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial state rows.
+            out: (n, row) output; the rows of the k worlds are overwritten.
+            params: (k, parameters) factors on the models' numbers in these worlds,
+                `BALL_PARAMETERS` and then `ROBOT_PARAMETERS` of each robot; the simulator's choice
+                if None.
+
+        Raises:
+            ValueError: bodies that overlap or are outside, or factors out of their range. The state
+                must be unchanged.
+        """
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        """Put all bodies of some running matches into a new state, as a referee does.
+
+        The worlds keep their factors on the models' numbers, and their clocks go on. `Matches`
+        calls this method only for tasks that override `Task.restart_play`.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) new state rows.
             out: (n, row) output; the rows of the k worlds are overwritten.
 
         Raises:

@@ -147,7 +147,7 @@ def test_the_simulator_gets_worlds_and_balls_in_order() -> None:
     class Recording:
         def __init__(self) -> None:
             self.own = Simulator(BallMover().config, 3)
-            self.place, self.step = self.own.place, self.own.step
+            self.place, self.restart, self.step = self.own.place, self.own.restart, self.own.step
 
         def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
             calls.append((worlds.tolist(), balls.copy()))

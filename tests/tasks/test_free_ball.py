@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Field, Matches
-from rsoccer.arrays import Floats
+from rsoccer import Field, Matches, SimConfig, Simulator
+from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.frame import Frame
 from rsoccer.play import Play
@@ -96,6 +96,39 @@ def test_a_wedged_ball_leads_to_a_free_ball_after_ten_seconds(name: str, engine:
     assert same(matches.play.frame.rows, matches.play.last_frame.rows)
     outcome = matches.step(pushes(matches))
     assert np.abs(matches.frame.robots.velocity[0, [0, 3], 0]).min() > 0.0, "play continues"
+
+
+class Varied:
+    """A simulator that draws new masses, frictions and accelerations for every match."""
+
+    def __init__(self, config: SimConfig) -> None:
+        self.simulator, self.rng = Simulator(config), np.random.default_rng(0)
+        self.params = np.empty((1, config.parameters_size), np.float32)
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401
+        return getattr(self.simulator, name)
+
+    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
+        self.params[:] = self.rng.uniform(0.7, 1.3, self.params.shape)
+        self.simulator.place(worlds, rows, out, self.params if params is None else params)
+
+
+def test_free_balls_leave_the_parameters_of_a_world_as_they_are() -> None:
+    task = VssSelfPlay(free_ball=True)
+    varied = Varied(task.config)
+    matches = started(task, wedge(), simulator=varied, autoreset="disabled")
+    params = varied.params.copy()
+    for _ in range(STEPS):
+        outcome = matches.step(zeros(matches))
+    assert outcome.metrics["free_balls"][0] == 1.0
+    # A match that begins in the same state with the parameters of this one has the same future.
+    new, rows = Simulator(task.config), np.empty_like(matches.frame.rows)
+    new.place(np.ones(1, np.bool_), matches.frame.rows, rows, params)
+    for _ in range(20):
+        matches.step(zeros(matches) + 1.0)
+        new.step(matches.play.commands, rows)
+        assert same(rows, matches.frame.rows)
+    assert np.abs(matches.frame.robots.velocity).max() > 0.1
 
 
 def test_a_ball_that_moves_is_never_stuck() -> None:

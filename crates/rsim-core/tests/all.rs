@@ -22,6 +22,7 @@ mod omni;
 mod placement;
 mod records;
 mod reposition;
+mod restart;
 mod shots;
 mod soak;
 mod spinning;

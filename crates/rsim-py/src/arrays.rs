@@ -1,8 +1,11 @@
 //! Checks of arrays from Python. Every message names the argument, the expected value and the given
 //! one.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use numpy::{
-    Element, Ix1, Ix2, Ix3, PyArray, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
+    Element, Ix1, Ix2, Ix3, IxDyn, PyArray, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray,
     PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods, ndarray,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -79,12 +82,58 @@ pub(crate) fn finite(name: &str, values: &[f32]) -> PyResult<()> {
 /// Values of an array in C order: borrowed if the array has that order, else copied.
 pub(crate) fn values<'a, T: Element + Copy, D: ndarray::Dimension>(
     array: &'a PyReadonlyArray<'_, T, D>,
-) -> std::borrow::Cow<'a, [T]> {
+) -> Cow<'a, [T]> {
     match array.as_slice() {
         // The slice of an array in Fortran order has its values in that order.
         Ok(slice) if array.is_c_contiguous() => slice.into(),
         _ => array.as_array().iter().copied().collect::<Vec<_>>().into(),
     }
+}
+
+/// An input in C order, apart from the output: a copy if the two share memory, so that an array can be
+/// given as both.
+pub(crate) enum Input<'py, T: Element, D: ndarray::Dimension> {
+    Borrowed(PyReadonlyArray<'py, T, D>),
+    Copied(Vec<T>),
+}
+
+impl<'py, T: Element + Copy, D: ndarray::Dimension> Input<'py, T, D> {
+    /// Checks element type and shape of an array; copies it if it has another order than C or shares
+    /// memory with `out`, else borrows it.
+    pub(crate) fn new(
+        name: &str,
+        value: &Bound<'py, PyAny>,
+        shape: &[usize],
+        out: &Bound<'py, PyAny>,
+    ) -> PyResult<Self> {
+        let array = readable(name, value, shape)?;
+        let copied = match values(&array) {
+            Cow::Borrowed(borrowed) if !shares_memory(borrowed, out) => None,
+            values => Some(values.into_owned()),
+        };
+        Ok(copied.map_or(Self::Borrowed(array), Self::Copied))
+    }
+
+    pub(crate) fn values(&self) -> Cow<'_, [T]> {
+        match self {
+            Self::Borrowed(array) => values(array),
+            Self::Copied(copied) => copied.into(),
+        }
+    }
+}
+
+/// Whether values lie in the memory of an output. An output that is not in C order is none.
+fn shares_memory<T>(values: &[T], out: &Bound<'_, PyAny>) -> bool {
+    let Ok(out) = out.cast::<PyArray<f32, IxDyn>>() else { return false };
+    let Ok(out) = out.try_readonly() else { return false };
+    let Ok(out) = out.as_slice() else { return false };
+    let [values, out] = [address_range(values), address_range(out)];
+    values.start < out.end && out.start < values.end
+}
+
+fn address_range<T>(values: &[T]) -> Range<usize> {
+    let Range { start, end } = values.as_ptr_range();
+    start.addr()..end.addr()
 }
 
 fn tuple(shape: &[usize]) -> String {
@@ -94,5 +143,6 @@ fn tuple(shape: &[usize]) -> String {
 
 pub(crate) type Mask<'py> = PyReadonlyArray<'py, bool, Ix1>;
 pub(crate) type Rows<'py> = PyReadonlyArray<'py, f32, Ix2>;
+pub(crate) type InputRows<'py> = Input<'py, f32, Ix2>;
 pub(crate) type RowsOut<'py> = PyReadwriteArray<'py, f32, Ix2>;
 pub(crate) type Commands<'py> = PyReadonlyArray<'py, f32, Ix3>;

@@ -6,7 +6,7 @@ use pyo3::types::PyBytes;
 use rsim_core::Batch;
 use rsim_core::columns::BALL_COLUMNS;
 
-use crate::arrays::{Commands, Mask, Rows, RowsOut, finite, readable, values, writeable};
+use crate::arrays::{Commands, InputRows, Mask, RowsOut, finite, readable, values, writeable};
 use crate::config::{SimConfig, count, invalid};
 use crate::threads::ThreadsOrCount;
 
@@ -55,18 +55,32 @@ impl Simulator {
         out: &Bound<'_, PyAny>,
         params: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let mask = self.mask(worlds)?;
         let mask = values(&mask);
-        let chosen = mask.iter().filter(|&&chosen| chosen).count();
-        let rows: Rows = readable("rows", rows, &[chosen, self.row_size()])?;
-        let rows = values(&rows);
-        let params_shape = [chosen, self.0.config().parameters_size()];
-        let params: Option<Rows> =
-            params.map(|params| readable("params", params, &params_shape)).transpose()?;
-        let params = params.as_ref().map(values);
+        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
+        let shape = [chosen(&mask), self.0.config().parameters_size()];
+        let params =
+            params.map(|params| InputRows::new("params", params, &shape, out)).transpose()?;
+        let (rows, params) = (rows.values(), params.as_ref().map(InputRows::values));
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
         py.detach(|| self.0.place(&mask, &rows, params.as_deref(), out)).map_err(invalid)
+    }
+
+    fn restart(
+        &mut self,
+        py: Python<'_>,
+        worlds: &Bound<'_, PyAny>,
+        rows: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mask = self.mask(worlds)?;
+        let mask = values(&mask);
+        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
+        let rows = rows.values();
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.restart(&mask, &rows, out)).map_err(invalid)
     }
 
     fn reposition_balls(
@@ -76,11 +90,10 @@ impl Simulator {
         balls: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let mask = self.mask(worlds)?;
         let mask = values(&mask);
-        let chosen = mask.iter().filter(|&&chosen| chosen).count();
-        let balls: Rows = readable("balls", balls, &[chosen, BALL_COLUMNS.len()])?;
-        let balls = values(&balls);
+        let balls = InputRows::new("balls", balls, &[chosen(&mask), BALL_COLUMNS.len()], out)?;
+        let balls = balls.values();
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
         py.detach(|| self.0.reposition_balls(&mask, &balls, out)).map_err(invalid)
@@ -146,7 +159,17 @@ impl Simulator {
         self.0.config().row_size()
     }
 
+    /// The mask of the worlds that a method changes.
+    fn mask<'py>(&self, worlds: &Bound<'py, PyAny>) -> PyResult<Mask<'py>> {
+        readable("worlds", worlds, &[self.0.worlds()])
+    }
+
     fn rows_out<'py>(&self, out: &Bound<'py, PyAny>) -> PyResult<RowsOut<'py>> {
         writeable("out", out, &[self.0.worlds(), self.row_size()])
     }
+}
+
+/// Number of worlds of a mask.
+fn chosen(mask: &[bool]) -> usize {
+    mask.iter().filter(|&&chosen| chosen).count()
 }

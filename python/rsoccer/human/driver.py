@@ -295,15 +295,26 @@ class ChipSimulator:
         self._driver = driver
         self._simulator = Simulator(driver.task.config) if simulator is None else simulator
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
         """Start new matches, as the simulator does.
 
         Args:
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial state rows.
             out: (n, row) output.
+            params: (k, parameters) factors on the models' numbers.
         """
-        self._simulator.place(worlds, rows, out)
+        self._simulator.place(worlds, rows, out, params)
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        """Restart play, as the simulator does.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) new state rows.
+            out: (n, row) output.
+        """
+        self._simulator.restart(worlds, rows, out)
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
         """Move balls, as the simulator does.

@@ -383,7 +383,7 @@ class Matches:
         mask, rows = result_checks.restarted(restarted, self.worlds, row_size)
         if active is not None:
             rows, mask = rows[active[mask]], mask & active
-        self._simulator.place(mask, rows, out=play.frame.rows)
+        self._simulator.restart(mask, rows, out=play.frame.rows)
         play.last_frame.rows[mask] = play.frame.rows[mask]
         play.expire_views()
 

@@ -70,16 +70,28 @@ class TimedSimulator:
         self._clock = clock
         self.config, self.worlds, self.threads = config, worlds, threads
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
         """Start some worlds from given states.
 
         Args:
             worlds: (n,) mask of the k worlds to start.
             rows: (k, row) states of these worlds.
             out: (n, row) their rows are written.
+            params: (k, parameters) factors on the models' numbers in these worlds.
         """
         with self._clock.measure("physics"):
-            self._simulator.place(worlds, rows, out)
+            self._simulator.place(worlds, rows, out, params)
+
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+        """Restart play in some worlds.
+
+        Args:
+            worlds: (n,) mask of the k worlds.
+            rows: (k, row) new states of these worlds.
+            out: (n, row) their rows are written.
+        """
+        with self._clock.measure("physics"):
+            self._simulator.restart(worlds, rows, out)
 
     def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
         """Move the balls of some worlds; robots are not changed.

@@ -81,23 +81,27 @@ impl Batch {
         parameters: Option<&[f32]>,
         out: &mut [f32],
     ) -> Result<(), PlaceError> {
-        let parameters_size = self.config().parameters_size();
+        let (size, count) = (self.config().row_size(), self.config().parameters_size());
+        let row = |nth: usize| &rows[nth * size..][..size];
+        let own = |nth: usize| parameters.map(|all| &all[nth * count..][..count]);
+        self.change(mask, out, |nth, world| world.check(row(nth), own(nth)), World::start)
+    }
+
+    /// Restarts play in the worlds of the mask: all bodies get a new state, and the worlds keep their own
+    /// parameters. `rows` has one row for each of these worlds (see [`World::restart`]). `out` has one row
+    /// for every world; the rows of these worlds are written.
+    ///
+    /// # Errors
+    /// [`PlaceError::InWorld`] for the first world with an invalid row; then no world has changed.
+    pub fn restart(
+        &mut self,
+        mask: &[bool],
+        rows: &[f32],
+        out: &mut [f32],
+    ) -> Result<(), PlaceError> {
         let size = self.config().row_size();
-        let chosen = || (0..mask.len()).filter(|&world| mask[world]);
-        debug_assert_eq!(rows.len(), chosen().count() * size);
-        let starts = chosen()
-            .zip(rows.chunks_exact(size))
-            .enumerate()
-            .map(|(nth, (world, row))| {
-                let own = parameters.map(|all| &all[nth * parameters_size..][..parameters_size]);
-                self.worlds[world].check(row, own).map_err(|error| error.in_world(world))
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        for (world, start) in chosen().zip(starts) {
-            self.worlds[world].start(&start);
-            self.worlds[world].write_row(&mut out[world * size..][..size]);
-        }
-        Ok(())
+        let row = |nth: usize| &rows[nth * size..][..size];
+        self.change(mask, out, |nth, world| world.check_restart(row(nth)), World::restart_from)
     }
 
     /// Moves the ball in the worlds of the mask; everything else of their matches continues. `balls` has
@@ -112,17 +116,30 @@ impl Batch {
         balls: &[f32],
         out: &mut [f32],
     ) -> Result<(), PlaceError> {
+        let size = BALL_COLUMNS.len();
+        let ball = |nth: usize| &balls[nth * size..][..size];
+        self.change(mask, out, |nth, world| world.check_ball(ball(nth)), World::set_ball)
+    }
+
+    /// Changes the worlds of the mask and writes their rows, unless a check refuses the change of a world.
+    /// `check` takes the position of a world among those of the mask.
+    fn change<C>(
+        &mut self,
+        mask: &[bool],
+        out: &mut [f32],
+        check: impl Fn(usize, &World) -> Result<C, PlaceError>,
+        make: impl Fn(&mut World, C),
+    ) -> Result<(), PlaceError> {
         let size = self.config().row_size();
         let chosen = || (0..mask.len()).filter(|&world| mask[world]);
-        debug_assert_eq!(balls.len(), chosen().count() * BALL_COLUMNS.len());
-        let starts = chosen()
-            .zip(balls.chunks_exact(BALL_COLUMNS.len()))
-            .map(|(world, ball)| {
-                self.worlds[world].check_ball(ball).map_err(|error| error.in_world(world))
+        let checked = chosen()
+            .enumerate()
+            .map(|(nth, world)| {
+                check(nth, &self.worlds[world]).map_err(|error| error.in_world(world))
             })
             .collect::<Result<Vec<_>, _>>()?;
-        for (world, start) in chosen().zip(starts) {
-            self.worlds[world].set_ball(&start);
+        for (world, change) in chosen().zip(checked) {
+            make(&mut self.worlds[world], change);
             self.worlds[world].write_row(&mut out[world * size..][..size]);
         }
         Ok(())
@@ -241,8 +258,12 @@ mod tests {
                     assert_ne!(rows[..size], before[..size]);
                     assert_eq!(rows[size..2 * size], before[size..2 * size]);
                 }
-                let mask = [false, true, false];
+                let (mask, lost) = ([false, true, false], batch.snapshot());
                 batch.place(&mask, &scene.start, None, &mut rows).expect("valid");
+                assert_eq!(batch.step(&commands, &mut rows, None), Ok(()));
+                assert!(rows.iter().all(|value| value.is_finite()));
+                batch.restore(&lost).expect("its own");
+                batch.restart(&mask, &scene.start, &mut rows).expect("valid");
                 assert_eq!(batch.step(&commands, &mut rows, None), Ok(()));
                 assert!(rows.iter().all(|value| value.is_finite()));
             }

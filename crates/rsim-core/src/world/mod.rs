@@ -4,6 +4,7 @@ pub(crate) mod batch;
 mod line_up;
 mod placement;
 mod reposition;
+mod restart;
 mod row;
 mod snapshot;
 
@@ -100,8 +101,8 @@ impl World {
     /// [`PlaceError`] for bodies outside the field or overlapping, or parameters out of range; then
     /// nothing has changed.
     pub fn place(&mut self, row: &[f32], parameters: Option<&[f32]>) -> Result<(), PlaceError> {
-        let start = self.check(row, parameters)?;
-        self.start(&start);
+        let checked = self.check(row, parameters)?;
+        self.start(checked);
         Ok(())
     }
 
@@ -115,18 +116,19 @@ impl World {
     }
 
     /// Starts a new match from a checked start.
-    fn start(&mut self, checked: &CheckedStart) {
+    fn start(&mut self, checked: CheckedStart) {
+        let CheckedStart { start, own_params } = checked;
         self.state.copy_from(&self.shared.pristine);
         self.state.engine.enable_contact_free_ticks(self.contact_free_enabled);
-        self.state.own_params.clone_from(&checked.own_params);
+        self.state.own_params = own_params;
         if let Some(params) = &self.state.own_params {
             self.state.engine.set_params(params);
             self.state.bodies.ball_mass = params.ball.mass;
         }
-        for (body, motion) in checked.start.motions.iter().enumerate() {
+        for (body, motion) in start.motions.iter().enumerate() {
             self.state.place(body, motion);
         }
-        self.state.ball = checked.start.ball;
+        self.state.ball = start.ball;
     }
 
     /// Advances the match by one control step. `commands` has one row per robot, as wide as the longest
@@ -134,7 +136,7 @@ impl World {
     /// the limits of motors and kickers are clipped.
     ///
     /// # Errors
-    /// [`StepError`] if the state became non-finite; only [`World::place`] repairs it.
+    /// [`StepError`] if the state became non-finite; [`World::place`] and [`World::restart`] repair it.
     pub fn step(&mut self, commands: &[f32]) -> Result<(), StepError> {
         debug_assert_eq!(commands.len(), self.config().command_size());
         if self.state.broken {
@@ -168,8 +170,8 @@ impl World {
         self.state.engine.enable_contact_free_ticks(false);
     }
 
-    /// Sets the number of sub-steps of the solver in a tick, until the next [`World::place`]: for the
-    /// benchmark that compares numbers.
+    /// Sets the number of sub-steps of the solver in a tick, until the next [`World::place`] or
+    /// [`World::restart`]: for the benchmark that compares numbers.
     pub fn set_sub_steps(&mut self, sub_steps: NonZeroUsize) {
         self.state.engine.set_sub_steps(sub_steps.get());
     }

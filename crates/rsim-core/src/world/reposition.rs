@@ -16,7 +16,7 @@ impl World {
     /// non-finite; then nothing has changed.
     pub fn reposition_ball(&mut self, ball: &[f32]) -> Result<(), PlaceError> {
         let start = self.check_ball(ball)?;
-        self.set_ball(&start);
+        self.set_ball(start);
         Ok(())
     }
 
@@ -32,7 +32,7 @@ impl World {
     }
 
     /// Moves the ball to a checked start.
-    pub(super) fn set_ball(&mut self, checked: &BallStart) {
+    pub(super) fn set_ball(&mut self, checked: BallStart) {
         let state = &mut self.state;
         state.bodies.set_ball(checked.motion.position, checked.motion.velocity);
         state.ball = checked.ball;
