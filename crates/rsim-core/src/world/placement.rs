@@ -46,7 +46,7 @@ impl Start {
 }
 
 /// Motion and state of the ball in its columns.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct BallStart {
     pub(super) motion: Motion,
     pub(super) ball: BallState,
