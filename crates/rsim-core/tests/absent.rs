@@ -351,3 +351,20 @@ fn robots_that_are_moved_at_once_may_swap_places() {
     world.reposition_robots(&mask, &swapped).expect("free");
     assert_eq!(row(&world)[BALL_COLUMNS.len()..], swapped[BALL_COLUMNS.len()..]);
 }
+
+#[test]
+fn the_kicker_of_a_robot_that_enters_is_charged() {
+    let scene = ball_in_mouth(&[0.0, 0.0, 0.0, 3.0, 0.0, 0.0]);
+    let mut world = scene.world();
+    let commands = scene.commands(&scene.start, 0, 0);
+    let speed = |world: &World| row(world)[ball_column("v_x")];
+    for (moved, kicks) in [(false, false), (true, true)] {
+        world.restart(&scene.start).expect("valid");
+        world.step(&commands).expect("finite");
+        assert!(speed(&world) > 2.0, "it kicks");
+        world.reposition_ball(&scene.start[..BALL_COLUMNS.len()]).expect("where it was");
+        world.reposition_robots(&[moved], &scene.start).expect("where it was");
+        world.step(&commands).expect("finite");
+        assert_eq!(speed(&world) > 2.0, kicks);
+    }
+}

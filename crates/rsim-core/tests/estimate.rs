@@ -280,3 +280,19 @@ fn a_world_keeps_its_parameters_and_threads_change_nothing() {
     }
     assert!(results[0] == results[1]);
 }
+
+#[test]
+fn a_body_in_a_corner_of_walls_goes_to_the_space_beside_it() {
+    // The shortest way out of the wall at the end of the field leads into the one at its side.
+    let valid = Scene::lined_up("corner", scenes::vss(1, 1), Driver::STILL);
+    let field = &valid.config.field;
+    let (end, side) = (field.half_length(), field.half_width());
+    for [x, y] in [[end + 0.08, side - 0.03], [-end - 0.05, side - 0.02], [end, -side]] {
+        let mut estimate = valid.start.clone();
+        let robot = robots_mut(&mut estimate).next().expect("a robot");
+        (robot[0], robot[1]) = (x, y);
+        estimate[..2].copy_from_slice(&[x, -y]);
+        let (_, moved) = placed(&valid, &estimate);
+        assert!(moved[0] < 0.17 && moved[1] < 0.2 && moved[2] == 0.0, "{moved:?}");
+    }
+}

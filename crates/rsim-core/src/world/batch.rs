@@ -365,6 +365,9 @@ mod tests {
             let ball = &scene.start[..BALL_COLUMNS.len()];
             let refused = batch.reposition_balls(&mask, ball, &mut rows).expect_err("lost");
             assert_eq!(refused, PlaceError::Lost.in_world(7));
+            let (robots, start) = (vec![false; scene.config.n_robots()], &scene.start);
+            let refused = batch.reposition_robots(&mask, &robots, start, &mut rows);
+            assert_eq!(refused, Err(PlaceError::Lost.in_world(7)));
             assert_eq!(rows, before);
         }
     }

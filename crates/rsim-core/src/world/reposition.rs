@@ -91,3 +91,43 @@ impl World {
         state.crossing = Crossing::default();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bodies::WarmStart;
+    use crate::models::config::EngineKind;
+    use crate::scenes::{self, Driver, Scene};
+
+    fn warm_starts(world: &World) -> Vec<WarmStart> {
+        let mut all = Vec::new();
+        let bodies = &world.state.bodies;
+        bodies.list_warm_starts(world.state.engine.warm_starts(), &mut all);
+        all.into_iter().filter(|stored| stored.key != 0).collect()
+    }
+
+    #[test]
+    fn impulses_of_a_moved_robot_are_forgotten_and_those_of_others_kept() {
+        let mut scene = Scene::lined_up("crowd", scenes::vss(3, 3), Driver::Chase);
+        scene.config.engine = EngineKind::Compact;
+        let mut world = scene.world();
+        let mut row = scene.start.clone();
+        let of_first = |stored: &WarmStart| {
+            [stored.key >> 8, stored.key & 0xff].contains(&u16::try_from(robot(0)).expect("small"))
+        };
+        let mut seen = [0, 0];
+        for step in 0..200 {
+            world.step(&scene.commands(&row, step, 0)).expect("finite");
+            world.write_row(&mut row);
+            let mut moved = world.clone();
+            let mask = [true, false, false, false, false, false];
+            moved.reposition_robots(&mask, &row).expect("where it is");
+            let (before, after) = (warm_starts(&world), warm_starts(&moved));
+            let kept = before.iter().filter(|stored| !of_first(stored)).count();
+            assert_eq!(after.len(), kept);
+            assert!(!after.iter().any(of_first));
+            seen = [seen[0] + kept, seen[1] + before.len() - kept];
+        }
+        assert!(seen[0] > 20 && seen[1] > 20, "{seen:?}");
+    }
+}
