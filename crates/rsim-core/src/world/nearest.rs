@@ -78,7 +78,8 @@ impl Placement {
     }
 
     /// Whether the centre of a body is outside the field or in a wall. The shortest way out of a wall may
-    /// then lead into the next one.
+    /// then lead into the next one, and passes would not settle: most such rows would take the slower search
+    /// for spots.
     fn is_behind_a_face(&self, who: usize, start: &Start) -> bool {
         let (center, z) = (start.motions[who].position, start.ball.z);
         let is_inside = |wall: &Wall| match who {
