@@ -55,11 +55,11 @@ def nearest_to_ball(play: Play) -> Mask:
     """Observers that were their team's nearest to the ball before the step."""
     frame: Frame = play.last_frame
     offset = frame.robots.position - frame.ball.position[:, None]
-    distance = norm(offset[..., 0], offset[..., 1])
+    distance = np.where(frame.robots.absent > 0.0, np.inf, norm(offset[..., 0], offset[..., 1]))
     teams = np.split(distance, [frame.n_blue], axis=1)
     least = [np.broadcast_to(t.min(axis=1, keepdims=True), t.shape) for t in teams if t.size]
-    nearest: Mask = np.equal(distance, np.concatenate(least, axis=1))[:, play.observers]
-    return nearest
+    nearest: Mask = np.equal(distance, np.concatenate(least, axis=1)) & np.isfinite(distance)
+    return nearest[:, play.observers]
 
 
 def energy(play: Play) -> Floats:

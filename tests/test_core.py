@@ -205,7 +205,7 @@ def test_errors_of_placing_name_world_and_robots() -> None:
         (onto, "world 2: blue_0 and blue_1 overlap by"),
         (outside, r"world 0: ball is outside the field, at \(5.000, 0.000\) m"),
         (heading, "world 2: the heading of blue_0 must be a unit vector"),
-        (out[:1], r"rows must have shape \(2, 80\), got \(1, 80\)"),
+        (out[:1], r"rows must have shape \(2, 86\), got \(1, 86\)"),
     ]:
         with pytest.raises(ValueError, match=words):
             simulator.place(mask, rows, out)

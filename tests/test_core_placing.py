@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from rsoccer._core import BALL_COLUMNS, SimConfig, Simulator
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig, Simulator
 from rsoccer.arrays import Floats
 
 WORLDS = 3
 CONFIG = SimConfig()
 EVERY = np.ones(WORLDS, np.bool_)
+ABSENT = slice(len(BALL_COLUMNS) + ROBOT_COLUMNS.index("absent"), None, len(ROBOT_COLUMNS))
 
 
 def starts(seed: int = 0) -> Floats:
@@ -94,3 +95,37 @@ def test_a_restart_keeps_factors() -> None:
     np.testing.assert_array_equal(out, rows)
     new.place(EVERY, rows, out, params)
     assert restarted.snapshot() == new.snapshot()
+
+
+def test_estimates_go_to_the_nearest_valid_state() -> None:
+    simulator, strict = Simulator(CONFIG, WORLDS), Simulator(CONFIG, WORLDS)
+    rows = starts()
+    expected = np.empty_like(rows)
+    strict.restart(EVERY, rows, expected)
+    moved = simulator.place_estimates(EVERY, rows, rows)
+    assert moved.shape == (WORLDS, 1 + CONFIG.n_robots)
+    assert moved.dtype == np.float32
+    assert not moved.any()
+    np.testing.assert_array_equal(rows, expected)
+    assert simulator.snapshot() == strict.snapshot()
+    noise = np.random.default_rng(0).normal(0.0, 0.2, (2, CONFIG.row_size)).astype(np.float32)
+    estimates = rows[1:] + noise
+    estimates[:, ABSENT] = 0.0
+    found = rows.copy()
+    moved = simulator.place_estimates(np.array([False, True, True]), estimates, found)
+    np.testing.assert_array_equal(found[0], rows[0])
+    assert moved.max() > 0.0
+    strict.restart(EVERY, found, expected)
+    np.testing.assert_array_equal(found[:, :2], expected[:, :2])
+
+
+def test_estimates_that_are_not_finite_are_refused() -> None:
+    simulator, rows = Simulator(CONFIG, WORLDS), starts()
+    rows[1, len(BALL_COLUMNS)] = np.nan
+    before, kept = rows.copy(), simulator.snapshot()
+    with pytest.raises(ValueError, match="world 1: blue_0 has a value that is not finite"):
+        simulator.place_estimates(EVERY, rows, rows)
+    np.testing.assert_array_equal(rows, before)
+    assert simulator.snapshot() == kept
+    with pytest.raises(ValueError, match=r"rows must have shape \(3, "):
+        simulator.place_estimates(EVERY, rows[:2], rows)

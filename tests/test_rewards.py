@@ -151,6 +151,11 @@ def test_terms_equal_the_reference(name: str) -> None:
         assert expected.all(), f"{term}: a difference of 0 compares nothing"
     assert np.array_equal(rewards.nearest_to_ball(play), rewards_reference.nearest_to_ball(play))
     np.testing.assert_allclose(rewards.energy(play), rewards_reference.energy(play), rtol=1e-6)
+    play.last_frame.robots.absent[:, ::2] = 1.0
+    assert np.array_equal(rewards.nearest_to_ball(play), rewards_reference.nearest_to_ball(play))
+    gone = play.last_frame.robots.absent[:, play.observers] > 0.0
+    assert not rewards.ball_to_goal(play, config.field)[gone].any()
+    assert not rewards.nearest_to_ball(play)[gone].any()
 
 
 def test_terms_do_not_depend_on_the_number_of_threads() -> None:
@@ -173,7 +178,7 @@ def test_wrong_arrays_are_refused_by_name() -> None:
     play = initial_play(2)
     last_rows, rows, viewpoint = play.last_frame.rows, play.frame.rows, play.viewpoint.core
     potential = Potential.ball_to_goal(FIELD)
-    with pytest.raises(ValueError, match=r"last_rows must have shape \(2, 80\), got \(1, 80\)"):
+    with pytest.raises(ValueError, match=r"last_rows must have shape \(2, 86\), got \(1, 86\)"):
         potential.difference(viewpoint, last_rows[:1], rows)
     with pytest.raises(ValueError, match="rows must have 2 axes"):
         potential.difference(viewpoint, last_rows, rows[0])

@@ -13,6 +13,7 @@ def random_frame(n: int, n_blue: int, n_yellow: int, seed: int = 0) -> Frame:
     frame.rows[:] = np.random.default_rng(seed).uniform(-1, 1, frame.rows.shape)
     frame.ball.crossed[:] = np.random.default_rng(seed).integers(0, 3, n)
     frame.ball.last_touch[:] = -1
+    frame.robots.absent[:] = 0.0
     return frame
 
 
@@ -67,12 +68,11 @@ def test_teams_of_different_size_leave_slots_empty() -> None:
     frame = random_frame(2, 1, 3)
     view = view_of(frame, [0, 2])
     assert view.robots.data.shape[2] == 1 + 2 + 3
-    assert view.present.tolist() == [
-        [True, False, False, True, True, True],
-        [True] * 4 + [False] * 2,
-    ]
-    assert not view.robots.data[:, 0, 1:3].any()
-    assert not view.robots.data[:, 1, 4:].any()
+    expected = [[True, False, False, True, True, True], [True] * 4 + [False] * 2]
+    assert view.present.tolist() == [expected] * 2
+    for empty in (view.robots.data[:, 0, 1:3], view.robots.data[:, 1, 4:]):
+        assert not empty[..., :-1].any()
+        assert (empty[..., -1] == 1.0).all()
     assert (view.opponents.position[:, 1, 0] == -frame.blue.position[:, 0]).all()
 
 
@@ -89,7 +89,24 @@ def test_select_returns_some_observers(observers: slice | np.ndarray) -> None:
     part = view.select(observers)
     assert (part.ego.data == view.ego.data[:, observers]).all()
     assert (part.opponents.data == view.opponents.data[:, observers]).all()
-    assert (part.present == view.present[observers]).all()
+    assert (part.present == view.present[:, observers]).all()
+
+
+def test_absent_robots_look_like_empty_slots() -> None:
+    frame = random_frame(2, 2, 3)
+    frame.robots.absent[0, [1, 3]] = 1.0
+    view = view_of(frame, [0, 1, 4])
+    assert view.present[0].tolist() == [
+        [True, False, False, True, False, True],
+        [False, True, False, True, False, True],
+        [True, True, False, True, False, False],
+    ]
+    assert view.present[1].sum(axis=1).tolist() == [5, 5, 5]
+    for world in range(2):
+        gone = ~view.present[world]
+        assert not view.robots.data[world][gone][:, :-1].any()
+        assert (view.robots.absent[world][gone] == 1.0).all()
+        assert view.robots.data[world][~gone].all(axis=-1).sum() == 0, "`absent` of the others is 0"
 
 
 def test_take_copies_some_worlds() -> None:
@@ -122,6 +139,7 @@ def test_a_view_may_have_no_observers() -> None:
 def test_views_equal_the_reference_bit_for_bit(n_blue: int, n_yellow: int) -> None:
     frame = random_frame(3 * len(CROSSINGS), n_blue, n_yellow)
     frame.ball.crossed[:] = np.tile(np.arange(len(CROSSINGS)), 3)
+    frame.robots.absent[:] = np.random.default_rng(1).integers(0, 2, frame.robots.absent.shape)
     view = view_of(frame, list(range(n_blue + n_yellow)))
     for observer in range(n_blue + n_yellow):
         ball, robots = view_reference.reference_view(frame, observer)
@@ -142,9 +160,9 @@ def test_fill_overwrites_everything() -> None:
 
 def test_wrong_arrays_and_slots_are_refused_by_name() -> None:
     frame, viewpoint = random_frame(4, 2, 2), _core.Viewpoint(4, [[0, 1, 2, None]], [False])
-    ball, robots = np.zeros((4, 1, 14), np.float32), np.zeros((4, 1, 4, 11), np.float32)
+    ball, robots = np.zeros((4, 1, 14), np.float32), np.zeros((4, 1, 4, 12), np.float32)
     viewpoint.fill(frame.rows, ball, robots)
-    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(58,\)"):
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(62,\)"):
         viewpoint.fill(frame.rows[0], ball, robots)
     with pytest.raises(ValueError, match=r"ball must have shape \(4, 1, 14\), got \(3, 1, 14\)"):
         viewpoint.fill(frame.rows, ball[:3], robots)

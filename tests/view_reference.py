@@ -7,6 +7,8 @@ from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.view import SIDES, slot_counts
 
+ABSENT = ROBOT_COLUMNS.index("absent")
+
 
 def reference_view(
     frame: Frame, observer: int, sides: tuple[str, ...] = SIDES
@@ -18,8 +20,10 @@ def reference_view(
     teammates, opponents = teams[::-1] if rotated else teams
     teammates = np.roll(teammates, -int(np.flatnonzero(teammates == observer)[0]))
     robots = np.zeros((len(frame), 1 + n_teammates + n_opponents, len(ROBOT_COLUMNS)), np.float32)
+    robots[..., ABSENT] = 1.0
     robots[:, : len(teammates)] = frame.robots.data[:, teammates]
     robots[:, 1 + n_teammates : 1 + n_teammates + len(opponents)] = frame.robots.data[:, opponents]
+    robots *= np.where(np.arange(len(ROBOT_COLUMNS)) == ABSENT, 1.0, 1.0 - robots[..., [ABSENT]])
     ball = frame.ball.data.copy()
     if rotated:
         robots *= _signs(ROBOT_COLUMNS)

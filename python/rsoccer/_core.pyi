@@ -60,7 +60,7 @@ ROBOT_COLUMNS: tuple[str, ...]
 
 | column | meaning | unit | range |
 | --- | --- | --- | --- |
-| `x`, `y` | position of the centre | m | within the walls |
+| `x`, `y` | position of the centre | m | within the walls if not absent |
 | `cos`, `sin` | heading, counterclockwise from +x | 1 | -1 to 1 |
 | `v_x`, `v_y` | velocity | m/s | any |
 | `v_theta` | turn rate, counterclockwise | rad/s | any |
@@ -68,6 +68,11 @@ ROBOT_COLUMNS: tuple[str, ...]
 | `touched_ball` | whether it touched the ball in the last control step | 1 | 0 or 1 |
 | `touched_opponent` | whether it touched an opponent in that step | 1 | 0 or 1 |
 | `collision_speed` | closing speed of its hardest robot contact in that step | m/s | 0 or above |
+| `absent` | whether it is not on the field | 1 | 0 or 1 |
+
+An absent robot rests behind its own goal, beyond all walls. It meets nothing, and its commands are
+ignored. `Simulator.place`, `restart` and `reposition_robots` take robots off the field and put them
+on it.
 """
 COMMAND_COLUMNS: dict[str, tuple[str, ...]]
 """Names of a command's columns, by kind of drive. Values beyond a robot's limits are clipped.
@@ -809,7 +814,8 @@ class Viewpoint:
         Args:
             rows: State rows (n, row), float32.
             ball: Output (n, observers, ball columns), float32.
-            robots: Output (n, observers, slots, robot columns), float32; an empty slot gets zeros.
+            robots: Output (n, observers, slots, robot columns), float32. Columns of an empty slot
+                and of an absent robot are 0, but for `absent`, which is 1.
 
         Raises:
             TypeError: An array is not float32.
@@ -1062,22 +1068,31 @@ class EgoFeatures:
     | `own_goal_shot` | (3,) | `shot` at it, less the nearness alone, without a mouth | 1 |
     | `body_velocities` | (2, 2) | own velocity and the ball's, forward and left | top speed |
     | `body_positions` | (slots, 2) | offsets of ball, teammates, opponents | half length |
+    | `presence` | (slots,) | 1 if the robot itself, a teammate, an opponent is on the field | 1 |
 
-    Alignment is the cosine of the angle between the directions from robot to ball and from ball to
-    goal. Offsets are forward and left; slots are 1 + n_teammates + n_opponents.
+    The block `presence` is there only on demand. Numbers of an absent robot are zeros, and so are
+    all those of an absent observer, except for its last action. Alignment is the cosine of the
+    angle between the directions from robot to ball and from ball to goal. Offsets are forward and
+    left; slots are 1 + n_teammates + n_opponents.
 
     Args:
         field: The field.
         robot: Model of the observing robots; its top speeds are the units.
         n_teammates: Number of teammates in a view, 0 or above.
         n_opponents: Number of opponents in a view, 0 or above.
+        presence: Whether there is a block `presence`.
 
     Raises:
         ValueError: A number of robots is below 0.
     """
 
     def __new__(
-        cls, field: Field, robot: RobotModel, n_teammates: int, n_opponents: int
+        cls,
+        field: Field,
+        robot: RobotModel,
+        n_teammates: int,
+        n_opponents: int,
+        presence: bool = False,
     ) -> EgoFeatures: ...
     @property
     def blocks(self) -> tuple[tuple[str, tuple[int, ...]], ...]:
@@ -1154,7 +1169,8 @@ class Simulator:
         Args:
             worlds: Mask of these worlds (n,), bool.
             rows: State rows of the starts (number of True, row), float32; positions, headings,
-                velocities and the ball's spin are used. Speeds are at most `MAX_PLACED_SPEED`.
+                velocities, the ball's spin and `absent` are used, of an absent robot nothing else.
+                Speeds are at most `MAX_PLACED_SPEED`.
             out: Output (n, row), float32; the rows of these worlds are written. It may share memory
                 with `rows`.
             params: Factors on the models' numbers in these worlds (number of True, parameters),
@@ -1184,6 +1200,56 @@ class Simulator:
         Raises:
             ValueError: A row is invalid (bodies overlap, are outside the field or too fast), or an
                 array has another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+        """
+
+    def place_estimates(
+        self, worlds: NDArray[np.bool_], rows: NDArray[np.float32], out: NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        """Restart play in some worlds from the valid states that are nearest to estimates.
+
+        An estimate from noisy senses may have bodies that overlap each other or walls, are outside
+        the field or too fast, and headings of any length. Bodies that overlap by more than a state
+        may have are moved apart, each half of the way; a row that `restart` accepts is taken as it
+        is. All else is as in `restart`.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            rows: State rows (number of True, row), float32 and finite.
+            out: Output (n, row), float32; the rows of these worlds are written. It may share memory
+                with `rows`.
+
+        Returns:
+            By how much the ball and each robot were moved (number of True, 1 + robots), m, float32.
+
+        Raises:
+            ValueError: A row is not finite, `absent` is neither 0 nor 1, or an array has another
+                shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+        """
+
+    def reposition_robots(
+        self,
+        worlds: NDArray[np.bool_],
+        robots: NDArray[np.bool_],
+        rows: NDArray[np.float32],
+        out: NDArray[np.float32],
+    ) -> None:
+        """Move robots of some worlds, or take them off the field; all else continues.
+
+        Kickers of the moved robots are charged, and their touches and collisions are cleared.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            robots: Mask of the robots to move (number of True, robots), bool.
+            rows: State rows (number of True, row), float32; of the robots to move, positions,
+                headings, velocities and `absent` are used.
+            out: Output (n, row), float32; the rows of these worlds are written. It may share memory
+                with `rows`.
+
+        Raises:
+            ValueError: A robot is in another body or outside the field, a world became non-finite
+                before (the message names it), or an array has another shape. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
         """
 

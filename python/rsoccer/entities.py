@@ -55,8 +55,8 @@ class Ball:
 class Robot:
     """State or command of a robot.
 
-    A state uses the fields up to `infrared`, with velocities along the field's axes. A command uses
-    `v_x`, `v_y` (forward and to the left), `v_theta` and the fields after `infrared`, as far as the
+    A state uses the fields up to `absent`, with velocities along the field's axes. A command uses
+    `v_x`, `v_y` (forward and to the left), `v_theta` and the fields after `absent`, as far as the
     robot's drive has them.
 
     Attributes:
@@ -69,6 +69,7 @@ class Robot:
         v_y: velocity along y, or to the left in a command, m/s.
         v_theta: turn rate, counterclockwise, degrees per second.
         infrared: the ball cuts the beam.
+        absent: the robot is not on the field.
         v_wheel0: wheel speed, rad/s; of two wheels the left one.
         v_wheel1: wheel speed, rad/s; of two wheels the right one.
         v_wheel2: wheel speed, rad/s.
@@ -87,6 +88,7 @@ class Robot:
     v_y: float = 0.0
     v_theta: float = 0.0
     infrared: bool = False
+    absent: bool = False
     v_wheel0: float = 0.0
     v_wheel1: float = 0.0
     v_wheel2: float = 0.0
@@ -97,8 +99,11 @@ class Robot:
 
     def __str__(self) -> str:
         ball = ", ball in its beam" if self.infrared else ""
+        name = f"{'yellow' if self.yellow else 'blue'} {self.id}"
+        if self.absent:
+            return f"{name} absent"
         return (
-            f"{'yellow' if self.yellow else 'blue'} {self.id} at ({self.x:.3f}, {self.y:.3f}) m "
+            f"{name} at ({self.x:.3f}, {self.y:.3f}) m "
             f"facing {self.theta:.1f} deg, moving ({self.v_x:.2f}, {self.v_y:.2f}) m/s, "
             f"turning {self.v_theta:.1f} deg/s{ball}"
         )
@@ -240,6 +245,7 @@ def to_row(entities: Entities, n_blue: int, n_yellow: int) -> Floats:
         frame.robots.velocity[0, i] = robot.v_x, robot.v_y
         frame.robots.angular_velocity[0, i] = np.radians(robot.v_theta)
         frame.robots.infrared[0, i] = robot.infrared
+        frame.robots.absent[0, i] = robot.absent
     if not np.isfinite(frame.rows).all():
         raise ValueError(f"entities: expected finite numbers, got\n{entities}")
     row: Floats = frame.rows[0]
@@ -310,6 +316,7 @@ def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]
             v_y=float(columns.velocity[world, i, 1]),
             v_theta=float(turn_rate),
             infrared=bool(columns.infrared[world, i]),
+            absent=bool(columns.absent[world, i]),
         )
         for i, (theta, turn_rate) in enumerate(zip(thetas, turn_rates, strict=True))
     }

@@ -120,6 +120,7 @@ class RobotColumns:
     _TOUCHED_BALL = ROBOT_COLUMNS.index("touched_ball")
     _TOUCHED_OPPONENT = ROBOT_COLUMNS.index("touched_opponent")
     _COLLISION_SPEED = ROBOT_COLUMNS.index("collision_speed")
+    _ABSENT = ROBOT_COLUMNS.index("absent")
 
     def __init__(self, data: Floats) -> None:
         """Name the columns of an array.
@@ -168,6 +169,15 @@ class RobotColumns:
     def collision_speed(self) -> Floats:
         """(...) closing speed of the hardest contact with a robot in the last step, m/s."""
         return self.data[..., self._COLLISION_SPEED]
+
+    @property
+    def absent(self) -> Floats:
+        """(...) 1 if the robot is not on the field, else 0.
+
+        An absent robot rests behind its own goal, beyond all walls. In a view all its other columns
+        are 0.
+        """
+        return self.data[..., self._ABSENT]
 
 
 class Frame:

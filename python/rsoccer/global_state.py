@@ -16,8 +16,8 @@ class StateEncoder:
     """An encoder of rows (n, row) as global states (n, state), scaled to about 1.
 
     A state has the columns below, first the ball's, then each robot's, blue first. Numbers are
-    absolute and clipped to -`LIMIT` to `LIMIT`. Left out are the ball's spin, last touch,
-    crossings, touches of robots and the step count.
+    absolute and clipped to -`LIMIT` to `LIMIT`. Those of an absent robot are 0, its heading too.
+    Left out are the ball's spin, last touch, crossings, touches of robots and the step count.
 
     | body | columns | unit |
     | --- | --- | --- |
@@ -48,6 +48,8 @@ class StateEncoder:
         columns = [*BALL_COLUMNS, *ROBOT_COLUMNS * config.n_robots]
         encoded = [(index, name) for index, name in enumerate(columns) if name in scales]
         self._columns = np.array([index for index, _ in encoded])
+        self._absent = np.array([i for i, name in enumerate(columns) if name == "absent"], np.intp)
+        self._per_robot = sum(name in scales for name in ROBOT_COLUMNS)
         negated = {"y", "v_y", "sin", "v_theta"}
         self._signs = [-1 if name in negated else 1 for _, name in encoded]
         self._factors = np.array([1.0 / scales[name] for _, name in encoded], np.float32)
@@ -72,4 +74,8 @@ class StateEncoder:
             A new array (n, state), float32, within -`LIMIT` to `LIMIT`.
         """
         states: Floats = np.clip(rows[:, self._columns] * self._factors, -LIMIT, LIMIT)
+        absent = rows[:, self._absent] > 0.0
+        if absent.any():
+            of_robots = states[:, self.size - self._per_robot * len(self._absent) :]
+            of_robots[np.repeat(absent, self._per_robot, axis=1)] = 0.0
         return states

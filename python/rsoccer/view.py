@@ -21,11 +21,11 @@ class View:
     """State of n worlds at one time in the coordinates of each observer.
 
     Each observer has a row of robot slots: itself, its teammates, its opponents. In teams of
-    different size some slots stay empty: zeros, and False in `present`.
+    different size some slots stay empty. The columns of an empty slot and of an absent robot are 0,
+    but for `absent`, which is 1.
 
     Attributes:
         n_teammates: number of teammate slots.
-        present: (observers, 1 + teammates + opponents) bool, whether a robot fills the slot.
         ball: ball columns, (n, observers, ...).
         robots: columns of all slots, (n, observers, 1 + teammates + opponents, ...).
         ego: columns of the observer itself, (n, observers, ...).
@@ -33,24 +33,27 @@ class View:
         opponents: columns of its opponents, (n, observers, opponents, ...).
     """
 
-    __slots__ = ("ball", "ego", "n_teammates", "opponents", "present", "robots", "teammates")
+    __slots__ = ("ball", "ego", "n_teammates", "opponents", "robots", "teammates")
 
-    def __init__(self, ball: Floats, robots: Floats, n_teammates: int, present: Mask) -> None:
+    def __init__(self, ball: Floats, robots: Floats, n_teammates: int) -> None:
         """Name the parts of two arrays.
 
         Args:
             ball: (n, observers, ball column) float32; not copied.
             robots: (n, observers, 1 + teammates + opponents, robot column) float32; not copied.
             n_teammates: number of teammate slots.
-            present: (observers, 1 + teammates + opponents) bool, whether a robot fills the slot.
         """
         self.n_teammates = n_teammates
-        self.present = present
         self.ball = BallColumns(ball)
         self.robots = RobotColumns(robots)
         self.ego = RobotColumns(robots[:, :, 0])
         self.teammates = RobotColumns(robots[:, :, 1 : 1 + n_teammates])
         self.opponents = RobotColumns(robots[:, :, 1 + n_teammates :])
+
+    @property
+    def present(self) -> Mask:
+        """(n, observers, 1 + teammates + opponents) bool, whether a robot in the slot plays."""
+        return np.less_equal(self.robots.absent, 0.0)
 
     def select(self, observers: slice | NDArray[np.intp]) -> "View":
         """Return the view of some observers.
@@ -60,7 +63,7 @@ class View:
                 an array of indices copies.
         """
         robots = self.robots.data[:, observers]
-        return View(self.ball.data[:, observers], robots, self.n_teammates, self.present[observers])
+        return View(self.ball.data[:, observers], robots, self.n_teammates)
 
     def take(self, worlds: NDArray[np.intp]) -> "View":
         """Return a copy of the view in some worlds.
@@ -68,13 +71,11 @@ class View:
         Args:
             worlds: (k,) indices of worlds.
         """
-        return View(
-            self.ball.data[worlds], self.robots.data[worlds], self.n_teammates, self.present
-        )
+        return View(self.ball.data[worlds], self.robots.data[worlds], self.n_teammates)
 
-    def __reduce__(self) -> tuple[type["View"], tuple[Floats, Floats, int, Mask]]:
+    def __reduce__(self) -> tuple[type["View"], tuple[Floats, Floats, int]]:
         # Pickled attribute by attribute, the parts would become copies.
-        return View, (self.ball.data, self.robots.data, self.n_teammates, self.present)
+        return View, (self.ball.data, self.robots.data, self.n_teammates)
 
 
 def slot_counts(n_blue: int, n_yellow: int, sides: Sequence[str] = SIDES) -> tuple[int, int]:
@@ -119,9 +120,7 @@ class Viewpoint:
         rotated = self.observers >= n_blue
         self.teams = rotated.astype(np.intp)
         self.core = _core.Viewpoint(n_blue + n_yellow, slots, rotated.tolist())
-        shape = (len(observers), 1 + self._n_teammates + self._n_opponents)
-        present = [robot is not None for row in slots for robot in row]
-        self._present = np.array(present, np.bool_).reshape(shape)
+        self._shape = (len(observers), 1 + self._n_teammates + self._n_opponents)
 
     def new_view(self, n: int) -> View:
         """Return a view of zeros as a buffer for `fill`.
@@ -130,8 +129,8 @@ class Viewpoint:
             n: number of worlds.
         """
         ball = np.zeros((n, len(self.observers), len(BALL_COLUMNS)), np.float32)
-        robots = np.zeros((n, *self._present.shape, len(ROBOT_COLUMNS)), np.float32)
-        return View(ball, robots, self._n_teammates, self._present)
+        robots = np.zeros((n, *self._shape, len(ROBOT_COLUMNS)), np.float32)
+        return View(ball, robots, self._n_teammates)
 
     def fill(self, frame: Frame, view: View) -> None:
         """Write a frame into a view: each observer, its teammates, its opponents, attacking +x.

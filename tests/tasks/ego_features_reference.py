@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS, SimConfig
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import RobotColumns, column_slice
 from rsoccer.vectors import norm
 from rsoccer.view import View
@@ -17,9 +17,26 @@ WITH_BEAM = column_slice(ROBOT_COLUMNS, "x", "y", "cos", "sin", "v_x", "v_y", "v
 BALL = column_slice(BALL_COLUMNS, "x", "y", "z", "v_x", "v_y", "v_z")
 
 
-def blocks(view: View, config: SimConfig) -> dict[str, Array]:
-    """Blocks of the observation by name, each (n, observers, ...)."""
+def blocks(view: View, config: SimConfig, absent: Mask | None = None) -> dict[str, Array]:
+    """Blocks of the observation by name, each (n, observers, ...).
+
+    `absent` (n, observers, slots) says which robots are absent; by default none.
+    """
     scales, has_mouth = Scales(config), config.robot.has_mouth
+    all_blocks = _blocks_of_present(view, config, scales, has_mouth)
+    if absent is None:
+        return all_blocks
+    all_blocks["body_positions"][:, :, 1:][absent[:, :, 1:]] = 0.0
+    all_blocks["presence"] = view.present.astype(np.float32)
+    for block in all_blocks.values():
+        block[absent[:, :, 0]] = 0.0
+    return all_blocks
+
+
+def _blocks_of_present(
+    view: View, config: SimConfig, scales: "Scales", has_mouth: bool
+) -> dict[str, Array]:
+    """Blocks of views in which all robots are present."""
     robots = scales.robots(view, beam=has_mouth)
     goal = np.array([config.field.half_length, 0.0], np.float32)
     return {

@@ -7,9 +7,11 @@ import pytest
 
 from rsoccer import _core, list_tasks, make_task
 from rsoccer._core import EgoFeatures, Threads
-from rsoccer.frame import row_size
+from rsoccer.frame import Frame, row_size
 from rsoccer.matches import Matches
+from rsoccer.tasks import VssSelfPlay
 from rsoccer.tasks.soccer import Soccer
+from rsoccer.testing import check_task
 from rsoccer.view import Viewpoint
 from tests.tasks import ego_features_reference
 
@@ -32,9 +34,49 @@ def test_features_equal_the_reference(name: str) -> None:
         np.testing.assert_allclose(blocks[block], values, rtol=1e-6, atol=1e-7, err_msg=block)
 
 
-def encoder() -> EgoFeatures:
+class WithPresence(VssSelfPlay):
+    """A task whose robots observe who is on the field."""
+
+    OBSERVES_PRESENCE = True
+
+
+def test_absent_robots_are_observed_as_zeros_and_by_their_flag() -> None:
+    task = WithPresence()
+    matches = Matches(task, 8, seed=3)
+    matches.reset()
+    absent = np.random.default_rng(0).random((8, 6)) < 0.4
+    play = matches.play
+    play.frame.robots.absent[:] = absent
+    play.expire_views()
+    blocks = task.frame_to_observations(play)
+    expected = ego_features_reference.blocks(play.view, task.config, ~play.view.present)
+    assert set(expected) == set(blocks) - {"action"}
+    for block, values in expected.items():
+        np.testing.assert_allclose(blocks[block], values, rtol=1e-6, atol=1e-7, err_msg=block)
+    here = ~absent
+    assert absent.any(axis=0).all(), "each robot is absent somewhere"
+    assert (blocks["presence"][:, :, 0] == here).all()
+    assert (blocks["presence"].sum(axis=2) == here.sum(axis=1, keepdims=True) * here).all()
+    assert not blocks["ball"][absent].any()
+    assert not blocks["opponents"][:, 0][absent[:, 3:]].any()
+    assert not task.observe(play)[absent][:, : -task.action_size].any()
+    assert "presence" not in VssSelfPlay().blocks
+
+
+def test_presence_has_bounds_and_a_reflection() -> None:
+    task = WithPresence()
+    columns = task.blocks["presence"].columns
+    assert task.observation_high[columns].tolist() == [1.0] * 6
+    mirror = task.observation_reflection
+    assert mirror is not None
+    assert mirror.signs[columns].tolist() == [1.0] * 6
+    assert mirror.order[columns].tolist() == list(range(columns.start, columns.stop))
+    check_task(WithPresence())
+
+
+def encoder(*, presence: bool = False) -> EgoFeatures:
     config = make_task("VSSSelfPlay-v0").config
-    return EgoFeatures(config.field, config.robot, 2, 3)
+    return EgoFeatures(config.field, config.robot, 2, 3, presence)
 
 
 VIEWPOINT = Viewpoint(3, 3, [0, 2, 3, 5]).core
@@ -45,8 +87,9 @@ SIZE = sum(int(np.prod(shape)) for _, shape in encoder().blocks) + ACTION_SIZE
 def states(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Rows and actions of n worlds."""
     rng = np.random.default_rng(1)
-    rows = rng.uniform(-1, 1, (n, row_size(3, 3))).astype(np.float32)
-    return rows, rng.uniform(-1, 1, (n, 6, ACTION_SIZE)).astype(np.float32)
+    frame = Frame(rng.uniform(-1, 1, (n, row_size(3, 3))).astype(np.float32), 3, 3)
+    frame.robots.absent[:] = 0.0
+    return frame.rows, rng.uniform(-1, 1, (n, 6, ACTION_SIZE)).astype(np.float32)
 
 
 def encoded(
@@ -76,6 +119,8 @@ def test_features_of_an_observer_depend_on_its_row_only() -> None:
     copied = pickle.loads(pickle.dumps(encoder()))
     assert np.array_equal(encoded(rows, actions, features=copied), features)
     assert copied.blocks == encoder().blocks
+    flagged = pickle.loads(pickle.dumps(encoder(presence=True)))
+    assert flagged.blocks == (*encoder().blocks, ("presence", (6,)))
 
 
 def test_the_last_action_follows_the_features() -> None:
@@ -100,7 +145,7 @@ def test_features_do_not_depend_on_the_number_of_threads() -> None:
 
 def test_wrong_arrays_are_refused_by_name() -> None:
     rows, actions = states(2)
-    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(80,\)"):
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(86,\)"):
         encoded(rows[0], actions)
     with pytest.raises(ValueError, match=r"actions must have shape \(2, 6, 2\)"):
         encoded(rows, actions[:, :5])

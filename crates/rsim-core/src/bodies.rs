@@ -168,6 +168,17 @@ impl Bodies {
         self.blocks[block].motion.velocity.set(lane, velocity);
     }
 
+    /// Gives a robot a charged kicker, and wheels and a dribbler that have done nothing yet.
+    pub(crate) fn reset_robot(&mut self, index: usize) {
+        let (block, lane) = place_of(robot(index));
+        let block = &mut self.blocks[block];
+        block.acceleration.clear(lane);
+        block.drive.clear(lane);
+        for number in [&mut block.recharging, &mut block.dribbling, &mut block.collision_speed] {
+            number.as_mut_array()[lane] = 0.0;
+        }
+    }
+
     /// Applies an impulse (N s) to a body, at `arm` (m) from its centre of mass.
     pub(crate) fn apply_impulse(
         &mut self,
@@ -295,6 +306,14 @@ impl Bodies {
         for block in &self.blocks[..count.div_ceil(WARM_STARTS)] {
             let left = (count - all.len()).min(WARM_STARTS);
             all.extend_from_slice(&block.warm_starts[..left]);
+        }
+    }
+
+    /// Drops those of the first `count` warm starts whose keys fulfil a condition.
+    pub(crate) fn drop_warm_starts(&mut self, count: usize, dropped: impl Fn(u16) -> bool) {
+        let stored = self.blocks.iter_mut().flat_map(|block| &mut block.warm_starts);
+        for warm_start in stored.take(count).filter(|stored| dropped(stored.key)) {
+            *warm_start = WarmStart::NONE;
         }
     }
 

@@ -29,8 +29,10 @@ pub const BALL_COLUMNS: [&str; 14] = [
 ///
 /// Position (m), heading as cosine and sine, velocity (m/s), turn rate (rad/s, counterclockwise),
 /// whether the ball cuts the break beam (1 or 0), and of the control step: whether the robot touched the
-/// ball or an opponent (1 or 0), and the closing speed of its hardest contact with any robot (m/s).
-pub const ROBOT_COLUMNS: [&str; 11] = [
+/// ball or an opponent (1 or 0), and the closing speed of its hardest contact with any robot (m/s). Last,
+/// whether the robot is absent (1 or 0): not on the field. It then rests behind its own goal, beyond all
+/// walls.
+pub const ROBOT_COLUMNS: [&str; 12] = [
     "x",
     "y",
     "cos",
@@ -42,6 +44,7 @@ pub const ROBOT_COLUMNS: [&str; 11] = [
     "touched_ball",
     "touched_opponent",
     "collision_speed",
+    "absent",
 ];
 
 /// Command of a differential robot: wheel speeds, rad/s, positive is forward.
@@ -124,6 +127,14 @@ pub fn robot_column(name: &str) -> usize {
 fn index_of(columns: &[&str], name: &str) -> usize {
     let found = columns.iter().position(|column| *column == name);
     found.unwrap_or_else(|| panic!("{name:?} is none of {columns:?}"))
+}
+
+/// Place of `absent` among a robot's columns: the last.
+pub(crate) const ABSENT_COLUMN: usize = ROBOT_COLUMNS.len() - 1;
+
+/// Whether the robot with these columns is absent.
+pub fn is_absent(robot: &[f32]) -> bool {
+    robot[ABSENT_COLUMN] > 0.0
 }
 
 /// Length of the state row of a match with `robots` robots.

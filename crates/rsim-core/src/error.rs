@@ -119,6 +119,14 @@ pub enum PlaceError {
         /// Speed of the body, m/s.
         speed: f32,
     },
+    /// A column `absent` that is neither 0 nor 1.
+    #[error("`absent` of {who} must be 0 or 1, got {got}")]
+    Absent {
+        /// Name of the robot.
+        who: String,
+        /// The given value.
+        got: f32,
+    },
     /// A ball below the floor.
     #[error("the ball must not be below the floor, got z = {z} m")]
     Below {
@@ -128,7 +136,7 @@ pub enum PlaceError {
     /// Factors out of their range.
     #[error("params: {0}")]
     Parameters(ConfigError),
-    /// A ball for a match whose state became non-finite.
+    /// A ball or robots for a match whose state became non-finite.
     #[error("its state became non-finite; place that world again")]
     Lost,
     /// An error in one world of many.

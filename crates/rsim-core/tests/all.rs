@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+mod absent;
 mod bounce;
 mod chip;
 mod collisions;
@@ -10,6 +11,7 @@ mod corners;
 mod crowd;
 mod determinism;
 mod drive;
+mod estimate;
 mod floor;
 mod golden;
 mod input;

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use rsim_core::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
+use rsim_core::columns::{BALL_COLUMNS, BALL_PARAMETERS, ROBOT_COLUMNS, ROBOT_PARAMETERS};
 use rsim_core::scenes::{self, Driver, Scene};
 use rsim_core::{BallModel, EngineKind, Field, PHYSICS_VERSION, RobotModel, SimConfig};
 
@@ -68,11 +68,14 @@ fn own_parameters() -> Scene {
     scene
 }
 
-/// Hash (FNV-1a) of all rows of a match.
+/// Hash (FNV-1a) of all rows of a match, without the robots' column `absent`, which no physics change.
 fn hash(scene: &Scene) -> u64 {
     let (rows, _) = scene.play(&mut scene.world(), STEPS);
+    let columns = BALL_COLUMNS.into_iter().chain(ROBOT_COLUMNS.repeat(scene.config.n_robots()));
     rows.iter()
-        .flat_map(|value| value.to_bits().to_le_bytes())
+        .zip(columns.collect::<Vec<_>>().iter().cycle())
+        .filter(|(_, column)| **column != "absent")
+        .flat_map(|(value, _)| value.to_bits().to_le_bytes())
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         })

@@ -23,16 +23,25 @@ pub(crate) struct EgoFeatures {
     robot: RobotModel,
     /// Numbers of teammates and opponents.
     others: (usize, usize),
+    presence: bool,
 }
 
 #[pymethods]
 impl EgoFeatures {
     #[new]
-    fn new(field: Field, robot: RobotModel, n_teammates: i64, n_opponents: i64) -> PyResult<Self> {
+    #[pyo3(signature = (field, robot, n_teammates, n_opponents, presence = false))]
+    fn new(
+        field: Field,
+        robot: RobotModel,
+        n_teammates: i64,
+        n_opponents: i64,
+        presence: bool,
+    ) -> PyResult<Self> {
         let (teammates, opponents) =
             (count("n_teammates", n_teammates)?, count("n_opponents", n_opponents)?);
-        let features = rsim_core::EgoFeatures::new(&field.0, &robot.0, teammates, opponents);
-        Ok(Self { features, field, robot, others: (teammates, opponents) })
+        let features =
+            rsim_core::EgoFeatures::new(&field.0, &robot.0, teammates, opponents, presence);
+        Ok(Self { features, field, robot, others: (teammates, opponents), presence })
     }
 
     #[getter]
@@ -101,8 +110,9 @@ impl EgoFeatures {
 
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
-    ) -> (Bound<'py, PyAny>, (Field, RobotModel, usize, usize)) {
-        let Self { field, robot, others: (teammates, opponents), .. } = slf.get();
-        (slf.get_type().into_any(), (field.clone(), robot.clone(), *teammates, *opponents))
+    ) -> (Bound<'py, PyAny>, (Field, RobotModel, usize, usize, bool)) {
+        let Self { field, robot, others: (teammates, opponents), presence, .. } = slf.get();
+        let arguments = (field.clone(), robot.clone(), *teammates, *opponents, *presence);
+        (slf.get_type().into_any(), arguments)
     }
 }

@@ -1,12 +1,15 @@
 //! Simulator: many matches in one Python object.
 
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rsim_core::Batch;
 use rsim_core::columns::BALL_COLUMNS;
 
-use crate::arrays::{Commands, InputRows, Mask, RowsOut, finite, readable, values, writeable};
+use crate::arrays::{
+    Commands, InputRows, Mask, RobotsMask, RowsOut, finite, readable, values, writeable,
+};
 use crate::config::{SimConfig, count, invalid};
 use crate::threads::ThreadsOrCount;
 
@@ -97,6 +100,45 @@ impl Simulator {
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
         py.detach(|| self.0.reposition_balls(&mask, &balls, out)).map_err(invalid)
+    }
+
+    fn reposition_robots(
+        &mut self,
+        py: Python<'_>,
+        worlds: &Bound<'_, PyAny>,
+        robots: &Bound<'_, PyAny>,
+        rows: &Bound<'_, PyAny>,
+        out: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mask = self.mask(worlds)?;
+        let mask = values(&mask);
+        let shape = [chosen(&mask), self.0.config().n_robots()];
+        let robots: RobotsMask = readable("robots", robots, &shape)?;
+        let robots = values(&robots);
+        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
+        let rows = rows.values();
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.reposition_robots(&mask, &robots, &rows, out)).map_err(invalid)
+    }
+
+    fn place_estimates<'py>(
+        &mut self,
+        py: Python<'py>,
+        worlds: &Bound<'py, PyAny>,
+        rows: &Bound<'py, PyAny>,
+        out: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let mask = self.mask(worlds)?;
+        let mask = values(&mask);
+        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
+        let rows = rows.values();
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        let bodies = 1 + self.0.config().n_robots();
+        let mut moved = vec![0.0; chosen(&mask) * bodies];
+        py.detach(|| self.0.place_estimates(&mask, &rows, out, &mut moved)).map_err(invalid)?;
+        PyArray1::from_vec(py, moved).reshape([chosen(&mask), bodies])
     }
 
     #[pyo3(signature = (commands, out, active = None))]

@@ -15,9 +15,9 @@ def team_from_ball(view: View) -> tuple[Floats, Floats, Floats]:
 
     Returns:
         x, y and distance (m), each (n, robots, team); ego comes first. The distance of an empty
-        slot is infinite.
+        slot and of an absent robot is infinite.
     """
     team = slice(0, 1 + view.n_teammates)
     x = view.robots.position[:, :, team, 0] - view.ball.position[..., None, 0]
     y = view.robots.position[:, :, team, 1] - view.ball.position[..., None, 1]
-    return x, y, np.where(view.present[:, team], norm(x, y), np.float32(np.inf))
+    return x, y, np.where(view.present[:, :, team], norm(x, y), np.float32(np.inf))

@@ -104,7 +104,7 @@ def _team_labels(
     return tuple(
         shape
         for number, (model, pose) in enumerate(zip(models, _poses(robots), strict=True))
-        if not _has_number(model, picture_width)
+        if pose is not None and not _has_number(model, picture_width)
         for shape in label_shapes(model, pose, color, number, NUMBER_HEIGHT * picture_width)
     )
 
@@ -114,20 +114,24 @@ def _has_number(model: RobotModel, picture_width: float) -> bool:
     return robot_outlines(model).number_height >= LABELLED_BELOW * picture_width
 
 
-def _poses(robots: RobotColumns) -> list[Pose]:
-    """Poses of a team in world 0."""
-    states = zip(robots.position[0], robots.heading[0], strict=True)
-    return [Pose(_pair(position), *_pair(heading)) for position, heading in states]
+def _poses(robots: RobotColumns) -> list[Pose | None]:
+    """Poses of a team in world 0; None for an absent robot."""
+    states = zip(robots.position[0], robots.heading[0], robots.absent[0], strict=True)
+    return [
+        None if absent > 0 else Pose(_pair(position), *_pair(heading))
+        for position, heading, absent in states
+    ]
 
 
 def _team_shapes(
     models: Sequence[RobotModel], robots: RobotColumns, color: Color, picture_width: float
 ) -> tuple[Shape, ...]:
-    """All robots of a team in world 0."""
+    """All robots of a team on the field in world 0."""
     states = zip(models, _poses(robots), robots.infrared[0], strict=True)
     return tuple(
         shape
         for number, (model, pose, infrared) in enumerate(states)
+        if pose is not None
         for shape in robot_shapes(
             model,
             pose,

@@ -27,7 +27,7 @@ STEPS = {
     **dict.fromkeys(("v_x", "v_y", "v_z"), 2e-3),
     **dict.fromkeys(("spin_x", "spin_y", "spin_z"), 0.1),
     **dict.fromkeys(("last_touch", "crossed"), 1.0),
-    **dict.fromkeys(("infrared", "touched_ball", "touched_opponent"), 1.0),
+    **dict.fromkeys(("infrared", "touched_ball", "touched_opponent", "absent"), 1.0),
     **{"v_theta": 0.02, "collision_speed": 0.01, HEADING: TURN / 2**16},
     **dict.fromkeys(("left", "right", *(f"wheel_{i}" for i in range(4))), 0.05),
     **dict.fromkeys(("kick_v_x", "kick_v_z", "dribbler"), 0.01),

@@ -31,6 +31,7 @@ OBSERVATION_LIMITS: Final = {
     "own_goal_shot": 1.0,
     "body_velocities": 4.0,
     "body_positions": 3.0,
+    "presence": 1.0,
 }
 """Bounds of the observation blocks, in their units; a struck ball is faster than a robot."""
 
@@ -86,14 +87,18 @@ class Soccer(Task):
     body_velocities  (2, 2)     own velocity; velocity of the ball               V       4
     body_positions   (1 + t +   offset to the ball, to each teammate and to      L       3
                      o, 2)      each opponent
+    presence         (1 + t +   with `OBSERVES_PRESENCE`: 1 if the robot, each   1       1
+                     o,)        teammate and each opponent is on the field,
+                                else 0
     action           (a,)       last action of the robot; 0 after a reset        1       1
     ===============  =========  ===============================================  ======  =====
 
     Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
     Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
     teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
-    it shows the centre of the field. Values are clipped to [-limit, limit]. `Task.layout` gives the
-    columns of each block.
+    it shows the centre of the field. Numbers of an absent robot are 0, and an absent robot observes
+    nothing but its last action and zeros. Values are clipped to [-limit, limit]. `Task.layout`
+    gives the columns of each block.
     """
 
     field: str | Field
@@ -113,6 +118,8 @@ class Soccer(Task):
     """Default weight of each reward term."""
     PAPER_REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {}
     """Weights of the rSoccer paper (2021) in these terms: `reward_weights` "paper"."""
+    OBSERVES_PRESENCE: ClassVar[bool] = False
+    """Whether observations have the block `presence`: for tasks in which robots may be absent."""
     DISCRETE_ACTIONS: ClassVar[Floats]
     """(choices, action_size) actions that agents choose from with the option `discrete`."""
     ACTION_REFLECTION: ClassVar[Reflection]
@@ -146,7 +153,10 @@ class Soccer(Task):
         ball = Reflection.of([1, -1, 1, 1, -1, 1] if has_mouth else [1, -1, 1, -1])
         robots = dict.fromkeys(("ego", "teammates", "opponents"), robot)
         action = self.ACTION_REFLECTION
-        return Symmetry(action, {"ball": ball, **robots, **REFLECTIONS, "action": action})
+        blocks = {"ball": ball, **robots, **REFLECTIONS, "action": action}
+        if self.OBSERVES_PRESENCE:
+            blocks["presence"] = Reflection.of([1] * sum((1, *self._other_slots)))
+        return Symmetry(action, blocks)
 
     @property
     def action_table(self) -> Floats | None:
@@ -164,9 +174,12 @@ class Soccer(Task):
     def ego_features(self) -> EgoFeatures:
         """Encoder of the observation, in half field lengths and the robot's top speeds."""
         config = self.config
-        return EgoFeatures(
-            config.field, config.robot, *slot_counts(self.n_blue, self.n_yellow, self.sides)
-        )
+        return EgoFeatures(config.field, config.robot, *self._other_slots, self.OBSERVES_PRESENCE)
+
+    @property
+    def _other_slots(self) -> tuple[int, int]:
+        """Numbers of teammate slots and of opponent slots."""
+        return slot_counts(self.n_blue, self.n_yellow, self.sides)
 
     @cached_property
     def position_scale(self) -> np.float32:

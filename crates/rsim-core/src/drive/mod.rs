@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot};
 use crate::geometry::motion_block::MotionBlock;
+use crate::math::Vector;
 use crate::models::robot::{DifferentialDrive, Drive, OmniDrive, RobotModel};
 
 /// Number of columns of the longest part of a command for the wheels.
@@ -118,6 +119,11 @@ impl BlockCommands {
         }
         Self(read.map(Lanes::from))
     }
+
+    /// Commands the wheels in the lanes of `mask` to stand still.
+    pub(crate) fn halt(&mut self, mask: Lanes) {
+        self.0 = self.0.map(|column| mask.bitselect(Lanes::ZERO, column));
+    }
 }
 
 /// Motion and estimated load of the robots of a block in their own frames: x forward, y to the left.
@@ -169,6 +175,12 @@ pub(crate) struct BlockAcceleration {
 
 impl BlockAcceleration {
     pub(crate) const NONE: Self = Self { linear: VectorLanes::ZERO, angular: Lanes::ZERO };
+
+    /// Sets the acceleration of the body in `lane` to 0.
+    pub(crate) fn clear(&mut self, lane: usize) {
+        self.linear.set(lane, Vector::ZERO);
+        self.angular.as_mut_array()[lane] = 0.0;
+    }
 }
 
 /// State of the wheels of a block between ticks.
@@ -199,6 +211,17 @@ impl DriveState {
         expected_velocity: VectorLanes::ZERO,
         expected_spin: Lanes::ZERO,
     };
+
+    /// Gives the robot in `lane` wheels before their first tick.
+    pub(crate) fn clear(&mut self, lane: usize) {
+        let Self { load, angular_load, change, expected_velocity, expected_spin } = self;
+        for vector in [load, change, expected_velocity] {
+            vector.set(lane, Vector::ZERO);
+        }
+        for number in [angular_load, expected_spin] {
+            number.as_mut_array()[lane] = 0.0;
+        }
+    }
 
     /// Accelerations of the robots by their wheels, which follow `commands` for a tick.
     pub(crate) fn accelerate(

@@ -120,6 +120,13 @@ impl Engine {
         }
     }
 
+    /// Forgets the impulses between a body and others, which the next tick would start from.
+    pub(crate) fn forget_impulses(&self, bodies: &mut Bodies, body: usize) {
+        if let Solver::Compact(solver) = &self.solver {
+            solver.forget_body(bodies, body);
+        }
+    }
+
     /// Advances all bodies by a tick, or by the part of it that `rules` names, and writes its contacts
     /// into `scratch`.
     pub(crate) fn step(

@@ -4,9 +4,7 @@ use rapier2d::parry::query;
 use rapier2d::parry::shape::SharedShape;
 
 use crate::geometry::arena::Wall;
-use crate::math::Pose;
-#[cfg(test)]
-use crate::math::Vector;
+use crate::math::{Pose, Vector};
 use crate::models::robot::Body;
 
 /// A shape in the plane.
@@ -31,9 +29,21 @@ impl Shape {
 
     /// Depth by which this shape at a pose overlaps another, m; 0 when they are apart.
     pub(crate) fn overlap(&self, pose: &Pose, other: &Self, other_pose: &Pose) -> f32 {
-        let contact = query::contact(pose, &*self.0, other_pose, &*other.0, 0.0);
+        self.penetration(pose, other, other_pose, 0.0).map_or(0.0, |(depth, _)| depth)
+    }
+
+    /// Depth (m) by which this shape at a pose overlaps another, and the unit vector from this one to the
+    /// other along which it is measured; `None` up to a depth of `min` (m).
+    pub(crate) fn penetration(
+        &self,
+        pose: &Pose,
+        other: &Self,
+        other_pose: &Pose,
+        min: f32,
+    ) -> Option<(f32, Vector)> {
         // All pairs of these shapes have a contact query; `Err` says that a pair has none.
-        contact.ok().flatten().map_or(0.0, |contact| -contact.dist)
+        let contact = query::contact(pose, &*self.0, other_pose, &*other.0, 0.0).ok().flatten()?;
+        (-contact.dist > min).then_some((-contact.dist, contact.normal1))
     }
 }
 

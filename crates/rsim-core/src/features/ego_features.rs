@@ -5,7 +5,7 @@
 //! vectors takes products. The features are in the core, and not with the tasks, because they are
 //! computed for every robot of every world in every step.
 
-use crate::features::viewpoint::{Observer, ViewedBall, ViewedRobot};
+use crate::features::viewpoint::{Observer, Presence, ViewedBall, ViewedRobot};
 use crate::math::Vector;
 use crate::models::field::Field;
 use crate::models::robot::RobotModel;
@@ -27,6 +27,8 @@ pub struct EgoFeatures {
     turn_rate_scale: f32,
     /// Whether robots have a mouth, so that break beams and the ball's height matter.
     have_mouths: bool,
+    /// Whether the block `presence` is written.
+    presence: bool,
 }
 
 /// Decay rate of the nearness of the ball in the block `shot`, 1/m: it is 1/e at 12.5 cm.
@@ -68,8 +70,15 @@ impl BodyFrame {
 }
 
 impl EgoFeatures {
-    /// Features of robots like `robot` on `field`, for views with these numbers of other robots.
-    pub fn new(field: &Field, robot: &RobotModel, n_teammates: usize, n_opponents: usize) -> Self {
+    /// Features of robots like `robot` on `field`, for views with these numbers of other robots. `presence`
+    /// says whether they have the block of that name.
+    pub fn new(
+        field: &Field,
+        robot: &RobotModel,
+        n_teammates: usize,
+        n_opponents: usize,
+        presence: bool,
+    ) -> Self {
         Self {
             n_teammates,
             n_slots: 1 + n_teammates + n_opponents,
@@ -78,6 +87,7 @@ impl EgoFeatures {
             velocity_scale: 1.0 / robot.top_speed(),
             turn_rate_scale: 1.0 / robot.top_turn_rate(),
             have_mouths: robot.mouth.is_some(),
+            presence,
         }
     }
 
@@ -98,6 +108,7 @@ impl EgoFeatures {
     /// | `own_goal_shot` | as `shot`, of that goal, without the nearness; only for robots without a mouth |
     /// | `body_velocities` | own velocity and the ball's, forward and left |
     /// | `body_positions` | offsets of ball, teammates, opponents, forward and left |
+    /// | `presence` | 1 for each robot of the view that is on the field, itself first, and 0 for others; only on demand |
     pub fn blocks(&self) -> Vec<Block> {
         let robot = if self.have_mouths { 8 } else { 7 };
         let mut blocks = vec![
@@ -113,6 +124,9 @@ impl EgoFeatures {
             blocks.extend([("own_goal_polar", vec![3]), ("own_goal_shot", vec![3])]);
         }
         blocks.extend([("body_velocities", vec![2, 2]), ("body_positions", vec![self.n_slots, 2])]);
+        if self.presence {
+            blocks.push(("presence", vec![self.n_slots]));
+        }
         blocks
     }
 
@@ -130,11 +144,14 @@ impl EgoFeatures {
         self.blocks().iter().map(|(_, shape)| shape.iter().product::<usize>()).sum()
     }
 
-    /// Writes the features of an observer of a row, in its view, which attacks +x. An empty slot has
-    /// zeros.
+    /// Writes the features of an observer of a row, in its view, which attacks +x. An empty slot and an
+    /// absent robot have zeros, and an absent observer observes nothing but zeros.
     pub fn encode(&self, observer: &Observer, row: &[f32], out: &mut [f32]) {
         debug_assert_eq!(observer.slots.len(), self.n_slots);
         debug_assert_eq!(out.len(), self.size());
+        if observer.is_absent(row) {
+            return out.fill(0.0);
+        }
         let mut writer = Writer(out.iter_mut());
         let ball = observer.ball(row);
         self.encode_ball(&ball, &mut writer);
@@ -142,6 +159,11 @@ impl EgoFeatures {
             self.encode_robot(&robot, &mut writer);
         }
         self.encode_relative(&ball, observer.robots(row), &mut writer);
+        if self.presence {
+            for robot in observer.robots(row) {
+                writer.write([f32::from(u8::from(robot.presence == Presence::Present))]);
+            }
+        }
     }
 
     fn encode_ball(&self, ball: &ViewedBall, writer: &mut Writer) {
@@ -194,7 +216,8 @@ impl EgoFeatures {
         }
         writer.write((frame.rotate(to_ball) * self.position_scale).to_array());
         for other in robots {
-            let offset = other.position - frame.position;
+            let absent = other.presence == Presence::Absent;
+            let offset = if absent { Vector::ZERO } else { other.position - frame.position };
             writer.write((frame.rotate(offset) * self.position_scale).to_array());
         }
     }
@@ -220,7 +243,7 @@ mod tests {
         for (field, robot) in
             [(Field::VSS_3V3, RobotModel::VSS_440RPM), (Field::SSL_B, RobotModel::SSL_GENERIC)]
         {
-            let features = EgoFeatures::new(&field, &robot, 2, 3);
+            let features = EgoFeatures::new(&field, &robot, 2, 3, true);
             let slots = vec![Some(4), Some(5), None, Some(0), Some(1), Some(2)];
             let observer = Observer { rotated: true, slots };
             let mut out = vec![f32::NAN; features.size()];
@@ -231,7 +254,7 @@ mod tests {
 
     #[test]
     fn ball_and_goal_straight_ahead_are_a_straight_shot_away_from_the_own_goal() {
-        let features = EgoFeatures::new(&Field::VSS_3V3, &RobotModel::VSS_440RPM, 0, 0);
+        let features = EgoFeatures::new(&Field::VSS_3V3, &RobotModel::VSS_440RPM, 0, 0, false);
         for (rotated, sign) in [(false, 1.0), (true, -1.0)] {
             let observer = Observer { rotated, slots: vec![Some(0)] };
             let mut row = vec![0.0; row_size(1)];

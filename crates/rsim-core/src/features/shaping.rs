@@ -3,7 +3,7 @@
 //! Shaping by differences of a potential keeps the optimal policy (Ng, Harada and Russell, 1999): going
 //! back and forth gains nothing.
 
-use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, is_absent};
 use crate::features::viewpoint::{Observer, ViewedRobot};
 use crate::math::Vector;
 use crate::models::ball::BallModel;
@@ -53,8 +53,12 @@ impl Potential {
         Self::AtMouth { reach: robot.front_distance() + ball.radius }
     }
 
-    /// Increase from `last_row` to `row` for an observer, in its view, which attacks +x.
+    /// Increase from `last_row` to `row` for an observer, in its view, which attacks +x; 0 for a robot that
+    /// is absent in one of them.
     pub fn difference(&self, observer: &Observer, last_row: &[f32], row: &[f32]) -> f32 {
+        if [last_row, row].iter().any(|row| observer.is_absent(row)) {
+            return 0.0;
+        }
         let of = |row| {
             let own = observer.robots(row).next().unwrap_or_default();
             self.of(observer.ball(row).position, &own)
@@ -87,10 +91,14 @@ impl Potential {
 }
 
 /// Writes whether each robot of a row is its team's nearest to the ball; the first `n_blue` are one team.
+/// An absent robot is not.
 pub fn nearest_to_ball(row: &[f32], n_blue: usize, out: &mut [bool]) {
     let (ball, robots) = row.split_at(BALL_COLUMNS.len());
     let distance = |robot: usize| {
-        let at = &robots[robot * ROBOT_COLUMNS.len()..];
+        let at = &robots[robot * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()];
+        if is_absent(at) {
+            return f32::INFINITY;
+        }
         Vector::new(at[0] - ball[0], at[1] - ball[1]).length()
     };
     let split = n_blue.min(out.len());
@@ -99,7 +107,7 @@ pub fn nearest_to_ball(row: &[f32], n_blue: usize, out: &mut [bool]) {
         let places = first..first + team.len();
         let least = places.clone().map(distance).fold(f32::INFINITY, f32::min);
         for (robot, nearest) in places.zip(team) {
-            *nearest = distance(robot) <= least;
+            *nearest = least < f32::INFINITY && distance(robot) <= least;
         }
     }
 }
@@ -114,7 +122,22 @@ pub fn mean_magnitude(action: &[f32]) -> f32 {
 mod tests {
     use super::*;
 
+    use crate::columns::{robot_column, row_size};
+
     const FIELD: Field = Field::VSS_3V3;
+
+    #[test]
+    fn an_absent_robot_neither_gains_nor_loses() {
+        let observer = Observer { rotated: false, slots: vec![Some(0)] };
+        let (mut last, mut row) = (vec![0.25; row_size(1)], vec![0.5; row_size(1)]);
+        let absent = BALL_COLUMNS.len() + robot_column("absent");
+        let potential = Potential::ball_to_goal(&FIELD);
+        for (before, now) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)] {
+            (last[absent], row[absent]) = (before, now);
+            let gain = potential.difference(&observer, &last, &row);
+            assert!((gain > 0.1) == (before + now == 0.0), "{before} {now}: {gain}");
+        }
+    }
 
     fn value(potential: &Potential, [x, y]: [f32; 2], own: [f32; 4]) -> f32 {
         let robot = ViewedRobot {
@@ -169,5 +192,16 @@ mod tests {
             nearest_to_ball(&row, n_blue, &mut nearest);
             assert_eq!(nearest, expected, "{n_blue} of the first team");
         }
+        for (absent, expected) in [(0, [false, true, true]), (1, [true, false, true])] {
+            let mut row = row.clone();
+            row[BALL_COLUMNS.len() + absent * ROBOT_COLUMNS.len() + robot_column("absent")] = 1.0;
+            let mut nearest = [false; 3];
+            nearest_to_ball(&row, 2, &mut nearest);
+            assert_eq!(nearest, expected, "without robot {absent}");
+        }
+        row[BALL_COLUMNS.len() + 2 * ROBOT_COLUMNS.len() + robot_column("absent")] = 1.0;
+        let mut nearest = [false; 3];
+        nearest_to_ball(&row, 2, &mut nearest);
+        assert_eq!(nearest, [false, true, false], "a team without robots");
     }
 }

@@ -1,6 +1,8 @@
 //! State rows as views of robots: itself, teammates, opponents and the ball, always attacking +x.
 
-use crate::columns::{BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS, ball_column};
+use crate::columns::{
+    ABSENT_COLUMN, BALL_COLUMNS, CROSSINGS, ROBOT_COLUMNS, ball_column, is_absent,
+};
 use crate::math::Vector;
 
 /// The observers of a match, with the robots in the slots of each.
@@ -23,6 +25,13 @@ pub struct Observer {
     /// Indices of robots in the row: itself, teammates, opponents; `None` for an empty slot.
     pub slots: Vec<Option<usize>>,
 }
+
+/// Columns of a robot that is not there.
+const ABSENT: [f32; ROBOT_COLUMNS.len()] = {
+    let mut columns = [0.0; ROBOT_COLUMNS.len()];
+    columns[ABSENT_COLUMN] = 1.0;
+    columns
+};
 
 impl Viewpoint {
     /// The views of these observers, which must have equal numbers of slots.
@@ -53,7 +62,8 @@ impl Viewpoint {
     }
 
     /// Writes the views of all observers of a row: into `ball` the ball's columns for each observer, into
-    /// `robots` a robot's columns for each slot of each observer, zeros for an empty slot.
+    /// `robots` a robot's columns for each slot of each observer. The columns of an absent robot and of an
+    /// empty slot are 0, except for `absent`, which is 1.
     pub fn fill(&self, row: &[f32], ball: &mut [f32], robots: &mut [f32]) {
         let (the_ball, the_robots) = row.split_at(BALL_COLUMNS.len());
         let balls = ball.chunks_exact_mut(BALL_COLUMNS.len());
@@ -70,12 +80,10 @@ impl Viewpoint {
             }
             let signs = &self.robot_signs[side];
             for (slot, robot) in observer.slots.iter().zip(robots.chunks_exact_mut(signs.len())) {
-                match slot {
-                    Some(place) => {
-                        let first = place * signs.len();
-                        write(signs, &the_robots[first..first + signs.len()], robot);
-                    }
-                    None => robot.fill(0.0),
+                let columns = slot.map(|place| &the_robots[place * signs.len()..][..signs.len()]);
+                match columns.filter(|columns| !is_absent(columns)) {
+                    Some(columns) => write(signs, columns, robot),
+                    None => robot.copy_from_slice(&ABSENT),
                 }
             }
         }
@@ -105,13 +113,21 @@ impl Observer {
         }
     }
 
-    /// The observer itself and the robots in its other slots, in its view of a row; zeros for an empty
-    /// slot.
+    /// Whether the observing robot is absent in a row.
+    pub(super) fn is_absent(&self, row: &[f32]) -> bool {
+        self.robot().is_some_and(|place| is_absent(columns_of(row, place)))
+    }
+
+    /// The observer itself and the robots in its other slots, in its view of a row; zeros for an absent
+    /// robot and an empty slot.
     pub(super) fn robots(&self, row: &[f32]) -> impl Iterator<Item = ViewedRobot> {
-        let (flip, robots) = (self.flip(), &row[BALL_COLUMNS.len()..]);
+        let flip = self.flip();
         self.slots.iter().map(move |slot| {
             let Some(place) = slot else { return ViewedRobot::default() };
-            let columns = &robots[place * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()];
+            let columns = columns_of(row, *place);
+            if is_absent(columns) {
+                return ViewedRobot { presence: Presence::Absent, ..ViewedRobot::default() };
+            }
             let &[x, y, cos, sin, v_x, v_y, turn_rate, beam, ..] = columns else {
                 unreachable!("{ROBOT_COLUMNS:?}")
             };
@@ -121,6 +137,7 @@ impl Observer {
                 velocity: Vector::new(v_x, v_y) * flip,
                 turn_rate,
                 beam,
+                presence: Presence::Present,
             }
         })
     }
@@ -144,6 +161,22 @@ pub(super) struct ViewedRobot {
     pub(super) velocity: Vector,
     pub(super) turn_rate: f32,
     pub(super) beam: f32,
+    pub(super) presence: Presence,
+}
+
+/// Whether a robot fills a slot, and is on the field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Presence {
+    /// No robot belongs to the slot.
+    #[default]
+    Empty,
+    Absent,
+    Present,
+}
+
+/// The columns of a robot in a row.
+fn columns_of(row: &[f32], place: usize) -> &[f32] {
+    &row[BALL_COLUMNS.len()..][place * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()]
 }
 
 fn write<const N: usize>(signs: &[f32; N], from: &[f32], to: &mut [f32]) {
@@ -187,6 +220,9 @@ mod tests {
         ]);
         let mut row: Vec<f32> = (0_u8..).map(f32::from).take(row_size(2)).collect();
         row[ball_column("crossed")] = 1.0;
+        for robot in 0..2 {
+            row[BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len() + robot_column("absent")] = 0.0;
+        }
         let mut ball = vec![f32::NAN; 2 * BALL_COLUMNS.len()];
         let mut robots = vec![f32::NAN; 2 * 3 * ROBOT_COLUMNS.len()];
         viewpoint.fill(&row, &mut ball, &mut robots);
@@ -204,6 +240,22 @@ mod tests {
                 assert_eq!(robots[slot][column], sign * expected[column], "{name} of slot {slot}");
             }
         }
-        assert!([1, 4].iter().all(|&slot| robots[slot].iter().all(|&number| number == 0.0)));
+        assert!([1, 4].iter().all(|&slot| robots[slot] == ABSENT));
+    }
+
+    #[test]
+    #[allow(clippy::float_cmp)] // numbers are copied
+    fn an_absent_robot_looks_like_an_empty_slot() {
+        let slots = vec![Some(1), Some(0), None];
+        let viewpoint = Viewpoint::new(vec![Observer { rotated: true, slots }]);
+        let mut row = vec![0.5; row_size(2)];
+        row[BALL_COLUMNS.len() + ABSENT_COLUMN] = 1.0;
+        row[BALL_COLUMNS.len() + ROBOT_COLUMNS.len() + ABSENT_COLUMN] = 0.0;
+        let mut ball = vec![f32::NAN; BALL_COLUMNS.len()];
+        let mut robots = vec![f32::NAN; 3 * ROBOT_COLUMNS.len()];
+        viewpoint.fill(&row, &mut ball, &mut robots);
+        let robots: Vec<_> = robots.chunks_exact(ROBOT_COLUMNS.len()).collect();
+        assert_eq!(robots[0][robot_column("x")], -0.5);
+        assert_eq!([robots[1], robots[2]], [ABSENT, ABSENT]);
     }
 }

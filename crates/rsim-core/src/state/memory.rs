@@ -19,9 +19,9 @@ impl State<Vec<BodyBlock>> {
     }
 
     fn in_array<const N: usize>(self) -> State<[BodyBlock; N]> {
-        let Self { engine, ball, touches, crossing, own_params, broken, bodies } = self;
+        let Self { engine, ball, touches, crossing, absent, own_params, broken, bodies } = self;
         let bodies = bodies.map_blocks(|blocks| blocks.try_into().expect("N blocks"));
-        State { engine, ball, touches, crossing, own_params, broken, bodies }
+        State { engine, ball, touches, crossing, absent, own_params, broken, bodies }
     }
 }
 
@@ -29,11 +29,12 @@ impl State {
     /// Takes the state of another match of the same configuration, without an allocation where neither
     /// has parameters of its own nor rapier.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        let Self { engine, ball, touches, crossing, own_params, broken, bodies } = other;
+        let Self { engine, ball, touches, crossing, absent, own_params, broken, bodies } = other;
         self.engine.clone_from(engine);
         self.ball = *ball;
         self.touches = *touches;
         self.crossing = *crossing;
+        self.absent = *absent;
         self.own_params.clone_from(own_params);
         self.broken = *broken;
         self.bodies.copy_from(bodies);
@@ -42,12 +43,13 @@ impl State {
 
 impl Clone for Box<State> {
     fn clone(&self) -> Self {
-        let State { engine, ball, touches, crossing, own_params, broken, bodies } = &**self;
+        let State { engine, ball, touches, crossing, absent, own_params, broken, bodies } = &**self;
         let copy = State {
             engine: engine.clone(),
             ball: *ball,
             touches: *touches,
             crossing: *crossing,
+            absent: *absent,
             own_params: own_params.clone(),
             broken: *broken,
             bodies: bodies.to_vec(),
@@ -92,6 +94,7 @@ mod tests {
             changed.bodies.add_collision(2, 0.25);
             changed.touches.add_ball(2);
             changed.ball.z = 0.1;
+            changed.absent = 1 << 3;
             changed.broken = true;
             changed.own_params = Some(Box::new(BodyParams::of(&config)));
             let clone = changed.clone();

@@ -7,6 +7,7 @@ pub(crate) mod touch;
 use serde::{Deserialize, Serialize};
 
 use crate::ball::state::BallState;
+use crate::blocks::robot;
 use crate::bodies::{Bodies, BodyBlock};
 use crate::body_params::BodyParams;
 use crate::engine::{Engine, NonFinite};
@@ -37,6 +38,8 @@ pub(crate) struct State<B: ?Sized = [BodyBlock]> {
     pub(crate) ball: BallState,
     pub(crate) touches: TouchRecord,
     pub(crate) crossing: Crossing,
+    /// Robots that are not on the field, one bit each. They rest where nothing meets them.
+    pub(crate) absent: u64,
     /// Body parameters of a world that differs from the models.
     pub(crate) own_params: Option<Box<BodyParams>>,
     /// Whether a number became non-finite; only placing the world again repairs it.
@@ -52,6 +55,7 @@ impl State<Vec<BodyBlock>> {
             ball: BallState::default(),
             touches: TouchRecord::default(),
             crossing: Crossing::default(),
+            absent: 0,
             own_params: None,
             broken: false,
             bodies: Bodies::new(params),
@@ -64,6 +68,20 @@ impl State {
     pub(crate) fn place(&mut self, body: usize, motion: &Motion) {
         self.bodies.set_motion(body, motion);
         self.engine.note_placed(body);
+    }
+
+    /// Puts a robot at rest or into motion in a match that continues: nothing of its old state remains.
+    pub(crate) fn replace_robot(&mut self, index: usize, motion: &Motion, is_absent: bool) {
+        self.engine.forget_impulses(&mut self.bodies, robot(index));
+        self.bodies.reset_robot(index);
+        self.place(robot(index), motion);
+        self.touches.forget(index);
+        self.absent = self.absent & !(1 << index) | u64::from(is_absent) << index;
+    }
+
+    /// Whether a robot is not on the field.
+    pub(crate) fn is_absent(&self, index: usize) -> bool {
+        self.absent >> index & 1 == 1
     }
 
     /// Checks that all numbers are finite: the engine notices only those that it integrates itself.

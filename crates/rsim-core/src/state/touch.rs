@@ -30,6 +30,12 @@ impl TouchRecord {
         self.opponents |= 1 << pair[0] | 1 << pair[1];
     }
 
+    /// Forgets the touches of a robot during the step, unless it was the last that touched the ball.
+    pub(crate) fn forget(&mut self, robot: usize) {
+        self.ball &= !(1 << robot);
+        self.opponents &= !(1 << robot);
+    }
+
     /// Whether a robot touched the ball.
     pub(crate) fn touched_ball(&self, robot: usize) -> bool {
         self.ball >> robot & 1 == 1

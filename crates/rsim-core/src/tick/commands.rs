@@ -1,5 +1,6 @@
 //! Commands of a control step, read once for all of its ticks.
 
+use crate::blocks::{LANES, mask_of, robot};
 use crate::body_params::BodyParams;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::drive::BlockCommands;
@@ -30,7 +31,7 @@ pub(super) struct HandlingCommand {
 
 impl StepCommands {
     /// Reads the commands from rows of `columns` numbers, one row per robot, and sets the dribblers of
-    /// `state`.
+    /// `state`. Commands of absent robots are ignored.
     pub(crate) fn read(
         &mut self,
         state: &mut State,
@@ -41,18 +42,28 @@ impl StepCommands {
         let blocks = 0..params.wheels.len();
         self.wheels.clear();
         self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
+        if state.absent != 0 {
+            self.halt(state.absent << robot(0));
+        }
         self.handling.clear();
         for (index, body) in params.robots.iter().enumerate() {
             let row = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
             let Some(command) = HandlingCommand::read(index, &body.model.drive, row) else {
                 continue;
             };
-            if body.model.mouth.is_some() {
+            if body.model.mouth.is_some() && !state.is_absent(index) {
                 state.bodies.set_dribbling(index, command.dribbler);
                 if command.kicks() || command.dribbler > 0.0 {
                     self.handling.push(command);
                 }
             }
+        }
+    }
+
+    /// Commands the wheels of `bodies`, one bit each, to stand still.
+    fn halt(&mut self, bodies: u64) {
+        for (block, commands) in self.wheels.iter_mut().enumerate() {
+            commands.halt(mask_of(|lane| bodies >> (block * LANES + lane) & 1 == 1));
         }
     }
 }

@@ -1,7 +1,9 @@
 //! One match.
 
 pub(crate) mod batch;
+mod estimate;
 mod line_up;
+mod nearest;
 mod placement;
 mod reposition;
 mod restart;
@@ -92,8 +94,8 @@ impl World {
         &self.shared.setup.config
     }
 
-    /// Starts a new match from a state row; its positions, headings, velocities and the ball's spin are
-    /// used. `parameters` are factors on the models' numbers, in the order of
+    /// Starts a new match from a state row; its positions, headings, velocities, the ball's spin and the
+    /// robots' `absent` are used, of an absent robot nothing else. `parameters` are factors on the models' numbers, in the order of
     /// [`BALL_PARAMETERS`](crate::columns::BALL_PARAMETERS) and, for each robot,
     /// [`ROBOT_PARAMETERS`](crate::columns::ROBOT_PARAMETERS); without them all factors are 1.
     ///
@@ -129,6 +131,7 @@ impl World {
             self.state.place(body, motion);
         }
         self.state.ball = start.ball;
+        self.state.absent = start.absent;
     }
 
     /// Advances the match by one control step. `commands` has one row per robot, as wide as the longest

@@ -1,21 +1,24 @@
 //! Checks of the rows that matches start from.
 
 use crate::ball::state::BallState;
-use crate::blocks::BALL;
+use crate::blocks::{BALL, robot, set_bits};
 use crate::body_params::BodyParams;
-use crate::columns::{BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
+use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
 use crate::engine::Shape;
 use crate::error::PlaceError;
 use crate::geometry::arena::{Wall, position_limit};
+use crate::geometry::bench::bench_place;
 use crate::geometry::clearance::Clearance;
 use crate::geometry::motion::Motion;
 use crate::math::{Pose, Vec3, Vector};
 use crate::models::config::SimConfig;
 use crate::models::field::Field;
+use crate::models::robot::RobotModel;
+use crate::world::line_up::line_up;
 
 /// Maximum overlap of two bodies, m: the overlap in running matches under pressure, so that each of
 /// their states can be placed again.
-const TOLERANCE: f32 = 0.01;
+pub(super) const TOLERANCE: f32 = 0.01;
 
 /// Allowed error of the length of a heading, which is then normalised.
 const HEADING_TOLERANCE: f32 = 1e-3;
@@ -30,10 +33,20 @@ pub(super) struct Start {
     /// Ball, then robots.
     pub(super) motions: Vec<Motion>,
     pub(super) ball: BallState,
+    /// Robots that are not on the field, one bit each.
+    pub(super) absent: u64,
+}
+
+impl Start {
+    /// Indices among the bodies of the robots on the field.
+    pub(super) fn present(&self) -> impl Iterator<Item = usize> + Clone + use<> {
+        let (bodies, absent) = (self.motions.len(), self.absent << robot(0));
+        (robot(0)..bodies).filter(move |body| absent >> body & 1 == 0)
+    }
 }
 
 /// Motion and state of the ball in its columns.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct BallStart {
     pub(super) motion: Motion,
     pub(super) ball: BallState,
@@ -42,9 +55,14 @@ pub(super) struct BallStart {
 /// Checks starting rows against the field and the models.
 pub(super) struct Placement {
     field: Field,
-    walls: Vec<(Wall, Shape)>,
+    pub(super) walls: Vec<(Wall, Shape)>,
     ball_radius: f32,
     robots: Vec<Shape>,
+    /// Where absent robots are.
+    benches: Vec<Motion>,
+    /// Radii of circles around all bodies, m.
+    bounding_radii: Vec<f32>,
+    pub(super) line_up: Vec<Motion>,
     names: Vec<String>,
 }
 
@@ -56,27 +74,84 @@ impl Placement {
             walls: walls.iter().map(|wall| (wall.clone(), Shape::of_wall(wall))).collect(),
             ball_radius: config.ball.radius,
             robots: config.robots().map(|model| Shape::of_robot(model.body)).collect(),
+            benches: benches(config),
+            bounding_radii: std::iter::once(config.ball.radius)
+                .chain(config.robots().map(RobotModel::bounding_radius))
+                .collect(),
+            line_up: line_up(config),
             names: std::iter::once("ball".to_owned()).chain(names).collect(),
         }
     }
 
     /// Reads and checks a start row. `params` has the heights of robots in that world.
     pub(super) fn read(&self, row: &[f32], params: &BodyParams) -> Result<Start, PlaceError> {
+        let mut start = self.parse(row)?;
+        self.check(&mut start, params)?;
+        Ok(start)
+    }
+
+    /// Reads a start row of finite numbers. Of an absent robot only that it is absent is read.
+    pub(super) fn parse(&self, row: &[f32]) -> Result<Start, PlaceError> {
         let (columns, robots) = row.split_at(BALL_COLUMNS.len());
-        let BallStart { motion, ball } = self.read_ball_alone(columns)?;
-        let mut motions = vec![motion];
-        motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(read_robot));
-        for (who, motion) in motions.iter_mut().enumerate().skip(1) {
-            self.check_alone(who, motion, 0.0)?;
+        let BallStart { motion, ball } = self.parse_ball(columns)?;
+        let mut start = Start { motions: vec![motion], ball, absent: 0 };
+        for (index, columns) in robots.chunks_exact(ROBOT_COLUMNS.len()).enumerate() {
+            let (motion, is_absent) = self.parse_robot(index, columns)?;
+            start.motions.push(motion);
+            start.absent |= u64::from(is_absent) << index;
         }
-        for second in 1..motions.len() {
-            self.check_ball(second, &motions, &ball, params)?;
-            for first in 1..second {
-                let [a, b] = [first, second].map(|who| (pose(&motions[who]), self.shape(who)));
-                self.check_overlap([first, second], a.1.overlap(&a.0, b.1, &b.0))?;
+        Ok(start)
+    }
+
+    /// Checks a start against the field and the models, and normalises headings.
+    pub(super) fn check(&self, start: &mut Start, params: &BodyParams) -> Result<(), PlaceError> {
+        self.check_ball_alone(&mut start.motions[BALL], &start.ball)?;
+        for who in start.present() {
+            self.check_alone(who, &mut start.motions[who], 0.0)?;
+        }
+        start.present().try_for_each(|who| self.check_among_first(who, start, params))
+    }
+
+    /// Checks a robot against the ball and the robots before it.
+    fn check_among_first(
+        &self,
+        who: usize,
+        start: &Start,
+        params: &BodyParams,
+    ) -> Result<(), PlaceError> {
+        self.check_ball(who, &start.motions, &start.ball, params)?;
+        let mut before = start.present().take_while(|first| *first < who);
+        before.try_for_each(|first| {
+            self.check_overlap([first, who], self.overlap([first, who], &start.motions))
+        })
+    }
+
+    /// Reads and checks new states of robots, with the ball and all other robots as in `start`. Only
+    /// the robots of `mask`, one bit each, are read from the row and checked.
+    pub(super) fn read_robots(
+        &self,
+        row: &[f32],
+        mask: u64,
+        mut start: Start,
+        params: &BodyParams,
+    ) -> Result<Start, PlaceError> {
+        let robots = &row[BALL_COLUMNS.len()..];
+        for index in set_bits(mask) {
+            let columns = &robots[index * ROBOT_COLUMNS.len()..][..ROBOT_COLUMNS.len()];
+            let (motion, is_absent) = self.parse_robot(index, columns)?;
+            start.motions[robot(index)] = motion;
+            start.absent = start.absent & !(1 << index) | u64::from(is_absent) << index;
+        }
+        for index in set_bits(mask & !start.absent) {
+            let who = robot(index);
+            self.check_alone(who, &mut start.motions[who], 0.0)?;
+            self.check_ball(who, &start.motions, &start.ball, params)?;
+            for other in start.present().filter(|other| *other != who) {
+                let pair = [who.min(other), who.max(other)];
+                self.check_overlap(pair, self.overlap(pair, &start.motions))?;
             }
         }
-        Ok(Start { motions, ball })
+        Ok(start)
     }
 
     /// Reads and checks a start of the ball, with all other bodies as in `motions`. The first of
@@ -87,33 +162,56 @@ impl Placement {
         mut motions: Vec<Motion>,
         params: &BodyParams,
     ) -> Result<BallStart, PlaceError> {
-        let start = self.read_ball_alone(columns)?;
+        let mut start = self.parse_ball(columns)?;
+        self.check_ball_alone(&mut start.motion, &start.ball)?;
         motions[BALL] = start.motion;
         (1..motions.len())
             .try_for_each(|who| self.check_ball(who, &motions, &start.ball, params))?;
         Ok(start)
     }
 
-    /// Reads a start of the ball and checks it against the field.
-    fn read_ball_alone(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
-        let (mut motion, ball) = read_ball(columns);
-        if !ball.is_finite() {
-            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
+    /// Reads a ball of finite numbers.
+    fn parse_ball(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
+        let (motion, ball) = read_ball(columns);
+        if motion.is_finite() && ball.is_finite() {
+            return Ok(BallStart { motion, ball });
         }
+        Err(PlaceError::NotFinite { who: self.names[BALL].clone() })
+    }
+
+    /// Reads a robot of finite numbers, and whether it is absent. Then only that is read.
+    fn parse_robot(&self, index: usize, columns: &[f32]) -> Result<(Motion, bool), PlaceError> {
+        let who = || self.names[robot(index)].clone();
+        match columns[ABSENT_COLUMN] {
+            1.0 => return Ok((self.benches[index], true)),
+            0.0 => {}
+            got => return Err(PlaceError::Absent { who: who(), got }),
+        }
+        let motion = read_robot(columns);
+        if motion.is_finite() {
+            Ok((motion, false))
+        } else {
+            Err(PlaceError::NotFinite { who: who() })
+        }
+    }
+
+    /// Checks the ball against the field.
+    fn check_ball_alone(&self, motion: &mut Motion, ball: &BallState) -> Result<(), PlaceError> {
         if ball.z < 0.0 {
             return Err(PlaceError::Below { z: ball.z });
         }
-        self.check_alone(BALL, &mut motion, ball.z)?;
-        Ok(BallStart { motion, ball })
+        self.check_alone(BALL, motion, ball.z)
     }
 
     /// Checks a body against the field, and normalises its heading.
-    fn check_alone(&self, who: usize, motion: &mut Motion, z: f32) -> Result<(), PlaceError> {
+    pub(super) fn check_alone(
+        &self,
+        who: usize,
+        motion: &mut Motion,
+        z: f32,
+    ) -> Result<(), PlaceError> {
         let name = || self.names[who].clone();
         let Motion { position, heading, .. } = *motion;
-        if !motion.is_finite() {
-            return Err(PlaceError::NotFinite { who: name() });
-        }
         let speed = motion.velocity.length();
         // A velocity that was drawn up to the maximum may be a rounding error above it.
         if speed > MAX_PLACED_SPEED * (1.0 + 1e-6) {
@@ -126,41 +224,60 @@ impl Placement {
             motion.heading = heading.normalize();
         }
         let in_wall = |(wall, shape): &(Wall, Shape)| match who {
-            BALL => self.gap_to_wall(wall, position, z) < -TOLERANCE,
+            BALL => self.ball_and_wall(wall, position, z).distance < -TOLERANCE,
             _ if !wall.stands_on_floor() => false,
             _ => self.shape(who).overlap(&pose(motion), shape, &wall.pose) > TOLERANCE,
         };
-        let limit =
-            position_limit(&self.field, if who == BALL { z + self.ball_radius } else { 0.0 });
-        let inside = position.abs().cmple(limit).all();
+        let inside = position.abs().cmple(self.limit(who, z)).all();
         if !inside || self.walls.iter().any(in_wall) {
             return Err(PlaceError::Outside { who: name(), x: position.x, y: position.y });
         }
         Ok(())
     }
 
+    /// Maximum distance of a body from the centre, m; of the ball at height `z`.
+    pub(super) fn limit(&self, who: usize, z: f32) -> Vector {
+        position_limit(&self.field, if who == BALL { z + self.ball_radius } else { 0.0 })
+    }
+
     /// Checks the overlap of the ball with a robot, which it may fly over.
-    fn check_ball(
+    pub(super) fn check_ball(
         &self,
         who: usize,
         motions: &[Motion],
         ball: &BallState,
         params: &BodyParams,
     ) -> Result<(), PlaceError> {
-        let (robot, motion) = (&params.robots[who - 1], &motions[who]);
-        let center = motions[BALL].position;
-        let nearest = robot.outline.nearest_at(motion.position, motion.rotation(), center);
-        let heights = [0.0, robot.model.height];
-        let radius = self.ball_radius;
-        let clearance = Clearance::of_upright(&nearest, heights, ball.z + radius, radius);
+        let clearance = self.ball_and_robot(who, motions, ball.z, params);
         self.check_overlap([BALL, who], -clearance.distance)
     }
 
-    /// Distance of a ball at height `z` from a wall, m; negative inside.
-    fn gap_to_wall(&self, wall: &Wall, center: Vector, z: f32) -> f32 {
+    /// Clearance of a ball at height `z` from a robot.
+    pub(super) fn ball_and_robot(
+        &self,
+        who: usize,
+        motions: &[Motion],
+        z: f32,
+        params: &BodyParams,
+    ) -> Clearance {
+        let (robot, motion) = (&params.robots[who - 1], &motions[who]);
+        let center = motions[BALL].position;
+        let nearest = robot.outline.nearest_at(motion.position, motion.rotation(), center);
+        let (heights, radius) = ([0.0, robot.model.height], self.ball_radius);
+        Clearance::of_upright(&nearest, heights, z + radius, radius)
+    }
+
+    /// Clearance of a ball at height `z` from a wall.
+    pub(super) fn ball_and_wall(&self, wall: &Wall, center: Vector, z: f32) -> Clearance {
         let nearest = wall.placed().nearest(center);
         let radius = self.ball_radius;
-        Clearance::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius).distance
+        Clearance::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius)
+    }
+
+    /// Depth by which two robots overlap, m; 0 when they are apart.
+    fn overlap(&self, pair: [usize; 2], motions: &[Motion]) -> f32 {
+        let [a, b] = pair.map(|who| (pose(&motions[who]), self.shape(who)));
+        a.1.overlap(&a.0, b.1, &b.0)
     }
 
     fn check_overlap(&self, [first, second]: [usize; 2], depth: f32) -> Result<(), PlaceError> {
@@ -174,13 +291,27 @@ impl Placement {
         Ok(())
     }
 
+    /// Radius of a circle around a body, m.
+    pub(super) fn bounding_radius(&self, body: usize) -> f32 {
+        self.bounding_radii[body]
+    }
+
     /// Shape of a robot, by its index among the bodies.
-    fn shape(&self, body: usize) -> &Shape {
+    pub(super) fn shape(&self, body: usize) -> &Shape {
         &self.robots[body - 1]
     }
 }
 
-fn pose(motion: &Motion) -> Pose {
+/// Where the robots of a match are while they are absent.
+fn benches(config: &SimConfig) -> Vec<Motion> {
+    let teams = [(&config.blue, true), (&config.yellow, false)];
+    let places = teams.into_iter().flat_map(|(team, is_blue)| {
+        (0..team.len()).map(move |index| bench_place(&config.field, is_blue, index))
+    });
+    places.collect()
+}
+
+pub(super) fn pose(motion: &Motion) -> Pose {
     Pose::from_parts(motion.position, motion.rotation())
 }
 

@@ -53,5 +53,6 @@ fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [
         f32::from(u8::from(state.touches.touched_ball(index))),
         f32::from(u8::from(state.touches.touched_opponent(index))),
         state.bodies.collision_speed(index),
+        f32::from(u8::from(state.is_absent(index))),
     ]);
 }

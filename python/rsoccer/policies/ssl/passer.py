@@ -11,7 +11,7 @@ from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
-from rsoccer.vectors import XY, norm, reciprocal, rotate_into
+from rsoccer.vectors import FAR, XY, norm, reciprocal, rotate_into
 from rsoccer.view import View
 
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
@@ -61,9 +61,8 @@ class Passer(Policy):
         ego, ball = view.ego, view.ball
         to_x, to_y = (ball.position[..., i] - ego.position[..., i] for i in (0, 1))
         has_ball = self._control.has_ball(view)
-        pass_x, pass_y = (
-            view.teammates.position[:, :, 0, i] - ego.position[..., i] for i in (0, 1)
-        )
+        other_x, other_y = _teammate(view)
+        pass_x, pass_y = other_x - ego.position[..., 0], other_y - ego.position[..., 1]
         v_x, v_y = self._receiving_velocity(view)
         face_x, face_y = np.where(has_ball, pass_x, to_x), np.where(has_ball, pass_y, to_y)
         spin = motion.turn_rate_to(ego, face_x, face_y, MAX_TURN_RATE)
@@ -75,7 +74,8 @@ class Passer(Policy):
     def _kick_speed(self, view: View) -> Floats:
         """Kick speed (m/s) of a robot that is ready to pass; 0 for others."""
         ego, ball, teammate = view.ego, view.ball, view.teammates
-        x, y = (teammate.position[:, :, 0, i] - ball.position[..., i] for i in (0, 1))
+        other_x, other_y = _teammate(view)
+        x, y = other_x - ball.position[..., 0], other_y - ball.position[..., 1]
         cos, sin = motion.heading_error(ego, x, y)
         ready = (
             (cos > 0.0)
@@ -87,7 +87,7 @@ class Passer(Policy):
         ready &= (ego.infrared > 0.5) & (ball_speed < MIN_BALL_SPEED)
         receiver_velocity = teammate.velocity[:, :, 0]
         receiver_speed = norm(receiver_velocity[..., 0], receiver_velocity[..., 1])
-        ready &= receiver_speed < MAX_RECEIVER_SPEED
+        ready &= (receiver_speed < MAX_RECEIVER_SPEED) & (teammate.absent[:, :, 0] == 0.0)
         distance = np.maximum(norm(x, y) - self._control.mouth_distance, np.float32(0.0))
         extra = LONG_PASS_GAIN * np.maximum(distance - LONG_PASS, np.float32(0.0))
         arrival = ARRIVAL_SPEED + extra
@@ -98,7 +98,7 @@ class Passer(Policy):
     def _receiving_velocity(self, view: View) -> XY:
         """Velocity (m/s) onto the line of a coming ball, or away from a teammate too near."""
         position, ball = view.ego.position, view.ball
-        teammate = view.teammates.position[:, :, 0]
+        other_x, other_y = _teammate(view)
         speed = norm(ball.velocity[..., 0], ball.velocity[..., 1])
         scale = reciprocal(speed, MIN_BALL_SPEED)
         u_x, u_y = ball.velocity[..., 0] * scale, ball.velocity[..., 1] * scale
@@ -107,12 +107,10 @@ class Passer(Policy):
         coming = (speed > MIN_BALL_SPEED) & (ahead > 0.0)
         x, y = position[..., 0] + left * u_y, position[..., 1] - left * u_x
         line_x, line_y = motion.velocity_to(position, x, y, MAX_SPEED)
-        away_x, away_y = position[..., 0] - teammate[..., 0], position[..., 1] - teammate[..., 1]
+        away_x, away_y = position[..., 0] - other_x, position[..., 1] - other_y
         distance = norm(away_x, away_y)
         scale = MIN_DISTANCE * reciprocal(distance)
-        retreat = self._region.clamp(
-            teammate[..., 0] + away_x * scale, teammate[..., 1] + away_y * scale
-        )
+        retreat = self._region.clamp(other_x + away_x * scale, other_y + away_y * scale)
         away_x, away_y = motion.velocity_to(position, *retreat, RETREAT_SPEED)
         near = distance < MIN_DISTANCE
         zero = np.float32(0.0)
@@ -120,3 +118,10 @@ class Passer(Policy):
             np.where(coming, line_x, np.where(near, away_x, zero)),
             np.where(coming, line_y, np.where(near, away_y, zero)),
         )
+
+
+def _teammate(view: View) -> XY:
+    """Position (m) of the teammate, (n, robots) each; far away if it is absent."""
+    position, present = view.teammates.position[:, :, 0], view.teammates.absent[:, :, 0] == 0.0
+    x, y = (np.where(present, position[..., i], FAR) for i in (0, 1))
+    return x, y

@@ -29,12 +29,14 @@ class Obstacles(NamedTuple):
 
 
 def other_robots(view: View) -> XY:
-    """Return the positions of all other robots, (n, robots, others); far away for empty slots.
+    """Return the positions of all other robots, (n, robots, others).
+
+    Empty slots and absent robots are far away.
 
     Args:
         view: view of the robots.
     """
-    present = view.present[:, 1:]
+    present = view.present[:, :, 1:]
     position = view.robots.position[:, :, 1:]
     x, y = np.where(present, position[..., 0], FAR), np.where(present, position[..., 1], FAR)
     if not x.shape[2]:

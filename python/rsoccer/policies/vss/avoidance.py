@@ -69,7 +69,7 @@ def avoid_robots(view: View, target: XY, attacking: Mask) -> XY:
     ahead, left = rotate_into(to_x, to_y, u_x, u_y)
     avoid_range = np.minimum(norm(path_x, path_y), AVOID_RANGE)[..., None]
     blocks = (ahead > 0.0) & (ahead < avoid_range) & (np.abs(left) < ROBOT_CLEARANCE)
-    blocks &= view.present[:, 1:]
+    blocks &= view.present[:, :, 1:]
     duel = norm(x - ball[..., 0], y - ball[..., 1]) < DUEL_RADIUS
     blocks &= ~(duel & attacking[..., None])
     nearest = np.argmin(np.where(blocks, ahead, FAR), axis=2)[..., None]

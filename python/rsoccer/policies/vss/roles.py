@@ -53,7 +53,7 @@ def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
     """
     team = slice(0, 1 + view.n_teammates)
     x, y = view.robots.position[:, :, team, 0], view.robots.position[:, :, team, 1]
-    present = np.broadcast_to(view.present[:, team], x.shape)
+    present = view.present[:, :, team]
     several = present.sum(axis=2, keepdims=True) > 1  # a robot without teammates attacks
     ball = field.predict_ball(view.ball, LOOKAHEAD)
     paths = [(KEEPER, _keeper_path(field, x, y)), (ATTACKER, _attacker_path(field, x, y, ball))]

@@ -24,12 +24,16 @@ class Moment {
     this.ball = this.bodyOfBall(replay, scene, next, share);
     this.robots = [];
     for (let i = 0; i < replay.robotCount; i++) {
-      const value = (name) => between(replay.robot(i, name, this.frame), replay.robot(i, name, next), share);
+      const absent = [this.frame, next].map((frame) => replay.robot(i, "absent", frame) > 0);
+      // A robot that leaves or enters jumps.
+      const t = absent[0] === absent[1] ? share : 0;
+      const value = (name) => between(replay.robot(i, name, this.frame), replay.robot(i, name, next), t);
       this.robots.push({
         x: value("x"),
         y: value("y"),
         heading: value("heading"),
         hasBall: replay.robot(i, "infrared", this.frame) > 0,
+        absent: absent[0],
       });
     }
   }
@@ -172,7 +176,9 @@ class FieldView {
     if (this.trails) this.drawTrails(time, moment);
     this.drawBallOnFloor(moment.ball);
     this.drawKicks(time, moment);
-    moment.robots.forEach((robot, index) => this.drawRobot(robot, index));
+    moment.robots.forEach((robot, index) => {
+      if (!robot.absent) this.drawRobot(robot, index);
+    });
     this.drawBall(moment.ball);
     return moment;
   }
@@ -211,6 +217,7 @@ class FieldView {
     const width = Math.max(1.6 * this.density / this.camera.scale, 0.004);
     context.lineCap = "butt"; // round ends of transparent pieces would show as beads
     moment.robots.forEach((robot, index) => {
+      if (robot.absent) return;
       const color = index < scene.nBlue ? scene.colors.blue : scene.colors.yellow;
       const at = (frame) => [replay.robot(index, "x", frame), replay.robot(index, "y", frame)];
       this.drawTrail(at, first, moment.frame, robot, color, width * 1.5, 0.45);
@@ -412,7 +419,7 @@ class FieldView {
     let least = Infinity;
     moment.robots.forEach((robot, index) => {
       const distance = Math.hypot(robot.x - x, robot.y - y);
-      if (distance < least && distance < Math.max(0.7 * this.sizeOf(index), reach)) {
+      if (!robot.absent && distance < least && distance < Math.max(0.7 * this.sizeOf(index), reach)) {
         [best, least] = [index, distance];
       }
     });

@@ -222,6 +222,7 @@ class Player {
     const { replay } = this;
     const value = (name) => replay.robot(index, name, frame);
     const turns = value("heading") / (2 * Math.PI);
+    if (value("absent") > 0) return [["on the field", "no"]];
     const degrees = Math.round(360 * (turns - Math.round(turns)));
     const speed = Math.hypot(value("v_x"), value("v_y"));
     const flags = [

@@ -159,5 +159,53 @@ fn key(pair: &Pair) -> u32 {
     key
 }
 
+/// Whether a body is one of the pair that a key identifies.
+pub(super) fn is_of_body(key: u32, body: usize) -> bool {
+    let [one, other] = [key >> 8, key & 0xff].map(|number| number as usize);
+    one == body || other == body
+}
+
 /// Number of the first wall in a key; robots are below.
 const FIRST_WALL: usize = 64;
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::engine::near::Solid;
+    use crate::geometry::outline::PlacedOutline;
+    use crate::math::Rotation;
+
+    const OUTLINE: Outline = Outline::Disc { radius: 0.1 };
+
+    fn pair(one: usize, other: Other) -> Pair {
+        Pair { one: Solid { body: one, outline: OUTLINE }, other, margin: 0.0 }
+    }
+
+    #[test]
+    fn every_pair_has_a_key_of_its_own_that_names_its_bodies() {
+        let place =
+            PlacedOutline { outline: OUTLINE, position: Vector::ZERO, heading: Rotation::IDENTITY };
+        let mut keys = BTreeSet::new();
+        let mut pairs = 0;
+        for one in 0..23 {
+            let bodies = (0..one).map(|body| Other::Body(Solid { body, outline: OUTLINE }));
+            let walls = (0..20).map(|wall| Other::Wall(wall, place));
+            for other in bodies.chain(walls) {
+                let key = key(&pair(one, other));
+                assert!(u16::try_from(key).is_ok(), "{key}");
+                let named: Vec<_> = (0..23).filter(|body| is_of_body(key, *body)).collect();
+                let expected = match other {
+                    Other::Body(Solid { body, .. }) => vec![body, one],
+                    Other::Wall(..) => vec![one],
+                };
+                assert_eq!(named, expected);
+                keys.insert(key);
+                pairs += 1;
+            }
+        }
+        assert_eq!(keys.len(), pairs);
+        assert!(!keys.contains(&0), "no key is that of an empty slot");
+    }
+}

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::CompactScratch;
 use super::impulses::Impulses;
-use super::link::Link;
+use super::link::{Link, is_of_body};
 use crate::blocks::BALL;
 use crate::bodies::{Bodies, WarmStart};
 use crate::engine::ball_contact::BallRules;
@@ -63,6 +63,11 @@ impl CompactSolver {
             WarmStart { key, features, normals: [one.1, two.1], tangent }
         }));
         *self = Self { stored, ball_mass: bodies.ball_mass, time };
+    }
+
+    /// Forgets the impulses between a body and others.
+    pub(in crate::engine) fn forget_body(&self, bodies: &mut Bodies, body: usize) {
+        bodies.drop_warm_starts(self.stored, |key| is_of_body(u32::from(key), body));
     }
 
     /// Forgets the impulses: nothing touched in the last tick.
