@@ -1,6 +1,7 @@
 //! Contact points of two rectangles within one sub-step.
 
 use super::body::SolverBody;
+use super::joints::{Met, slide};
 use super::manifold::{Manifold, Point, TOUCHING, Window};
 use crate::math::Vector;
 
@@ -21,14 +22,14 @@ pub(super) struct Rectangle<'a> {
 
 /// A face of one of two rectangles, as the direction between them.
 #[derive(Debug, Clone, Copy)]
-struct Face {
+pub(super) struct Face {
     /// 0 for the faces along the box's x axis, 1 for y.
-    axis: usize,
+    pub(super) axis: usize,
     /// Now, m.
-    separation: f32,
+    pub(super) separation: f32,
     /// Time after which the boxes overlap along this direction, s, at most twice the sub-step; 0 if
     /// they do now.
-    after: f32,
+    pub(super) after: f32,
 }
 
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
@@ -43,25 +44,33 @@ pub(super) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifo
     // Half the width of the other rectangle along this one's axes.
     let width =
         |half: Vector| Vector::new(half.x * cos + half.y * sin, half.x * sin + half.y * cos);
-    let last = |heading: Vector, extent: Vector| {
+    let faces = |heading: Vector, extent: Vector| {
         let x = face(0, heading, extent.x, apart, velocity, rim, window)?;
         let y = face(1, heading.perp(), extent.y, apart, velocity, rim, window)?;
-        let y_is_later = y.after > x.after || y.after >= x.after && y.separation > x.separation;
-        Some(if y_is_later { y } else { x })
+        Some([x, y])
     };
-    let of_a = last(heading_a, a.half + width(b.half))?;
-    let of_b = last(heading_b, b.half + width(a.half))?;
+    let all_of_a = faces(heading_a, a.half + width(b.half))?;
+    let all_of_b = faces(heading_b, b.half + width(a.half))?;
+    let (of_a, of_b) = (last(all_of_a), last(all_of_b));
     let later = of_b.after - of_a.after;
     let b_is_reference = if later.abs() > TIME_BIAS * window.time {
         later > 0.0
     } else {
         of_b.separation > of_a.separation + SEPARATION_BIAS
     };
-    if b_is_reference {
-        b.clip(&a, of_b, window.time, 0).map(Manifold::reversed)
+    let found = Met { face: if b_is_reference { of_b } else { of_a }, of_second: b_is_reference };
+    let Met { face, of_second } = slide([a, b], [all_of_a, all_of_b], found, window.time);
+    if of_second {
+        b.clip(&a, face, window.time, 0).map(Manifold::reversed)
     } else {
-        a.clip(&b, of_a, window.time, 1)
+        a.clip(&b, face, window.time, 1)
     }
+}
+
+/// The face of a box along which the other comes to overlap last, or least.
+fn last([x, y]: [Face; 2]) -> Face {
+    let y_is_later = y.after > x.after || y.after >= x.after && y.separation > x.separation;
+    if y_is_later { y } else { x }
 }
 
 /// The face along `direction`. The face along which the other rectangle comes to overlap last is the
@@ -88,7 +97,7 @@ fn face(
 }
 
 impl Rectangle<'_> {
-    fn axes(&self) -> [Vector; 2] {
+    pub(super) fn axes(&self) -> [Vector; 2] {
         [self.body.heading, self.body.heading.perp()]
     }
 

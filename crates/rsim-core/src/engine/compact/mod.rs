@@ -16,6 +16,7 @@ mod boxes;
 mod constraint;
 mod discs;
 mod impulses;
+mod joints;
 mod link;
 mod manifold;
 mod pass;
@@ -158,7 +159,7 @@ impl CompactScratch {
             let last = previous.next_if(|constraint| constraint.link == index);
             if let Some(steady) = last.filter(|_| link.is_steady(bodies)) {
                 constraints.push(*steady);
-            } else if let Some(constraint) = link.constraint(index, bodies, step) {
+            } else if let Some(constraint) = link.constraint(index, links, bodies, step) {
                 constraints.push(constraint);
             }
         }

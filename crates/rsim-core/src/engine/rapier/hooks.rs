@@ -8,7 +8,8 @@ use rapier2d::pipeline::{
 use super::report::partner;
 use crate::engine::ball_contact::{Approached, BallRules, Touch};
 use crate::engine::contacts::Partner;
-use crate::geometry::outline::PlacedOutline;
+use crate::engine::joints::Ball;
+use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::Vector;
 
 impl PhysicsHooks for BallRules<'_> {
@@ -30,27 +31,35 @@ impl PhysicsHooks for BallRules<'_> {
             _ => return,
         };
         let center = ball.translation();
-        let outline = match with {
-            Partner::Robot(index) => self.params.robots[index].outline,
-            Partner::Wall(index) => self.walls[index].outline(),
-        };
+        let outline = self.outline_of(with);
         let motion = |collider: &Collider| {
             let body = collider.parent().map(|handle| &context.bodies[handle]);
             body.map_or((Vector::ZERO, 0.0), |body| (body.linvel(), body.angvel()))
         };
-        let pose = other.position();
-        let ((ball_velocity, _), (velocity, spin)) = (motion(ball), motion(other));
-        let approached = Approached {
-            place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
-            velocity: ball_velocity - velocity,
-            spin,
+        let (ball_velocity, _) = motion(ball);
+        let approached = |other: &Collider, outline: Outline| {
+            let (pose, (velocity, spin)) = (other.position(), motion(other));
+            Approached {
+                place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
+                velocity: ball_velocity - velocity,
+                spin,
+            }
         };
+        let met = approached(other, outline);
         let radius = self.params.ball.radius;
         let touch = if self.squeezed.is_some() {
-            Some(Touch::of(&approached.place.nearest(center), center, radius))
+            Some(Touch::of(&met.place.nearest(center), center, radius))
         } else {
-            approached.touch(center, radius, self.time)
+            met.touch(center, radius, self.time)
         };
+        let others = context.colliders.iter().filter_map(|(_, collider)| {
+            let beside = partner(collider.user_data).filter(|beside| *beside != with)?;
+            let outline = self.outline_of(beside);
+            matches!(outline, Outline::Box { .. }).then(|| approached(collider, outline))
+        });
+        let time = if self.squeezed.is_some() { 0.0 } else { self.time };
+        let touch =
+            touch.map(|touch| Ball { center, radius, time }.over_joints(touch, &met, others));
         if let ModifiableContacts::Rigid(manifold) = &mut context.contacts {
             let Some(touch) = touch else {
                 manifold.solver_contacts.clear();
@@ -66,6 +75,16 @@ impl PhysicsHooks for BallRules<'_> {
                 (contact.anchor1, contact.anchor2) =
                     if sign > 0.0 { (on_other, on_ball) } else { (on_ball, on_other) };
             }
+        }
+    }
+}
+
+impl BallRules<'_> {
+    /// Outline of a robot or wall as the ball meets it.
+    fn outline_of(&self, partner: Partner) -> Outline {
+        match partner {
+            Partner::Robot(index) => self.params.robots[index].outline,
+            Partner::Wall(index) => self.walls[index].outline(),
         }
     }
 }
