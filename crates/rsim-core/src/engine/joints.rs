@@ -14,7 +14,7 @@ const GAP: f32 = 1.5e-3;
 
 /// Height above the face beside it, m, from which an edge protrudes. A ball turns by 5 degrees at an edge of
 /// 0.1 mm.
-const PROTRUDING: f32 = 1e-4;
+const PROTRUDING: f32 = 5e-4;
 
 /// Cosine of the angle between two faces, up to which they are one.
 const FLUSH: f32 = 0.99;

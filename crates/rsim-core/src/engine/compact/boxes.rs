@@ -12,12 +12,12 @@ const TIME_BIAS: f32 = 0.02;
 
 /// A rectangle on its straight path.
 #[derive(Clone, Copy)]
-pub(super) struct Rectangle<'a> {
-    pub(super) body: &'a SolverBody,
+pub(in crate::engine) struct Rectangle<'a> {
+    pub(in crate::engine) body: &'a SolverBody,
     /// Half sides, m.
-    pub(super) half: Vector,
+    pub(in crate::engine) half: Vector,
     /// Distance of the corners from the centre, m.
-    pub(super) radius: f32,
+    pub(in crate::engine) radius: f32,
 }
 
 /// A face of one of two rectangles, as the direction between them.
@@ -33,7 +33,14 @@ pub(super) struct Face {
 }
 
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
-pub(super) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
+pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
+    let (faces, found) = search(&a, &b, window)?;
+    let met = slide([&a, &b], &faces, found, window.time);
+    clip([&a, &b], met, window.time)
+}
+
+/// All faces of two rectangles, and the one along which they come to overlap last, if they can touch.
+fn search(a: &Rectangle, b: &Rectangle, window: Window) -> Option<([[Face; 2]; 2], Met)> {
     let [heading_a, heading_b] = [a.body.heading, b.body.heading];
     let apart = b.body.position - a.body.position;
     let velocity = b.body.velocity - a.body.velocity;
@@ -53,17 +60,21 @@ pub(super) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifo
     let all_of_b = faces(heading_b, b.half + width(a.half))?;
     let (of_a, of_b) = (last(all_of_a), last(all_of_b));
     let later = of_b.after - of_a.after;
-    let b_is_reference = if later.abs() > TIME_BIAS * window.time {
+    let of_second = if later.abs() > TIME_BIAS * window.time {
         later > 0.0
     } else {
         of_b.separation > of_a.separation + SEPARATION_BIAS
     };
-    let found = Met { face: if b_is_reference { of_b } else { of_a }, of_second: b_is_reference };
-    let Met { face, of_second } = slide([a, b], [all_of_a, all_of_b], found, window.time);
-    if of_second {
-        b.clip(&a, face, window.time, 0).map(Manifold::reversed)
+    let face = if of_second { of_b } else { of_a };
+    Some(([all_of_a, all_of_b], Met { face, of_second }))
+}
+
+/// Contact points of the rectangle that does not have the face, on it.
+fn clip([a, b]: [&Rectangle; 2], met: Met, time: f32) -> Option<Manifold> {
+    if met.of_second {
+        b.clip(a, met.face, time, 0).map(Manifold::reversed)
     } else {
-        a.clip(&b, face, window.time, 1)
+        a.clip(b, met.face, time, 1)
     }
 }
 

@@ -25,7 +25,12 @@ pub(super) struct Met {
 }
 
 /// The face that two boxes meet at: that of `found`, or another that they slide along.
-pub(super) fn slide(boxes: [Rectangle; 2], faces: [[Face; 2]; 2], found: Met, time: f32) -> Met {
+pub(super) fn slide(
+    boxes: [&Rectangle; 2],
+    faces: &[[Face; 2]; 2],
+    found: Met,
+    time: f32,
+) -> Met {
     let deep = |face: &Face| face.separation < -PROTRUDING;
     let other = 1 - found.face.axis;
     let own = usize::from(found.of_second);
@@ -33,18 +38,18 @@ pub(super) fn slide(boxes: [Rectangle; 2], faces: [[Face; 2]; 2], found: Met, ti
     if faces[1 - own].iter().all(deep) && deep(&faces[own][other]) {
         return found;
     }
-    let velocity = velocity_at_corner(&boxes, &found);
-    let closing = |met: &Met| -velocity.dot(normal(&boxes, met));
+    let velocity = velocity_at_corner(boxes, &found);
+    let closing = |met: &Met| -velocity.dot(normal(boxes, met));
     let most = closing(&found) - SLIDING;
     if most <= 0.0 {
         return found;
     }
     let touch = found.face.after.min(time);
     let mut slowest = (most, found);
-    for (of_second, face) in [(false, faces[0][0]), (false, faces[0][1]), (true, faces[1][0]), (true, faces[1][1])] {
-        let met = Met { face, of_second };
+    let all = faces.iter().zip([false, true]);
+    for met in all.flat_map(|(faces, of_second)| faces.map(|face| Met { face, of_second })) {
         let speed = closing(&met);
-        if speed < slowest.0 && face.separation - speed * touch > -PROTRUDING {
+        if speed < slowest.0 && met.face.separation - speed * touch > -PROTRUDING {
             slowest = (speed, met);
         }
     }
@@ -52,13 +57,13 @@ pub(super) fn slide(boxes: [Rectangle; 2], faces: [[Face; 2]; 2], found: Met, ti
 }
 
 /// Direction of a face, from the first box to the second.
-fn normal([a, b]: &[Rectangle; 2], met: &Met) -> Vector {
+fn normal([a, b]: [&Rectangle; 2], met: &Met) -> Vector {
     let axis = if met.of_second { b.axes() } else { a.axes() }[met.face.axis];
     axis * 1.0_f32.copysign((b.body.position - a.body.position).dot(axis))
 }
 
 /// Velocity of the second box against the first at the corner that meets a face, m/s.
-fn velocity_at_corner(boxes: &[Rectangle; 2], met: &Met) -> Vector {
+fn velocity_at_corner(boxes: [&Rectangle; 2], met: &Met) -> Vector {
     let normal = normal(boxes, met);
     let [a, b] = boxes;
     let apart = b.body.position - a.body.position;

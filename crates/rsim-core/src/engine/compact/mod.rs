@@ -30,13 +30,14 @@ use super::near::Pair;
 use crate::blocks::{BALL, set_bits};
 use crate::bodies::{Acceleration, Bodies, SubSteps, WarmStart};
 use crate::body_params::BodyParams;
-use body::SolverBody;
 use constraint::Constraint;
 use impulses::Impulses;
 use link::Link;
-use manifold::Window;
 use pass::Pass;
 use report::report;
+pub(super) use body::SolverBody;
+pub(super) use boxes::{Rectangle, boxes};
+pub(super) use manifold::{Manifold, Window};
 pub(super) use warm_start::CompactSolver;
 
 /// Minimum number of passes over all contacts in a sub-step, usually and while a ball is jammed: with

@@ -1,5 +1,6 @@
 //! Hooks of rapier for contacts of the ball.
 
+use rapier2d::dynamics::RigidBody;
 use rapier2d::geometry::{Collider, SolverFlags};
 use rapier2d::pipeline::{
     ContactModificationContext, ModifiableContacts, PairFilterContext, PhysicsHooks,
@@ -7,10 +8,18 @@ use rapier2d::pipeline::{
 
 use super::report::partner;
 use crate::engine::ball_contact::{Approached, BallRules, Touch};
+use crate::engine::compact::{Manifold, Rectangle, SolverBody, Window, boxes};
 use crate::engine::contacts::Partner;
 use crate::engine::joints::Ball;
 use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::Vector;
+
+/// By how much the reach of a search for sliding boxes exceeds the distance that the engine has found, m:
+/// along another face they may be farther apart.
+const REACH: f32 = 5e-3;
+
+/// Cosine of the angle between two normals up to which they are of one face.
+const SAME_FACE: f32 = 0.9;
 
 impl PhysicsHooks for BallRules<'_> {
     // Only the ball's collider asks for hooks, so one of each pair is the ball.
@@ -28,6 +37,7 @@ impl PhysicsHooks for BallRules<'_> {
         let (with, other, ball, sign) = match labels {
             [Some(with), None] => (with, colliders[0], colliders[1], 1.0),
             [None, Some(with)] => (with, colliders[1], colliders[0], -1.0),
+            [Some(first), Some(second)] => return self.slide([first, second], context),
             _ => return,
         };
         let center = ball.translation();
@@ -80,6 +90,49 @@ impl PhysicsHooks for BallRules<'_> {
 }
 
 impl BallRules<'_> {
+    /// Lets two boxes slide over a joint, as the compact solver does.
+    fn slide(&self, pair: [Partner; 2], context: &mut ContactModificationContext) {
+        let ModifiableContacts::Rigid(manifold) = &mut context.contacts else { return };
+        let nearest = manifold.solver_contacts.iter().map(|contact| contact.dist);
+        let Some(distance) = nearest.reduce(f32::min) else { return };
+        let [Outline::Box { half: first }, Outline::Box { half: second }] =
+            pair.map(|partner| self.outline_of(partner))
+        else {
+            return;
+        };
+        let [a, b] = [context.collider1, context.collider2].map(|collider| {
+            let collider = &context.colliders[collider];
+            let pose = collider.position();
+            let body = collider.parent().map(|handle| &context.bodies[handle]);
+            SolverBody {
+                position: pose.translation,
+                heading: Vector::new(pose.rotation.re, pose.rotation.im),
+                velocity: body.map_or(Vector::ZERO, RigidBody::linvel),
+                spin: body.map_or(0.0, RigidBody::angvel),
+                ..SolverBody::default()
+            }
+        });
+        let [a, b] = [(&a, first), (&b, second)]
+            .map(|(body, half)| Rectangle { body, half, radius: half.length() });
+        let window = Window { time: self.time, reach: distance.max(0.0) + REACH };
+        let found = boxes(a, b, window);
+        if found.as_ref().is_some_and(|found| found.normal.dot(*manifold.normal) > SAME_FACE) {
+            return;
+        }
+        let found = found.unwrap_or(Manifold::empty(*manifold.normal));
+        let count = found.points().len();
+        manifold.solver_contacts.truncate(count);
+        if count == 0 {
+            return;
+        }
+        *manifold.normal = found.normal;
+        for (contact, point) in manifold.solver_contacts.iter_mut().zip(found.points()) {
+            contact.dist = point.separation;
+            contact.anchor1 = a.body.position + point.arms[0];
+            contact.anchor2 = b.body.position + point.arms[1];
+        }
+    }
+
     /// Outline of a robot or wall as the ball meets it.
     fn outline_of(&self, partner: Partner) -> Outline {
         match partner {
