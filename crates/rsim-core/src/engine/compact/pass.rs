@@ -19,6 +19,7 @@ const DAMPING: f32 = 2.0;
 /// A pass over all constraints.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pass {
+    soft: [f32; 3],
     /// Speed at which overlapping bodies are pushed apart by their depth, 1/s.
     bias_rate: f32,
     /// Response of an overlapping point to a unit impulse by that of a rigid point, and its inverse.
@@ -45,12 +46,15 @@ impl Pass {
         let a = 2.0 * DAMPING + time * omega;
         let stretch = 1.0 + 1.0 / (time * omega * a);
         let (bias_rate, mass_scale) = (omega / a, 1.0 / stretch);
-        Self { bias_rate, stretch, mass_scale, inverse_time: 1.0 / time }
+        let omega2 = omega * SHARE;
+        let a2 = 2.0 * DAMPING + time * omega2;
+        let stretch2 = 1.0 + 1.0 / (time * omega2 * a2);
+        Self { soft: [omega2 / a2, stretch2, 1.0 / stretch2], bias_rate, stretch, mass_scale, inverse_time: 1.0 / time }
     }
 
     /// A pass that only corrects velocities, in a sub-step of `time` (s).
     pub(super) fn relaxing(time: f32) -> Self {
-        Self { bias_rate: 0.0, stretch: 1.0, mass_scale: 1.0, inverse_time: 1.0 / time }
+        Self { soft: [0.0, 1.0, 1.0], bias_rate: 0.0, stretch: 1.0, mass_scale: 1.0, inverse_time: 1.0 / time }
     }
 
     /// Equation of a point that closes at `speed` (m/s) over `separation` (m).
@@ -60,7 +64,14 @@ impl Pass {
             return Row { speed, stretch: 1.0, mass_scale: 1.0 };
         }
         let depth = (separation + ALLOWED_DEPTH).min(0.0);
+        if depth > -SHALLOW {
+            let [rate, stretch, mass_scale] = self.soft;
+            return Row { speed: speed + rate * depth, stretch, mass_scale };
+        }
         let push = (self.bias_rate * depth).max(-MAX_PUSH_SPEED);
         Row { speed: speed + push, stretch: self.stretch, mass_scale: self.mass_scale }
     }
 }
+
+const SHALLOW: f32 = 2e-4;
+const SHARE: f32 = 0.5;

@@ -18,6 +18,10 @@ use crate::math::Vector;
 /// along another face they may be farther apart.
 const REACH: f32 = 5e-3;
 
+/// Speed against each other, m/s, below which boxes keep the contact that the engine has found: in a crowd that
+/// presses, a corner at a corner would change its face from tick to tick.
+const PRESSING: f32 = 0.1;
+
 /// Cosine of the angle between two normals up to which they are of one face.
 const SAME_FACE: f32 = 0.9;
 
@@ -114,6 +118,10 @@ impl BallRules<'_> {
         });
         let [a, b] = [(&a, first), (&b, second)]
             .map(|(body, half)| Rectangle { body, half, radius: half.length() });
+        let rims = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
+        if (b.body.velocity - a.body.velocity).length() + rims < PRESSING {
+            return;
+        }
         let window = Window { time: self.time, reach: distance.max(0.0) + REACH };
         let found = boxes(a, b, window);
         if found.as_ref().is_some_and(|found| found.normal.dot(*manifold.normal) > SAME_FACE) {
