@@ -1,36 +1,14 @@
 //! Contact points of two rectangles within one sub-step.
 
-use super::body::SolverBody;
-use super::joints::{Met, slide};
 use super::manifold::{Manifold, Point, TOUCHING, Window};
+use super::rectangle::{Face, Met, Rectangle};
+use super::sliding::slide;
 use crate::math::Vector;
 
 /// Advantages that the faces of the second box need to become the reference, m and fraction of a
 /// sub-step, so that the reference does not alternate.
 const SEPARATION_BIAS: f32 = 1e-4;
 const TIME_BIAS: f32 = 0.02;
-
-/// A rectangle on its straight path.
-#[derive(Clone, Copy)]
-pub(in crate::engine) struct Rectangle<'a> {
-    pub(in crate::engine) body: &'a SolverBody,
-    /// Half sides, m.
-    pub(in crate::engine) half: Vector,
-    /// Distance of the corners from the centre, m.
-    pub(in crate::engine) radius: f32,
-}
-
-/// A face of one of two rectangles, as the direction between them.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Face {
-    /// 0 for the faces along the box's x axis, 1 for y.
-    pub(super) axis: usize,
-    /// Now, m.
-    pub(super) separation: f32,
-    /// Time after which the boxes overlap along this direction, s, at most twice the sub-step; 0 if
-    /// they do now.
-    pub(super) after: f32,
-}
 
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
 pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
@@ -108,10 +86,6 @@ fn face(
 }
 
 impl Rectangle<'_> {
-    pub(super) fn axes(&self) -> [Vector; 2] {
-        [self.body.heading, self.body.heading.perp()]
-    }
-
     /// Contact points of another rectangle on a face of this one.
     fn clip(&self, other: &Self, face: Face, time: f32, tag: u32) -> Option<Manifold> {
         let (own, axes) = (self.axes(), other.axes());
@@ -160,6 +134,7 @@ const POINT: u32 = 1 << 4;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::compact::body::SolverBody;
     use crate::engine::shapes::Shape;
     use crate::geometry::outline::Outline;
     use crate::geometry::outline::PlacedOutline;

@@ -2,11 +2,12 @@
 
 use super::SubStep;
 use super::body::SolverBody;
-use super::boxes::{Rectangle, boxes};
+use super::boxes::boxes;
 use super::constraint::Constraint;
 use super::discs::{Disc, discs, meet_ball, outline_and_disc};
 use super::impulses::Impulses;
 use super::manifold::{Manifold, Window};
+use super::rectangle::Rectangle;
 use crate::blocks::BALL;
 use crate::engine::WALL_FRICTION;
 use crate::engine::ball_contact::BallRules;

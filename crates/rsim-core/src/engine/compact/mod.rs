@@ -16,11 +16,12 @@ mod boxes;
 mod constraint;
 mod discs;
 mod impulses;
-mod joints;
 mod link;
 mod manifold;
 mod pass;
+mod rectangle;
 mod report;
+mod sliding;
 mod two_points;
 mod warm_start;
 
@@ -30,14 +31,15 @@ use super::near::Pair;
 use crate::blocks::{BALL, set_bits};
 use crate::bodies::{Acceleration, Bodies, SubSteps, WarmStart};
 use crate::body_params::BodyParams;
+pub(super) use body::SolverBody;
+pub(super) use boxes::boxes;
 use constraint::Constraint;
 use impulses::Impulses;
 use link::Link;
-use pass::Pass;
-use report::report;
-pub(super) use body::SolverBody;
-pub(super) use boxes::{Rectangle, boxes};
 pub(super) use manifold::{Manifold, Window};
+use pass::Pass;
+pub(super) use rectangle::Rectangle;
+use report::report;
 pub(super) use warm_start::CompactSolver;
 
 /// Minimum number of passes over all contacts in a sub-step, usually and while a ball is jammed: with

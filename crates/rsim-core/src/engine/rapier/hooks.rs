@@ -22,6 +22,10 @@ const REACH: f32 = 5e-3;
 /// presses, a corner at a corner would change its face from tick to tick.
 const PRESSING: f32 = 0.1;
 
+/// Speed of corners by rotation, m/s, above which boxes keep that contact: the search takes headings to be
+/// constant for a tick.
+const SPINNING: f32 = 0.5;
+
 /// Cosine of the angle between two normals up to which they are of one face.
 const SAME_FACE: f32 = 0.9;
 
@@ -54,7 +58,11 @@ impl PhysicsHooks for BallRules<'_> {
         let approached = |other: &Collider, outline: Outline| {
             let (pose, (velocity, spin)) = (other.position(), motion(other));
             Approached {
-                place: PlacedOutline { outline, position: pose.translation, heading: pose.rotation },
+                place: PlacedOutline {
+                    outline,
+                    position: pose.translation,
+                    heading: pose.rotation,
+                },
                 velocity: ball_velocity - velocity,
                 spin,
             }
@@ -116,10 +124,14 @@ impl BallRules<'_> {
                 ..SolverBody::default()
             }
         });
-        let [a, b] = [(&a, first), (&b, second)]
-            .map(|(body, half)| Rectangle { body, half, radius: half.length() });
+        let [a, b] = [(&a, first), (&b, second)].map(|(body, half)| Rectangle {
+            body,
+            half,
+            radius: half.length(),
+        });
         let rims = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
-        if (b.body.velocity - a.body.velocity).length() + rims < PRESSING {
+        let speed = (b.body.velocity - a.body.velocity).length();
+        if speed + rims < PRESSING || rims > SPINNING {
             return;
         }
         let window = Window { time: self.time, reach: distance.max(0.0) + REACH };

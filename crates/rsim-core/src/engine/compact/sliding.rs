@@ -5,32 +5,16 @@
 //! box whose corner is a hundredth of a millimetre deep in a face comes upon the side of the next box
 //! first there. So an edge counts only if it protrudes.
 
-use super::boxes::{Face, Rectangle};
+use super::rectangle::{Face, Met, Rectangle};
+use crate::engine::joints::PROTRUDING;
 use crate::math::Vector;
-
-/// Depth, m, up to which a corner slides over an edge: real corners are not sharper. Robots that slide along
-/// others sink into them by up to a tenth of a millimetre, also by turning over a gap.
-const PROTRUDING: f32 = 5e-4;
 
 /// Speed, m/s, by which boxes must close slower along the face that they slide along than along the
 /// one that they would catch on. Boxes that press close by less.
 const SLIDING: f32 = 0.02;
 
-/// The face of one of two boxes that they meet at.
-#[derive(Clone, Copy)]
-pub(super) struct Met {
-    pub(super) face: Face,
-    /// Whether it is of the second box.
-    pub(super) of_second: bool,
-}
-
 /// The face that two boxes meet at: that of `found`, or another that they slide along.
-pub(super) fn slide(
-    boxes: [&Rectangle; 2],
-    faces: &[[Face; 2]; 2],
-    found: Met,
-    time: f32,
-) -> Met {
+pub(super) fn slide(boxes: [&Rectangle; 2], faces: &[[Face; 2]; 2], found: Met, time: f32) -> Met {
     let deep = |face: &Face| face.separation < -PROTRUDING;
     let other = 1 - found.face.axis;
     let own = usize::from(found.of_second);
@@ -75,13 +59,4 @@ fn velocity_at_corner(boxes: [&Rectangle; 2], met: &Met) -> Vector {
         [arm + apart, arm]
     };
     b.body.velocity + arms[1].perp() * b.body.spin - a.body.velocity - arms[0].perp() * a.body.spin
-}
-
-impl Rectangle<'_> {
-    /// The farthest corner in a direction, from the centre, m.
-    fn corner(&self, direction: Vector) -> Vector {
-        let [x, y] = self.axes();
-        let along = |axis: Vector, half: f32| axis * half.copysign(axis.dot(direction));
-        along(x, self.half.x) + along(y, self.half.y)
-    }
 }
