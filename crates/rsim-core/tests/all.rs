@@ -14,6 +14,7 @@ mod floor;
 mod golden;
 mod input;
 mod jerk;
+mod joints;
 mod kickers;
 mod layers;
 mod mirror;

@@ -26,8 +26,9 @@ const PRESSING: f32 = 0.1;
 /// constant for a tick.
 const SPINNING: f32 = 0.5;
 
-/// Cosine of the angle between two normals up to which they are of one face.
-const SAME_FACE: f32 = 0.9;
+/// Cosine of the angle between two normals up to which they are of one face. Of two corners that pass each
+/// other the engine finds a normal between those of their faces.
+const SAME_FACE: f32 = 0.999;
 
 impl PhysicsHooks for BallRules<'_> {
     // Only the ball's collider asks for hooks, so one of each pair is the ball.
