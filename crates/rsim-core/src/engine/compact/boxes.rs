@@ -2,7 +2,7 @@
 
 use super::manifold::{Manifold, Point, TOUCHING, Window};
 use super::rectangle::{Face, Met, Rectangle};
-use super::sliding::slide;
+use super::sliding::{press, slide};
 use crate::math::Vector;
 
 /// Advantages that the faces of the second box need to become the reference, m and fraction of a
@@ -12,18 +12,26 @@ const TIME_BIAS: f32 = 0.02;
 
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
 pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
-    let (faces, found) = search(&a, &b, window)?;
-    let met = slide([&a, &b], &faces, found, window.time);
+    let velocity = b.body.velocity - a.body.velocity;
+    // Bound of the speed by rotation at which the gap shrinks.
+    let rim = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
+    let (faces, mut met) = search(&a, &b, velocity, rim, window)?;
+    if !press(velocity, rim) {
+        met = slide([&a, &b], &faces, met, window.time);
+    }
     clip([&a, &b], met, window.time)
 }
 
 /// All faces of two rectangles, and the one along which they come to overlap last, if they can touch.
-fn search(a: &Rectangle, b: &Rectangle, window: Window) -> Option<([[Face; 2]; 2], Met)> {
+fn search(
+    a: &Rectangle,
+    b: &Rectangle,
+    velocity: Vector,
+    rim: f32,
+    window: Window,
+) -> Option<([[Face; 2]; 2], Met)> {
     let [heading_a, heading_b] = [a.body.heading, b.body.heading];
     let apart = b.body.position - a.body.position;
-    let velocity = b.body.velocity - a.body.velocity;
-    // Bound of the speed by rotation at which the gap shrinks.
-    let rim = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
     let cos = heading_a.dot(heading_b).abs();
     let sin = heading_a.perp_dot(heading_b).abs();
     // Half the width of the other rectangle along this one's axes.

@@ -13,12 +13,18 @@ use crate::math::Vector;
 /// one that they would catch on. Boxes that press close by less.
 const SLIDING: f32 = 0.02;
 
+/// Whether two boxes are so slow that they do not slide, by the velocity of their centres and the speed of their
+/// corners by rotation, m/s.
+pub(super) fn press(velocity: Vector, rim: f32) -> bool {
+    let most = SLIDING - rim;
+    most > 0.0 && velocity.length_squared() < most * most
+}
+
 /// The face that two boxes meet at: that of `found`, or another that they slide along.
 pub(super) fn slide(boxes: [&Rectangle; 2], faces: &[[Face; 2]; 2], found: Met, time: f32) -> Met {
     let deep = |face: &Face| face.separation < -PROTRUDING;
     let other = 1 - found.face.axis;
     let own = usize::from(found.of_second);
-    // Usually only the found face and that of the other box which lies on it have no depth.
     if faces[1 - own].iter().all(deep) && deep(&faces[own][other]) {
         return found;
     }
