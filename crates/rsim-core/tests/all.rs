@@ -21,6 +21,7 @@ mod mirror;
 mod mouth;
 mod omni;
 mod placement;
+mod pressing;
 mod records;
 mod reposition;
 mod shots;

@@ -12,26 +12,11 @@ const TIME_BIAS: f32 = 0.02;
 
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
 pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
+    let [heading_a, heading_b] = [a.body.heading, b.body.heading];
+    let apart = b.body.position - a.body.position;
     let velocity = b.body.velocity - a.body.velocity;
     // Bound of the speed by rotation at which the gap shrinks.
     let rim = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
-    let (faces, mut met) = search(&a, &b, velocity, rim, window)?;
-    if !press(velocity, rim) {
-        met = slide([&a, &b], &faces, met, window.time);
-    }
-    clip([&a, &b], met, window.time)
-}
-
-/// All faces of two rectangles, and the one along which they come to overlap last, if they can touch.
-fn search(
-    a: &Rectangle,
-    b: &Rectangle,
-    velocity: Vector,
-    rim: f32,
-    window: Window,
-) -> Option<([[Face; 2]; 2], Met)> {
-    let [heading_a, heading_b] = [a.body.heading, b.body.heading];
-    let apart = b.body.position - a.body.position;
     let cos = heading_a.dot(heading_b).abs();
     let sin = heading_a.perp_dot(heading_b).abs();
     // Half the width of the other rectangle along this one's axes.
@@ -44,24 +29,26 @@ fn search(
     };
     let all_of_a = faces(heading_a, a.half + width(b.half))?;
     let all_of_b = faces(heading_b, b.half + width(a.half))?;
-    let (of_a, of_b) = (last(all_of_a), last(all_of_b));
+    let mut met = last_of_both(last(all_of_a), last(all_of_b), window.time);
+    if !press(velocity, rim) {
+        met = slide([&a, &b], &[all_of_a, all_of_b], met, window.time);
+    }
+    if met.of_second {
+        b.clip(&a, met.face, window.time, 0).map(Manifold::reversed)
+    } else {
+        a.clip(&b, met.face, window.time, 1)
+    }
+}
+
+/// The face along which two boxes come to overlap last, or least, of one face of each.
+fn last_of_both(of_a: Face, of_b: Face, time: f32) -> Met {
     let later = of_b.after - of_a.after;
-    let of_second = if later.abs() > TIME_BIAS * window.time {
+    let of_second = if later.abs() > TIME_BIAS * time {
         later > 0.0
     } else {
         of_b.separation > of_a.separation + SEPARATION_BIAS
     };
-    let face = if of_second { of_b } else { of_a };
-    Some(([all_of_a, all_of_b], Met { face, of_second }))
-}
-
-/// Contact points of the rectangle that does not have the face, on it.
-fn clip([a, b]: [&Rectangle; 2], met: Met, time: f32) -> Option<Manifold> {
-    if met.of_second {
-        b.clip(a, met.face, time, 0).map(Manifold::reversed)
-    } else {
-        a.clip(b, met.face, time, 1)
-    }
+    Met { face: if of_second { of_b } else { of_a }, of_second }
 }
 
 /// The face of a box along which the other comes to overlap last, or least.

@@ -85,8 +85,11 @@ impl Pass {
             return Row { speed, stretch: 1.0, mass_scale: 1.0 };
         }
         let depth = (separation + ALLOWED_DEPTH).min(0.0);
-        let push = (self.bias_rate * depth).min(self.deep_rate * depth + self.deep_offset);
-        let speed = speed + push.max(-MAX_PUSH_SPEED);
-        Row { speed, stretch: self.stretch, mass_scale: self.mass_scale }
+        let push = if depth > -DEEP {
+            self.bias_rate * depth
+        } else {
+            (self.deep_rate * depth + self.deep_offset).max(-MAX_PUSH_SPEED)
+        };
+        Row { speed: speed + push, stretch: self.stretch, mass_scale: self.mass_scale }
     }
 }
