@@ -94,7 +94,7 @@ fn energy_of(scene: &Scene, mass: f32, state: &[f32]) -> f32 {
         let [v_x, v_y, spin] = [robot[4], robot[5], robot[6]];
         mass * (model.mass * (v_x * v_x + v_y * v_y + plate * spin * spin))
     });
-    (ball.mass * (square("v_x") + rolling) + robots.sum::<f32>()) / 2.0
+    f32::midpoint(ball.mass * (square("v_x") + rolling), robots.sum())
 }
 
 /// Speeds of a ball that rolls at `speed` (m/s) into the row at an angle (degrees): across before, and across

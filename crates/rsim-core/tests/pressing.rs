@@ -8,9 +8,8 @@ use rsim_core::{Body, RobotModel, SimConfig};
 /// Speed of bodies at rest, m/s. The slowest creep of a loaded tyre is as fast.
 const REST: f32 = 0.008;
 
-/// Time for a crowd to come to rest, and time at rest, s.
+/// Time for a crowd to come to rest, and then a sixth of it at rest, s.
 const SETTLING: f32 = 6.0;
-const RESTING: f32 = 1.0;
 
 /// Distance from a robot's centre to its side, m.
 fn side(model: &RobotModel) -> f32 {
@@ -42,9 +41,10 @@ fn crowds(robots: usize) -> [(SimConfig, [f32; 3]); 2] {
 }
 
 fn check_rest(scene: &Scene, label: &str) {
-    let rows = scene.every_tick(SETTLING + RESTING);
+    let rows = scene.every_tick(SETTLING * 7.0 / 6.0);
     let v_x = ball_column("v_x");
-    for row in rows.iter().rev().take(steps(RESTING, scene.config.tick) as usize) {
+    let settled = rows.len() * 6 / 7;
+    for row in &rows[settled..] {
         let ball = row[v_x].hypot(row[v_x + 1]);
         assert!(ball < REST, "{label}: the ball moves at {ball} m/s");
         for (index, robot) in robots(row).enumerate() {
