@@ -9,6 +9,7 @@ mod ball_contact;
 mod compact;
 mod contact_free;
 mod contacts;
+mod joints;
 mod near;
 mod rapier;
 mod shapes;

@@ -221,7 +221,7 @@ mod tests {
             let config = SimConfig { engine: EngineKind::Compact, ..config };
             let mut scene = Scene::lined_up("crowd", config, Driver::Chase);
             let (mut most, mut space) = (0, 0);
-            for seed in 0..4 {
+            for seed in 0..10 {
                 scene.scatter(seed);
                 let (mut world, mut row) = (scene.world(), scene.start.clone());
                 for step in 0..200 {

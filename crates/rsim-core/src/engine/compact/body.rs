@@ -8,22 +8,22 @@ use crate::math::{Rotation, Vector};
 
 /// A body or wall, on a straight path within a sub-step.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct SolverBody {
+pub(in crate::engine) struct SolverBody {
     /// m.
-    pub(super) position: Vector,
+    pub(in crate::engine) position: Vector,
     /// Cosine and sine of the heading.
-    pub(super) heading: Vector,
+    pub(in crate::engine) heading: Vector,
     /// m/s.
-    pub(super) velocity: Vector,
+    pub(in crate::engine) velocity: Vector,
     /// rad/s.
-    pub(super) spin: f32,
+    pub(in crate::engine) spin: f32,
     /// 1/kg, and 1/(kg m²); 0 for a wall.
-    pub(super) inverse_mass: f32,
-    pub(super) inverse_inertia: f32,
+    pub(in crate::engine) inverse_mass: f32,
+    pub(in crate::engine) inverse_inertia: f32,
 }
 
 impl SolverBody {
-    pub(super) fn of(motion: &Motion, inverse: InverseInertia) -> Self {
+    pub(in crate::engine) fn of(motion: &Motion, inverse: InverseInertia) -> Self {
         Self {
             position: motion.position,
             heading: motion.heading,
@@ -34,7 +34,7 @@ impl SolverBody {
         }
     }
 
-    pub(super) fn of_wall(place: &PlacedOutline) -> Self {
+    pub(in crate::engine) fn of_wall(place: &PlacedOutline) -> Self {
         Self {
             position: place.position,
             heading: Vector::new(place.heading.re, place.heading.im),
@@ -45,25 +45,25 @@ impl SolverBody {
         }
     }
 
-    pub(super) fn motion(&self) -> Motion {
+    pub(in crate::engine) fn motion(&self) -> Motion {
         let Self { position, heading, velocity, spin, .. } = *self;
         Motion { position, heading, velocity, spin }
     }
 
     /// Outline of the body where it is.
-    pub(super) fn placed(&self, outline: Outline) -> PlacedOutline {
+    pub(in crate::engine) fn placed(&self, outline: Outline) -> PlacedOutline {
         let heading = Rotation { re: self.heading.x, im: self.heading.y };
         PlacedOutline { outline, position: self.position, heading }
     }
 
     /// Accelerates the body for `time` (s).
-    pub(super) fn accelerate(&mut self, acceleration: Acceleration, time: f32) {
+    pub(in crate::engine) fn accelerate(&mut self, acceleration: Acceleration, time: f32) {
         self.velocity += acceleration.linear * time;
         self.spin += acceleration.angular * time;
     }
 
     /// Moves the body for `time` (s).
-    pub(super) fn advance(&mut self, time: f32) {
+    pub(in crate::engine) fn advance(&mut self, time: f32) {
         self.position += self.velocity * time;
         self.heading = rotated(self.heading, self.spin * time);
     }

@@ -1,7 +1,8 @@
 //! Contact points of two rectangles within one sub-step.
 
-use super::body::SolverBody;
 use super::manifold::{Manifold, Point, TOUCHING, Window};
+use super::rectangle::{Face, Met, Rectangle};
+use super::sliding::{press, slide};
 use crate::math::Vector;
 
 /// Advantages that the faces of the second box need to become the reference, m and fraction of a
@@ -9,30 +10,8 @@ use crate::math::Vector;
 const SEPARATION_BIAS: f32 = 1e-4;
 const TIME_BIAS: f32 = 0.02;
 
-/// A rectangle on its straight path.
-#[derive(Clone, Copy)]
-pub(super) struct Rectangle<'a> {
-    pub(super) body: &'a SolverBody,
-    /// Half sides, m.
-    pub(super) half: Vector,
-    /// Distance of the corners from the centre, m.
-    pub(super) radius: f32,
-}
-
-/// A face of one of two rectangles, as the direction between them.
-#[derive(Debug, Clone, Copy)]
-struct Face {
-    /// 0 for the faces along the box's x axis, 1 for y.
-    axis: usize,
-    /// Now, m.
-    separation: f32,
-    /// Time after which the boxes overlap along this direction, s, at most twice the sub-step; 0 if
-    /// they do now.
-    after: f32,
-}
-
 /// Contact of two rectangles that touch in the sub-step, or that are within the reach of a push.
-pub(super) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
+pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifold> {
     let [heading_a, heading_b] = [a.body.heading, b.body.heading];
     let apart = b.body.position - a.body.position;
     let velocity = b.body.velocity - a.body.velocity;
@@ -43,25 +22,39 @@ pub(super) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Option<Manifo
     // Half the width of the other rectangle along this one's axes.
     let width =
         |half: Vector| Vector::new(half.x * cos + half.y * sin, half.x * sin + half.y * cos);
-    let last = |heading: Vector, extent: Vector| {
+    let faces = |heading: Vector, extent: Vector| {
         let x = face(0, heading, extent.x, apart, velocity, rim, window)?;
         let y = face(1, heading.perp(), extent.y, apart, velocity, rim, window)?;
-        let y_is_later = y.after > x.after || y.after >= x.after && y.separation > x.separation;
-        Some(if y_is_later { y } else { x })
+        Some([x, y])
     };
-    let of_a = last(heading_a, a.half + width(b.half))?;
-    let of_b = last(heading_b, b.half + width(a.half))?;
+    let all_of_a = faces(heading_a, a.half + width(b.half))?;
+    let all_of_b = faces(heading_b, b.half + width(a.half))?;
+    let mut met = last_of_both(last(all_of_a), last(all_of_b), window.time);
+    if !press(velocity, rim) {
+        met = slide([&a, &b], &[all_of_a, all_of_b], met, window.time);
+    }
+    if met.of_second {
+        b.clip(&a, met.face, window.time, 0).map(Manifold::reversed)
+    } else {
+        a.clip(&b, met.face, window.time, 1)
+    }
+}
+
+/// The face along which two boxes come to overlap last, or least, of one face of each.
+fn last_of_both(of_a: Face, of_b: Face, time: f32) -> Met {
     let later = of_b.after - of_a.after;
-    let b_is_reference = if later.abs() > TIME_BIAS * window.time {
+    let of_second = if later.abs() > TIME_BIAS * time {
         later > 0.0
     } else {
         of_b.separation > of_a.separation + SEPARATION_BIAS
     };
-    if b_is_reference {
-        b.clip(&a, of_b, window.time, 0).map(Manifold::reversed)
-    } else {
-        a.clip(&b, of_a, window.time, 1)
-    }
+    Met { face: if of_second { of_b } else { of_a }, of_second }
+}
+
+/// The face of a box along which the other comes to overlap last, or least.
+fn last([x, y]: [Face; 2]) -> Face {
+    let y_is_later = y.after > x.after || y.after >= x.after && y.separation > x.separation;
+    if y_is_later { y } else { x }
 }
 
 /// The face along `direction`. The face along which the other rectangle comes to overlap last is the
@@ -88,10 +81,6 @@ fn face(
 }
 
 impl Rectangle<'_> {
-    fn axes(&self) -> [Vector; 2] {
-        [self.body.heading, self.body.heading.perp()]
-    }
-
     /// Contact points of another rectangle on a face of this one.
     fn clip(&self, other: &Self, face: Face, time: f32, tag: u32) -> Option<Manifold> {
         let (own, axes) = (self.axes(), other.axes());
@@ -140,6 +129,7 @@ const POINT: u32 = 1 << 4;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::compact::body::SolverBody;
     use crate::engine::shapes::Shape;
     use crate::geometry::outline::Outline;
     use crate::geometry::outline::PlacedOutline;

@@ -3,6 +3,7 @@
 use super::body::SolverBody;
 use super::manifold::{Manifold, TOUCHING, Window};
 use crate::engine::ball_contact::{Approached, Touch};
+use crate::engine::joints::Ball;
 use crate::geometry::outline::Outline;
 use crate::math::Vector;
 
@@ -14,20 +15,23 @@ pub(super) struct Disc<'a> {
     pub(super) radius: f32,
 }
 
-/// Contact of the ball with a robot or wall; a squeezed ball has one with all around it.
-pub(super) fn meet_ball(
-    met: &SolverBody,
-    outline: Outline,
-    ball: Disc,
-    squeezed: bool,
-    time: f32,
+/// Contact of the ball with a robot or wall, in a search that `ball` describes; a squeezed ball has one with
+/// all around it. `others` are those beside which `met` may have a joint.
+pub(super) fn meet_ball<'a>(
+    met: (&SolverBody, Outline),
+    body: &SolverBody,
+    ball: Ball,
+    others: impl Iterator<Item = (&'a SolverBody, Outline)>,
 ) -> Option<Manifold> {
-    let (center, radius) = (ball.body.position, ball.radius);
-    let touch = if squeezed {
-        Touch::of(&met.placed(outline).nearest(center), center, radius)
+    let (met, outline) = met;
+    let Ball { center, radius, time } = ball;
+    let touch = if time > 0.0 {
+        approached(met, outline, body).touch(center, radius, time)?
     } else {
-        approached(met, outline, ball.body).touch(center, radius, time)?
+        Touch::of(&met.placed(outline).nearest(center), center, radius)
     };
+    let others = others.map(|(other, outline)| approached(other, outline, body));
+    let touch = ball.over_joints(touch, &approached(met, outline, body), others);
     Some(manifold_of(&touch, met, radius))
 }
 

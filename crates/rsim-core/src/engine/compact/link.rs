@@ -2,15 +2,17 @@
 
 use super::SubStep;
 use super::body::SolverBody;
-use super::boxes::{Rectangle, boxes};
+use super::boxes::boxes;
 use super::constraint::Constraint;
 use super::discs::{Disc, discs, meet_ball, outline_and_disc};
 use super::impulses::Impulses;
-use super::manifold::Manifold;
+use super::manifold::{Manifold, Window};
+use super::rectangle::Rectangle;
 use crate::blocks::BALL;
 use crate::engine::WALL_FRICTION;
 use crate::engine::ball_contact::BallRules;
 use crate::engine::contacts::Partner;
+use crate::engine::joints::Ball;
 use crate::engine::near::{Other, Pair};
 use crate::geometry::outline::Outline;
 use crate::math::Vector;
@@ -98,20 +100,34 @@ impl Link {
     pub(super) fn constraint(
         &self,
         index: usize,
+        links: &[Self],
         bodies: &[SolverBody],
         step: &SubStep,
     ) -> Option<Constraint> {
         let pair = [self.first, self.second];
-        let manifold = self.manifold(pair.map(|body| &bodies[body]), step)?;
+        let manifold = if self.second == BALL {
+            self.meet_ball(links, bodies, step)
+        } else {
+            self.manifold(pair.map(|body| &bodies[body]), step.window)
+        }?;
         Some(Constraint::new(index, pair, bodies, &manifold, self.friction, &self.impulses))
     }
 
-    fn manifold(&self, [a, b]: [&SolverBody; 2], step: &SubStep) -> Option<Manifold> {
-        let window = step.window;
-        if self.second == BALL {
-            let ball = Disc { body: b, radius: self.radii[1] };
-            return meet_ball(a, self.outlines[0], ball, step.squeezed, window.time);
-        }
+    /// Contact with the ball; of `links`, those of other boxes with it may have a joint with this one.
+    fn meet_ball(&self, links: &[Self], bodies: &[SolverBody], step: &SubStep) -> Option<Manifold> {
+        let body = &bodies[BALL];
+        let time = if step.squeezed { 0.0 } else { step.window.time };
+        let ball = Ball { center: body.position, radius: self.radii[1], time };
+        let met = |link: &Self| (&bodies[link.first], link.outlines[0]);
+        let others = links.iter().filter(|other| {
+            other.second == BALL
+                && other.first != self.first
+                && matches!(other.outlines[0], Outline::Box { .. })
+        });
+        meet_ball(met(self), body, ball, others.map(met))
+    }
+
+    fn manifold(&self, [a, b]: [&SolverBody; 2], window: Window) -> Option<Manifold> {
         match self.outlines {
             [Outline::Disc { .. }, Outline::Disc { .. }] => {
                 let [a, b] = [(a, self.radii[0]), (b, self.radii[1])]

@@ -8,50 +8,50 @@ use crate::math::Vector;
 
 /// Gap up to which outlines count as touching, m, whatever their velocities: contacts of robots that
 /// push each other keep their impulses from one sub-step to the next.
-pub(super) const TOUCHING: f32 = 5e-5;
+pub(in crate::engine) const TOUCHING: f32 = 5e-5;
 
 /// Contact points of a pair, at most two.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Manifold {
+pub(in crate::engine) struct Manifold {
     /// Unit vector from the first to the second.
-    pub(super) normal: Vector,
+    pub(in crate::engine) normal: Vector,
     points: [Point; 2],
     count: usize,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Point {
+pub(in crate::engine) struct Point {
     /// From both bodies' centres to the point when they touch, m.
-    pub(super) arms: [Vector; 2],
+    pub(in crate::engine) arms: [Vector; 2],
     /// Now, along the normal, m; negative for overlapping outlines.
-    pub(super) separation: f32,
+    pub(in crate::engine) separation: f32,
     /// Identifies the point from one sub-step to the next.
-    pub(super) feature: u32,
+    pub(in crate::engine) feature: u32,
 }
 
 impl Manifold {
     /// A manifold without points.
-    pub(super) fn empty(normal: Vector) -> Self {
+    pub(in crate::engine) fn empty(normal: Vector) -> Self {
         Self { normal, points: [Point::default(); 2], count: 0 }
     }
 
-    pub(super) fn of_point(normal: Vector, arms: [Vector; 2], separation: f32) -> Self {
+    pub(in crate::engine) fn of_point(normal: Vector, arms: [Vector; 2], separation: f32) -> Self {
         let mut manifold = Self::empty(normal);
         manifold.push(Point { arms, separation, feature: 1 });
         manifold
     }
 
-    pub(super) fn push(&mut self, point: Point) {
+    pub(in crate::engine) fn push(&mut self, point: Point) {
         self.points[self.count] = point;
         self.count += 1;
     }
 
-    pub(super) fn points(&self) -> &[Point] {
+    pub(in crate::engine) fn points(&self) -> &[Point] {
         &self.points[..self.count]
     }
 
     /// The manifold with first and second exchanged.
-    pub(super) fn reversed(mut self) -> Self {
+    pub(in crate::engine) fn reversed(mut self) -> Self {
         self.points.iter_mut().for_each(|point| point.arms.reverse());
         Self { normal: -self.normal, ..self }
     }
@@ -59,10 +59,10 @@ impl Manifold {
 
 /// Bounds of the search for a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Window {
+pub(in crate::engine) struct Window {
     /// Length of the sub-step, s.
-    pub(super) time: f32,
+    pub(in crate::engine) time: f32,
     /// Gap up to which bodies have a contact though their paths do not meet, m: others may push them
     /// together within the sub-step.
-    pub(super) reach: f32,
+    pub(in crate::engine) reach: f32,
 }

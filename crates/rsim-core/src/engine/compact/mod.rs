@@ -19,7 +19,9 @@ mod impulses;
 mod link;
 mod manifold;
 mod pass;
+mod rectangle;
 mod report;
+mod sliding;
 mod two_points;
 mod warm_start;
 
@@ -29,12 +31,14 @@ use super::near::Pair;
 use crate::blocks::{BALL, set_bits};
 use crate::bodies::{Acceleration, Bodies, SubSteps, WarmStart};
 use crate::body_params::BodyParams;
-use body::SolverBody;
+pub(super) use body::SolverBody;
+pub(super) use boxes::boxes;
 use constraint::Constraint;
 use impulses::Impulses;
 use link::Link;
-use manifold::Window;
+pub(super) use manifold::{Manifold, Window};
 use pass::Pass;
+pub(super) use rectangle::Rectangle;
 use report::report;
 pub(super) use warm_start::CompactSolver;
 
@@ -158,7 +162,7 @@ impl CompactScratch {
             let last = previous.next_if(|constraint| constraint.link == index);
             if let Some(steady) = last.filter(|_| link.is_steady(bodies)) {
                 constraints.push(*steady);
-            } else if let Some(constraint) = link.constraint(index, bodies, step) {
+            } else if let Some(constraint) = link.constraint(index, links, bodies, step) {
                 constraints.push(constraint);
             }
         }

@@ -17,6 +17,7 @@ use crate::engine::contacts::Partner;
 use crate::engine::{SUB_STEPS, Shape, WALL_FRICTION};
 use crate::geometry::arena::Wall;
 use crate::models::config::SimConfig;
+use crate::models::robot::Body;
 
 impl RapierSolver {
     pub(in crate::engine) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
@@ -71,6 +72,10 @@ impl RapierSolver {
             .restitution(0.0)
             .friction(model.friction)
             .user_data(label(Partner::Robot(index)));
+        let collider = match model.body {
+            Body::Square { .. } => collider.active_hooks(ActiveHooks::MODIFY_SOLVER_CONTACTS),
+            Body::Round { .. } => collider,
+        };
         self.insert(awake_body(), collider);
     }
 
