@@ -20,7 +20,7 @@ use crate::tick::squeeze::Squeeze;
 pub(crate) use commands::StepCommands;
 
 /// Version of the physics, raised whenever the same start and commands would give other states.
-pub const PHYSICS_VERSION: u32 = 6;
+pub const PHYSICS_VERSION: u32 = 7;
 
 /// Inputs of a tick.
 pub(crate) struct Tick<'a> {

@@ -3,7 +3,10 @@
 use crate::ball::state::BallState;
 use crate::blocks::BALL;
 use crate::body_params::BodyParams;
-use crate::columns::{BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
+use crate::columns::{
+    BALL_COLUMNS, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE,
+    ROBOT_COLUMNS,
+};
 use crate::engine::Shape;
 use crate::error::PlaceError;
 use crate::geometry::arena::{Wall, position_limit};
@@ -23,6 +26,13 @@ const HEADING_TOLERANCE: f32 = 1e-3;
 /// Error of the squared length of a heading by rounding, up to which it is unchanged, so that a state
 /// that was read can be placed again exactly.
 const HEADING_ERROR: f32 = 1e-5;
+
+/// Number of columns of the ball, and of a robot, that a match starts from.
+const PLACED_OF_BALL: usize = 9;
+const PLACED_OF_ROBOT: usize = 7;
+
+/// A vector that was drawn up to a maximum may be a rounding error above it.
+const ROUNDED: f32 = 1.0 + 1e-6;
 
 /// Motions of all bodies in a row.
 #[derive(Debug, Clone)]
@@ -65,9 +75,8 @@ impl Placement {
         let (columns, robots) = row.split_at(BALL_COLUMNS.len());
         let BallStart { motion, ball } = self.read_ball_alone(columns)?;
         let mut motions = vec![motion];
-        motions.extend(robots.chunks_exact(ROBOT_COLUMNS.len()).map(read_robot));
-        for (who, motion) in motions.iter_mut().enumerate().skip(1) {
-            self.check_alone(who, motion, 0.0)?;
+        for (who, columns) in (1..).zip(robots.chunks_exact(ROBOT_COLUMNS.len())) {
+            motions.push(self.read_robot_alone(who, columns)?);
         }
         for second in 1..motions.len() {
             self.check_ball(second, &motions, &ball, params)?;
@@ -96,29 +105,66 @@ impl Placement {
 
     /// Reads a start of the ball and checks it against the field.
     fn read_ball_alone(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
+        self.check_finite(BALL, &BALL_COLUMNS[..PLACED_OF_BALL], columns)?;
         let (mut motion, ball) = read_ball(columns);
-        if !ball.is_finite() {
-            return Err(PlaceError::NotFinite { who: self.names[BALL].clone() });
-        }
         if ball.z < 0.0 {
             return Err(PlaceError::Below { z: ball.z });
         }
+        if ball.z > MAX_PLACED_HEIGHT {
+            return Err(PlaceError::TooHigh { z: ball.z });
+        }
+        self.check_speed(BALL, "v_x, v_y, v_z", motion.velocity.extend(ball.v_z))?;
+        let spin = ball.spin.length();
+        if spin > MAX_PLACED_SPIN * ROUNDED {
+            return Err(PlaceError::SpinsTooFast { spin });
+        }
         self.check_alone(BALL, &mut motion, ball.z)?;
         Ok(BallStart { motion, ball })
+    }
+
+    /// Reads a start of a robot and checks it against the field.
+    fn read_robot_alone(&self, who: usize, columns: &[f32]) -> Result<Motion, PlaceError> {
+        self.check_finite(who, &ROBOT_COLUMNS[..PLACED_OF_ROBOT], columns)?;
+        let mut motion = read_robot(columns);
+        self.check_speed(who, "v_x, v_y", motion.velocity.extend(0.0))?;
+        let rate = motion.spin;
+        if rate.abs() > MAX_PLACED_TURN_RATE * ROUNDED {
+            return Err(PlaceError::TurnsTooFast { who: self.names[who].clone(), rate });
+        }
+        self.check_alone(who, &mut motion, 0.0)?;
+        Ok(motion)
+    }
+
+    /// Checks that the values of these columns are finite.
+    fn check_finite(
+        &self,
+        who: usize,
+        names: &[&'static str],
+        columns: &[f32],
+    ) -> Result<(), PlaceError> {
+        let mut wrong = names.iter().zip(columns).filter(|(_, value)| !value.is_finite());
+        wrong.next().map_or(Ok(()), |(column, got)| {
+            Err(PlaceError::NotFinite { who: self.names[who].clone(), column, got: *got })
+        })
+    }
+
+    fn check_speed(
+        &self,
+        who: usize,
+        columns: &'static str,
+        velocity: Vec3,
+    ) -> Result<(), PlaceError> {
+        let speed = velocity.length();
+        if speed > MAX_PLACED_SPEED * ROUNDED {
+            return Err(PlaceError::TooFast { who: self.names[who].clone(), columns, speed });
+        }
+        Ok(())
     }
 
     /// Checks a body against the field, and normalises its heading.
     fn check_alone(&self, who: usize, motion: &mut Motion, z: f32) -> Result<(), PlaceError> {
         let name = || self.names[who].clone();
         let Motion { position, heading, .. } = *motion;
-        if !motion.is_finite() {
-            return Err(PlaceError::NotFinite { who: name() });
-        }
-        let speed = motion.velocity.length();
-        // A velocity that was drawn up to the maximum may be a rounding error above it.
-        if speed > MAX_PLACED_SPEED * (1.0 + 1e-6) {
-            return Err(PlaceError::TooFast { who: name(), speed });
-        }
         if (heading.length() - 1.0).abs() > HEADING_TOLERANCE {
             return Err(PlaceError::Heading { who: name(), cos: heading.x, sin: heading.y });
         }
