@@ -159,7 +159,8 @@ def fit_start(run: Run, law: Rolling) -> Array:
     speed = (run.distances[-1] - run.distances[0]) / max(times[-1], 1e-3)
 
     def residuals(start: Array) -> Array:
-        return start[0] + rolled(law, start[1], times) - run.distances
+        missing: Array = start[0] + rolled(law, start[1], times) - run.distances
+        return missing
 
     return least_squares(residuals, np.array([run.distances[0], 1.2 * speed]), OUTLIER)
 
@@ -276,10 +277,10 @@ def fit_venue(folder: Path, every_row: bool, drag: float | None) -> dict[str, ob
         )
         others = [run for name, parts in runs.items() if name != kick.name for run in parts]
         by_others = fit_rolling(others, drag)
-        first, *bounced = runs[kick.name] or [None]
-        prediction = predict(first, by_others) if first is not None else None
+        parts = runs[kick.name]
+        prediction = predict(parts[0], by_others) if parts else None
         print(f"    by the others, {by_others}: {prediction}")
-        shown.append(_figures(kick, slide, prediction, [first, *bounced]))
+        shown.append(_figures(kick, slide, prediction, parts))
     return figures | {"kicks": shown}
 
 
@@ -296,13 +297,9 @@ def _rolling_runs(kicks: list[Kick], slides: dict[str, Array]) -> dict[str, list
 
 
 def _figures(
-    kick: Kick, slide: Array, prediction: Prediction | None, runs: list[Run | None]
+    kick: Kick, slide: Array, prediction: Prediction | None, runs: list[Run]
 ) -> dict[str, object]:
-    speeds = [
-        [[round(at, 2), round(speed, 3)] for at, speed in local_speeds(run)]
-        for run in runs
-        if run is not None
-    ]
+    speeds = [[[round(at, 2), round(speed, 3)] for at, speed in local_speeds(run)] for run in runs]
     numbers = {} if prediction is None else asdict(prediction)
     return {
         "kick": kick.name,

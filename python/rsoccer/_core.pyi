@@ -1163,13 +1163,13 @@ class Simulator:
                 `MAX_PLACED_HEIGHT`.
             out: Output (n, row), float32; the rows of these worlds are written.
             params: Factors on the models' numbers in these worlds (number of True, parameters),
-                float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot; from 0.001 to 1000,
-                and 0 for the ball, except its mass. None for factors of 1.
+                float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot; from 0.001 to
+                1000, and 0 for the ball, except its mass. None for factors of 1.
 
         Raises:
-            ValueError: A start is invalid (bodies overlap, are outside the field or beyond a limit; the
-                message names the column), a factor is out of its range, or an array has another
-                shape. Nothing has changed.
+            ValueError: A start is invalid (bodies overlap, are outside the field or beyond a limit,
+                whose column the message names), a factor is out of its range, or an array has
+                another shape. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
         """
 

@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer._core import BallModel
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.vectors import TINY
 
 NEWTON_STEPS: Final = 4  # of the speed of a kick: each squares the relative error
@@ -25,7 +25,9 @@ class RollingLaw:
         self.drag = np.float32(ball.rolling_drag)
         """By speed, 1/s."""
 
-    def slowing(self, speed: Floats, seconds: Floats | np.float32) -> tuple[Floats, Floats]:
+    def slowing(
+        self, speed: Floats, seconds: Floats | np.float32
+    ) -> tuple[Floats | np.float32, Floats]:
         """Return how far a ball stays behind one without friction.
 
         Args:
@@ -37,7 +39,8 @@ class RollingLaw:
         """
         if self.drag == 0:
             seconds = np.minimum(seconds, speed / self.deceleration)
-            return seconds, np.float32(0.5) * self.deceleration * seconds * seconds
+            behind: Floats = np.float32(0.5) * self.deceleration * seconds * seconds
+            return seconds, behind
         seconds = np.minimum(seconds, np.log1p(self.drag * speed / self.deceleration) / self.drag)
         fade = np.float64(self.drag) * seconds
         way = (speed + self.deceleration / self.drag) * -np.expm1(-fade) / self.drag
@@ -61,18 +64,17 @@ class RollingLaw:
         kick: Floats = np.sqrt(square / (share + twice * slides))
         if self.drag == 0:
             return kick
-        ratio = np.float64(slide_to_roll_ratio)
-        goal = distance + self._way(arrival)
+        goal, exact = distance + self._way(arrival), kick.astype(np.float64)
         for _ in range(NEWTON_STEPS):
-            rolls = ratio * kick
-            missing = goal - slides * kick * kick - self._way(rolls)
-            slope = 2 * slides * kick + ratio * rolls / (self.deceleration + self.drag * rolls)
-            kick = kick + missing / slope
-        return kick.astype(np.float32)
+            rolls = slide_to_roll_ratio * exact
+            missing = goal - slides * exact * exact - self._way(rolls)
+            slope = rolls / (self.deceleration + self.drag * rolls) * slide_to_roll_ratio
+            exact += missing / (2 * slides * exact + slope)
+        return exact.astype(np.float32)
 
-    def _way(self, speed: Floats) -> Floats:
+    def _way(self, speed: Array | Floats) -> Array:
         """Distance (m) in which a ball with drag rolls to rest, in double precision."""
         drag = np.float64(self.drag)
         rest = self.deceleration / drag
-        way: Floats = (speed - rest * np.log1p(speed / rest)) / drag
+        way: Array = (speed - rest * np.log1p(speed / rest)) / drag
         return way
