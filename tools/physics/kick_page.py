@@ -99,6 +99,6 @@ def _nearest_roll(preset: str, distance: Array, speeds: Array) -> tuple[Array, A
     for _ in range(12):  # bisection for the first speed
         first = (slow + fast) / 2
         away, simulated = roll(preset, first, float(distance[-1]))
-        too_slow = np.interp(distance, away, simulated, right=0.0).mean() < speeds.mean()
+        too_slow = np.interp(distance, away, simulated).mean() < speeds.mean()
         slow, fast = (first, fast) if too_slow else (slow, first)
     return away, simulated

@@ -104,15 +104,15 @@ impl Wheels {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
         let slip = self.slip(own.velocity, own.spin, rims);
-        let (_, holds) = self.holding(&slip, mask);
-        // Tyres that hold also compensate the load of the last tick. Those that slide give their
-        // maximum whatever the load.
-        let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
-        let slip = Slip {
-            along: [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel])),
-            across: slip.across + (holds & added.across),
-        };
-        let (holding, holds) = self.holding(&slip, mask);
+        let (mut slip, (mut holding, mut holds)) = (slip, self.holding(&slip, mask));
+        if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
+            // Tyres that hold also compensate the load of the last tick. Those that slide give their
+            // maximum whatever the load.
+            let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
+            slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
+            slip.across = slip.across + (holds & added.across);
+            (holding, holds) = self.holding(&slip, mask);
+        }
         let friction = if (holds | !mask).all() {
             holding
         } else {
@@ -140,14 +140,26 @@ impl Wheels {
         if (rolls | !mask).all() {
             return (rolling, rolls);
         }
-        let rolls = rolls | self.is_possible(&rolling);
+        let near = self.can_be_held(slip);
+        if !(near & mask & !rolls).any() {
+            return (rolling, rolls);
+        }
+        let rolls = rolls | (near & self.is_possible(&rolling));
         let (mut friction, mut holds) = (rolling, rolls);
         for wheel in [0, 1] {
             let (pivoting, pivots) = self.pivoting(slip, wheel);
             friction = friction.where_else(holds, &pivoting);
-            holds |= pivots;
+            holds |= near & pivots;
         }
         (friction, holds)
+    }
+
+    /// Whether friction of both tyres at their limits would stop the slip of one: a necessary condition of
+    /// [`Self::holding`].
+    fn can_be_held(&self, slip: &Slip) -> Lanes {
+        let [left, right] = slip.along.map(Lanes::abs);
+        smaller(left, right).simd_le((self.own + self.other.abs()) * self.drive)
+            & slip.across.abs().simd_le(self.lateral + self.lateral)
     }
 
     /// Friction that stops all slip within the tick.
