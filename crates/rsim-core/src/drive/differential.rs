@@ -110,7 +110,7 @@ impl Wheels {
             // maximum whatever the load.
             let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
             slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
-            slip.across = slip.across + (holds & added.across);
+            slip.across += holds & added.across;
             (holding, holds) = self.holding(&slip, mask);
         }
         let friction = if (holds | !mask).all() {
