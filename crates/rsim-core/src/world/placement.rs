@@ -114,7 +114,7 @@ impl Placement {
             return Err(PlaceError::TooHigh { z: ball.z });
         }
         self.check_speed(BALL, "v_x, v_y, v_z", motion.velocity.extend(ball.v_z))?;
-        let spin = ball.spin.length();
+        let spin = length(ball.spin);
         if spin > MAX_PLACED_SPIN * ROUNDED {
             return Err(PlaceError::SpinsTooFast { spin });
         }
@@ -154,7 +154,7 @@ impl Placement {
         columns: &'static str,
         velocity: Vec3,
     ) -> Result<(), PlaceError> {
-        let speed = velocity.length();
+        let speed = length(velocity);
         if speed > MAX_PLACED_SPEED * ROUNDED {
             return Err(PlaceError::TooFast { who: self.names[who].clone(), columns, speed });
         }
@@ -224,6 +224,15 @@ impl Placement {
     fn shape(&self, body: usize) -> &Shape {
         &self.robots[body - 1]
     }
+}
+
+/// Length of a vector; squares of absurd numbers are still finite.
+fn length(vector: Vec3) -> f32 {
+    let squares = vector.to_array().map(|part| f64::from(part) * f64::from(part));
+    #[allow(clippy::cast_possible_truncation)]
+    // at most the largest number of f32 times the root of 3
+    let length = squares.iter().sum::<f64>().sqrt() as f32;
+    length
 }
 
 fn pose(motion: &Motion) -> Pose {
