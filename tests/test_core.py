@@ -17,6 +17,9 @@ from rsoccer._core import (
     BALL_COLUMNS,
     COMMAND_COLUMNS,
     CROSSINGS,
+    MAX_PLACED_HEIGHT,
+    MAX_PLACED_SPIN,
+    MAX_PLACED_TURN_RATE,
     ROBOT_COLUMNS,
     Field,
     SimConfig,
@@ -374,3 +377,31 @@ def test_commands_may_have_any_memory_layout() -> None:
     ours.step(commands, rows_of(ours))
     theirs.step(np.asfortranarray(commands), rows_of(theirs))
     assert np.array_equal(rows_of(ours), rows_of(theirs))
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "message"),
+    [
+        ("v_theta", 1e38, r"blue_0 turns at 1e38 rad/s \(v_theta\); at most 200 rad/s"),
+        ("v_theta", -1.01 * MAX_PLACED_TURN_RATE, "blue_0 turns at -202"),
+        ("cos", 1e30, "heading of blue_0 must be a unit vector"),
+        ("v_x", np.inf, "v_x of blue_0 must be finite, got inf"),
+        ("ball_z", 1.01 * MAX_PLACED_HEIGHT, "higher than 20 m, got z = 20.2"),
+        ("ball_v_z", -1e20, r"ball moves at 1e20 m/s \(v_x, v_y, v_z\); at most 20 m/s"),
+        ("ball_spin_z", 1.01 * MAX_PLACED_SPIN, "spins at 1010.0 rad/s .* at most 1000 rad/s"),
+    ],
+)
+def test_absurd_starts_are_refused_by_their_column(column: str, value: float, message: str) -> None:
+    simulator = Simulator(SimConfig(), 2)
+    rows = np.zeros((2, simulator.config.row_size), np.float32)
+    simulator.read(rows)
+    before = rows.copy()
+    start = rows.copy()
+    of_ball = column.removeprefix("ball_")
+    robot = len(BALL_COLUMNS)
+    at = BALL_COLUMNS.index(of_ball) if of_ball != column else robot + ROBOT_COLUMNS.index(column)
+    start[1, at] = value
+    with pytest.raises(ValueError, match="world 1: .*" + message):
+        simulator.place(np.ones(2, np.bool_), start, rows)
+    simulator.read(rows)
+    assert np.array_equal(rows, before)

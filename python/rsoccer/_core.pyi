@@ -16,7 +16,10 @@ __all__ = [
     "BALL_PARAMETERS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
+    "MAX_PLACED_HEIGHT",
     "MAX_PLACED_SPEED",
+    "MAX_PLACED_SPIN",
+    "MAX_PLACED_TURN_RATE",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
     "BallModel",
@@ -39,8 +42,17 @@ __all__ = [
     "pooled_moments",
 ]
 
+MAX_PLACED_HEIGHT: float
+"""Maximum height at which the ball can be placed, m."""
+
 MAX_PLACED_SPEED: float
 """Maximum speed with which a body can be placed, m/s."""
+
+MAX_PLACED_SPIN: float
+"""Maximum spin with which the ball can be placed, rad/s."""
+
+MAX_PLACED_TURN_RATE: float
+"""Maximum turn rate with which a robot can be placed, rad/s."""
 
 BALL_COLUMNS: tuple[str, ...]
 """Names of the ball's columns in a state row.
@@ -307,7 +319,11 @@ class BallModel:
 
     @property
     def rolling_deceleration(self) -> float:
-        """Deceleration of a rolling ball; 0 never stops it (m/s², 0 or above)."""
+        """Deceleration of a rolling ball; without drag, 0 never stops it (m/s², 0 or above)."""
+
+    @property
+    def rolling_drag(self) -> float:
+        """Further deceleration of a rolling ball by its speed (1/s, 0 or above)."""
 
     @property
     def slide_to_roll_ratio(self) -> float:
@@ -1170,16 +1186,18 @@ class Simulator:
             worlds: Mask of these worlds (n,), bool.
             rows: State rows of the starts (number of True, row), float32; positions, headings,
                 velocities, the ball's spin and `absent` are used, of an absent robot nothing else.
-                Speeds are at most `MAX_PLACED_SPEED`.
+                Speeds are at most `MAX_PLACED_SPEED`, turn rates `MAX_PLACED_TURN_RATE`, the ball's
+                spin `MAX_PLACED_SPIN` and its height `MAX_PLACED_HEIGHT`.
             out: Output (n, row), float32; the rows of these worlds are written. It may share memory
                 with `rows`.
             params: Factors on the models' numbers in these worlds (number of True, parameters),
-                float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot. None for factors
-                of 1.
+                float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot; from 0.001 to
+                1000, and 0 for the ball, except its mass. None for factors of 1.
 
         Raises:
-            ValueError: A start is invalid (bodies overlap, are outside the field or too fast), a
-                factor is out of its range, or an array has another shape. Nothing has changed.
+            ValueError: A start is invalid (bodies overlap, are outside the field or beyond a limit,
+                whose column the message names), a factor is out of its range, or an array has
+                another shape. Nothing has changed.
             TypeError: An array has another type. Nothing has changed.
         """
 
@@ -1266,13 +1284,14 @@ class Simulator:
         Args:
             worlds: Mask of these worlds (n,), bool.
             balls: Ball columns (number of True, ball columns), float32; position, velocity and spin
-                are used.
+                are used, within the limits of `place`.
             out: Output (n, row), float32; the rows of these worlds are written. It may share memory
                 with `balls`.
 
         Raises:
-            ValueError: A ball is in a robot or outside the field, a world became non-finite before
-                (the message names it), or an array has another shape. Nothing has changed.
+            ValueError: A ball is in a robot, outside the field or beyond a limit, a world became
+                non-finite before (the message names it), or an array has another shape. Nothing has
+                changed.
             TypeError: An array has another type. Nothing has changed.
         """
 

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from tools.physics import ball_pictures, drive_pictures
+from tools.physics import ball_pictures, drive_pictures, kick_page
 from tools.physics.page import PAGE, describe, failed_checks, pages_equal, render_page
 from tools.physics.topics import all_checks
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 PICTURES: dict[str, Callable[[], "Figure"]] = {
     "roll": ball_pictures.draw_roll,
+    "kicks": kick_page.draw_kicks,
     "chip": ball_pictures.draw_chip,
     "bounce": ball_pictures.draw_bounce,
     "steps": drive_pictures.draw_steps,

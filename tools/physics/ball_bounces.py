@@ -60,7 +60,8 @@ def checks() -> Checks:
 
 def frictionless_floor(name: str) -> BallModel:
     """Return the ball model without floor friction, so that only the bounce changes its motion."""
-    return BallModel(name, sliding_deceleration=0, rolling_deceleration=0, spin_deceleration=0)
+    none = ("sliding_deceleration", "rolling_deceleration", "rolling_drag", "spin_deceleration")
+    return BallModel(name, **dict.fromkeys(none, 0.0))
 
 
 def at_wall(name: str, towards: Array, along: Array, tick: float = 0.005) -> Trajectory:

@@ -24,10 +24,17 @@ COLOURS = {
     "ssl_tigers": "#3a7d44",
     "ssl_erforce": "#d98e04",
     "ssl_vision": "#8a8f98",
+    "ssl_robocup_2023": "#6b4fa0",
+    "ssl_lab_2023": "#c05a9a",
     "grsim": "#b5483a",
     "vss_rsim": "#2f6f9f",
 }
-DASHED = {"ssl_vision", "vss_rsim"}  # so that curves below them stay visible
+DASHED = {
+    "ssl_vision",
+    "ssl_robocup_2023",
+    "ssl_lab_2023",
+    "vss_rsim",
+}  # so that curves below them stay visible
 KICK = 4.0  # m/s
 
 

@@ -11,6 +11,7 @@ from tools.physics import closed_form
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, Ball
 from tools.physics.closed_form import StraightKick
+from tools.physics.rolling import Rolling
 from tools.physics.scene import STEP, TICK, Scene, Trajectory, make_config
 
 TOPIC = "ball_rolling"
@@ -145,14 +146,16 @@ def _spins(name: str, ball: Ball) -> Checks:
     def at(seconds: float) -> int:
         return round(seconds / STEP) - 1
 
-    yield ROLLS(case, 1.0 - 0.5 * ball.rolling_deceleration, rolling[at(0.5)])
+    law = Rolling(ball.rolling_deceleration, ball.rolling_drag)
+    yield ROLLS(case, law.after(1.0, 0.5)[1], rolling[at(0.5)])
     # Of the initial slip of 5 m/s, sliding removes 1 - slide_to_roll_ratio from the ball's speed.
     share = ball.slide_to_roll_ratio
     rolls_at = 5.0 * (1 - share) / ball.sliding_deceleration
     yield BACK_SPIN(case, 1.0 - 0.1 * ball.sliding_deceleration, back[at(0.1)])
     step = at(np.ceil(rolls_at / STEP) * STEP)
-    slowed = ball.rolling_deceleration * (trajectory.times[step] - rolls_at)
-    yield ROLLS_BACK(case, share - 4.0 * (1 - share) + slowed, back[step])
+    speed = 4.0 * (1 - share) - share  # backwards
+    _, slowed = law.after(speed, trajectory.times[step] - rolls_at)
+    yield ROLLS_BACK(case, -slowed, back[step])
 
 
 def _grazes() -> Checks:

@@ -19,6 +19,7 @@ class Ball:
     mass: float = 0.046
     sliding_deceleration: float = 3.0
     rolling_deceleration: float = 0.26
+    rolling_drag: float = 0.0  # 1/s
     slide_to_roll_ratio: float = 2 / 3
     spin_deceleration: float = 10.0
     first_hop_factor: float = 0.80
@@ -51,6 +52,23 @@ VISION = replace(
     rolling_deceleration=0.40,
     later_hop_factor=0.95,
 )
+KICKS = "fitted to kicks tracked {} (jgocm/kick-analysis); other numbers: TIGERs"
+ROBOCUP_2023 = replace(
+    TIGERS,
+    source=KICKS.format("at RoboCup 2023"),
+    sliding_deceleration=3.0,
+    rolling_deceleration=0.15,
+    rolling_drag=0.032,
+    slide_to_roll_ratio=0.69,
+)
+LAB_2023 = replace(
+    TIGERS,
+    source=KICKS.format("in a laboratory"),
+    sliding_deceleration=3.0,
+    rolling_deceleration=0.12,
+    rolling_drag=0.032,
+    slide_to_roll_ratio=0.65,
+)
 GRSIM = replace(
     ERFORCE,
     source="grSim's report and measurements of rSim's SSL ball (along an axis)",
@@ -73,6 +91,8 @@ BALLS = {
     "ssl_tigers": TIGERS,
     "ssl_erforce": ERFORCE,
     "ssl_vision": VISION,
+    "ssl_robocup_2023": ROBOCUP_2023,
+    "ssl_lab_2023": LAB_2023,
     "grsim": GRSIM,
     "vss_rsim": RSIM_VSS,
 }

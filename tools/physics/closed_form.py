@@ -7,6 +7,7 @@ import numpy as np
 
 from rsoccer.arrays import Array
 from tools.physics.cited import SOLID_SPHERE, Ball, G
+from tools.physics.rolling import Rolling
 
 
 @dataclass(frozen=True)
@@ -32,31 +33,33 @@ class StraightKick:
         return (self.kick**2 - self.rolling_speed**2) / (2 * self.ball.sliding_deceleration)
 
     @property
+    def rolling(self) -> Rolling:
+        """The law of rolling."""
+        return Rolling(self.ball.rolling_deceleration, self.ball.rolling_drag)
+
+    @property
     def stop_time(self) -> float:
         """Time until the ball stops, s."""
-        return self.slide_time + self.rolling_speed / self.ball.rolling_deceleration
+        return self.slide_time + self.rolling.stop_time(self.rolling_speed)
 
     @property
     def stop_distance(self) -> float:
         """Stopping distance, m."""
-        return self.slide_distance + self.rolling_speed**2 / (2 * self.ball.rolling_deceleration)
+        return self.slide_distance + self.rolling.distance(self.rolling_speed, 0.0)
 
     def speed_at(self, distance: float) -> float | None:
         """Return the speed (m/s) after a distance (m); None if the ball stops before."""
         if distance < self.slide_distance:
             return sqrt(self.kick**2 - 2 * self.ball.sliding_deceleration * distance)
-        rolled = distance - self.slide_distance
-        squared = self.rolling_speed**2 - 2 * self.ball.rolling_deceleration * rolled
-        return sqrt(squared) if squared > 0 else None
+        return self.rolling.speed_at(self.rolling_speed, distance - self.slide_distance)
 
     def after(self, time: float) -> tuple[float, float]:
         """Return distance (m) and speed (m/s) after a time (s)."""
         sliding = min(time, self.slide_time)
         speed = self.kick - self.ball.sliding_deceleration * sliding
         distance = (self.kick + speed) / 2 * sliding
-        rolling = min(time, self.stop_time) - sliding
-        slower = speed - self.ball.rolling_deceleration * rolling
-        return distance + (speed + slower) / 2 * rolling, slower
+        rolled, slower = self.rolling.after(speed, min(time, self.stop_time) - sliding)
+        return distance + rolled, slower
 
 
 def floor(ball: Ball, velocity: Array, spin: Array, time: float) -> tuple[Array, Array, Array]:
@@ -79,10 +82,10 @@ def floor(ball: Ball, velocity: Array, spin: Array, time: float) -> tuple[Array,
         rim = rim + braking * gain * sliding
     if (rolling := time - sliding) > 0:
         speed = float(np.linalg.norm(velocity))
-        braking = velocity / speed * ball.rolling_deceleration
-        displacement = displacement + velocity * rolling - braking * rolling**2 / 2
-        velocity = velocity - braking * rolling
-        rim = velocity
+        law = Rolling(ball.rolling_deceleration, ball.rolling_drag)
+        distance, slower = law.after(speed, rolling)
+        displacement = displacement + velocity / speed * distance
+        rim = velocity = velocity / speed * slower
     about_z = np.sign(spin[2]) * max(abs(spin[2]) - ball.spin_deceleration * time, 0.0)
     return displacement, velocity, np.array([-rim[1] / ball.radius, rim[0] / ball.radius, about_z])
 

@@ -10,7 +10,7 @@ from benches.markdown import filled, table
 from benches.scenarios import ENGINES
 from tools import engine_agreement
 from tools.paths import DOCS
-from tools.physics import ball_rolling, parameters, presets, single_contacts
+from tools.physics import ball_rolling, kick_page, parameters, presets, single_contacts
 from tools.physics.check import Check, Tolerance
 from tools.physics.cited import BALLS
 from tools.physics.topics import TOPICS, all_checks, checks, engines_of
@@ -127,6 +127,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "ssl_robots": presets.ssl_table,
     "ssl_shared": presets.shared_table,
     "vss_robots": presets.vss_table,
+    "kicks": kick_page.kick_table,
     "parameter_names": parameters.parameter_table,
 }
 

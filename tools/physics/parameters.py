@@ -20,7 +20,7 @@ EFFECTS = {
     "ball": {
         "mass": "Momentum in contacts with robots: a heavier ball pushes harder.",
         "sliding_deceleration": "Sliding deceleration: time until a kicked ball rolls.",
-        "rolling_deceleration": "Rolling deceleration: distance that the ball rolls.",
+        "rolling_deceleration": "Rolling deceleration and drag: distance that the ball rolls.",
         "hop": "Ratio of vertical speed after a hop to before, at most 1.",
         "robot_restitution": "Restitution off robots, at most 1.",
         "robot_friction": "Friction coefficient between ball and robots.",

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rsoccer._core import RobotModel
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
@@ -52,6 +53,13 @@ VSS_WALL = Criterion(
 VSS_SPEED = Criterion(
     TOPIC, "VSSS robot driving at a wall for 5 s: speed", "m/s", absolute(0.001), "at rest"
 )
+VSS_HOLD = Criterion(
+    TOPIC,
+    "standing VSSS robot pushed for 10 s: displacement",
+    "mm",
+    absolute(2),
+    "static friction of tyres",
+)
 SQUEEZE = Criterion(
     TOPIC, "ball between two pushing robots: penetration depth", "mm", absolute(1), "solid bodies"
 )
@@ -69,6 +77,7 @@ def checks() -> Checks:
     yield from _head_on()
     yield from _standing()
     yield from _vss()
+    yield from _vss_standing()
     yield from _squeezed()
 
 
@@ -121,6 +130,21 @@ def _vss() -> Checks:
         gap = 1000 * (0.75 - robots.position[-1, 0, 0, 0])
         yield VSS_WALL(f"`{name}`", 1000 * robot.side_length / 2, gap)
         yield VSS_SPEED(f"`{name}`", 0.0, norm(*robots.velocity[-1, 0, 0]))
+
+
+def _vss_standing() -> Checks:
+    """Push a standing robot with a share of its grip, from its side and from behind."""
+    for name, robot in VSS_ROBOTS.items():
+        for degrees, grip in ((90.0, robot.lateral_grip), (0.0, robot.longitudinal_grip)):
+            for share in (0.5, 0.8, 0.95):
+                pusher = RobotModel(name, longitudinal_grip=share * grip)
+                scene = Scene(make_config("vss_5v5", 1, 1, robot=(RobotModel(name), pusher)))
+                scene.robots.position[0, 1, 0] = -robot.side_length - 1e-4
+                scene.face(0, degrees)
+                scene.ball.position[:] = (0.0, 0.8)
+                scene.command(1, left=20.0, right=20.0)
+                moved = norm(*scene.play(10.0).robots.position[-1, 0, 0])
+                yield VSS_HOLD(f"`{name}` at {degrees:g} degrees, {share:g}", 0.0, 1000 * moved)
 
 
 def _squeezed() -> Checks:

@@ -41,7 +41,7 @@ def make_config(
     n_blue: int,
     n_yellow: int,
     *,
-    robot: str | RobotModel | None = None,
+    robot: str | RobotModel | tuple[RobotModel, ...] | None = None,
     ball: str | BallModel | None = None,
     time_step: float = STEP,
     tick: float = TICK,

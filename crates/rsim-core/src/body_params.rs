@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::impact::ContactBody;
 use crate::blocks::{BALL, Lanes, place_of, robot};
-use crate::columns::{BALL_PARAMETERS, ROBOT_PARAMETERS};
+use crate::columns::{BALL_PARAMETERS, MAX_FACTOR, ROBOT_PARAMETERS};
 use crate::drive::{BlockWheels, wheels_of};
 use crate::error::ConfigError;
 use crate::geometry::motion::Motion;
@@ -141,14 +141,12 @@ impl BodyParams {
     pub(crate) fn varied(config: &SimConfig, factors: &[f32]) -> Result<Self, ConfigError> {
         debug_assert_eq!(factors.len(), config.parameters_size());
         for (index, factor) in factors.iter().enumerate() {
-            let bound = if name_of(index).ends_with("mass") || index >= BALL_PARAMETERS.len() {
-                f32::MIN_POSITIVE
-            } else {
-                0.0
-            };
-            if !(*factor >= bound && factor.is_finite()) {
+            let of_robot = index >= BALL_PARAMETERS.len();
+            let may_be_0 = !of_robot && name_of(index) != "mass";
+            let least = if may_be_0 { 0.0 } else { 1.0 / MAX_FACTOR };
+            if !(least..=MAX_FACTOR).contains(factor) {
                 let expected =
-                    "a finite factor, positive (0 allowed for the ball, except its mass)";
+                    "a factor from 0.001 to 1000 (0 allowed for the ball, except its mass)";
                 return Err(ConfigError::Number { name: name_of(index), expected, got: *factor });
             }
         }
@@ -184,6 +182,7 @@ fn varied_ball(model: &BallModel, factors: &[f32]) -> BallModel {
     ball.mass *= mass;
     ball.sliding_deceleration *= slide;
     ball.rolling_deceleration *= roll;
+    ball.rolling_drag *= roll;
     for (restitution, factor) in [
         (&mut ball.vertical_restitution, hop),
         (&mut ball.robot_restitution, robot_bounce),

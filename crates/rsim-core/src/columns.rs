@@ -92,8 +92,23 @@ pub const BALL_PARAMETERS: [&str; 8] = [
 pub const ROBOT_PARAMETERS: [&str; 7] =
     ["mass", "height", "acceleration", "speed", "traction", "kick", "grip"];
 
-/// Maximum speed of a body in a start row, m/s. Kicks reach 14 m/s with the robot's own speed.
+/// Maximum speed of a body in a start row, m/s, height included. Kicks reach 14 m/s with the robot's own speed.
 pub const MAX_PLACED_SPEED: f32 = 20.0;
+
+/// Maximum turn rate of a robot in a start row, rad/s: at most a radian in the longest tick, for which the
+/// solver still rotates bodies accurately. The fastest preset turns at 48 rad/s.
+pub const MAX_PLACED_TURN_RATE: f32 = 200.0;
+
+/// Maximum spin of the ball in a start row, rad/s. A golf ball that rolls at [`MAX_PLACED_SPEED`] spins at
+/// 940 rad/s.
+pub const MAX_PLACED_SPIN: f32 = 1000.0;
+
+/// Maximum height of the ball in a start row, m: what a throw at [`MAX_PLACED_SPEED`] reaches.
+pub const MAX_PLACED_HEIGHT: f32 = 20.0;
+
+/// Maximum factor on a number of a model, and the inverse of the minimum of one that must be positive. Beyond
+/// it the models' numbers lose their meaning, and the solver its accuracy.
+pub const MAX_FACTOR: f32 = 1000.0;
 
 /// Bound on commanded velocities before any limit of the robot, m/s: its square is still finite.
 pub(crate) const MAX_COMMAND: f32 = 1e9;

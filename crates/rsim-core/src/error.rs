@@ -1,6 +1,6 @@
 //! All errors of the crate; the binding maps them to Python exceptions.
 
-use crate::columns::MAX_PLACED_SPEED;
+use crate::columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
 
 /// An invalid configuration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -106,16 +106,24 @@ pub enum PlaceError {
         sin: f32,
     },
     /// A value that is not finite.
-    #[error("{who} has a value that is not finite")]
+    #[error("{column} of {who} must be finite, got {got}")]
     NotFinite {
         /// Name of the body.
         who: String,
+        /// Name of the column.
+        column: &'static str,
+        /// The given value.
+        got: f32,
     },
     /// A body faster than [`MAX_PLACED_SPEED`].
-    #[error("{who} moves at {speed:.1} m/s; at most {MAX_PLACED_SPEED} m/s can be placed")]
+    #[error(
+        "{who} moves at {speed:?} m/s ({columns}); at most {MAX_PLACED_SPEED} m/s can be placed"
+    )]
     TooFast {
         /// Name of the body.
         who: String,
+        /// Names of the columns of its velocity.
+        columns: &'static str,
         /// Speed of the body, m/s.
         speed: f32,
     },
@@ -127,8 +135,33 @@ pub enum PlaceError {
         /// The given value.
         got: f32,
     },
+    /// A robot that turns faster than [`MAX_PLACED_TURN_RATE`].
+    #[error(
+        "{who} turns at {rate:?} rad/s (v_theta); at most {MAX_PLACED_TURN_RATE} rad/s can be placed"
+    )]
+    TurnsTooFast {
+        /// Name of the robot.
+        who: String,
+        /// Its turn rate, rad/s.
+        rate: f32,
+    },
+    /// A ball that spins faster than [`MAX_PLACED_SPIN`].
+    #[error(
+        "the ball spins at {spin:?} rad/s (spin_x, spin_y, spin_z); at most {MAX_PLACED_SPIN} rad/s \
+         can be placed"
+    )]
+    SpinsTooFast {
+        /// Spin of the ball, rad/s.
+        spin: f32,
+    },
+    /// A ball higher than [`MAX_PLACED_HEIGHT`].
+    #[error("the ball must not be higher than {MAX_PLACED_HEIGHT} m, got z = {z:?} m")]
+    TooHigh {
+        /// Height of the ball's lowest point, m.
+        z: f32,
+    },
     /// A ball below the floor.
-    #[error("the ball must not be below the floor, got z = {z} m")]
+    #[error("the ball must not be below the floor, got z = {z:?} m")]
     Below {
         /// Height of the ball's lowest point, m.
         z: f32,

@@ -31,7 +31,7 @@ mod threads;
 mod tick;
 mod world;
 
-pub use columns::MAX_PLACED_SPEED;
+pub use columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use features::ego_features::{Block, EgoFeatures};
 pub use features::shaping::Potential;

@@ -16,24 +16,44 @@ struct RollOut {
     stop: f32,
 }
 
-/// The closed form of textbooks: two uniformly decelerated parts.
+/// Distance in which a rolling ball slows from one speed to another (m/s), m. With drag it is the
+/// integral of v / (a + b v).
+fn rolls(ball: &BallModel, from: f32, to: f32) -> f32 {
+    let (a, b) = (ball.rolling_deceleration, ball.rolling_drag);
+    if b > 0.0 {
+        (from - to - a / b * ((a + b * from) / (a + b * to)).ln()) / b
+    } else {
+        (from * from - to * to) / (2.0 * a)
+    }
+}
+
+/// Speed of a rolling ball after a distance (m), m/s; `None` if it stops before. By bisection.
+fn rolled(ball: &BallModel, speed: f32, way: f32) -> Option<f32> {
+    let (mut slow, mut fast) = (0.0, speed);
+    for _ in 0..40 {
+        let middle = f32::midpoint(slow, fast);
+        if rolls(ball, speed, middle) > way { slow = middle } else { fast = middle }
+    }
+    (rolls(ball, speed, 0.0) > way).then_some(slow)
+}
+
+/// The closed form: a uniformly decelerated slide, then rolling.
 fn closed_form(ball: &BallModel, kick: f32) -> RollOut {
-    let rolls = ball.slide_to_roll_ratio * kick;
-    let slide_way = (kick * kick - rolls * rolls) / (2.0 * ball.sliding_deceleration);
+    let first = ball.slide_to_roll_ratio * kick;
+    let slide_way = (kick * kick - first * first) / (2.0 * ball.sliding_deceleration);
     let speed_at = |way: f32| {
-        let square = if way < slide_way {
-            kick * kick - 2.0 * ball.sliding_deceleration * way
+        if way < slide_way {
+            Some((kick * kick - 2.0 * ball.sliding_deceleration * way).sqrt())
         } else {
-            rolls * rolls - 2.0 * ball.rolling_deceleration * (way - slide_way)
-        };
-        (square > 0.0).then(|| square.sqrt())
+            rolled(ball, first, way - slide_way)
+        }
     };
     RollOut {
         slide_way,
-        slide_time: (kick - rolls) / ball.sliding_deceleration,
+        slide_time: (kick - first) / ball.sliding_deceleration,
         at_3: speed_at(3.0),
         at_6: speed_at(6.0),
-        stop: slide_way + rolls * rolls / (2.0 * ball.rolling_deceleration),
+        stop: slide_way + rolls(ball, first, 0.0),
     }
 }
 

@@ -107,7 +107,7 @@ fn impossible_starts_are_refused_and_change_nothing() {
         ("yellow_2", spoil(&|row| set(row, 5, 2, 0.5))),
         ("ball moves at 21.0 m/s", spoil(&|row| row[ball_column("v_x")] = 21.0)),
         ("below the floor", spoil(&|row| row[ball_column("z")] = -0.1)),
-        ("not finite", spoil(&|row| row[0] = f32::NAN)),
+        ("x of ball must be finite, got NaN", spoil(&|row| row[0] = f32::NAN)),
         (
             "ball and blue_1 overlap",
             spoil(&|row| {

@@ -108,7 +108,7 @@ fn a_ball_that_cannot_be_there_changes_no_world() {
         (ball(0.745, 0.3, 0.0), "outside"),
         (ball(9.0, 0.0, 0.0), "outside"),
         (ball(0.0, 0.0, 30.0), "ball moves at"),
-        (nan, "not finite"),
+        (nan, "must be finite"),
         (low, "below the floor"),
     ] {
         let balls = [ball(0.05, 0.0, 0.0), wrong].concat();

@@ -68,7 +68,7 @@ def test_it_stops_at_the_target() -> None:
 
 
 def test_it_drives_through_a_target() -> None:
-    matches = driven(12, 120, x=0.6, y=-0.2, through=1.0)
+    matches = driven(12, 50, x=0.6, y=-0.2, through=1.0)
     speeds = []
     for _ in range(40):
         matches.step(np.zeros((12, 0, 2), np.float32))

@@ -64,7 +64,7 @@ impl GroundMotion {
         }
         let rolling_time = time - sliding_time;
         if rolling_time > 0.0 {
-            let (added, velocity) = roll(now.velocity, model.rolling_deceleration, rolling_time);
+            let (added, velocity) = roll(now.velocity, model, rolling_time);
             displacement += added;
             now = Self { velocity, ..now }.without_slip(model.radius);
         }
@@ -77,7 +77,11 @@ impl GroundMotion {
 const SLIP_ERROR: f32 = 1e-5;
 
 /// Displacement (m) and velocity (m/s) after `time` (s) of rolling.
-fn roll(velocity: Vector, deceleration: f32, time: f32) -> (Vector, Vector) {
+fn roll(velocity: Vector, model: &BallModel, time: f32) -> (Vector, Vector) {
+    if model.rolling_drag > 0.0 {
+        return roll_with_drag(velocity, model, time);
+    }
+    let deceleration = model.rolling_deceleration;
     let speed = velocity.length();
     if deceleration == 0.0 {
         return (velocity * time, velocity);
@@ -90,6 +94,34 @@ fn roll(velocity: Vector, deceleration: f32, time: f32) -> (Vector, Vector) {
         if time < until_stop { (time, speed - deceleration * time) } else { (until_stop, 0.0) };
     let mean = speed - deceleration * rolling_time / 2.0;
     (velocity * (mean / speed * rolling_time), velocity * (end / speed))
+}
+
+/// As [`roll`], for a deceleration that grows with the speed: v' = -(deceleration + drag v).
+fn roll_with_drag(velocity: Vector, model: &BallModel, time: f32) -> (Vector, Vector) {
+    let (deceleration, drag) = (model.rolling_deceleration, model.rolling_drag);
+    let speed = velocity.length();
+    if speed <= STOP_SPEED {
+        return (Vector::ZERO, Vector::ZERO);
+    }
+    let first = deceleration + drag * speed;
+    let last = deceleration + drag * STOP_SPEED;
+    let until_stop = libm::log1pf(drag * (speed - STOP_SPEED) / last) / drag;
+    let rolling_time = time.min(until_stop);
+    let fade = drag * rolling_time;
+    let (loss, delay) = (first * rolling_time, decay_integral(fade));
+    let way = (speed - loss * delay) * rolling_time;
+    let end = if time < until_stop { speed - loss * (1.0 - fade * delay) } else { 0.0 };
+    (velocity * (way / speed), velocity * (end / speed))
+}
+
+/// (exp(-z) - 1 + z) / z² for z >= 0: the mean over a time of what decays at a constant rate, integrated.
+fn decay_integral(z: f32) -> f32 {
+    // The closed form cancels where z is small; there its series converges fast.
+    if z > 0.5 {
+        return (libm::expf(-z) - 1.0 + z) / (z * z);
+    }
+    let divisors = [9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0];
+    divisors.iter().fold(1.0, |sum, divisor| 1.0 - z / divisor * sum) / 2.0
 }
 
 fn towards_zero(value: f32, by: f32) -> f32 {
@@ -114,19 +146,93 @@ mod tests {
         (displacement.length(), time)
     }
 
+    /// Distance that a ball rolls until it stops, m.
+    fn roll_out_way(model: &BallModel, speed: f32) -> f32 {
+        let (deceleration, drag) = (model.rolling_deceleration, model.rolling_drag);
+        if drag > 0.0 {
+            (speed - deceleration / drag * (drag * speed / deceleration).ln_1p()) / drag
+        } else {
+            speed * speed / (2.0 * deceleration)
+        }
+    }
+
     #[test]
     fn ticks_of_any_length_add_up_to_the_closed_form() {
         for model in BallModel::PRESETS {
             let speed = 1.0_f32;
             let rolls = speed * model.slide_to_roll_ratio;
             let expected = (speed * speed - rolls * rolls) / (2.0 * model.sliding_deceleration)
-                + rolls * rolls / (2.0 * model.rolling_deceleration);
+                + roll_out_way(&model, rolls);
             for tick in [0.001, 0.0025, 0.005] {
                 let (displacement, _) = roll_out(&model, kicked(Vector::new(0.6, 0.8)), tick);
                 let error = (displacement / expected - 1.0).abs();
                 assert!(error < 2e-3, "{}: {displacement} m, expected {expected} m", model.name);
             }
         }
+    }
+
+    /// A ball without slip, on a floor with these numbers.
+    fn rolling(deceleration: f32, drag: f32, velocity: Vector) -> (BallModel, GroundMotion) {
+        let model = BallModel {
+            rolling_deceleration: deceleration,
+            rolling_drag: drag,
+            ..BallModel::SSL_TIGERS
+        };
+        (model.clone(), kicked(velocity).without_slip(model.radius))
+    }
+
+    /// Speed and distance by v' = -(deceleration + drag v) in steps of 10 microseconds.
+    fn by_the_law(deceleration: f64, drag: f64, speed: f64, time: f64) -> (f64, f64) {
+        let (mut speed, mut way, mut left) = (speed, 0.0, time);
+        while left > 0.5e-5 && speed > f64::from(STOP_SPEED) {
+            let before = speed;
+            speed -=
+                (deceleration + drag * (before - (deceleration + drag * before) * 0.5e-5)) * 1e-5;
+            way += f64::midpoint(before, speed) * 1e-5;
+            left -= 1e-5;
+        }
+        (if left > 0.5e-5 { 0.0 } else { speed }, way)
+    }
+
+    #[test]
+    fn a_deceleration_that_grows_with_the_speed_follows_its_law_at_every_tick() {
+        for (deceleration, drag) in [(0.15, 0.04), (0.3, 2.0), (0.0, 0.5), (0.14, 1e-4)] {
+            for (speed, time) in [(4.0_f32, 2.0), (0.5, 1.0), (0.02, 0.5), (3.0, 8.0)] {
+                let (model, start) = rolling(deceleration, drag, Vector::new(0.6, 0.8) * speed);
+                let law = [deceleration, drag, speed].map(f64::from);
+                let (end, way) = by_the_law(law[0], law[1], law[2], f64::from(time));
+                for tick in [0.001, 0.005, time] {
+                    let (mut now, mut displacement) = (start, Vector::ZERO);
+                    for _ in 0..steps(time, tick) {
+                        let (added, next) = now.after(&model, tick);
+                        (displacement, now) = (displacement + added, next);
+                    }
+                    let label = format!("{deceleration} {drag} {speed} m/s, {tick} of {time} s");
+                    let error = (f64::from(now.velocity.length()) - end).abs();
+                    assert!(error < 2e-4 * f64::from(speed) + 2e-5, "{label}: {now:?}, {end} m/s");
+                    let error = (f64::from(displacement.length()) - way).abs();
+                    assert!(error < 2e-4 * way + 1e-5, "{label}: {displacement}, {way} m");
+                    let slip = now.velocity - now.rolling_velocity(model.radius);
+                    assert!(slip.length() < 1e-5, "{label}: it rolls");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_drag_of_almost_0_is_none() {
+        for time in [0.005, 1.0, 30.0] {
+            let (none, start) = rolling(0.26, 0.0, Vector::new(2.0, 0.0));
+            let (little, _) = rolling(0.26, 1e-6, Vector::new(2.0, 0.0));
+            let [(a, first), (b, second)] = [start.after(&none, time), start.after(&little, time)];
+            assert!((a - b).length() < 1e-4 && (first.velocity - second.velocity).length() < 1e-4);
+        }
+    }
+
+    fn steps(time: f32, tick: f32) -> usize {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small number
+        let steps = (time / tick).round() as usize;
+        steps
     }
 
     #[test]

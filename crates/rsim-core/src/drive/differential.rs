@@ -1,18 +1,15 @@
 //! Two wheels on one axle: Coulomb friction of each tyre against its slip.
+//!
+//! Friction that can stop the slip of a tyre within the tick stops it, up to the limit of the tyre: a robot
+//! that stands holds whatever pushes it less. Only tyres that slide all the same are iterated for.
+
+mod sliding;
 
 use serde::{Deserialize, Serialize};
 
 use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
-use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited};
+use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::models::robot::DifferentialDrive;
-
-/// Iterations for the speeds at which two tyres slip. Each shrinks the error by the ratio of a tick's
-/// friction to the slip, so that two suffice for tyres that slide; the others serve the change from
-/// sliding to rolling.
-const REFINEMENTS: usize = 4;
-
-/// Slip below which a tyre rolls, m/s.
-const MIN_SLIP: f32 = 1e-6;
 
 /// Limits of one tick. A limit of friction is the change of a robot's speed by one tyre.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -25,6 +22,8 @@ pub(super) struct Wheels {
     max_wheel_speed: Lanes,
     /// Maximum friction against a motor at its limit, m/s.
     motor: Lanes,
+    /// Maximum friction along a wheel, by motor and tyre, m/s.
+    drive: Lanes,
     /// Maximum friction of a tyre that slips along its wheel only, m/s, and its inverse.
     longitudinal: Lanes,
     per_longitudinal: Lanes,
@@ -33,9 +32,11 @@ pub(super) struct Wheels {
     per_lateral: Lanes,
     /// Change of the turn rate (rad/s) by friction of 1 m/s at one wheel.
     turn: Lanes,
-    /// Speed of the robot at a wheel, and at the other one, by full friction along that wheel, m/s.
+    /// Speed of the robot at a wheel, and at the other one, by friction of 1 m/s along that wheel; and the
+    /// inverse of the former.
     own: Lanes,
     other: Lanes,
+    per_own: Lanes,
     /// Friction (m/s) that stops a slip of 1 m/s of one tyre against the other.
     stop_turning: Lanes,
 }
@@ -53,8 +54,8 @@ struct Slip {
 struct Friction {
     /// Along the wheels: left, right.
     along: [Lanes; 2],
-    /// Along the axle: left, right.
-    across: [Lanes; 2],
+    /// Along the axle, of both tyres.
+    across: Lanes,
 }
 
 impl Wheels {
@@ -68,20 +69,24 @@ impl Wheels {
         let mass_by_inertia = lanes(|robot| robot.mass / robot.inertia);
         let turn = half_track * mass_by_inertia;
         let turning = half_track * turn;
+        let own = Lanes::ONE + turning;
+        let motor =
+            lanes(|robot| robot.drive.motor_torque / (robot.drive.wheel_radius * robot.mass))
+                * tick;
         Self {
             half_track,
             wheel_radius: lanes(|robot| robot.drive.wheel_radius),
             max_wheel_speed: lanes(|robot| robot.drive.max_wheel_speed),
-            motor: lanes(|robot| {
-                robot.drive.motor_torque / (robot.drive.wheel_radius * robot.mass)
-            }) * tick,
+            motor,
+            drive: smaller(motor, longitudinal),
             longitudinal,
             per_longitudinal: Lanes::ONE / longitudinal,
             lateral,
             per_lateral: Lanes::ONE / lateral,
             turn,
-            own: (Lanes::ONE + turning) * longitudinal,
-            other: (Lanes::ONE - turning) * longitudinal,
+            own,
+            other: Lanes::ONE - turning,
+            per_own: Lanes::ONE / own,
             stop_turning: Lanes::splat(0.25) / turning,
         }
     }
@@ -99,25 +104,23 @@ impl Wheels {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
         let slip = self.slip(own.velocity, own.spin, rims);
-        let rolls = self.is_possible(&self.rolling(&slip));
-        // Tyres that roll also compensate the load of the last tick. Those that slide give their
-        // maximum whatever the load.
-        let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
-        let slip = Slip {
-            along: [0, 1].map(|wheel| slip.along[wheel] + (rolls & added.along[wheel])),
-            across: slip.across + (rolls & added.across),
-        };
-        let rolling = self.rolling(&slip);
-        let rolls = rolls & self.is_possible(&rolling);
-        let friction = if (rolls | !mask).all() {
-            rolling
+        let (mut slip, (mut holding, mut holds)) = (slip, self.holding(&slip, mask));
+        if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
+            // Tyres that hold also compensate the load of the last tick. Those that slide give their
+            // maximum whatever the load.
+            let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
+            slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
+            slip.across += holds & added.across;
+            (holding, holds) = self.holding(&slip, mask);
+        }
+        let friction = if (holds | !mask).all() {
+            holding
         } else {
-            rolling.where_else(rolls, &self.sliding(&slip))
+            holding.where_else(holds, &self.sliding(&slip))
         };
         let [left, right] = friction.along;
-        let across = friction.across[0] + friction.across[1];
         WheelEffect {
-            velocity: VectorLanes { x: left + right, y: across },
+            velocity: VectorLanes { x: left + right, y: friction.across },
             spin: (right - left) * self.turn,
             change: VectorLanes::ZERO,
         }
@@ -129,66 +132,91 @@ impl Wheels {
         Slip { along, across: velocity.y }
     }
 
+    /// Friction with which at least one tyre does not slip at the end of the tick, and whether motors and
+    /// tyres can transmit it. Then it is the only solution.
+    fn holding(&self, slip: &Slip, mask: Lanes) -> (Friction, Lanes) {
+        let rolling = self.rolling(slip);
+        let rolls = self.is_possible_in_halves(&rolling);
+        if (rolls | !mask).all() {
+            return (rolling, rolls);
+        }
+        let near = self.can_be_held(slip);
+        if !(near & mask & !rolls).any() {
+            return (rolling, rolls);
+        }
+        let rolls = rolls | (near & self.is_possible(&rolling));
+        let (mut friction, mut holds) = (rolling, rolls);
+        for wheel in [0, 1] {
+            let (pivoting, pivots) = self.pivoting(slip, wheel);
+            friction = friction.where_else(holds, &pivoting);
+            holds |= near & pivots;
+        }
+        (friction, holds)
+    }
+
+    /// Whether friction of both tyres at their limits would stop the slip of one: a necessary condition of
+    /// [`Self::holding`].
+    fn can_be_held(&self, slip: &Slip) -> Lanes {
+        let [left, right] = slip.along.map(Lanes::abs);
+        smaller(left, right).simd_le((self.own + self.other.abs()) * self.drive)
+            & slip.across.abs().simd_le(self.lateral + self.lateral)
+    }
+
     /// Friction that stops all slip within the tick.
     fn rolling(&self, slip: &Slip) -> Friction {
         let [left, right] = slip.along;
         let both = Lanes::splat(-0.25) * (left + right);
         let apart = self.stop_turning * (left - right);
-        let across = Lanes::splat(-0.5) * slip.across;
-        Friction { along: [both - apart, both + apart], across: [across; 2] }
+        Friction { along: [both - apart, both + apart], across: -slip.across }
     }
 
-    /// Whether motors and tyres can transmit this friction: that of a tyre lies within an ellipse.
-    fn is_possible(&self, friction: &Friction) -> Lanes {
-        let [left, right] = [0, 1].map(|wheel| {
-            let along = friction.along[wheel] * self.per_longitudinal;
-            let across = friction.across[wheel] * self.per_lateral;
-            friction.along[wheel].abs().simd_le(self.motor)
-                & (along * along + across * across).simd_le(Lanes::ONE)
+    /// Friction that stops the slip of the tyre of `wheel` alone, and whether it is possible. Slip along the
+    /// axle, which is the same for both tyres, stops as well, so that the other tyre slips along its wheel
+    /// only, at the limit of its motor or of its grip.
+    fn pivoting(&self, slip: &Slip, wheel: usize) -> (Friction, Lanes) {
+        let [held, slips] = [slip.along[wheel], slip.along[1 - wheel]];
+        // The slip of the other tyre while this one is held has the sign that it would have without friction.
+        let direction = slips - held * self.other * self.per_own;
+        let other = -limited_to_sign(self.drive, direction);
+        let along = -(held + self.other * other) * self.per_own;
+        let left = slips + self.own * other + self.other * along;
+        let mut friction = Friction { along: [along, other], across: -slip.across };
+        if wheel == 1 {
+            friction.along.swap(0, 1);
+        }
+        let possible = self.is_possible(&friction) & (left * direction).simd_ge(Lanes::ZERO);
+        (friction, possible)
+    }
+
+    /// Whether motors and tyres can transmit this friction if both tyres give half of that along the axle:
+    /// the friction of a tyre lies within an ellipse. Then it also is [`Self::is_possible`].
+    fn is_possible_in_halves(&self, friction: &Friction) -> Lanes {
+        let across = Lanes::splat(0.5) * friction.across * self.per_lateral;
+        let [left, right] = friction.along.map(|force| {
+            let along = force * self.per_longitudinal;
+            force.abs().simd_le(self.motor) & (along * along + across * across).simd_le(Lanes::ONE)
         });
         left & right
     }
 
-    /// Friction of tyres that slide, against their slip at the end of the tick: along the wheel and
-    /// along the axle each by its own grip.
-    ///
-    /// For given magnitudes of the slips, friction is linear in their components. The iteration
-    /// approaches the magnitudes from above, so friction never reverses a slip, and a tyre that starts to
-    /// roll within the tick gets only the friction that stops it.
-    fn sliding(&self, slip: &Slip) -> Friction {
-        let mut end = *slip;
-        let mut per_slip = [Lanes::ZERO; 2];
-        for _ in 0..REFINEMENTS {
-            per_slip = end.along.map(|along| Lanes::ONE / magnitude(along, end.across));
-            let [left, right] = per_slip;
-            let diagonal = [Lanes::ONE + self.own * left, Lanes::ONE + self.own * right];
-            let coupling = [self.other * left, self.other * right];
-            let determinant = diagonal[0] * diagonal[1] - coupling[0] * coupling[1];
-            let inverse = Lanes::ONE / determinant;
-            end = Slip {
-                along: [
-                    (slip.along[0] * diagonal[1] - slip.along[1] * coupling[1]) * inverse,
-                    (slip.along[1] * diagonal[0] - slip.along[0] * coupling[0]) * inverse,
-                ],
-                across: slip.across / (Lanes::ONE + self.lateral * (left + right)),
-            };
-        }
-        let [left, right] = [0, 1].map(|wheel| {
-            let along = -self.longitudinal * end.along[wheel] * per_slip[wheel];
-            let across = -self.lateral * end.across * per_slip[wheel];
-            let turns = along.abs().simd_le(self.motor);
-            let (held, aside) = self.stalled(along, Lanes::splat(-0.5) * slip.across);
-            [turns.bitselect(along, held), turns.bitselect(across, aside)]
-        });
-        Friction { along: [left[0], right[0]], across: [left[1], right[1]] }
+    /// Whether motors and tyres can transmit this friction: each tyre gives along the axle what it has left.
+    fn is_possible(&self, friction: &Friction) -> Lanes {
+        let [left, right] = friction.along;
+        left.abs().simd_le(self.drive)
+            & right.abs().simd_le(self.drive)
+            & friction.across.abs().simd_le(self.lateral_left(left) + self.lateral_left(right))
+    }
+
+    /// Maximum friction along the axle of a tyre with friction `along` its wheel, m/s.
+    fn lateral_left(&self, along: Lanes) -> Lanes {
+        let used = along * self.per_longitudinal;
+        self.lateral * larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt()
     }
 
     /// Friction of a tyre whose motor is weaker than its grip: the rim follows the floor, which leaves the
     /// tyre more friction along the axle.
     fn stalled(&self, along: Lanes, across: Lanes) -> (Lanes, Lanes) {
-        let used = self.motor * self.per_longitudinal;
-        let left = self.lateral * larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt();
-        (limited(along, self.motor), limited(across, left))
+        (limited(along, self.motor), limited(across, self.lateral_left(self.motor)))
     }
 }
 
@@ -198,11 +226,14 @@ impl Friction {
         let choose = |one: [Lanes; 2], two: [Lanes; 2]| {
             [mask.bitselect(one[0], two[0]), mask.bitselect(one[1], two[1])]
         };
-        Self { along: choose(self.along, other.along), across: choose(self.across, other.across) }
+        Self {
+            along: choose(self.along, other.along),
+            across: mask.bitselect(self.across, other.across),
+        }
     }
 }
 
-/// Magnitude of a slip, m/s; never 0.
-fn magnitude(along: Lanes, across: Lanes) -> Lanes {
-    larger((along * along + across * across).sqrt(), Lanes::splat(MIN_SLIP))
+/// `limit` with the sign of `direction`.
+fn limited_to_sign(limit: Lanes, direction: Lanes) -> Lanes {
+    direction.simd_lt(Lanes::ZERO).bitselect(-limit, limit)
 }

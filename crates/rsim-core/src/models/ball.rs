@@ -24,8 +24,10 @@ numbers! {
         mass: Positive, "kg";
         /// Deceleration while the lowest point slips over the floor.
         sliding_deceleration: NotNegative, "m/s²";
-        /// Deceleration of a rolling ball; 0 never stops it.
+        /// Deceleration of a rolling ball; without drag, 0 never stops it.
         rolling_deceleration: NotNegative, "m/s²";
+        /// Further deceleration of a rolling ball by its speed.
+        rolling_drag: NotNegative, "1/s";
         /// First rolling speed by the speed of the kick; 5/7 for a solid sphere.
         slide_to_roll_ratio: UpperHalf, "1";
         /// Deceleration of the spin about the vertical axis.

@@ -20,6 +20,7 @@ impl BallModel {
         mass: 0.046,
         sliding_deceleration: 3.0,
         rolling_deceleration: 0.26,
+        rolling_drag: 0.0,
         slide_to_roll_ratio: 2.0 / 3.0,
         spin_deceleration: SPIN_DECELERATION,
         first_hop_factor: 0.80,
@@ -88,9 +89,38 @@ impl BallModel {
         ..Self::GRSIM
     };
 
+    /// The golf ball on the carpet of a field of `RoboCup` 2023. Floor: fitted to the tracked kicks of an
+    /// SSL robot there (jgocm/kick-analysis) by `tools/fit_kicks.py`. Other numbers: TIGERs.
+    pub const SSL_ROBOCUP_2023: Self = Self {
+        name: Cow::Borrowed("ssl_robocup_2023"),
+        sliding_deceleration: 3.0,
+        rolling_deceleration: 0.15,
+        rolling_drag: 0.032,
+        slide_to_roll_ratio: 0.69,
+        ..Self::SSL_TIGERS
+    };
+
+    /// The golf ball on the carpet of a laboratory. Floor: fitted to the tracked kicks of the same robot
+    /// there, up to 2.2 m/s, by `tools/fit_kicks.py`. Other numbers: TIGERs.
+    pub const SSL_LAB_2023: Self = Self {
+        name: Cow::Borrowed("ssl_lab_2023"),
+        sliding_deceleration: 3.0,
+        rolling_deceleration: 0.12,
+        rolling_drag: 0.032,
+        slide_to_roll_ratio: 0.65,
+        ..Self::SSL_TIGERS
+    };
+
     /// All presets.
-    pub const PRESETS: [Self; 5] =
-        [Self::SSL_TIGERS, Self::SSL_ERFORCE, Self::SSL_VISION, Self::GRSIM, Self::VSS_RSIM];
+    pub const PRESETS: [Self; 7] = [
+        Self::SSL_TIGERS,
+        Self::SSL_ERFORCE,
+        Self::SSL_VISION,
+        Self::SSL_ROBOCUP_2023,
+        Self::SSL_LAB_2023,
+        Self::GRSIM,
+        Self::VSS_RSIM,
+    ];
 
     /// The preset with this name.
     ///

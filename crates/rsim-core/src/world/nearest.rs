@@ -4,14 +4,14 @@
 //! may have. That is a projection onto the valid states by Gauss and Seidel's method. Where it does not
 //! settle, in a crowd without space, bodies are placed one after the other at the nearest free spots.
 
-use crate::blocks::BALL;
+use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
-use crate::columns::MAX_PLACED_SPEED;
+use crate::columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
 use crate::error::PlaceError;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::Clearance;
 use crate::math::{Vec3, Vector};
-use crate::world::placement::{Placement, Start, TOLERANCE, pose};
+use crate::world::placement::{Placement, Start, TOLERANCE, length, pose};
 
 /// Depth to which overlapping bodies are moved apart, m, and the depth from which they are: the rest to
 /// [`TOLERANCE`] is for rounding.
@@ -212,33 +212,33 @@ impl Placement {
 
 /// Brings everything but positions in the plane into its range.
 fn tidy(start: &mut Start) {
-    start.ball.z = start.ball.z.max(0.0);
-    for motion in &mut start.motions {
-        motion.velocity = at_most(motion.velocity, MAX_PLACED_SPEED);
+    let ball = &mut start.ball;
+    ball.z = ball.z.clamp(0.0, MAX_PLACED_HEIGHT);
+    let velocity = at_most(start.motions[BALL].velocity.extend(ball.v_z), MAX_PLACED_SPEED);
+    (start.motions[BALL].velocity, ball.v_z) = (velocity.truncate(), velocity.z);
+    ball.spin = at_most(ball.spin, MAX_PLACED_SPIN);
+    for motion in &mut start.motions[robot(0)..] {
+        motion.velocity = at_most(motion.velocity.extend(0.0), MAX_PLACED_SPEED).truncate();
+        motion.spin = motion.spin.clamp(-MAX_PLACED_TURN_RATE, MAX_PLACED_TURN_RATE);
         // A heading of no length has no direction.
         motion.heading = direction(motion.heading).unwrap_or(Vector::X);
     }
 }
 
-/// A vector of at most a length. The square of a number may be infinite in single precision.
-fn at_most(vector: Vector, limit: f32) -> Vector {
+/// A vector of at most a length.
+fn at_most(vector: Vec3, limit: f32) -> Vec3 {
     let length = length(vector);
-    if length <= f64::from(limit) { vector } else { scaled(vector, f64::from(limit) / length) }
+    if length <= limit { vector } else { scaled(vector, f64::from(limit) / f64::from(length)) }
 }
 
 fn direction(vector: Vector) -> Option<Vector> {
-    let length = length(vector);
-    (length > 0.0).then(|| scaled(vector, 1.0 / length))
-}
-
-fn length(vector: Vector) -> f64 {
-    let [x, y] = [vector.x, vector.y].map(f64::from);
-    (x * x + y * y).sqrt()
+    let length = length(vector.extend(0.0));
+    (length > 0.0).then(|| scaled(vector.extend(0.0), 1.0 / f64::from(length)).truncate())
 }
 
 #[allow(clippy::cast_possible_truncation)] // to the precision of all states
-fn scaled(vector: Vector, factor: f64) -> Vector {
-    Vector::new((f64::from(vector.x) * factor) as f32, (f64::from(vector.y) * factor) as f32)
+fn scaled(vector: Vec3, factor: f64) -> Vec3 {
+    Vec3::from_array(vector.to_array().map(|part| (f64::from(part) * factor) as f32))
 }
 
 /// The way that the ball must move out of a body, m, if it is too deep in it: beside it, above or below.

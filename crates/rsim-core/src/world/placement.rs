@@ -3,7 +3,10 @@
 use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot, set_bits};
 use crate::body_params::BodyParams;
-use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_SPEED, ROBOT_COLUMNS};
+use crate::columns::{
+    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
+    MAX_PLACED_TURN_RATE, ROBOT_COLUMNS,
+};
 use crate::engine::Shape;
 use crate::error::PlaceError;
 use crate::geometry::arena::{Wall, position_limit};
@@ -26,6 +29,13 @@ const HEADING_TOLERANCE: f32 = 1e-3;
 /// Error of the squared length of a heading by rounding, up to which it is unchanged, so that a state
 /// that was read can be placed again exactly.
 const HEADING_ERROR: f32 = 1e-5;
+
+/// Number of columns of the ball, and of a robot, that a match starts from.
+const PLACED_OF_BALL: usize = 9;
+const PLACED_OF_ROBOT: usize = 7;
+
+/// A vector that was drawn up to a maximum may be a rounding error above it.
+const ROUNDED: f32 = 1.0 + 1e-6;
 
 /// Motions of all bodies in a row.
 #[derive(Debug, Clone)]
@@ -107,7 +117,7 @@ impl Placement {
     pub(super) fn check(&self, start: &mut Start, params: &BodyParams) -> Result<(), PlaceError> {
         self.check_ball_alone(&mut start.motions[BALL], &start.ball)?;
         for who in start.present() {
-            self.check_alone(who, &mut start.motions[who], 0.0)?;
+            self.check_robot_alone(who, &mut start.motions[who])?;
         }
         start.present().try_for_each(|who| self.check_among_first(who, start, params))
     }
@@ -144,7 +154,7 @@ impl Placement {
         }
         for index in set_bits(mask & !start.absent) {
             let who = robot(index);
-            self.check_alone(who, &mut start.motions[who], 0.0)?;
+            self.check_robot_alone(who, &mut start.motions[who])?;
             self.check_ball(who, &start.motions, &start.ball, params)?;
             for other in start.present().filter(|other| *other != who) {
                 let pair = [who.min(other), who.max(other)];
@@ -172,35 +182,73 @@ impl Placement {
 
     /// Reads a ball of finite numbers.
     fn parse_ball(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
+        self.check_finite(BALL, &BALL_COLUMNS[..PLACED_OF_BALL], columns)?;
         let (motion, ball) = read_ball(columns);
-        if motion.is_finite() && ball.is_finite() {
-            return Ok(BallStart { motion, ball });
-        }
-        Err(PlaceError::NotFinite { who: self.names[BALL].clone() })
+        Ok(BallStart { motion, ball })
     }
 
     /// Reads a robot of finite numbers, and whether it is absent. Then only that is read.
     fn parse_robot(&self, index: usize, columns: &[f32]) -> Result<(Motion, bool), PlaceError> {
-        let who = || self.names[robot(index)].clone();
+        let who = robot(index);
         match columns[ABSENT_COLUMN] {
             1.0 => return Ok((self.benches[index], true)),
             0.0 => {}
-            got => return Err(PlaceError::Absent { who: who(), got }),
+            got => return Err(PlaceError::Absent { who: self.names[who].clone(), got }),
         }
-        let motion = read_robot(columns);
-        if motion.is_finite() {
-            Ok((motion, false))
-        } else {
-            Err(PlaceError::NotFinite { who: who() })
-        }
+        self.check_finite(who, &ROBOT_COLUMNS[..PLACED_OF_ROBOT], columns)?;
+        Ok((read_robot(columns), false))
     }
 
-    /// Checks the ball against the field.
+    /// Checks the ball against the limits of a start and the field.
     fn check_ball_alone(&self, motion: &mut Motion, ball: &BallState) -> Result<(), PlaceError> {
         if ball.z < 0.0 {
             return Err(PlaceError::Below { z: ball.z });
         }
+        if ball.z > MAX_PLACED_HEIGHT {
+            return Err(PlaceError::TooHigh { z: ball.z });
+        }
+        self.check_speed(BALL, "v_x, v_y, v_z", motion.velocity.extend(ball.v_z))?;
+        let spin = length(ball.spin);
+        if spin > MAX_PLACED_SPIN * ROUNDED {
+            return Err(PlaceError::SpinsTooFast { spin });
+        }
         self.check_alone(BALL, motion, ball.z)
+    }
+
+    /// Checks a robot against the limits of a start and the field.
+    fn check_robot_alone(&self, who: usize, motion: &mut Motion) -> Result<(), PlaceError> {
+        self.check_speed(who, "v_x, v_y", motion.velocity.extend(0.0))?;
+        let rate = motion.spin;
+        if rate.abs() > MAX_PLACED_TURN_RATE * ROUNDED {
+            return Err(PlaceError::TurnsTooFast { who: self.names[who].clone(), rate });
+        }
+        self.check_alone(who, motion, 0.0)
+    }
+
+    /// Checks that the values of these columns are finite.
+    fn check_finite(
+        &self,
+        who: usize,
+        names: &[&'static str],
+        columns: &[f32],
+    ) -> Result<(), PlaceError> {
+        let mut wrong = names.iter().zip(columns).filter(|(_, value)| !value.is_finite());
+        wrong.next().map_or(Ok(()), |(column, got)| {
+            Err(PlaceError::NotFinite { who: self.names[who].clone(), column, got: *got })
+        })
+    }
+
+    fn check_speed(
+        &self,
+        who: usize,
+        columns: &'static str,
+        velocity: Vec3,
+    ) -> Result<(), PlaceError> {
+        let speed = length(velocity);
+        if speed > MAX_PLACED_SPEED * ROUNDED {
+            return Err(PlaceError::TooFast { who: self.names[who].clone(), columns, speed });
+        }
+        Ok(())
     }
 
     /// Checks a body against the field, and normalises its heading.
@@ -212,11 +260,6 @@ impl Placement {
     ) -> Result<(), PlaceError> {
         let name = || self.names[who].clone();
         let Motion { position, heading, .. } = *motion;
-        let speed = motion.velocity.length();
-        // A velocity that was drawn up to the maximum may be a rounding error above it.
-        if speed > MAX_PLACED_SPEED * (1.0 + 1e-6) {
-            return Err(PlaceError::TooFast { who: name(), speed });
-        }
         if (heading.length() - 1.0).abs() > HEADING_TOLERANCE {
             return Err(PlaceError::Heading { who: name(), cos: heading.x, sin: heading.y });
         }
@@ -309,6 +352,15 @@ fn benches(config: &SimConfig) -> Vec<Motion> {
         (0..team.len()).map(move |index| bench_place(&config.field, is_blue, index))
     });
     places.collect()
+}
+
+/// Length of a vector; squares of absurd numbers are still finite.
+pub(super) fn length(vector: Vec3) -> f32 {
+    let squares = vector.to_array().map(|part| f64::from(part) * f64::from(part));
+    #[allow(clippy::cast_possible_truncation)]
+    // at most the largest number of f32 times the root of 3
+    let length = squares.iter().sum::<f64>().sqrt() as f32;
+    length
 }
 
 pub(super) fn pose(motion: &Motion) -> Pose {

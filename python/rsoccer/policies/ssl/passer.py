@@ -6,6 +6,7 @@ import numpy as np
 
 from rsoccer.arrays import Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.ssl import motion
 from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl, require_ssl
@@ -48,12 +49,10 @@ class Passer(Policy):
             raise ValueError(f"task: passer needs a teammate, got {task.name}")
         self._region = Region.of_field(task.config.field, LINE_MARGIN)
         ball = task.config.ball
-        share = ball.slide_to_roll_ratio**2
-        # A kicked ball slides until its speed is the rolling share of the kick, then it rolls:
-        # v² = a k² - 2 d s.
-        self._slides = np.float32((1.0 - share) / (2.0 * ball.sliding_deceleration))
-        self._rolls = np.float32(2.0 * ball.rolling_deceleration)
-        self._share = np.float32(share)
+        self._ratio = ball.slide_to_roll_ratio
+        # A kicked ball slides until its speed is the rolling share of the kick: v² = k² - 2 d s.
+        self._slides = np.float32((1.0 - self._ratio**2) / (2.0 * ball.sliding_deceleration))
+        self._rolling = RollingLaw(ball)
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return actions, (n, robots, 5)."""
@@ -91,9 +90,8 @@ class Passer(Policy):
         distance = np.maximum(norm(x, y) - self._control.mouth_distance, np.float32(0.0))
         extra = LONG_PASS_GAIN * np.maximum(distance - LONG_PASS, np.float32(0.0))
         arrival = ARRIVAL_SPEED + extra
-        square = arrival * arrival + self._rolls * distance
-        square = square / (self._share + self._rolls * self._slides)
-        return np.where(ready, np.sqrt(square), np.float32(0.0))
+        speed = self._rolling.kick_speed(distance, arrival, self._ratio, self._slides)
+        return np.where(ready, speed, np.float32(0.0))
 
     def _receiving_velocity(self, view: View) -> XY:
         """Velocity (m/s) onto the line of a coming ball, or away from a teammate too near."""

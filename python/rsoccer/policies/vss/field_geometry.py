@@ -7,6 +7,7 @@ import numpy as np
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import BallColumns
+from rsoccer.policies.rolling import RollingLaw
 from rsoccer.policies.vss.drive_control import turning_clearance
 from rsoccer.vectors import TINY, XY, norm, reciprocal, unit
 
@@ -42,7 +43,7 @@ class FieldGeometry:
         """Largest y at which a robot can turn on the spot."""
         self._ball_x = np.float32(field.half_length - ball.radius)
         self._ball_y = np.float32(field.half_width - ball.radius)
-        self._deceleration = np.maximum(np.float32(ball.rolling_deceleration), TINY)
+        self._rolling = RollingLaw(ball)
         self._wall_distance = np.float32(ball.radius + WALL_GAP)
         self._goal_max_x = np.float32(field.half_length + field.goal_depth - clearance)
         self._goal_max_y = np.float32(field.goal_width / 2 - clearance)
@@ -99,8 +100,7 @@ class FieldGeometry:
         x, y = ball.position[..., 0], ball.position[..., 1]
         v_x, v_y = ball.velocity[..., 0], ball.velocity[..., 1]
         speed = norm(v_x, v_y)
-        seconds = np.minimum(seconds, speed / self._deceleration)
-        slowing = np.float32(0.5) * self._deceleration * seconds * seconds
+        seconds, slowing = self._rolling.slowing(speed, seconds)
         slowing = slowing * reciprocal(speed, TINY)
         seconds = seconds - slowing  # time for the same path at the present speed
         return _rebound(x + v_x * seconds, self._ball_x), self.rebound_y(y + v_y * seconds)
