@@ -287,20 +287,21 @@ fn touches_and_collisions_of_a_moved_robot_are_cleared() {
             .map(|name| columns[robot_column(name)])
     };
     let mut cleared = [0.0; 3];
-    for step in 0..400 {
+    for (step, taken) in (0..400).zip((0..6).cycle()) {
         world.step(&scene.commands(&row(&world), step, 0)).expect("finite");
         let before = row(&world);
         let mut moved = world.clone();
         let mut out = before.clone();
-        robots_mut(&mut out).next().expect("a robot")[robot_column("absent")] = 1.0;
+        let other = (taken + 1) % 6;
+        robots_mut(&mut out).nth(taken).expect("a robot")[robot_column("absent")] = 1.0;
         let mut mask = [false; 6];
-        mask[0] = true;
+        mask[taken] = true;
         moved.reposition_robots(&mask, &out).expect("absent");
         let after = row(&moved);
-        assert_eq!(met(&after, 0), [0.0; 3]);
-        assert_eq!(met(&after, 1), met(&before, 1));
+        assert_eq!(met(&after, taken), [0.0; 3]);
+        assert_eq!(met(&after, other), met(&before, other));
         assert_eq!(after[..BALL_COLUMNS.len()], before[..BALL_COLUMNS.len()]);
-        cleared = std::array::from_fn(|nth| cleared[nth] + met(&before, 0)[nth]);
+        cleared = std::array::from_fn(|nth| cleared[nth] + met(&before, taken)[nth]);
     }
     assert!(cleared.iter().all(|sum| *sum > 0.0), "{cleared:?}");
 }
@@ -317,7 +318,7 @@ fn a_robot_that_cannot_be_there_changes_no_world() {
         (vec![0.0, 0.0, 1.0, 0.0], "ball and blue_1 overlap"),
         (vec![0.0, 0.9, 1.0, 0.0], "blue_1 is outside"),
         (vec![0.3, 0.0, 0.5, 0.0], "the heading of blue_1"),
-        (vec![f32::NAN, 0.0, 1.0, 0.0], "blue_1 has a value that is not finite"),
+        (vec![f32::NAN, 0.0, 1.0, 0.0], "x of blue_1 must be finite"),
     ] {
         let mut wrong = scene.start.repeat(2);
         let at = scene.start.len() + BALL_COLUMNS.len() + size;

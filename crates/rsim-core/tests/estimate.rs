@@ -227,7 +227,7 @@ fn what_is_not_finite_is_refused_without_a_change() {
             let error = batch.place_estimates(&[true; 2], &estimate, &mut rows, &mut moved);
             let error = error.expect_err("not finite");
             assert!(matches!(error, PlaceError::InWorld { world: 1, .. }), "{error}");
-            assert!(error.to_string().contains("not finite"), "{error}");
+            assert!(error.to_string().contains("must be finite"), "{error}");
             assert_eq!(batch.snapshot(), kept);
             assert_eq!((&rows, &moved), (&before, &vec![9.0; 14]));
         }
