@@ -59,15 +59,15 @@ def test_absent_robots_are_observed_as_zeros_and_by_their_flag() -> None:
     assert (blocks["presence"].sum(axis=2) == here.sum(axis=1, keepdims=True) * here).all()
     assert not blocks["ball"][absent].any()
     assert not blocks["opponents"][:, 0][absent[:, 3:]].any()
-    assert not task.observe(play)[absent][:, : -task.action_size].any()
-    assert "presence" not in VssSelfPlay().blocks
+    assert not task.layout.observe(play)[absent][:, : -task.action_size].any()
+    assert "presence" not in VssSelfPlay().layout.blocks
 
 
 def test_presence_has_bounds_and_a_reflection() -> None:
     task = WithPresence()
-    columns = task.blocks["presence"].columns
-    assert task.observation_high[columns].tolist() == [1.0] * 6
-    mirror = task.observation_reflection
+    columns = task.layout.blocks["presence"].columns
+    assert task.layout.high[columns].tolist() == [1.0] * 6
+    mirror = task.layout.reflection
     assert mirror is not None
     assert mirror.signs[columns].tolist() == [1.0] * 6
     assert mirror.order[columns].tolist() == list(range(columns.start, columns.stop))

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from benches.markdown import table
 from rsoccer._core import BallModel
 from rsoccer.arrays import Array
-from tools.markdown import table
 from tools.physics.ball_pictures import figure
 from tools.physics.ball_rolling import ENDLESS
 from tools.physics.kicks import FIGURES

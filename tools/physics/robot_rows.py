@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import BALLS, GENERIC, VSS_ROBOTS
@@ -53,7 +54,7 @@ def checks() -> Checks:
             yield from _pressing(name, speed)
 
 
-def _row(moving: int) -> tuple[Scene, np.ndarray, np.ndarray, np.ndarray]:
+def _row(moving: int) -> tuple[Scene, Array, Array, Array]:
     """Return rows along x with `moving` more robots; gaps, angles and half lengths by world."""
     gaps, angles = (grid.ravel() for grid in np.meshgrid(GAPS, ANGLES))
     robots = ROBOTS + moving

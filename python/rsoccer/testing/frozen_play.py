@@ -43,9 +43,8 @@ def frozen(play: Play, parts: Collection[str]) -> Play:
         if name in parts:
             view: View = getattr(copy, name)
             # In place: the state keeps the object and computes it once.
-            arrays = map(_array, (view.ball.data, view.robots.data, view.present))
-            ball, robots, present = arrays
-            View.__init__(view, ball, robots, view.n_teammates, present)
+            ball, robots = map(_array, (view.ball.data, view.robots.data))
+            View.__init__(view, ball, robots, view.n_teammates)
     return copy
 
 

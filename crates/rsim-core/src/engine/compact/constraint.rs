@@ -45,7 +45,7 @@ pub(super) struct Constraint {
     /// Index of the pair.
     pub(super) link: usize,
     first: usize,
-    second: usize,
+    pub(super) second: usize,
     /// Unit vector from the first to the second.
     pub(super) normal: Vector,
     friction: Friction,

@@ -87,6 +87,7 @@ impl CompactSolver {
         let step = SubStep {
             window: Window { time, reach: 2.0 * near.fastest * time },
             pushing: Pass::pushing(time),
+            pushing_ball: Pass::pushing_ball(time),
             relaxing: Pass::relaxing(time),
             squeezed: rules.squeezed.is_some(),
         };
@@ -123,6 +124,7 @@ pub(super) struct NearBodies<'a> {
 struct SubStep {
     window: Window,
     pushing: Pass,
+    pushing_ball: Pass,
     relaxing: Pass,
     /// Whether the ball is squeezed.
     squeezed: bool,
@@ -172,7 +174,9 @@ impl CompactScratch {
         for pass in 1..=MAX_PASSES {
             let mut change = 0.0_f32;
             for constraint in constraints.iter_mut() {
-                change = change.max(constraint.solve(bodies, &step.pushing));
+                let is_ball = constraint.second == BALL;
+                let push = if is_ball { &step.pushing_ball } else { &step.pushing };
+                change = change.max(constraint.solve(bodies, push));
             }
             if pass >= min_passes && change < SETTLED {
                 break;
