@@ -4,6 +4,9 @@ Its weights are rounded to half precision. The policy plays a fixed list of star
 where the task has two, against each opponent. Its scores and how it was made go into the metadata
 of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There it is
 the policy `best` of its task.
+
+`python -m tools.ship_policy --again` measures policies that are in the package once more, after a
+change of the physics: their weights stay.
 """
 
 import argparse
@@ -37,11 +40,20 @@ MAX_SIZE: Final = 144 * 1024
 def main() -> None:
     """Evaluate the policy of a run, and copy it into the package."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("run", type=Path, help="folder of a training run")
+    parser.add_argument("run", type=Path, nargs="?", help="folder of a training run")
+    parser.add_argument(
+        "--again", nargs="*", metavar="TASK", help="measure shipped policies again; all by default"
+    )
     parser.add_argument("--opponents", nargs="*", help="policies of the other team")
     parser.add_argument("--starts", type=int, default=STARTS, help="starts for each side")
     parser.add_argument("--threads", type=int, help="threads of the simulator")
     arguments = parser.parse_args()
+    if (arguments.run is None) == (arguments.again is None):
+        parser.error("expected either a run or --again")
+    if arguments.again is not None:
+        for task in arguments.again or trained.list_trained():
+            measure_again(task, arguments.starts, arguments.threads)
+        return
     path = ship(arguments.run, arguments.opponents, arguments.starts, arguments.threads)
     print(f"{path}: {path.stat().st_size / 1024:.1f} KiB")
 
@@ -90,6 +102,31 @@ def ship(
     return path
 
 
+def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -> None:
+    """Measure a policy of the package again, against the opponents that its file has scores of.
+
+    Args:
+        name: task of the policy.
+        starts: starts for each side, at least 10.
+        threads: threads of the simulator; None for all.
+
+    Raises:
+        ValueError: no policy of that task, or too few starts.
+    """
+    checks.integer("starts", starts, MIN_PER_SIDE)
+    path = trained.list_trained().get(name)
+    if path is None:
+        raise ValueError(f"name: expected one of {list(trained.list_trained())}, got {name!r}")
+    before = trained.list_scores(path)
+    network = Network.load(path)
+    # A policy that was measured on its own names "-" as its opponent.
+    opponents = [score.opponent for score in before if score.opponent != "-"]
+    scores = _scores(path, rsoccer.make_task(name), opponents, starts, threads)
+    print("before:", *before, "now:", *scores, sep="\n    ")
+    network.metadata |= {"scores": scores_text(scores)}
+    network.save(path, half_precision=True)
+
+
 def _scores(
     policy: Path, task: Task, opponents: list[str] | None, starts: int, threads: int | None
 ) -> list[Score]:
@@ -134,7 +171,8 @@ def command_of(settings: dict[str, Any]) -> str:
     for name, value in settings.items():
         if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue
-        option = name.replace("_", "-")
+        # The command line has one word for opponents.
+        option = "opponents" if name == "opponents.fixed" else name.replace("_", "-")
         part, dot, setting = option.rpartition(".")
         if isinstance(value, bool):
             words.append(f"--{option}" if value else f"--{part}{dot}no-{setting}")
