@@ -1,14 +1,63 @@
-"""Interface of simulators that `Matches` can use: `rsoccer.Simulator`, others, or real robots."""
+"""Interfaces of what moves the robots of `Matches`: a simulator, one over a network, real robots.
+
+All of them are a `Stepper`: commands in, state rows out. A simulator that can put bodies anywhere
+is a `Placer` too. Robots cannot, and neither can some simulators over a network; these are a
+`Reader`, and episodes begin with the state as it is. `rsoccer.Simulator` is everything but a
+`Closer`. One that reports only poses becomes complete by `rsoccer.completed`.
+
+Each method that writes rows may return time stamps: (n,) float64, the time at which each row was
+true, in seconds on any clock that runs evenly. `Play.times` has them. None says that every control
+step lasts exactly `config.time_step`.
+"""
 
 from typing import Protocol, runtime_checkable
 
-from rsoccer.arrays import Floats, Mask
+import numpy as np
+
+from rsoccer.arrays import Doubles, Floats, Mask
 
 
-class SimulatorLike(Protocol):
-    """Simulator of the robots and balls of n worlds, such as `rsoccer.Simulator`."""
+class Stepper(Protocol):
+    """Robots and balls of n worlds that execute commands."""
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
+        """Advance the active worlds by one control step.
+
+        Real robots execute the commands for the time of a control step. Any exception leaves the
+        calling `Matches` inconsistent until new episodes begin in all worlds.
+
+        Args:
+            commands: (n, robots, command) commands in SI units, `config.command_columns`.
+            out: (n, row) output; the rows of the active worlds are overwritten.
+            active: (n,) bool, worlds to advance; all if None.
+
+        Returns:
+            Time stamps, or None.
+        """
+
+
+@runtime_checkable
+class Reader(Protocol):
+    """A stepper that tells its present state, from which episodes can begin."""
+
+    def read(self, out: Floats) -> Doubles | None:
+        """Write the present state of all worlds, without touches and crossings of the past.
+
+        Args:
+            out: (n, row) output.
+
+        Returns:
+            Time stamps, or None.
+        """
+
+
+@runtime_checkable
+class Placer(Protocol):
+    """A stepper that can put bodies anywhere."""
+
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+    ) -> Doubles | None:
         """Start new matches in some worlds.
 
         `Matches` calls this method for new episodes, without `params`.
@@ -21,12 +70,15 @@ class SimulatorLike(Protocol):
                 `BALL_PARAMETERS` and then `ROBOT_PARAMETERS` of each robot; the simulator's choice
                 if None.
 
+        Returns:
+            Time stamps, or None.
+
         Raises:
             ValueError: bodies that overlap or are outside, or factors out of their range. The state
                 must be unchanged.
         """
 
-    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
+    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:
         """Put all bodies of some running matches into a new state, as a referee does.
 
         The worlds keep their factors on the models' numbers, and their clocks go on. `Matches`
@@ -37,11 +89,14 @@ class SimulatorLike(Protocol):
             rows: (k, row) new state rows.
             out: (n, row) output; the rows of the k worlds are overwritten.
 
+        Returns:
+            Time stamps, or None.
+
         Raises:
             ValueError: bodies that overlap or are outside. The state must be unchanged.
         """
 
-    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
+    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> Doubles | None:
         """Move the balls of some worlds; their robots and clocks go on.
 
         `Matches` calls this method for a `Restart` with `balls`.
@@ -51,25 +106,25 @@ class SimulatorLike(Protocol):
             balls: (k, ball column) new ball states; position, velocity and spin count.
             out: (n, row) output; the rows of the k worlds are overwritten.
 
+        Returns:
+            Time stamps, or None.
+
         Raises:
             ValueError: a ball inside a robot or outside. The state must be unchanged.
         """
 
-    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-        """Advance the active worlds by one control step.
 
-        Any exception leaves the calling `Matches` inconsistent until all worlds are placed again.
+@runtime_checkable
+class Closer(Protocol):
+    """A stepper that holds something to be released, such as a socket."""
 
-        Args:
-            commands: (n, robots, command) commands in SI units.
-            out: (n, row) output; the rows of the active worlds are overwritten.
-            active: (n,) bool, worlds to advance; all if None.
-        """
+    def close(self) -> None:
+        """Stop the robots and release what is held; `Matches.close` calls this method."""
 
 
 @runtime_checkable
 class SupportsSnapshots(Protocol):
-    """Additional methods of a simulator that `Matches.state_dict` can save."""
+    """A stepper that `Matches.state_dict` can save."""
 
     def snapshot(self) -> bytes:
         """Return the exact state of all worlds."""
@@ -86,15 +141,106 @@ class SupportsSnapshots(Protocol):
         """
 
 
-def require_snapshots(simulator: SimulatorLike) -> SupportsSnapshots:
-    """Return a simulator after a check that it can be saved.
+def require_snapshots(stepper: Stepper) -> SupportsSnapshots:
+    """Return a stepper after a check that it can be saved.
 
     Args:
-        simulator: the simulator.
+        stepper: the stepper.
 
     Raises:
-        TypeError: the simulator has no `snapshot` or no `restore`.
+        TypeError: it has no `snapshot` or no `restore`.
     """
-    if not isinstance(simulator, SupportsSnapshots):
-        raise TypeError(f"{type(simulator).__name__} has no snapshot and restore")
-    return simulator
+    if not isinstance(stepper, SupportsSnapshots):
+        raise TypeError(f"{type(stepper).__name__} has no snapshot and restore")
+    return stepper
+
+
+class Starts:
+    """The ways in which episodes begin and play restarts with a stepper."""
+
+    def __init__(self, stepper: Stepper) -> None:
+        """Choose the ways.
+
+        Args:
+            stepper: a `Placer`, or else a `Reader`.
+
+        Raises:
+            TypeError: it is neither.
+        """
+        self._placer = stepper if isinstance(stepper, Placer) else None
+        self._reader = stepper if isinstance(stepper, Reader) else None
+        self._name = type(stepper).__name__
+        if self._placer is None and self._reader is None:
+            raise TypeError(
+                "simulator: expected one that can place bodies (place, restart, "
+                f"reposition_balls) or read its state (read), got {self._name} with neither"
+            )
+
+    @property
+    def can_place(self) -> bool:
+        """Whether bodies can be put anywhere; otherwise episodes begin with the state as it is."""
+        return self._placer is not None
+
+    def check_rows(self) -> None:
+        """Refuse initial states that are given from outside.
+
+        Raises:
+            ValueError: bodies cannot be placed.
+        """
+        if self._placer is None:
+            raise ValueError(
+                f"rows: {self._name} cannot place bodies, so episodes begin with the state as it "
+                "is; expected None"
+            )
+
+    def begin(self, worlds: Mask, rows: Floats | None, out: Floats) -> Doubles | None:
+        """Begin episodes in some worlds.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) initial states; None for the state as it is.
+            out: (n, row) output; the rows of the k worlds are overwritten.
+
+        Returns:
+            Time stamps, or None.
+
+        Raises:
+            ValueError: a state that is not finite. Nothing has changed.
+        """
+        if self._placer is not None and rows is not None:
+            return self._placer.place(worlds, rows, out)
+        assert self._reader is not None, "the constructor has checked it"
+        present = np.empty_like(out)
+        times = self._reader.read(present)
+        if not np.isfinite(present[worlds]).all():
+            raise ValueError(f"{self._name}.read: expected finite numbers")
+        out[worlds] = present[worlds]
+        return times
+
+    def restart(
+        self, worlds: Mask, rows: Floats | None, balls: Floats | None, out: Floats
+    ) -> Doubles | None:
+        """Restart play in some worlds.
+
+        Args:
+            worlds: (n,) bool, k of them True.
+            rows: (k, row) new states of all bodies, or None.
+            balls: (k, ball column) new states of the balls, or None.
+            out: (n, row) output; the rows of the k worlds are overwritten.
+
+        Returns:
+            Time stamps, or None.
+
+        Raises:
+            RuntimeError: bodies cannot be placed.
+        """
+        if self._placer is None:
+            raise RuntimeError(
+                f"a rule restarts play in worlds {np.flatnonzero(worlds).tolist()}, but "
+                f"{self._name} cannot place bodies; rsoccer.placed_by_hand.PlacedByHand asks "
+                "people, or code of yours, to place them"
+            )
+        if balls is not None:
+            return self._placer.reposition_balls(worlds, balls, out)
+        assert rows is not None, "a restart has rows or balls"
+        return self._placer.restart(worlds, rows, out)

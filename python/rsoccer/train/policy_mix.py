@@ -116,10 +116,11 @@ def _act_in(
         shape,
         None if view is None or needed < 1 else view.take(worlds),
         None if observations is None or needed < 2 else observations[worlds],
+        inputs.optional_actions,
     )
     streams = rng[worlds]
     own = {name: array[worlds] for name, array in memory.items()}
-    actions = policy.act(part, streams, own)
+    actions = part.completed(policy.act(part, streams, own))
     rng.put(worlds, streams)
     for name, array in own.items():
         memory[name][worlds] = array

@@ -1,0 +1,89 @@
+"""Contacts of robots with each other between two frames, and their closing speeds."""
+
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from rsoccer._core import SimConfig
+from rsoccer.arrays import Floats, Mask
+from rsoccer.derived.motion import Seconds, column, poses_after
+from rsoccer.derived.outlines import CONTACT_GAP, SHARES, Indices, Separation, outlines_of
+from rsoccer.frame import Frame
+
+BRAKING: Final = np.float32(10.0)
+"""Greatest acceleration of a robot by its own wheels, m/s². Two robots that would overlap by less
+than it can change, had they kept their velocities, may not have met."""
+
+
+class Collisions(NamedTuple):
+    """Contacts of robots with each other."""
+
+    opponent: Mask
+    """(n, robots) whether a robot touched an opponent."""
+    speed: Floats
+    """(n, robots) closing speed of a robot's hardest contact with another robot, m/s."""
+
+
+def collisions(
+    last: Frame,
+    frame: Frame,
+    config: SimConfig,
+    seconds: Seconds,
+    gap: float = CONTACT_GAP,
+) -> Collisions:
+    """Find the robots that touched each other between two frames, and their closing speeds.
+
+    Robots have met if they touch in the present frame, or did on the way by which they came; or if
+    they would have overlapped with their last velocities by more than they can brake. Closing
+    speeds are those of the last velocities, so they lack what robots accelerated since.
+
+    Args:
+        last: poses and velocities of the earlier frame.
+        frame: poses and velocities of the present frame.
+        config: robots.
+        seconds: time between the two.
+        gap: gap up to which two robots touch, m.
+
+    Returns:
+        The contacts of each robot.
+    """
+    outlines, time = outlines_of(config), column(seconds)
+    first, second = np.triu_indices(config.n_robots, 1)
+    now = outlines.separation(poses_after(frame, time * 0.0), first, second)
+    met = now.gap <= gap
+    speed = _closing(last, now, gap, first, second)
+    braked = BRAKING * time * time
+    for share in SHARES:
+        back = outlines.separation(poses_after(frame, -share * time), first, second)
+        ahead = outlines.separation(poses_after(last, share * time), first, second)
+        met |= (back.gap <= 0.0) | (ahead.gap <= -braked)
+        speed = np.maximum(speed, _closing(last, ahead, gap, first, second))
+    return _by_robot(met, speed * met, config, first, second)
+
+
+def _closing(
+    frame: Frame, apart: Separation, gap: float, first: Indices, second: Indices
+) -> Floats:
+    """Speeds (n, pairs) at which surfaces that touch approach each other, m/s; 0 for others."""
+    velocities = []
+    for robots in (first, second):
+        arm = apart.point - frame.robots.position[:, robots]
+        turn = frame.robots.angular_velocity[:, robots, None]
+        across = np.stack([-arm[..., 1], arm[..., 0]], axis=-1)
+        velocities.append(frame.robots.velocity[:, robots] + turn * across)
+    closing = ((velocities[0] - velocities[1]) * apart.normal).sum(axis=-1)
+    return np.where(apart.gap <= gap, np.maximum(closing, 0.0), np.float32(0.0))
+
+
+def _by_robot(
+    met: Mask, speed: Floats, config: SimConfig, first: Indices, second: Indices
+) -> Collisions:
+    """Contacts (n, robots), from those of pairs (n, pairs)."""
+    shape = (len(met), config.n_robots)
+    found = Collisions(np.zeros(shape, np.bool_), np.zeros(shape, np.float32))
+    opponents = met & ((first < config.n_blue) != (second < config.n_blue))
+    for pair, ends in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
+        for robot in ends:
+            found.opponent[:, robot] |= opponents[:, pair]
+            np.maximum(found.speed[:, robot], speed[:, pair], out=found.speed[:, robot])
+    return found
