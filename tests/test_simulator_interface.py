@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Matches, SimConfig, Simulator
-from rsoccer.arrays import Floats, Mask
+from rsoccer import Matches, Play, Restart, Rule, SimConfig, Simulator, Task, WorldRng
+from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import begun, same, zeros
 
@@ -82,3 +82,164 @@ def test_the_default_simulator_is_the_packages() -> None:
     simulator.read(rows)
     assert same(rows, matches.frame.rows)
     assert rsoccer.Matches is Matches
+
+
+class Robots:
+    """Robots that cannot be placed, with a clock and a position of their own."""
+
+    def __init__(self, config: SimConfig, worlds: int = 1, stamps: bool = True) -> None:
+        self._simulator, self._stamps = Simulator(config, worlds), stamps
+        self.clock, self.closed = np.full(worlds, 7.0), 0
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
+        self._simulator.step(commands, out, active)
+        self.clock += 0.03 if active is None else np.where(active, 0.03, 0.0)
+        return self.clock if self._stamps else None
+
+    def read(self, out: Floats) -> Doubles | None:
+        self._simulator.read(out)
+        return self.clock if self._stamps else None
+
+    def snapshot(self) -> bytes:
+        return self._simulator.snapshot()
+
+    def restore(self, snapshot: bytes) -> None:
+        self._simulator.restore(snapshot)
+
+    def close(self) -> None:
+        self.closed += 1
+
+
+def robots_of(task: Task, worlds: int = 1, stamps: bool = True) -> Robots:
+    """Robots that stand where an episode of the task begins."""
+    robots = Robots(task.config, worlds, stamps)
+    rows = task.get_initial_positions_frame(WorldRng.seeded(5, worlds)).rows
+    robots._simulator.place(np.ones(worlds, np.bool_), rows, np.empty_like(rows))
+    return robots
+
+
+def test_episodes_begin_as_it_is_where_nothing_can_be_placed() -> None:
+    task = VssSelfPlay(max_steps=4)
+    robots = robots_of(task, 2)
+    matches = Matches(task, 2, simulator=robots)
+    matches.reset()
+    present = np.empty_like(matches.frame.rows)
+    robots.read(present)
+    assert same(matches.frame.rows, present)
+    for _ in range(4):
+        outcome = matches.step(zeros(matches) + 1.0)
+    assert outcome.truncated.all()
+    robots.read(present)
+    assert same(matches.frame.rows, present), "the next episode goes on from there"
+    assert not matches.play.steps.any()
+    with pytest.raises(ValueError, match=r"rows: Robots cannot place bodies.*as it is"):
+        matches.reset(rows=present)
+    matches.step(zeros(matches))
+
+
+def test_some_worlds_begin_while_the_others_keep_their_frame() -> None:
+    task = VssSelfPlay()
+    matches = Matches(task, 2, simulator=robots_of(task, 2))
+    matches.reset()
+    matches.step(zeros(matches) + 1.0)
+    before = matches.frame.rows.copy()
+    matches.reset(mask=np.array([True, False]))
+    assert same(matches.frame.rows[1], before[1])
+    assert matches.play.steps.tolist() == [0, 1]
+
+
+def test_a_restart_without_a_placer_says_what_to_do() -> None:
+    class Always(Rule):
+        def judge(self, play: Play) -> Restart:
+            return Restart(np.array([0]), rows=play.frame.rows[:1])
+
+    class Restarted(VssSelfPlay):
+        @property
+        def rules(self) -> list[Rule]:
+            return [Always()]
+
+    task = Restarted()
+    matches = Matches(task, simulator=robots_of(task))
+    matches.reset()
+    with pytest.raises(RuntimeError, match=r"worlds \[0\], but Robots cannot place.*PlacedByHand"):
+        matches.step(zeros(matches))
+    matches.reset()
+
+
+def test_a_simulator_that_neither_places_nor_reads_is_refused() -> None:
+    class OnlySteps:
+        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+            pass
+
+    with pytest.raises(TypeError, match=r"simulator: expected one that can place.*OnlySteps"):
+        Matches("VSSSelfPlay-v0", simulator=OnlySteps())
+
+
+def test_time_stamps_reach_the_state_and_are_saved() -> None:
+    task = VssSelfPlay(max_steps=5)
+    matches = Matches(task, 2, simulator=robots_of(task, 2))
+    assert matches.play.times is None
+    matches.reset()
+    assert matches.play.times is not None
+    assert matches.play.times.tolist() == [7.0, 7.0]
+    for _ in range(7):
+        matches.step(zeros(matches))
+    assert matches.play.times == pytest.approx([7.21, 7.21])
+    saved = matches.state_dict()
+    resumed = Matches(task, 2, simulator=robots_of(task, 2))
+    resumed.load_state_dict(saved)
+    assert resumed.play.times == pytest.approx([7.21, 7.21])
+    plain = Matches(task, 2, simulator=robots_of(task, 2, stamps=False))
+    plain.reset()
+    plain.step(zeros(plain))
+    assert plain.play.times is None
+    with pytest.raises(ValueError, match="state: missing or unknown"):
+        plain.load_state_dict({**saved, "more": saved["times"]})
+    assert plain.play.times is None
+
+
+def test_waiting_worlds_keep_their_time() -> None:
+    task = VssSelfPlay(max_steps=2)
+    matches = Matches(task, 2, simulator=robots_of(task, 2), autoreset="disabled")
+    matches.reset()
+    matches.step(zeros(matches))
+    matches.reset(mask=np.array([False, True]))
+    matches.step(zeros(matches))
+    matches.step(zeros(matches))
+    assert matches.done.tolist() == [True, True]
+    assert matches.play.times == pytest.approx([7.06, 7.09])
+
+
+@pytest.mark.parametrize("times", [np.zeros(3), np.zeros(2, np.float32), np.full(2, np.nan)])
+def test_wrong_time_stamps_are_refused(times: Array) -> None:
+    class Wrong(Robots):
+        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles:
+            super().step(commands, out, active)
+            return times
+
+    task = VssSelfPlay()
+    wrong = Wrong(task.config, 2)
+    wrong._simulator = robots_of(task, 2)._simulator
+    matches = Matches(task, 2, simulator=wrong)
+    matches.reset()
+    with pytest.raises(ValueError, match=r"simulator: expected finite float64 \(2,\)"):
+        matches.step(zeros(matches))
+
+
+def test_a_state_that_is_not_finite_begins_no_episode() -> None:
+    class Lost(Robots):
+        def read(self, out: Floats) -> Doubles | None:
+            out[:] = np.nan
+            return None
+
+    matches = Matches("VSSSelfPlay-v0", simulator=Lost(SimConfig()))
+    with pytest.raises(ValueError, match=r"Lost\.read: expected finite numbers"):
+        matches.reset()
+
+
+def test_close_reaches_a_simulator_that_holds_something() -> None:
+    task = VssSelfPlay()
+    robots = robots_of(task)
+    Matches(task, simulator=robots).close()
+    assert robots.closed == 1
+    Matches(task).close()
