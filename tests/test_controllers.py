@@ -4,6 +4,7 @@ import pytest
 from rsoccer import LEARN, CommandPolicy, Matches, Policy
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
+from rsoccer.evaluate import evaluate
 from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
@@ -143,6 +144,13 @@ def test_worlds_that_wait_keep_the_memory_of_a_controller_in_si_units() -> None:
     matches.step(zeros(matches))
     matches.step(zeros(matches))
     assert matches.state_dict()["blue_0.calls"].tolist() == [2.0, 2.0]
+
+
+def test_a_controller_in_si_units_is_not_evaluated_by_its_actions() -> None:
+    with pytest.raises(
+        TypeError, match=r"policy: expected .* actions, got Wheels, which gives com"
+    ):
+        evaluate(Wheels(), task="VSS-v0", matches=2)
 
 
 @pytest.mark.parametrize(

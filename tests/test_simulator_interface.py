@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -235,6 +237,23 @@ def test_a_state_that_is_not_finite_begins_no_episode() -> None:
     matches = Matches("VSSSelfPlay-v0", simulator=Lost(SimConfig()))
     with pytest.raises(ValueError, match=r"Lost\.read: expected finite numbers"):
         matches.reset()
+
+
+def test_a_layer_over_a_simulator_may_forward_its_methods() -> None:
+    class Layer:
+        def __init__(self, simulator: Simulator) -> None:
+            self.inner = simulator
+
+        def __getattr__(self, name: str) -> Any:  # noqa: ANN401
+            return getattr(self.inner, name)
+
+        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+            self.inner.step(commands, out, active)
+
+    layered = Matches("VSSSelfPlay-v0", simulator=Layer(Simulator(SimConfig())))
+    plain = Matches("VSSSelfPlay-v0")
+    assert same(layered.reset(), plain.reset())
+    assert same(layered.state_dict()["simulator"], plain.state_dict()["simulator"])
 
 
 def test_close_reaches_a_simulator_that_holds_something() -> None:

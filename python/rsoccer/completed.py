@@ -16,7 +16,7 @@ from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.derived.outlines import CONTACT_GAP
 from rsoccer.frame import Frame, column_slice
 from rsoccer.game import NOBODY
-from rsoccer.simulator_interface import Closer, Placer, Reader, Stepper
+from rsoccer.simulator_interface import Placer, Stepper, close, reader_of
 
 _BALL_MOTION: Final = column_slice(BALL_COLUMNS, "v_x", "v_y", "v_z")
 _ROBOT_MOTION: Final = column_slice(ROBOT_COLUMNS, "v_x", "v_y", "v_theta")
@@ -96,9 +96,9 @@ class CompletedStepper:
         Raises:
             TypeError: the stepper cannot read its state.
         """
-        if not isinstance(self._stepper, Reader):
+        if (reader := reader_of(self._stepper)) is None:
             raise TypeError(f"{type(self._stepper).__name__} has no read")
-        times = self._stepper.read(self._raw.rows)
+        times = reader.read(self._raw.rows)
         worlds = np.arange(len(out))
         self._elapsed(worlds, times)
         self._begin(worlds, out, Frame.empty(len(out), self._raw.n_blue, self._raw.n_yellow))
@@ -106,8 +106,7 @@ class CompletedStepper:
 
     def close(self) -> None:
         """Close the stepper, if it can be closed."""
-        if isinstance(self._stepper, Closer):
-            self._stepper.close()
+        close(self._stepper)
 
     def _begin(self, worlds: NDArray[np.intp], out: Floats, known: Frame) -> None:
         """Begin anew in some worlds, with the motion of a known state (k, row)."""
@@ -170,7 +169,20 @@ class CompletedSimulator(CompletedStepper):
         velocities: bool = True,
         gap: float = CONTACT_GAP,
     ) -> None:
-        """Put the completion over a simulator; for the arguments see `CompletedStepper`."""
+        """Put the completion over a simulator.
+
+        Args:
+            stepper: the simulator of n worlds.
+            config: field, ball and robots.
+            worlds: number of worlds n, at least 1.
+            velocities: True: velocities are differences of poses; False: the simulator fills them
+                in.
+            gap: gap up to which bodies touch, m, at least 0: with noisy poses about their noise.
+
+        Raises:
+            TypeError: a number of the wrong type.
+            ValueError: a number out of range.
+        """
         super().__init__(stepper, config, worlds, velocities=velocities, gap=gap)
 
     def place(

@@ -8,7 +8,7 @@ import numpy as np
 
 from rsoccer._core import BALL_COLUMNS
 from rsoccer.arrays import Doubles, Floats, Mask
-from rsoccer.simulator_interface import Closer, Reader, Stepper
+from rsoccer.simulator_interface import Reader, Stepper, close
 
 
 class ReadableStepper(Stepper, Reader, Protocol):
@@ -124,8 +124,7 @@ class PlacedByHand:
 
     def close(self) -> None:
         """Close the stepper, if it can be closed."""
-        if isinstance(self._stepper, Closer):
-            self._stepper.close()
+        close(self._stepper)
 
     def _placed(
         self, worlds: Mask, rows: Floats, out: Floats, *, ball_only: bool

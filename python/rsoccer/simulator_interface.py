@@ -10,7 +10,7 @@ true, in seconds on any clock that runs evenly. `Play.times` has them. None says
 step lasts exactly `config.time_step`.
 """
 
-from typing import Protocol, runtime_checkable
+from typing import Protocol, cast
 
 import numpy as np
 
@@ -36,7 +36,6 @@ class Stepper(Protocol):
         """
 
 
-@runtime_checkable
 class Reader(Protocol):
     """A stepper that tells its present state, from which episodes can begin."""
 
@@ -51,7 +50,6 @@ class Reader(Protocol):
         """
 
 
-@runtime_checkable
 class Placer(Protocol):
     """A stepper that can put bodies anywhere."""
 
@@ -114,7 +112,6 @@ class Placer(Protocol):
         """
 
 
-@runtime_checkable
 class Closer(Protocol):
     """A stepper that holds something to be released, such as a socket."""
 
@@ -122,7 +119,6 @@ class Closer(Protocol):
         """Stop the robots and release what is held; `Matches.close` calls this method."""
 
 
-@runtime_checkable
 class SupportsSnapshots(Protocol):
     """A stepper that `Matches.state_dict` can save."""
 
@@ -150,9 +146,43 @@ def require_snapshots(stepper: Stepper) -> SupportsSnapshots:
     Raises:
         TypeError: it has no `snapshot` or no `restore`.
     """
-    if not isinstance(stepper, SupportsSnapshots):
+    if not _has(stepper, "snapshot", "restore"):
         raise TypeError(f"{type(stepper).__name__} has no snapshot and restore")
-    return stepper
+    return cast(SupportsSnapshots, stepper)
+
+
+def placer_of(stepper: Stepper) -> Placer | None:
+    """Return a stepper that can place bodies, or None.
+
+    Args:
+        stepper: the stepper.
+    """
+    placing = _has(stepper, "place", "restart", "reposition_balls")
+    return cast(Placer, stepper) if placing else None
+
+
+def reader_of(stepper: Stepper) -> Reader | None:
+    """Return a stepper that tells its present state, or None.
+
+    Args:
+        stepper: the stepper.
+    """
+    return cast(Reader, stepper) if _has(stepper, "read") else None
+
+
+def close(stepper: Stepper) -> None:
+    """Close a stepper, if it can be closed.
+
+    Args:
+        stepper: the stepper.
+    """
+    if _has(stepper, "close"):
+        cast(Closer, stepper).close()
+
+
+def _has(stepper: Stepper, *methods: str) -> bool:
+    """Whether it has all methods; one that forwards them by `__getattr__` has them, too."""
+    return all(callable(getattr(stepper, name, None)) for name in methods)
 
 
 class Starts:
@@ -167,8 +197,7 @@ class Starts:
         Raises:
             TypeError: it is neither.
         """
-        self._placer = stepper if isinstance(stepper, Placer) else None
-        self._reader = stepper if isinstance(stepper, Reader) else None
+        self._placer, self._reader = placer_of(stepper), reader_of(stepper)
         self._name = type(stepper).__name__
         if self._placer is None and self._reader is None:
             raise TypeError(
@@ -178,7 +207,7 @@ class Starts:
 
     @property
     def can_place(self) -> bool:
-        """Whether bodies can be put anywhere; otherwise episodes begin with the state as it is."""
+        """True if bodies can be put anywhere; else episodes begin with the state as it is."""
         return self._placer is not None
 
     def check_rows(self) -> None:

@@ -10,10 +10,10 @@ SSL_B = Field("ssl_b")
 def crossed(
     before: tuple[float, float, float], after: tuple[float, float, float]
 ) -> tuple[str, list[float]]:
-    frames = [Frame.empty(1, 0, 0), Frame.empty(1, 0, 0)]
-    for frame, (x, y, z) in zip(frames, (before, after), strict=True):
-        frame.ball.position[0], frame.ball.height[0] = (x, y), z
-    found = derived.crossing(*frames, SSL_B)
+    last, frame = Frame.empty(1, 0, 0), Frame.empty(1, 0, 0)
+    for each, (x, y, z) in ((last, before), (frame, after)):
+        each.ball.position[0], each.ball.height[0] = (x, y), z
+    found = derived.crossing(last, frame, SSL_B)
     return CROSSINGS[found.line[0]], found.at[0].tolist()
 
 

@@ -150,5 +150,5 @@ def test_policies_that_were_trained_without_chips_are_refused() -> None:
 
 
 def test_evaluation_takes_the_option() -> None:
-    results = evaluate("fetch", make_task("SSLGoToBall-v0", chip_kick=True), matches=4)
+    results = evaluate("fetch", task=make_task("SSLGoToBall-v0", chip_kick=True), matches=4)
     assert results.metrics

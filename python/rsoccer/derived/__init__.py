@@ -1,4 +1,4 @@
-"""What follows from two frames: velocities, touches, crossed lines, break beams, collisions.
+"""Columns that follow from two frames: velocities, touches, lines, break beams, collisions.
 
 No camera sees these. A simulator or robots that report poses alone become complete with them, see
 `rsoccer.completed`. Both frames are of n worlds and one control step apart; `last` is the earlier

@@ -37,7 +37,7 @@ class Poses(NamedTuple):
 
 
 class Separation(NamedTuple):
-    """How far two robots are apart, and where they meet."""
+    """Distance of two robots, and the place where they meet."""
 
     gap: Floats
     """(...) distance of the outlines, m; negative where they overlap. The distance of two corners

@@ -1,4 +1,4 @@
-"""Who touches and who has the ball: break beams, touches between two frames, possession."""
+"""Break beams, touches of the ball between two frames, and possession."""
 
 from typing import Final
 

@@ -33,7 +33,7 @@ from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
 from rsoccer.senses import Senses, SensorModel
-from rsoccer.simulator_interface import Closer, Starts, Stepper
+from rsoccer.simulator_interface import Starts, Stepper, close
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -324,8 +324,7 @@ class Matches:
 
     def close(self) -> None:
         """Release what the simulator holds, such as a socket, if it holds anything."""
-        if isinstance(self._simulator, Closer):
-            self._simulator.close()
+        close(self._simulator)
 
     def _action_vectors(self, actions: Array) -> Array:
         """Actions (n, agents, action) of a discrete task, from indices (n, agents) or vectors."""

@@ -151,9 +151,9 @@ class CommandPolicy(Policy):
     """Base class of controllers whose robots take commands in SI units in place of task actions.
 
     Software of a team, or a person, commands wheels, velocities and chips that a task's actions do
-    not have. Such a controller is assigned like any policy; only `Matches` executes its commands,
-    so it plays no part in a mixture of opponents. Its memory and its random streams are those of
-    any policy.
+    not have. Such a controller is assigned like any policy, and its memory and random streams are
+    those of any policy. Only `Matches` executes its commands: in the place of learners, whose
+    actions are evaluated, and in a mixture of opponents it is refused.
 
     `play.actions` of its robots, which tasks observe and reward, is what `act` returns: zeros,
     unless a subclass knows better.
@@ -199,3 +199,20 @@ class CommandPolicy(Policy):
             (n, robots, command) finite numbers in SI units, with the columns
             `config.command_columns`. The limits of the robot apply.
         """
+
+
+def require_actions(name: str, policy: Policy) -> None:
+    """Check that a policy plays by its actions alone.
+
+    Args:
+        name: name of the argument, for the error message.
+        policy: the policy.
+
+    Raises:
+        TypeError: a `CommandPolicy`.
+    """
+    if isinstance(policy, CommandPolicy):
+        raise TypeError(
+            f"{name}: expected a policy that gives actions, got {type(policy).__name__}, which "
+            "gives commands; pass it to Matches as a controller"
+        )
