@@ -32,7 +32,7 @@ LAYERS = [
     {"policies"},
     {"controllers"},
     {"lineup"},
-    {"matches.match_state", "matches.paused"},
+    {"matches.match_state", "matches.paused", "matches.starts"},
     {"matches.loop"},
     {"matches", "matches.policy_match"},
     {"envs.env_matches", "envs.options"},

@@ -26,6 +26,7 @@ from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
+from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy
@@ -33,7 +34,7 @@ from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
 from rsoccer.senses import Senses, SensorModel
-from rsoccer.simulator_interface import Starts, Stepper, close
+from rsoccer.simulator_interface import Stepper, close
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
