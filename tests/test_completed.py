@@ -205,6 +205,10 @@ def test_wrong_arguments_are_named() -> None:
         def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
             pass
 
+    with pytest.raises(
+        TypeError, match="stepper: expected one that can place bodies, got NoReader"
+    ):
+        CompletedSimulator(NoReader(), config)  # type: ignore[arg-type]
     matches = Matches("VSS-v0", simulator=CompletedStepper(NoReader(), config))
     with pytest.raises(TypeError, match="NoReader has no read"):
         matches.reset()

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Matches, Play, Restart, Rule, SimConfig, Simulator, Task, WorldRng
+from rsoccer import Matches, SimConfig, Simulator
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import begun, same, zeros
+from tests.robots import Robots, robots_of
 
 
 class Frozen:
@@ -86,97 +87,6 @@ def test_the_default_simulator_is_the_packages() -> None:
     assert rsoccer.Matches is Matches
 
 
-class Robots:
-    """Robots that cannot be placed, with a clock and a position of their own."""
-
-    def __init__(self, config: SimConfig, worlds: int = 1, stamps: bool = True) -> None:
-        self._simulator, self._stamps = Simulator(config, worlds), stamps
-        self.clock, self.closed = np.full(worlds, 7.0), 0
-
-    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
-        self._simulator.step(commands, out, active)
-        self.clock += 0.03 if active is None else np.where(active, 0.03, 0.0)
-        return self.clock if self._stamps else None
-
-    def read(self, out: Floats) -> Doubles | None:
-        self._simulator.read(out)
-        return self.clock if self._stamps else None
-
-    def snapshot(self) -> bytes:
-        return self._simulator.snapshot()
-
-    def restore(self, snapshot: bytes) -> None:
-        self._simulator.restore(snapshot)
-
-    def close(self) -> None:
-        self.closed += 1
-
-
-def robots_of(task: Task, worlds: int = 1, stamps: bool = True) -> Robots:
-    """Robots that stand where an episode of the task begins."""
-    robots = Robots(task.config, worlds, stamps)
-    rows = task.get_initial_positions_frame(WorldRng.seeded(5, worlds)).rows
-    robots._simulator.place(np.ones(worlds, np.bool_), rows, np.empty_like(rows))
-    return robots
-
-
-def test_episodes_begin_as_it_is_where_nothing_can_be_placed() -> None:
-    task = VssSelfPlay(max_steps=4)
-    robots = robots_of(task, 2)
-    matches = Matches(task, 2, simulator=robots)
-    matches.reset()
-    present = np.empty_like(matches.frame.rows)
-    robots.read(present)
-    assert same(matches.frame.rows, present)
-    for _ in range(4):
-        outcome = matches.step(zeros(matches) + 1.0)
-    assert outcome.truncated.all()
-    robots.read(present)
-    assert same(matches.frame.rows, present), "the next episode goes on from there"
-    assert not matches.play.steps.any()
-    with pytest.raises(ValueError, match=r"rows: Robots cannot place bodies.*as it is"):
-        matches.reset(rows=present)
-    matches.step(zeros(matches))
-
-
-def test_some_worlds_begin_while_the_others_keep_their_frame() -> None:
-    task = VssSelfPlay()
-    matches = Matches(task, 2, simulator=robots_of(task, 2))
-    matches.reset()
-    matches.step(zeros(matches) + 1.0)
-    before = matches.frame.rows.copy()
-    matches.reset(mask=np.array([True, False]))
-    assert same(matches.frame.rows[1], before[1])
-    assert matches.play.steps.tolist() == [0, 1]
-
-
-def test_a_restart_without_a_placer_says_what_to_do() -> None:
-    class Always(Rule):
-        def judge(self, play: Play) -> Restart:
-            return Restart(np.array([0]), rows=play.frame.rows[:1])
-
-    class Restarted(VssSelfPlay):
-        @property
-        def rules(self) -> list[Rule]:
-            return [Always()]
-
-    task = Restarted()
-    matches = Matches(task, simulator=robots_of(task))
-    matches.reset()
-    with pytest.raises(RuntimeError, match=r"worlds \[0\], but Robots cannot place.*PlacedByHand"):
-        matches.step(zeros(matches))
-    matches.reset()
-
-
-def test_a_simulator_that_neither_places_nor_reads_is_refused() -> None:
-    class OnlySteps:
-        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-            pass
-
-    with pytest.raises(TypeError, match=r"simulator: expected one that can place.*OnlySteps"):
-        Matches("VSSSelfPlay-v0", simulator=OnlySteps())
-
-
 def test_time_stamps_reach_the_state_and_are_saved() -> None:
     task = VssSelfPlay(max_steps=5)
     matches = Matches(task, 2, simulator=robots_of(task, 2))
@@ -226,17 +136,6 @@ def test_wrong_time_stamps_are_refused(times: Array) -> None:
     matches.reset()
     with pytest.raises(ValueError, match=r"simulator: expected finite float64 \(2,\)"):
         matches.step(zeros(matches))
-
-
-def test_a_state_that_is_not_finite_begins_no_episode() -> None:
-    class Lost(Robots):
-        def read(self, out: Floats) -> Doubles | None:
-            out[:] = np.nan
-            return None
-
-    matches = Matches("VSSSelfPlay-v0", simulator=Lost(SimConfig()))
-    with pytest.raises(ValueError, match=r"Lost\.read: expected finite numbers"):
-        matches.reset()
 
 
 def test_a_layer_over_a_simulator_may_forward_its_methods() -> None:

@@ -16,7 +16,7 @@ from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.derived.outlines import CONTACT_GAP
 from rsoccer.frame import Frame, column_slice
 from rsoccer.game import NOBODY
-from rsoccer.simulator_interface import Placer, Stepper, close, reader_of
+from rsoccer.simulator_interface import Placer, Stepper, close, placer_of, reader_of
 
 _BALL_MOTION: Final = column_slice(BALL_COLUMNS, "v_x", "v_y", "v_z")
 _ROBOT_MOTION: Final = column_slice(ROBOT_COLUMNS, "v_x", "v_y", "v_theta")
@@ -180,9 +180,14 @@ class CompletedSimulator(CompletedStepper):
             gap: gap up to which bodies touch, m, at least 0: with noisy poses about their noise.
 
         Raises:
-            TypeError: a number of the wrong type.
+            TypeError: a number of the wrong type, or a stepper that cannot place bodies.
             ValueError: a number out of range.
         """
+        if placer_of(stepper) is None:
+            raise TypeError(
+                f"stepper: expected one that can place bodies, got {type(stepper).__name__}; "
+                "CompletedStepper takes others"
+            )
         super().__init__(stepper, config, worlds, velocities=velocities, gap=gap)
 
     def place(

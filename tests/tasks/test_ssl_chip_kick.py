@@ -13,6 +13,8 @@ from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.tasks.ssl import DISCRETE_ACTIONS, DISCRETE_ACTIONS_WITH_CHIP, MAX_LEGAL_KICK_SPEED
 from rsoccer.testing import check_task
+from rsoccer.train.policy_mix import PolicyMix
+from rsoccer.train.timing import Clock
 from tests.helpers import same, zeros
 
 NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
@@ -152,3 +154,25 @@ def test_policies_that_were_trained_without_chips_are_refused() -> None:
 def test_evaluation_takes_the_option() -> None:
     results = evaluate("fetch", task=make_task("SSLGoToBall-v0", chip_kick=True), matches=4)
     assert results.metrics
+
+
+def test_a_mixture_of_opponents_may_hold_scripts_without_chips() -> None:
+    task = make_task("SSLSelfPlay-v0", chip_kick=True)
+    mix = PolicyMix(task, {"strike": 1.0, "zero": 1.0}, Clock())
+    matches = Matches(task, 4, controllers={"all": mix})
+    matches.reset()
+    matches.step(zeros(matches))
+    assert matches.play.actions.any()
+    assert not matches.play.actions[..., 5].any()
+
+
+def test_an_action_may_not_lack_more_than_the_optional_numbers() -> None:
+    class FourNumbers(FiveNumbers):
+        def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+            return super().act(inputs, rng, memory)[..., :4]
+
+    task = make_task("SSLSelfPlay-v0", chip_kick=True)
+    matches = Matches(task, controllers={"all": FourNumbers()})
+    matches.reset()
+    with pytest.raises(ValueError, match=r"FourNumbers: expected actions \(1, 6, 6\), got"):
+        matches.step(zeros(matches))

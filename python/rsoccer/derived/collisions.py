@@ -7,7 +7,7 @@ import numpy as np
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Floats, Mask
 from rsoccer.derived.motion import Seconds, column, poses_after
-from rsoccer.derived.outlines import CONTACT_GAP, SHARES, Indices, Separation, outlines_of
+from rsoccer.derived.outlines import CONTACT_GAP, SHARES, Indices, Outlines, Separation, outlines_of
 from rsoccer.frame import Frame
 from rsoccer.vectors import norm
 
@@ -52,18 +52,33 @@ def collisions(
         The contacts of each robot.
     """
     outlines, time = outlines_of(config), column(seconds)
-    first, second = np.triu_indices(config.n_robots, 1)
-    now = outlines.separation(poses_after(frame, time * 0.0), first, second)
-    met = now.gap <= gap
-    speed = _closing(last, now, gap, first, second)
+    first, second = _near_pairs(last, frame, outlines, time, gap)
+    came = outlines.separation(poses_after(frame, -SHARES * time), first, second)
+    ahead = outlines.separation(poses_after(last, SHARES * time), first, second)
+    now = Separation(*(each[0] for each in came))
     pushed = _deviates(last, frame, time)
-    pushed = pushed[:, first] | pushed[:, second]
-    for share in SHARES:
-        back = outlines.separation(poses_after(frame, -share * time), first, second)
-        ahead = outlines.separation(poses_after(last, share * time), first, second)
-        met |= (back.gap <= 0.0) | (pushed & (ahead.gap <= gap))
-        speed = np.maximum(speed, _closing(last, ahead, gap, first, second))
+    met = (now.gap <= gap) | (came.gap <= 0.0).any(axis=0)
+    met |= (pushed[:, first] | pushed[:, second]) & (ahead.gap <= gap).any(axis=0)
+    speed = np.maximum(
+        _closing(last, now, gap, first, second),
+        _closing(last, ahead, gap, first, second).max(axis=0),
+    )
     return _by_robot(met, speed * met, config, first, second)
+
+
+def _near_pairs(
+    last: Frame, frame: Frame, outlines: Outlines, time: Floats, gap: float
+) -> tuple[Indices, Indices]:
+    """Pairs of robots that can have met in any world, by the circles around them."""
+    first, second = np.triu_indices(len(outlines.size), 1)
+    near = np.zeros(len(first), np.bool_)
+    for known in (last, frame):
+        position, velocity = known.robots.position, known.robots.velocity
+        reach = outlines.bounding + norm(velocity[..., 0], velocity[..., 1]) * time
+        offset = position[:, first] - position[:, second]
+        apart = norm(offset[..., 0], offset[..., 1]) - reach[:, first] - reach[:, second]
+        near |= (apart <= gap).any(axis=0)
+    return first[near], second[near]
 
 
 def _deviates(last: Frame, frame: Frame, time: Floats) -> Mask:
@@ -79,7 +94,7 @@ def _deviates(last: Frame, frame: Frame, time: Floats) -> Mask:
 def _closing(
     frame: Frame, apart: Separation, gap: float, first: Indices, second: Indices
 ) -> Floats:
-    """Speeds (n, pairs) at which surfaces that touch approach each other, m/s; 0 for others."""
+    """Speeds (..., n, pairs) at which surfaces that touch approach, m/s; 0 for others."""
     velocities = []
     for robots in (first, second):
         arm = apart.point - frame.robots.position[:, robots]
@@ -94,11 +109,9 @@ def _by_robot(
     met: Mask, speed: Floats, config: SimConfig, first: Indices, second: Indices
 ) -> Collisions:
     """Contacts (n, robots), from those of pairs (n, pairs)."""
-    shape = (len(met), config.n_robots)
-    found = Collisions(np.zeros(shape, np.bool_), np.zeros(shape, np.float32))
-    opponents = met & ((first < config.n_blue) != (second < config.n_blue))
-    for pair, ends in enumerate(zip(first.tolist(), second.tolist(), strict=True)):
-        for robot in ends:
-            found.opponent[:, robot] |= opponents[:, pair]
-            np.maximum(found.speed[:, robot], speed[:, pair], out=found.speed[:, robot])
-    return found
+    shape = (len(met), config.n_robots, config.n_robots)
+    opponents, speeds = np.zeros(shape, np.bool_), np.zeros(shape, np.float32)
+    for ends in ((first, second), (second, first)):
+        opponents[:, *ends] = met & ((first < config.n_blue) != (second < config.n_blue))
+        speeds[:, *ends] = speed
+    return Collisions(opponents.max(axis=2, initial=False), speeds.max(axis=2, initial=0.0))

@@ -57,7 +57,10 @@ def poses_after(frame: Frame, time: Floats) -> Poses:
 
     Args:
         frame: state of n worlds.
-        time: (n, 1) or (1, 1) times, s; negative for the past.
+        time: (..., n, 1) or (..., 1, 1) times, s; negative for the past.
+
+    Returns:
+        Poses (..., n, robots, 2).
     """
     robots = frame.robots
     angle = robots.angular_velocity * time
@@ -73,12 +76,12 @@ def ball_gaps_after(frame: Frame, outlines: Outlines, time: Floats) -> Floats:
     Args:
         frame: state of n worlds.
         outlines: outlines of the robots.
-        time: (n, 1) or (1, 1) times, s; negative for the past.
+        time: (..., n, 1) or (..., 1, 1) times, s; negative for the past.
 
     Returns:
-        (n, robots) m; infinite for a ball above a robot.
+        (..., n, robots) m; infinite for a ball above a robot.
     """
     ball = frame.ball
     gaps = outlines.ball_gaps(poses_after(frame, time), ball.position + ball.velocity * time)
-    above = ball.height + ball.vertical_velocity * time[:, 0]
-    return np.where(above[:, None] > outlines.height, np.float32(np.inf), gaps)
+    above = ball.height + ball.vertical_velocity * time[..., 0]
+    return np.where(above[..., None] > outlines.height, np.float32(np.inf), gaps)

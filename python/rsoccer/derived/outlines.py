@@ -17,8 +17,8 @@ from rsoccer.vectors import norm, reciprocal, rotate_into_body
 CONTACT_GAP: Final = 0.0005
 """Gap up to which two bodies touch, m: above the rounding of exact poses. With the noise of a
 camera it is to be about as large as the noise."""
-SHARES: Final = tuple(np.float32((i + 1) / 5) for i in range(5))
-"""Times between two frames at which gaps are computed, as shares of the step. The last is 1."""
+SHARES: Final = np.linspace(0.0, 1.0, 6, dtype=np.float32)[:, None, None]
+"""(times, 1, 1) times at which gaps are computed, as shares of the time between two frames."""
 _CORNER: Final = np.float32(0.1)
 """Sine of the angle between two faces, up to which they meet face to face rather than at a
 corner."""
@@ -55,7 +55,11 @@ class Outlines:
         square: (robots,) whether a robot is a square.
         size: (robots,) half the side of a square, or the radius of a disc, m.
         front: (robots,) distance of the front from the center, m.
+        bounding: (robots,) radius of the circle around a robot, m.
         height: (robots,) height of a robot, m.
+        half_mouth: (robots,) half the width of the mouth, m; -1 without one.
+        beam_distance: (robots,) distance of the break beam before the front, m.
+        beam_height: (robots,) height of the break beam, m.
         ball_radius: radius of the ball, m.
     """
 
@@ -72,6 +76,16 @@ class Outlines:
         ]
         self.square: Mask = np.array([side is not None for side in sides], np.bool_)
         self.size, self.front = np.array(sizes, np.float32).reshape(-1, 2).T
+        self.bounding = np.array([robot.bounding_radius for robot in config.robots], np.float32)
+        mouths = [
+            (model.mouth_width / 2, model.beam_distance, model.beam_height)
+            if model.has_mouth
+            else (-1.0, 0.0, 0.0)
+            for model in config.robots
+        ]
+        self.half_mouth, self.beam_distance, self.beam_height = (
+            np.array(mouths, np.float32).reshape(-1, 3).T
+        )
         self.height = np.array([robot.height for robot in config.robots], np.float32)
         self.ball_radius = np.float32(config.ball.radius)
 

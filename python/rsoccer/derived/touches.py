@@ -27,19 +27,14 @@ def beam_broken(frame: Frame, config: SimConfig) -> Mask:
     Returns:
         (n, robots).
     """
-    broken = np.zeros(frame.robots.position.shape[:2], np.bool_)
-    radius = config.ball.radius
-    for robot, model in enumerate(config.robots):
-        if not model.has_mouth:
-            continue
-        offset = frame.ball.position - frame.robots.position[:, robot]
-        x, y = rotate_into_body(offset[:, 0], offset[:, 1], frame.robots.heading[:, robot])
-        front = outlines_of(config).front[robot]
-        above = np.float32(model.beam_height) - (frame.ball.height + np.float32(radius))
-        section = np.float32(radius * radius) - above * above
-        beam = x - (front + np.float32(model.beam_distance))
-        inside = np.abs(y) <= np.float32(model.mouth_width / 2)
-        broken[:, robot] = inside & (section > 0.0) & (beam * beam < section)
+    outlines, robots, ball = outlines_of(config), frame.robots, frame.ball
+    offset = ball.position[:, None] - robots.position
+    x, y = rotate_into_body(offset[..., 0], offset[..., 1], robots.heading)
+    radius = outlines.ball_radius
+    above = outlines.beam_height - (ball.height[:, None] + radius)
+    section = radius * radius - above * above  # its half length squared, where the beam is
+    before = x - (outlines.front + outlines.beam_distance)
+    broken: Mask = (np.abs(y) <= outlines.half_mouth) & (before * before < section)
     return broken
 
 
@@ -66,14 +61,13 @@ def ball_touches(
         (n, robots).
     """
     outlines, time = outlines_of(config), column(seconds)
-    met = ball_gaps_after(frame, outlines, time * 0.0) <= gap
+    came = ball_gaps_after(frame, outlines, -SHARES * time) <= gap
+    ahead = ball_gaps_after(last, outlines, SHARES * time) <= gap
     off = frame.ball.position - (last.ball.position + last.ball.velocity * time)
     deviates = (norm(off[:, 0], off[:, 1]) > DEVIATION)[:, None]
-    for share in SHARES:
-        near = ball_gaps_after(last, outlines, share * time) <= gap
-        near |= ball_gaps_after(frame, outlines, -share * time) <= gap
-        met |= near & deviates
-    return met | beam_broken(frame, config)
+    on_the_way = deviates & (came.any(axis=0) | ahead.any(axis=0))
+    touched: Mask = came[0] | on_the_way | beam_broken(frame, config)
+    return touched
 
 
 def last_touch(previous: Floats, touched: Mask, frame: Frame, config: SimConfig) -> Floats:
