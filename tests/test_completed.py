@@ -191,6 +191,22 @@ def test_a_stepper_that_cannot_place_is_read() -> None:
     assert bare.closed
 
 
+def test_poses_that_are_not_finite_are_refused() -> None:
+    class Losing(PosesOnly):
+        """Loses the ball of one world."""
+
+        def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> Doubles | None:
+            times = super().step(commands, out, active)
+            out[1, 0] = np.nan
+            return times
+
+    config = make_task("VSS-v0").config
+    matches = Matches("VSS-v0", 3, simulator=CompletedSimulator(Losing(config, 3), config, 3))
+    matches.reset()
+    with pytest.raises(RuntimeError, match=r"Losing: expected finite poses.* worlds \[1\]"):
+        matches.step(zeros(matches))
+
+
 def test_wrong_arguments_are_named() -> None:
     config = make_task("VSS-v0").config
     poses = PosesOnly(config, 1)

@@ -3,7 +3,8 @@ import pytest
 
 from rsoccer import Frame, Matches, Simulator, make_task
 from rsoccer.arrays import Floats, Mask
-from rsoccer.placed_by_hand import PlacedByHand, Placement
+from rsoccer.completed import CompletedStepper
+from rsoccer.placed_by_hand import PlacedByHand, Placement, ReadableStepper
 from tests.helpers import same, zeros
 
 
@@ -24,7 +25,9 @@ class Robots:
         self.closed = True
 
 
-def with_hand(robots: Robots, asked: list[Placement]) -> PlacedByHand:
+def with_hand(
+    robots: Robots, asked: list[Placement], stepper: ReadableStepper | None = None
+) -> PlacedByHand:
     """A hand that places what it is asked to, one centimetre beside."""
 
     def ask(placement: Placement) -> None:
@@ -33,13 +36,16 @@ def with_hand(robots: Robots, asked: list[Placement]) -> PlacedByHand:
         rows[:, 0] += 0.01
         robots.simulator.place(placement.worlds, rows, np.empty((1, rows.shape[1]), np.float32))
 
-    return PlacedByHand(robots, ask)
+    return PlacedByHand(stepper or robots, ask)
 
 
-def test_a_rule_restarts_play_by_hand() -> None:
+@pytest.mark.parametrize("completed", [False, True])
+def test_a_rule_restarts_play_by_hand(completed: bool) -> None:
     task = make_task("SSLSelfPlay-v0", n_blue=1, n_yellow=1)
     robots, asked = Robots(Simulator(task.config)), list[Placement]()
-    matches = Matches(task, controllers={"all": "zero"}, simulator=with_hand(robots, asked))
+    layer = CompletedStepper(robots, task.config) if completed else None
+    hand = with_hand(robots, asked, layer)
+    matches = Matches(task, controllers={"all": "zero"}, simulator=hand)
     frame = Frame.empty(1, 1, 1)
     frame.robots.position[0] = [(-1.0, 0.0), (1.0, 0.0)]
     frame.ball.position[0] = 0.0, task.config.field.half_width - 0.01

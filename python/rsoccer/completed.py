@@ -76,6 +76,9 @@ class CompletedStepper:
 
         Returns:
             Time stamps, or None.
+
+        Raises:
+            RuntimeError: poses that are not finite.
         """
         times = self._stepper.step(commands, self._raw.rows, active)
         worlds = np.flatnonzero(np.ones(len(out), np.bool_) if active is None else active)
@@ -94,6 +97,7 @@ class CompletedStepper:
             Time stamps, or None.
 
         Raises:
+            RuntimeError: poses that are not finite.
             TypeError: the stepper cannot read its state.
         """
         if (reader := reader_of(self._stepper)) is None:
@@ -125,6 +129,12 @@ class CompletedStepper:
 
     def _keep(self, worlds: NDArray[np.intp], frame: Frame, out: Floats) -> None:
         """Keep complete rows of some worlds for the next step, and write them."""
+        finite = np.isfinite(frame.rows).all(axis=1)
+        if not finite.all():
+            raise RuntimeError(
+                f"{type(self._stepper).__name__}: expected finite poses, got others in worlds "
+                f"{worlds[~finite].tolist()}"
+            )
         self._last.put(worlds, frame)
         out[worlds] = frame.rows
 
