@@ -393,7 +393,8 @@ class Matches:
         play = self.play
         times = self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
-        self._stamp(times)
+        if times is not None:
+            self._stamp(times)
         play.steps += 1
 
     def _stamp(self, times: Doubles | None) -> None:
