@@ -23,7 +23,7 @@ SCRIPTS = [
     ("SSLSelfPlay-v0", "best"),
     ("SSLSelfPlay-v0", "strike"),
     ("SSLSelfPlay-v0", "fetch"),
-    ("SSLPassEnduranceMulti-v0", "passer"),
+    ("SSLPassEnduranceMulti-v1", "passer"),
     ("SSLDribbling-v0", "weave"),
     ("SSLContestedPossession-v0", "strike"),
 ]
@@ -113,7 +113,7 @@ def test_ssl_scripts_ignore_absent_robots() -> None:
 
 
 def test_a_passer_without_its_teammate_keeps_the_ball() -> None:
-    task = rsoccer.make_task("SSLPassEnduranceMulti-v0")
+    task = rsoccer.make_task("SSLPassEnduranceMulti-v1")
     frame = starts(task, 1, [1])
     ball, robot = frame.ball.position, frame.blue.position
     robot[0, 0], frame.blue.heading[0, 0] = (-2.0, 0.0), (1.0, 0.0)

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
 
-from rsoccer import LEARN, Matches, Policy
+from rsoccer import LEARN, CommandPolicy, Matches, Policy
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
+from rsoccer.evaluate import evaluate
 from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssMulti, VssSelfPlay
@@ -75,4 +76,99 @@ def test_a_policy_of_the_wrong_shape_is_named() -> None:
 
     matches = begun(VssSelfPlay(), controllers={"blue": Short()})
     with pytest.raises(ValueError, match=r"Short: expected actions \(5, 3, 2\), got \(5, 3\)"):
+        matches.step(zeros(matches))
+
+
+class Wheels(CommandPolicy):
+    """Commands wheel speeds of its own, drawn and counted."""
+
+    observes = "view"
+
+    def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
+        return {"calls": np.zeros(shape[0])}
+
+    def commands(
+        self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+    ) -> Floats:
+        memory["calls"] += 1
+        assert inputs.view is not None
+        assert not converted.any(), "zero actions"
+        return 3.0 + rng.uniform(0.0, 1.0, converted.shape[1:])
+
+
+def test_a_controller_in_si_units_replaces_the_commands_of_its_robots_alone() -> None:
+    controllers: Controllers = {"all": "ou", "yellow": Wheels(), "blue_0": LEARN}
+    matches = Matches(VssSelfPlay(), 3, seed=2, controllers=controllers)
+    matches.reset()
+    matches.step(np.full((3, 1, 2), 0.5, np.float32))
+    play, top = matches.play, matches.task.config.robot.max_wheel_speed
+    assert (play.commands[:, 3:] >= 3.0).all()
+    assert (play.commands[:, 3:] <= 4.0).all()
+    assert (play.commands[:, 0] == np.float32(0.5 * top)).all()
+    assert not play.actions[:, 3:].any()
+    assert play.actions[:, 1:3].any()
+    plain = Matches(VssSelfPlay(), 3, seed=2, controllers={**controllers, "yellow": "zero"})
+    plain.reset()
+    plain.step(np.full((3, 1, 2), 0.5, np.float32))
+    assert same(plain.play.commands[:, :3], play.commands[:, :3])
+
+
+def test_a_controller_in_si_units_is_reproduced_saved_and_copied_like_a_policy() -> None:
+    def new(worlds: int, seed: int) -> Matches:
+        task = VssSelfPlay(max_steps=7)
+        matches = Matches(task, worlds, seed, controllers={"blue": "ou", "yellow": Wheels()})
+        matches.reset()
+        return matches
+
+    matches, single = new(3, seed=4), new(1, seed=6)
+    for _ in range(10):
+        matches.step(zeros(matches))
+        single.step(zeros(single))
+    assert same(matches.frame.rows[2:], single.frame.rows)
+    assert matches.state_dict()["yellow_0.calls"].tolist() == [3.0, 3.0, 3.0]
+    resumed = new(3, seed=9)
+    resumed.load_state_dict(matches.state_dict())
+    for _ in range(5):
+        matches.step(zeros(matches))
+        resumed.step(zeros(resumed))
+    assert same(matches.frame.rows, resumed.frame.rows)
+
+
+def test_worlds_that_wait_keep_the_memory_of_a_controller_in_si_units() -> None:
+    matches = Matches(
+        VssSelfPlay(max_steps=2), 2, controllers={"all": Wheels()}, autoreset="disabled"
+    )
+    matches.reset()
+    matches.step(zeros(matches))
+    matches.reset(mask=np.array([False, True]))
+    matches.step(zeros(matches))
+    matches.step(zeros(matches))
+    assert matches.state_dict()["blue_0.calls"].tolist() == [2.0, 2.0]
+
+
+def test_a_controller_in_si_units_is_not_evaluated_by_its_actions() -> None:
+    with pytest.raises(
+        TypeError, match=r"policy: expected .* actions, got Wheels, which gives com"
+    ):
+        evaluate(Wheels(), task="VSS-v0", matches=2)
+
+
+@pytest.mark.parametrize(
+    ("commands", "message"),
+    [
+        (np.zeros((5, 3), np.float32), r"Wrong\.commands: expected shape \(5, 3, 2\)"),
+        (np.full((5, 3, 2), np.nan, np.float32), r"Wrong\.commands: expected finite numbers"),
+    ],
+)
+def test_wrong_commands_are_named(commands: Floats, message: str) -> None:
+    class Wrong(CommandPolicy):
+        observes = "nothing"
+
+        def commands(
+            self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+        ) -> Floats:
+            return commands
+
+    matches = begun(VssSelfPlay(), controllers={"yellow": Wrong()})
+    with pytest.raises(ValueError, match=message):
         matches.step(zeros(matches))

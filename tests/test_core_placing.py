@@ -123,7 +123,7 @@ def test_estimates_that_are_not_finite_are_refused() -> None:
     simulator, rows = Simulator(CONFIG, WORLDS), starts()
     rows[1, len(BALL_COLUMNS)] = np.nan
     before, kept = rows.copy(), simulator.snapshot()
-    with pytest.raises(ValueError, match="world 1: x of blue_0 must be finite, got nan"):
+    with pytest.raises(ValueError, match="world 1: x of blue_0 must be finite, got NaN"):
         simulator.place_estimates(EVERY, rows, rows)
     np.testing.assert_array_equal(rows, before)
     assert simulator.snapshot() == kept

@@ -82,7 +82,7 @@ def test_counts_add_up() -> None:
 
 
 def test_the_result_depends_on_the_seed_only() -> None:
-    task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=300)
+    task = rsoccer.make_task("VSSSelfPlay-v0", max_steps=150)
     expected = evaluate("chase", "ou", matches=10, seed=3, task=task)
     assert 0 < expected.wins < 10
     assert evaluate("chase", "ou", matches=10, seed=3, task=task) == expected

@@ -19,6 +19,7 @@ QUICK = {
     "09_old_simulator.py": [],
     "11_turns.py": [],
     "12_entities.py": [],
+    "15_network_simulator.py": [],
     "13_ppo.py": ["--task", "VSSMulti-v0", "--samples", "1", "--central"],
 }
 

@@ -62,7 +62,7 @@ def saved(path: Path, task: Task, **arguments: Any) -> Path:  # noqa: ANN401
 def test_settings_and_policies_record_models(robot: Any, tmp_path: Path) -> None:  # noqa: ANN401
     """Formerly "not JSON serializable"."""
     args = Args("VSSSelfPlay-v0", task_options={"robot": robot})
-    restored = Args(**json.loads(json.dumps(args.to_json())))
+    restored = Args.from_json(json.loads(json.dumps(args.to_json())))
     assert restored == args
     assert mass(restored.make_task()) == 0.21
     path = tmp_path / "policy.safetensors"

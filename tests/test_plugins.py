@@ -85,7 +85,7 @@ def test_a_broken_entry_point_is_named(
 
 def test_the_list_has_entry_points_and_broken_ones(package: Path, tmp_path: Path) -> None:
     done = run_in(tmp_path, "list", path=package)
-    assert "Duel-v0: One robot against one that turns.\n    n_blue=1" in done.stdout
+    assert "Duel-v0: One robot against one that turns.\n    field=" in done.stdout
     assert "\n'Lost-v0': the entry point 'mine:Lost'" in done.stdout
     assert ", spin, strike, text," in done.stdout
 

@@ -31,7 +31,7 @@ def settings(run: Run) -> dict[str, Any]:
     task = make_task(run.experiment.task, **values.get("task_options", {}))
     for name in ("network.masked_observations", "masked_observations"):
         observation_mask(task, values.get(name, ()))  # refuses unknown parts
-    return {**values, "observation": task.layout}
+    return {**values, "observation": task.layout.text}
 
 
 def _settings_of_algorithm(run: Run) -> dict[str, Any]:

@@ -48,7 +48,7 @@ IN_TIME_OF_PPO: Final[dict[str, dict[str, int]]] = {
     "VSS-v0": {"ddpg": 1_100_000, "sac": 700_000},
     "VSSMulti-v0": {"ddpg": 1_700_000, "sac": 1_000_000},
     "SSLGoToBall-v0": {"ddpg": 180_000, "sac": 110_000},
-    "SSLPassEndurance-v1": {"ddpg": 210_000, "sac": 130_000},
+    "SSLPassEndurance-v1": {"ddpg": 2_000_000, "sac": 1_300_000},
     "SSLContestedPossession-v0": {"ddpg": 2_300_000, "sac": 1_600_000},
     "SSLStaticDefenders-v0": {"ddpg": 2_900_000, "sac": 1_900_000},
     "SSLDribbling-v0": {"ddpg": 300_000, "sac": 180_000},

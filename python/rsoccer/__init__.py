@@ -27,7 +27,7 @@ from rsoccer.envs.vector import vector_env
 from rsoccer.evaluate import evaluate, tournament
 from rsoccer.frame import Frame
 from rsoccer.matches import Matches, Outcome
-from rsoccer.policies.base import Policy
+from rsoccer.policies.base import CommandPolicy, Policy
 from rsoccer.policies.names import register_policy
 from rsoccer.registry import list_tasks, make_task, register
 from rsoccer.rng import WorldRng
@@ -52,6 +52,7 @@ __all__ = [
     "LEARN",
     "ROBOT_PARAMETERS",
     "BallModel",
+    "CommandPolicy",
     "Field",
     "Frame",
     "Matches",

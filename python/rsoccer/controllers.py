@@ -11,7 +11,7 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import Memory, Policy, PolicyInput
+from rsoccer.policies.base import CommandPolicy, Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
@@ -40,6 +40,8 @@ class PolicyGroup:
     """(n,) random streams."""
     memory: Memory
     """(n, ...) arrays of the policy."""
+    optional_actions: int = 0
+    """Numbers at the end of an action that the policy may leave out; they are 0 then."""
 
     def act(self, play: Play, observations: Floats, actions: Floats) -> None:
         """Write the actions of the group's robots.
@@ -53,17 +55,41 @@ class PolicyGroup:
             ValueError: the policy returned actions of another shape.
         """
         shape = (len(actions), len(self.robots), actions.shape[2])
-        view = observed = None
-        if self.policy.observes != "nothing":
-            view = play.sensed_view.select(self.observer_indices)
-        if self.policy.observes == "observation":
-            observed = observations[:, self.observer_indices]
-        chosen = self.policy.act(PolicyInput(shape, view, observed), self.rng, self.memory)
+        inputs = self._inputs(play, observations, shape)
+        chosen = inputs.completed(self.policy.act(inputs, self.rng, self.memory))
         if chosen.shape != shape:
             raise ValueError(
                 f"{type(self.policy).__name__}: expected actions {shape}, got {chosen.shape}"
             )
         actions[:, self.robots] = np.minimum(np.maximum(chosen, -1.0), 1.0)
+
+    def command(self, play: Play, observations: Floats, commands: Floats) -> None:
+        """Replace the commands of the group's robots, of a `CommandPolicy`.
+
+        Args:
+            play: current state of all worlds.
+            observations: (n, observers, o) current observations.
+            commands: (n, robots, command) commands, SI units; other robots' rows stay.
+
+        Raises:
+            ValueError: the policy returned commands of another shape, or that are not finite.
+        """
+        assert isinstance(self.policy, CommandPolicy), "Matches calls this for no other policy"
+        shape = (len(commands), len(self.robots), play.actions.shape[2])
+        inputs = self._inputs(play, observations, shape)
+        converted = commands[:, self.robots]
+        chosen = self.policy.commands(inputs, converted, self.rng, self.memory)
+        name = f"{type(self.policy).__name__}.commands"
+        commands[:, self.robots] = checks.floats(name, chosen, converted.shape)
+
+    def _inputs(self, play: Play, observations: Floats, shape: tuple[int, int, int]) -> PolicyInput:
+        """What the policy is to know of the current state."""
+        view = observed = None
+        if self.policy.observes != "nothing":
+            view = play.sensed_view.select(self.observer_indices)
+        if self.policy.observes == "observation":
+            observed = observations[:, self.observer_indices]
+        return PolicyInput(shape, view, observed, self.optional_actions)
 
     def restart(self, worlds: NDArray[np.intp], rng: WorldRng, action_size: int) -> None:
         """Begin new episodes in some worlds.
@@ -156,7 +182,15 @@ def assign(task: Task, controllers: Controllers | None, worlds: int) -> Assignme
         indices = _indices_among(observers, robots)
         name = task.robots[robots[0]]
         groups.append(
-            PolicyGroup(name, policy_of[key], np.array(robots, np.intp), indices, rng, memory)
+            PolicyGroup(
+                name,
+                policy_of[key],
+                np.array(robots, np.intp),
+                indices,
+                rng,
+                memory,
+                task.optional_action_size,
+            )
         )
     learner_indices = _indices_among(observers, learners)
     return Assignment(np.array(learners, np.intp), learner_indices, observers, groups)

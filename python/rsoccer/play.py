@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer._core import Threads
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Doubles, Floats
 from rsoccer.frame import Frame
 from rsoccer.game import Events, Game, NamedArrays
 from rsoccer.rng import WorldRng
@@ -42,7 +42,8 @@ class Play:
     commands: Floats
     """(n, robots, command) last commands of the robots, SI units."""
     actions: Floats
-    """(n, robots, action) last actions, in [-1, 1]; 0 after a reset."""
+    """(n, robots, action) last actions, in [-1, 1]; 0 after a reset. Of robots with a
+    `CommandPolicy`, what its `act` returned: 0 by default."""
     rng: WorldRng = field(metadata=STREAM)
     """(n,) random streams of the task, one per world."""
     memory: dict[str, Array]
@@ -59,6 +60,9 @@ class Play:
     """Threads that share the work on many worlds; results do not depend on their number."""
     senses: Senses | None = None
     """What the robots sense; None if they know the true state."""
+    times: Doubles | None = None
+    """(n,) time stamps of `frame` on the clock of the simulator, s; None from a simulator without
+    stamps, such as `rsoccer.Simulator`, whose control steps last exactly `config.time_step`."""
 
     def __post_init__(self) -> None:
         """Begin without views."""

@@ -47,6 +47,9 @@ class TaskDefinition(ABC):
     """Registered name, set by `register`."""
     action_size: int
     """Numbers in the action of one robot, each in [-1, 1]."""
+    optional_action_size: int = 0
+    """Numbers at the end of an action that a policy may leave out; they are 0 then. So scripts play
+    in a task with an option for further actions."""
     max_steps: int
     """Control steps after which an episode is truncated, at least 1."""
     sides: Sequence[str] = SIDES

@@ -5,14 +5,13 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import LEARN, Matches, Policy, Task, make_task
+from rsoccer import LEARN, CommandPolicy, Matches, Policy, Task, make_task
 from rsoccer.arrays import Floats
 from rsoccer.human.controls import Controls
 from rsoccer.human.driver import (
     SLOW,
     TURN,
     WHEEL_TURN,
-    ChipSimulator,
     Driver,
     HumanPolicy,
     human_controllers,
@@ -148,15 +147,18 @@ def test_a_vss_robot_drives_forward_and_turns_left() -> None:
 
 
 @pytest.mark.parametrize("chip", [False, True])
-def test_a_chip_leaves_the_floor_and_a_kick_does_not(chip: bool) -> None:
-    task = make_task("SSLGoToBall-v0", max_steps=100)
+@pytest.mark.parametrize("discrete", [False, True])
+@pytest.mark.parametrize("chip_kick", [False, True])
+def test_a_chip_leaves_the_floor_and_a_kick_does_not(
+    chip: bool, discrete: bool, chip_kick: bool
+) -> None:
+    task = make_task("SSLGoToBall-v0", max_steps=100, discrete=discrete, chip_kick=chip_kick)
     driver = Driver(task)
     driver.controls = Controls(kick=0.6, chip=chip)
     matches = Matches(
         task,
         controllers=human_controllers(driver, {"all": "zero"}),
         autoreset="disabled",
-        simulator=ChipSimulator(driver),
     )
     frame = rsoccer.Frame.empty(1, 1, 0)
     frame.robots.heading[0, 0] = 1.0, 0.0
@@ -164,13 +166,37 @@ def test_a_chip_leaves_the_floor_and_a_kick_does_not(chip: bool) -> None:
     matches.reset(rows=frame.rows)
     heights, speeds = [], []
     for _ in range(10):
-        matches.step(np.zeros((1, 0, 5), np.float32))
+        matches.step(np.zeros((1, 0, task.action_size), np.float32))
         heights.append(float(matches.frame.ball.height[0]))
         speeds.append(float(matches.frame.ball.velocity[0, 0]))
         if matches.done[0]:
             matches.reset(rows=matches.frame.rows)
     assert max(speeds) > 1.0
     assert (max(heights) > 0.05) == chip
+
+
+def test_only_the_driven_robot_chips_and_others_keep_their_commands() -> None:
+    class Kicks(CommandPolicy):
+        observes = "nothing"
+
+        def commands(
+            self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+        ) -> Floats:
+            return np.full(converted.shape, 0.5, np.float32)
+
+    task = make_task("SSLSelfPlay-v0")
+    driver = Driver(task, "blue_1")
+    driver.controls = Controls(kick=1.0, chip=True)
+    controllers = human_controllers(driver, {"blue": Kicks(), "yellow": "zero"})
+    matches = Matches(task, controllers=controllers)
+    matches.reset()
+    matches.step(np.zeros((1, 0, 5), np.float32))
+    commands = matches.play.commands[0]
+    columns = list(task.config.command_columns)
+    chip = commands[1, [columns.index("kick_v_x"), columns.index("kick_v_z")]]
+    assert chip == pytest.approx(6.5 * DIAGONAL, rel=1e-5)
+    assert (commands[[0, 2]] == 0.5).all()
+    assert not commands[3:].any()
 
 
 def test_robots_are_chosen_by_name_by_number_and_in_turn() -> None:

@@ -38,7 +38,7 @@ def test_every_old_name_is_known() -> None:
     assert sorted(names) == sorted(RSOCCER_GYM)
     assert set(legacy_names.KEPT) <= set(rsoccer.list_tasks())
     assert set(legacy_names.ALIASES) == set(ALIASES)
-    assert len(ALIASES) == 7
+    assert len(ALIASES) == 6
 
 
 @pytest.mark.parametrize("name", ALIASES)

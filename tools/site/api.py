@@ -90,7 +90,21 @@ GROUPS: Final = (
             "rsoccer.tasks.ssl_static_defenders",
         ),
     ),
-    Group("Physics", ("rsoccer._core", "rsoccer.simulator_interface")),
+    Group("Physics", ("rsoccer._core",)),
+    Group(
+        "Simulators and robots",
+        (
+            "rsoccer.simulator_interface",
+            "rsoccer.completed",
+            "rsoccer.placed_by_hand",
+            "rsoccer.derived",
+            "rsoccer.derived.motion",
+            "rsoccer.derived.lines",
+            "rsoccer.derived.touches",
+            "rsoccer.derived.collisions",
+            "rsoccer.derived.outlines",
+        ),
+    ),
     Group(
         "Policies",
         (

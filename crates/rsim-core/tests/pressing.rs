@@ -1,5 +1,5 @@
 //! Robots that press against walls and each other under constant commands come to rest, and leave when they
-//! are told to.
+//! are commanded to.
 
 use rsim_core::columns::{BALL_COLUMNS, ball_column};
 use rsim_core::scenes::{self, Driver, Scene, driving, robots, steps, uniform};

@@ -13,7 +13,7 @@ from rsoccer.controllers import Controller
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
-from rsoccer.policies.base import Policy, PolicyInput
+from rsoccer.policies.base import Policy, PolicyInput, require_actions
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
@@ -160,7 +160,11 @@ class LearnerPolicy:
             policy: the policy.
             matches: the matches, with at least one learner.
             seed: world i draws with the seed `seed + i`.
+
+        Raises:
+            TypeError: a `CommandPolicy`.
         """
+        require_actions("policy", policy)
         self._policy, self._matches = policy, matches
         self._shape = (matches.worlds, len(matches.agents), matches.action_size)
         self._rng = WorldRng.seeded(seed, matches.worlds).split(matches.agents[0])
@@ -179,4 +183,6 @@ class LearnerPolicy:
         if self._policy.observes != "nothing":
             view = self._matches.play.sensed_view.select(self._matches.assignment.learner_indices)
         own = observations if self._policy.observes == "observation" else None
-        return self._policy.act(PolicyInput(self._shape, view, own), self._rng, self._memory)
+        optional = self._matches.task.optional_action_size
+        inputs = PolicyInput(self._shape, view, own, optional)
+        return inputs.completed(self._policy.act(inputs, self._rng, self._memory))

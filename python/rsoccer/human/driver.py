@@ -8,16 +8,15 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer._core import Simulator
-from rsoccer.arrays import Floats, Mask
+from rsoccer.arrays import Floats
 from rsoccer.controllers import Controller, Controllers, resolve
 from rsoccer.frame import team_of
 from rsoccer.human.controls import Controls
 from rsoccer.policies import PolicyLike, make_policy
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.base import CommandPolicy, Memory, Observes, Policy, PolicyInput
 from rsoccer.rng import WorldRng
-from rsoccer.simulator_interface import SimulatorLike
 from rsoccer.task import Learn, Task
+from rsoccer.tasks.ssl import CHIP_ANGLE
 
 FRAMES: Final = ("field", "robot")
 """Axes of the deflections of an SSL robot: those of the picture, or those of the robot."""
@@ -27,8 +26,6 @@ TURN: Final = 0.5
 """Action of a full turn of an omnidirectional robot: 5 rad/s in the tasks of the package."""
 SLOW: Final = 0.4
 """Factor on speeds while they are reduced."""
-CHIP_ANGLE: Final = math.pi / 4
-"""Angle of a chip above the floor, radians."""
 
 
 class Driver:
@@ -53,9 +50,12 @@ class Driver:
         """
         columns = tuple(task.config.command_columns)
         self._is_differential = columns == ("left", "right") and task.action_size == 2
-        if not self._is_differential and ("dribbler" not in columns or task.action_size != 5):
+        self._chips_by_action = task.action_size == 6
+        if not self._is_differential and (
+            "dribbler" not in columns or task.action_size not in (5, 6)
+        ):
             raise ValueError(
-                "task: expected one with the actions of VSSS (2 numbers) or SSL (5 numbers), "
+                "task: expected one with the actions of VSSS (2 numbers) or SSL (5 or 6 numbers), "
                 f"got {task.name} with {task.action_size}"
             )
         self.task = task
@@ -136,6 +136,23 @@ class Driver:
         chosen: Floats = table[nearest].astype(np.float32)
         return chosen
 
+    def command(self, converted: Floats) -> Floats:
+        """Return the command of the driven robot for the current controls.
+
+        Args:
+            converted: (..., command) command that follows from `action`, SI units.
+
+        Returns:
+            The same, a new array, with a kick as a chip where the controls say so.
+        """
+        command = np.array(converted, np.float32)
+        if self.has_kicker and self.controls.chip and not self._chips_by_action:
+            columns = list(self.task.config.command_columns)
+            speed = command[..., columns.index("kick_v_x")].copy()
+            command[..., columns.index("kick_v_x")] = speed * math.cos(CHIP_ANGLE)
+            command[..., columns.index("kick_v_z")] = speed * math.sin(CHIP_ANGLE)
+        return command
+
     def _wheels(self, turn_share: float) -> Floats:
         """Wheel speeds; too fast a wheel slows both, so that the curve stays the same."""
         controls = self.controls
@@ -155,16 +172,16 @@ class Driver:
         x, y = self._velocity(heading)
         # A diagonal of two keys is no faster than one key.
         speed = self._speed / max(1.0, math.hypot(x, y))
-        return np.array(
-            [
-                speed * x,
-                speed * y,
-                self._speed * TURN * controls.turn,
-                controls.kick or -1.0,
-                1.0 if controls.dribble else -1.0,
-            ],
-            np.float32,
-        )
+        action = [
+            speed * x,
+            speed * y,
+            self._speed * TURN * controls.turn,
+            controls.kick or -1.0,
+            1.0 if controls.dribble else -1.0,
+        ]
+        if self._chips_by_action:
+            action.append(1.0 if controls.chip else -1.0)
+        return np.array(action, np.float32)
 
     def _velocity(self, heading: Sequence[float]) -> tuple[float, float]:
         """Velocity in the axes of the task's actions."""
@@ -182,8 +199,10 @@ class Driver:
         return x, y
 
 
-class HumanPolicy(Policy):
+class HumanPolicy(CommandPolicy):
     """A policy in which the driver acts for one of its robots.
+
+    The driver gives actions, and commands for the chips that most tasks' actions do not have.
 
     The other robots, and all of them while the driver has a robot elsewhere, follow the policy
     beneath. It plays a single match.
@@ -236,7 +255,7 @@ class HumanPolicy(Policy):
         Returns:
             (n, robots, action) in [-1, 1].
         """
-        actions = self._policy.act(inputs, rng, memory)
+        actions = inputs.completed(self._policy.act(inputs, rng, memory))
         if self._driver.robot not in self._robots:
             return actions
         slot = self._robots.index(self._driver.robot)
@@ -244,6 +263,29 @@ class HumanPolicy(Policy):
         driven = np.array(actions, np.float32)
         for world in range(len(driven)):
             driven[world, slot] = self._driver.action(headings[world, slot].tolist())
+        return driven
+
+    def commands(
+        self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+    ) -> Floats:
+        """Return the commands of all robots, with the driver's kick as a chip where it is one.
+
+        Args:
+            inputs: view and observations of the robots.
+            converted: (n, robots, command) commands that follow from the actions.
+            rng: (n,) random streams of the worlds.
+            memory: arrays of the policy beneath; updated in place.
+
+        Returns:
+            (n, robots, command) in SI units.
+        """
+        driven = converted
+        if isinstance(self._policy, CommandPolicy):
+            driven = self._policy.commands(inputs, converted.copy(), rng, memory)
+        if self._driver.robot in self._robots:
+            slot = self._robots.index(self._driver.robot)
+            driven = np.array(driven, np.float32)
+            driven[:, slot] = self._driver.command(converted[:, slot])
         return driven
 
 
@@ -277,69 +319,3 @@ def human_controllers(driver: Driver, controllers: Controllers) -> dict[str, Con
         driven = HumanPolicy(make_policy(policies[robots[0]], task), robots, driver)
         human |= dict.fromkeys(robots, driven)
     return human
-
-
-class ChipSimulator:
-    """A simulator of one match in which the driver's kicks may be chips.
-
-    The actions of the tasks have no chip, so it enters here, as a command.
-    """
-
-    def __init__(self, driver: Driver, simulator: SimulatorLike | None = None) -> None:
-        """Put the driver over a simulator.
-
-        Args:
-            driver: the driver.
-            simulator: the simulator; by default a new one for one match of the task.
-        """
-        self._driver = driver
-        self._simulator = Simulator(driver.task.config) if simulator is None else simulator
-
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
-        """Start new matches, as the simulator does.
-
-        Args:
-            worlds: (n,) bool, k of them True.
-            rows: (k, row) initial state rows.
-            out: (n, row) output.
-            params: (k, parameters) factors on the models' numbers.
-        """
-        self._simulator.place(worlds, rows, out, params)
-
-    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
-        """Restart play, as the simulator does.
-
-        Args:
-            worlds: (n,) bool, k of them True.
-            rows: (k, row) new state rows.
-            out: (n, row) output.
-        """
-        self._simulator.restart(worlds, rows, out)
-
-    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
-        """Move balls, as the simulator does.
-
-        Args:
-            worlds: (n,) bool, k of them True.
-            balls: (k, ball column) new ball states.
-            out: (n, row) output.
-        """
-        self._simulator.reposition_balls(worlds, balls, out)
-
-    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-        """Advance by one control step, with the driven robot's kick as a chip where it is one.
-
-        Args:
-            commands: (n, robots, command) commands in SI units.
-            out: (n, row) output.
-            active: (n,) bool, worlds to advance; all if None.
-        """
-        driver = self._driver
-        if driver.has_kicker and driver.controls.chip:
-            columns = list(driver.task.config.command_columns)
-            along, upward = columns.index("kick_v_x"), columns.index("kick_v_z")
-            commands = commands.copy()
-            speed = commands[:, driver.index, along].copy()
-            commands[:, driver.index, along] = speed * math.cos(CHIP_ANGLE)
-            commands[:, driver.index, upward] = speed * math.sin(CHIP_ANGLE)
-        self._simulator.step(commands, out, active)

@@ -13,7 +13,7 @@ from rsoccer.game import EventKind
 from rsoccer.human import screen
 from rsoccer.human.controls import Controls
 from rsoccer.human.devices import Devices
-from rsoccer.human.driver import ChipSimulator, Driver, human_controllers
+from rsoccer.human.driver import Driver, human_controllers
 from rsoccer.matches import Matches
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
@@ -84,7 +84,6 @@ class Session:
             seed=seed,
             controllers=human_controllers(self.driver, controllers),
             autoreset="disabled",
-            simulator=ChipSimulator(self.driver),
         )
         self.score = (0, 0)
         self.clock = 0.0

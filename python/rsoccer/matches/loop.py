@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rsoccer import checks
 from rsoccer._core import Simulator, Threads
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.envs import spaces
 from rsoccer.envs.spaces import ActionSpace
@@ -28,13 +28,15 @@ from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
+from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
+from rsoccer.policies.base import CommandPolicy
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
 from rsoccer.senses import Senses, SensorModel
-from rsoccer.simulator_interface import SimulatorLike
+from rsoccer.simulator_interface import Stepper, close
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -85,7 +87,7 @@ class Matches:
         *,
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
-        simulator: SimulatorLike | None = None,
+        simulator: Stepper | None = None,
         sensing: SensorModel | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -104,15 +106,17 @@ class Matches:
             autoreset: reset of a match that ended: "same_step" (within the step that ends it),
                 "next_step" (the next step resets it, ignores its actions and gives no reward) or
                 "disabled" (it waits for `reset`).
-            simulator: moves the robots in place of `rsoccer.Simulator`.
+            simulator: moves the robots in place of `rsoccer.Simulator`; see
+                `rsoccer.simulator_interface`. With one that cannot place bodies, such as real
+                robots, episodes begin with the state as it is.
             sensing: model of what robots know of the true state; None if they know it exactly.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
 
         Raises:
-            TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
-                object.
+            TypeError: an argument of the wrong type, an unknown option, options for a `Task`
+                object, or a simulator that can neither place bodies nor read their state.
             ValueError: an unknown task, controller or autoreset mode, or a number out of range.
         """
         if autoreset not in AUTORESETS:
@@ -133,6 +137,7 @@ class Matches:
         if simulator is None:
             simulator = Simulator(self.task.config, worlds, self._threads)
         self._simulator = simulator
+        self._starts = Starts(simulator)
         self._sensing = sensing
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
@@ -141,6 +146,8 @@ class Matches:
         self.play = self._new_play(worlds, root.split("task"), root.split("senses"))
         for group in self.assignment.groups:
             group.rng = root.split(group.name)
+        groups = self.assignment.groups
+        self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
         shape = (worlds, len(self.assignment.observers), self.observation_size)
         self._observations = np.zeros(shape, np.float32)
         self._done, self._begun = np.zeros((2, worlds), np.bool_)
@@ -232,7 +239,8 @@ class Matches:
             seed: world i is seeded with `seed + i`, or with `seed[i]`; without a seed its random
                 streams continue.
             mask: (n,) worlds to reset; all if None.
-            rows: (k, row) initial states of the k worlds of the mask, in place of the task's own.
+            rows: (k, row) initial states of the k worlds of the mask, in place of the task's own;
+                None with a simulator that cannot place bodies.
 
         Returns:
             (n, agents, o) observations of all worlds, a new array.
@@ -248,6 +256,7 @@ class Matches:
         if len(worlds) < self.worlds:
             self._consistency.check()
         if rows is not None:
+            self._starts.check_rows()
             rows = checks.floats("rows", rows, (len(worlds), self.task.config.row_size))
         if len(worlds):
             self._begin(worlds, rows, seeds)
@@ -304,11 +313,21 @@ class Matches:
             TypeError: a simulator that has no `restore`.
             ValueError: a state of other matches. Nothing has changed.
         """
-        self._state().write(state)
+        times = self.play.times
+        self.play.times = np.zeros(self.worlds) if "times" in state else None
+        try:
+            self._state().write(state)
+        except BaseException:
+            self.play.times = times
+            raise
         self._final_rows = None
         self._all_begun = bool(self._begun.all())
         self.play.expire_views()
         self._consistency.repair()
+
+    def close(self) -> None:
+        """Release what the simulator holds, such as a socket, if it holds anything."""
+        close(self._simulator)
 
     def _action_vectors(self, actions: Array) -> Array:
         """Actions (n, agents, action) of a discrete task, from indices (n, agents) or vectors."""
@@ -367,14 +386,23 @@ class Matches:
             group.act(play, self._observations, all_actions)
         commands = self.task.get_commands(play, all_actions)
         play.commands = result_checks.commands(commands, play.commands.shape)
+        for group in self._commanding:
+            group.command(play, self._observations, play.commands)
         play.actions = all_actions
 
     def _move(self, active: Mask | None) -> None:
         """Move the robots and balls of all worlds, or of the active ones."""
         play = self.play
-        self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
+        times = self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
+        if times is not None:
+            self._stamp(times)
         play.steps += 1
+
+    def _stamp(self, times: Doubles | None) -> None:
+        """Keep the time stamps of the rows, of a simulator that has them."""
+        if times is not None:
+            self.play.times = result_checks.times(times, self.worlds)
 
     def _judge(self) -> list[Restart]:
         """Let the rules judge the state that the physics left."""
@@ -403,10 +431,7 @@ class Matches:
             chosen = select(restart, going)
             mask = np.zeros(self.worlds, np.bool_)
             mask[chosen.worlds] = True
-            if chosen.balls is not None:
-                self._simulator.reposition_balls(mask, chosen.balls, out=play.frame.rows)
-            elif chosen.rows is not None:
-                self._simulator.restart(mask, chosen.rows, out=play.frame.rows)
+            self._stamp(self._starts.restart(mask, chosen.rows, chosen.balls, play.frame.rows))
             play.last_frame.rows[mask] = play.frame.rows[mask]
             for rule in self._rules:
                 rule.begin(play, chosen.worlds)
@@ -466,13 +491,14 @@ class Matches:
     ) -> None:
         """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
         streams = next_streams(self._state().streams, worlds, seeds)
-        if rows is None:
+        if rows is None and self._starts.can_place:
             rows = self.task.get_initial_positions_frame(streams["start"]).rows
         part = self._new_play(len(worlds), streams["task"], streams.get("senses"))
         mask = np.zeros(self.worlds, np.bool_)
         mask[worlds] = True
-        self._simulator.place(mask, rows, out=self.play.frame.rows)
+        times = self._starts.begin(mask, rows, self.play.frame.rows)
         try:
+            self._stamp(times)
             self._observe_start(worlds, part)
             for group in self.assignment.groups:
                 group.restart(worlds, streams[group.name], self.action_size)
@@ -486,6 +512,7 @@ class Matches:
     def _observe_start(self, worlds: Indices, part: Play) -> None:
         """Compute the first observations of worlds that the simulator has just placed."""
         part.start(self.play.frame.rows[worlds])
+        part.times = None if self.play.times is None else self.play.times[worlds]
         for rule in self._rules:
             rule.begin(part, np.arange(len(worlds)))
         self.task.start_episode(part)

@@ -10,14 +10,14 @@ from rsoccer.controllers import PolicyGroup
 from rsoccer.matches import result_checks
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
-from rsoccer.simulator_interface import SimulatorLike, require_snapshots
+from rsoccer.simulator_interface import Stepper, require_snapshots
 
 
 @dataclass
 class MatchState:
     """References to all parts of the state of matches: simulator, arrays, random streams."""
 
-    simulator: SimulatorLike
+    simulator: Stepper
     """Simulator of all worlds."""
     arrays: dict[str, Array]
     """(n, ...) arrays by name."""
@@ -27,7 +27,7 @@ class MatchState:
     @classmethod
     def of(
         cls,
-        simulator: SimulatorLike,
+        simulator: Stepper,
         play: Play,
         groups: Sequence[PolicyGroup],
         start: WorldRng,

@@ -1,10 +1,10 @@
-"""Validation of the results of a task's methods, and of saved states."""
+"""Validation of what tasks and simulators return, and of saved states."""
 
 from collections.abc import Mapping
 
 import numpy as np
 
-from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.arrays import Array, Doubles, Floats, Mask
 
 
 def commands(value: Array, shape: tuple[int, ...]) -> Floats:
@@ -62,6 +62,27 @@ def done(value: Mask, n: int) -> Mask:
             f"got {value.dtype} {value.shape}"
         )
     return value
+
+
+def times(value: Array, n: int) -> Doubles:
+    """Validate the time stamps of a simulator's rows.
+
+    Args:
+        value: result of a method of the simulator.
+        n: number of worlds.
+
+    Returns:
+        A copy (n,).
+
+    Raises:
+        ValueError: another shape or type, or a time that is not finite.
+    """
+    found = np.asarray(value)
+    if found.shape != (n,) or found.dtype != np.float64 or not np.isfinite(found).all():
+        raise ValueError(
+            f"simulator: expected finite float64 ({n},) for the time stamps, got {value!r}"
+        )
+    return found.copy()
 
 
 def state(saved: Mapping[str, Array], expected: Mapping[str, Array]) -> None:

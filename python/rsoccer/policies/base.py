@@ -4,6 +4,8 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import numpy as np
+
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats
 from rsoccer.rng import WorldRng
@@ -30,6 +32,8 @@ class PolicyInput:
     """View of each robot, arrays (n, robots, ...); None if the policy observes "nothing"."""
     observations: Floats | None
     """(n, robots, o) observations of the task; None unless the policy observes "observation"."""
+    optional_actions: int = 0
+    """Numbers at the end of an action that the policy may leave out."""
 
     def required_view(self, policy: str) -> View:
         """Return the view of a policy that cannot act without one.
@@ -43,6 +47,18 @@ class PolicyInput:
         if self.view is None:
             raise ValueError(f"{policy} needs a view, got none")
         return self.view
+
+    def completed(self, actions: Floats) -> Floats:
+        """Return the actions of a policy, with zeros for optional numbers that it left out.
+
+        Args:
+            actions: (n, robots, action), or fewer numbers by `optional_actions` at most.
+        """
+        missing = self.action_shape[2] - actions.shape[-1]
+        if not 0 < missing <= self.optional_actions:
+            return actions
+        zeros = np.zeros((*actions.shape[:-1], missing), np.float32)
+        return np.concatenate([actions, zeros], axis=-1)
 
 
 class Policy(ABC):
@@ -129,3 +145,74 @@ class Policy(ABC):
         Returns:
             (n, robots, action) in [-1, 1]; larger values are clipped.
         """
+
+
+class CommandPolicy(Policy):
+    """Base class of controllers whose robots take commands in SI units in place of task actions.
+
+    Software of a team, or a person, commands wheels, velocities and chips that a task's actions do
+    not have. Such a controller is assigned like any policy, and its memory and random streams are
+    those of any policy. Only `Matches` executes its commands: in the place of learners, whose
+    actions are evaluated, and in a mixture of opponents it is refused.
+
+    `play.actions` of its robots, which tasks observe and reward, is what `act` returns: zeros,
+    unless a subclass knows better.
+
+    Example:
+        >>> import numpy as np
+        >>> import rsoccer
+        >>> class Spin(rsoccer.CommandPolicy):
+        ...     observes = "nothing"
+        ...
+        ...     def commands(self, inputs, converted, rng, memory):
+        ...         wheels = np.array([-10.0, 10.0], np.float32)  # rad/s, left and right
+        ...         return np.broadcast_to(wheels, converted.shape)
+        >>> matches = rsoccer.Matches("VSS-v0", 8, controllers={"yellow": Spin()})
+    """
+
+    def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
+        """Return the actions that tasks see, called before `commands` in each step.
+
+        Args:
+            inputs: view and observations of the robots.
+            rng: (n,) random streams of the worlds.
+            memory: arrays as `new_memory` returned them; updated in place.
+
+        Returns:
+            (n, robots, action) in [-1, 1]. Default: zeros.
+        """
+        return np.zeros(inputs.action_shape, np.float32)
+
+    @abstractmethod
+    def commands(
+        self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+    ) -> Floats:
+        """Return the commands of one control step.
+
+        Args:
+            inputs: view and observations of the robots.
+            converted: (n, robots, command) commands that follow from the actions of `act`; a copy.
+            rng: (n,) random streams of the worlds.
+            memory: arrays as `new_memory` returned them; updated in place.
+
+        Returns:
+            (n, robots, command) finite numbers in SI units, with the columns
+            `config.command_columns`. The limits of the robot apply.
+        """
+
+
+def require_actions(name: str, policy: Policy) -> None:
+    """Check that a policy plays by its actions alone.
+
+    Args:
+        name: name of the argument, for the error message.
+        policy: the policy.
+
+    Raises:
+        TypeError: a `CommandPolicy`.
+    """
+    if isinstance(policy, CommandPolicy):
+        raise TypeError(
+            f"{name}: expected a policy that gives actions, got {type(policy).__name__}, which "
+            "gives commands; pass it to Matches as a controller"
+        )

@@ -216,13 +216,14 @@ class Network(HeldActions):
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Raise ValueError for a task with other observations or actions."""
         wanted = {"observation_size": observation_size, "action_size": task.action_size}
+        layout = self.metadata.get("layout", task.layout.text)
         for name, size in self._sizes().items():
             if size != wanted[name]:
                 raise ValueError(
                     f"a network trained on {self.task_name!r} has {name} {size}, "
-                    f"but task {task.name!r} has {wanted[name]}"
+                    f"but task {task.name!r} has {wanted[name]}: the network observes {layout}, "
+                    f"the observations of the task are {task.layout.text}"
                 )
-        layout = self.metadata.get("layout", task.layout.text)
         if layout != task.layout.text:
             raise ValueError(
                 f"a network trained on {self.task_name!r} observes {layout}, "

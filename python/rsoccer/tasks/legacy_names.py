@@ -24,12 +24,12 @@ ALIASES: Final[dict[str, tuple[str, dict[str, Any]]]] = {
     "VSSFIRA-v0": ("VSS-v0", {}),
     "SSLGoToBallIR-v0": ("SSLGoToBall-v0", {"n_opponents": 6}),
     "SSLGoToBallShoot-v0": ("SSLStaticDefenders-v0", {"n_opponents": 0, "max_steps": 2400}),
-    # There a ball that was carried to the receiver counted, too.
-    "SSLPassEndurance-v0": ("SSLPassEndurance-v1", {}),
     "SSLPassEnduranceMA-v0": ("SSLPassEnduranceMulti-v1", {}),
 }
 """Tasks and options by alias."""
 REMOVED: Final = {
+    "SSLPassEndurance-v0": "there a ball that was carried to the receiver counted as a pass; "
+    "'SSLPassEndurance-v1' asks for a ball that travels free",
     "VSSGk-v0": "its attacker was a network that rsoccer-gym did not come with; a task of your own "
     "can pay a robot for keeping the goal against any policy",
 }

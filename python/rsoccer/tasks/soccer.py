@@ -152,7 +152,7 @@ class Soccer(Task):
         robot = Reflection.of([*ROBOT_SIGNS, 1] if has_mouth else ROBOT_SIGNS)
         ball = Reflection.of([1, -1, 1, 1, -1, 1] if has_mouth else [1, -1, 1, -1])
         robots = dict.fromkeys(("ego", "teammates", "opponents"), robot)
-        action = self.ACTION_REFLECTION
+        action = self.action_reflection
         blocks = {"ball": ball, **robots, **REFLECTIONS, "action": action}
         if self.OBSERVES_PRESENCE:
             blocks["presence"] = Reflection.of([1] * sum((1, *self._other_slots)))
@@ -162,6 +162,11 @@ class Soccer(Task):
     def action_table(self) -> Floats | None:
         """`DISCRETE_ACTIONS` with the option `discrete`, else None."""
         return self.DISCRETE_ACTIONS if self.discrete else None
+
+    @property
+    def action_reflection(self) -> Reflection:
+        """Reflection of an action, (action_size,)."""
+        return self.ACTION_REFLECTION
 
     @cached_property
     def term_weights(self) -> Mapping[str, np.float32]:

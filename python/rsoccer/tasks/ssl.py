@@ -1,12 +1,22 @@
 """Base class of the SSL tasks: options, field, actions and poses."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
 
-from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator, Steering
+from rsoccer import checks
+from rsoccer._core import (
+    COMMAND_COLUMNS,
+    BallModel,
+    Field,
+    RobotModel,
+    SimConfig,
+    Simulator,
+    Steering,
+)
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.reflection import Reflection
@@ -19,6 +29,8 @@ MAX_TURN_RATE: Final = 10.0
 """Turn rate of a full deflection, rad/s: the limit of rsoccer-gym."""
 MAX_LEGAL_KICK_SPEED: Final = 6.5
 """Speed limit of a kick, m/s: SSL rules."""
+CHIP_ANGLE: Final = math.pi / 4
+"""Angle of a chip kick above the floor, radians: it carries farthest at 45 degrees."""
 VELOCITY_FRAMES: Final = ("field", "robot")
 """Values of the option `velocity_frame`."""
 TRIAL_STARTS: Final = 16
@@ -31,6 +43,15 @@ DISCRETE_ACTIONS: Final = np.array(
     np.float32,
 )
 """(12, 5) eight directions and stop, turn left, turn right, all with dribbler; kick at rest."""
+_FLAT, _CHIP = np.full((len(DISCRETE_ACTIONS), 1), -1.0), [(0.0, 0.0, 0.0, 1.0, -1.0, 1.0)]
+DISCRETE_ACTIONS_WITH_CHIP: Final = np.concatenate(
+    [np.hstack([DISCRETE_ACTIONS, _FLAT]), _CHIP]
+).astype(np.float32)
+"""(13, 6) the same with flat kicks, and chip at rest."""
+
+
+_KICK, _CHIP_SWITCH = 3, 5  # indices in an action
+_KICK_ALONG, _KICK_UP = (COMMAND_COLUMNS["omni"].index(f"kick_v_{axis}") for axis in "xz")
 
 
 @dataclass(frozen=True)
@@ -50,6 +71,13 @@ class Ssl(Soccer):
                                                        robot's maximum if that is less
     4      dribbler: on above 0, off up to 0           full speed, for any value above 0   -1 to 1
     =====  ==========================================  ==================================  =======
+
+    With the option `chip_kick` an action has a sixth number, a switch like that of the dribbler:
+    above 0 the kick is a chip at 45 degrees, and 1 in number 3 is a speed of 6.5 m/s or the robot's
+    maximum chip speed if that is less; up to 0 the kick is flat. It is a switch, because the
+    chippers of robots have a fixed angle. A sign of the kick speed would leave no room for
+    exploration without a kick between kicks and chips. A script that leaves the number out kicks
+    flat.
 
     Source: the SSL hardware challenges of 2021 (field and challenges) and Martins et al., "rSoccer:
     A Framework for Studying Reinforcement Learning in Small and Very Small Size Robot Soccer"
@@ -72,6 +100,8 @@ class Ssl(Soccer):
     """Axes of the velocity in actions: "field" (of the robot's team) or "robot" (of its body)."""
     ball: str | BallModel = "ssl_tigers"
     """Ball model: a preset's name, a .json file or a `BallModel`."""
+    chip_kick: bool = False
+    """True: actions have a sixth number, above 0 for a chip kick."""
 
     action_size = 5
     """Velocity x and y, turn rate, kick speed, dribbler."""
@@ -85,6 +115,9 @@ class Ssl(Soccer):
     def __post_init__(self) -> None:
         """Validate the options."""
         super().__post_init__()
+        if checks.boolean("chip_kick", self.chip_kick):
+            object.__setattr__(self, "action_size", self.action_size + 1)
+            object.__setattr__(self, "optional_action_size", 1)
         if self.velocity_frame not in VELOCITY_FRAMES:
             raise ValueError(
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
@@ -111,12 +144,34 @@ class Ssl(Soccer):
 
     @property
     def action_meaning(self) -> str:
-        """The axes of the velocity where they are the robot's."""
-        return "velocity in the robot's axes" if self.velocity_frame == "robot" else ""
+        """The axes of the velocity where they are the robot's, and the chip kick."""
+        axes = ["velocity in the robot's axes"] if self.velocity_frame == "robot" else []
+        return "; ".join([*axes, *(["chip kick"] if self.chip_kick else [])])
+
+    @property
+    def action_table(self) -> Floats | None:
+        """`DISCRETE_ACTIONS` with the option `discrete`, and with a chip with `chip_kick`."""
+        if self.discrete and self.chip_kick:
+            return DISCRETE_ACTIONS_WITH_CHIP
+        return super().action_table
+
+    @property
+    def action_reflection(self) -> Reflection:
+        """Reflection of an action: velocity to the left and turn rate change sign."""
+        flat = self.ACTION_REFLECTION
+        return Reflection.join([flat, Reflection.of([1])]) if self.chip_kick else flat
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""
-        return self._steering.commands(actions, play.sensed.rows, play.threads)
+        if not self.chip_kick:
+            return self._steering.commands(actions, play.sensed.rows, play.threads)
+        flat = np.ascontiguousarray(actions[..., :_CHIP_SWITCH])
+        commands = self._steering.commands(flat, play.sensed.rows, play.threads)
+        chips = actions[..., _CHIP_SWITCH] > 0.0
+        speed = np.maximum(actions[chips, _KICK], 0.0) * self.chip_scale
+        commands[chips, _KICK_ALONG] = speed * np.float32(math.cos(CHIP_ANGLE))
+        commands[chips, _KICK_UP] = speed * np.float32(math.sin(CHIP_ANGLE))
+        return commands
 
     def is_off_field(self, positions: Floats) -> Mask:
         """Return the positions that are beyond the lines of the field.
@@ -156,6 +211,11 @@ class Ssl(Soccer):
         robot = self.config.robot
         kick = min(robot.max_kick_speed, MAX_LEGAL_KICK_SPEED)
         return np.array([robot.top_speed, robot.top_speed, MAX_TURN_RATE, kick, 1.0], np.float32)
+
+    @cached_property
+    def chip_scale(self) -> np.float32:
+        """Speed of a chip kick of a full deflection, m/s."""
+        return np.float32(min(self.config.robot.max_chip_speed, MAX_LEGAL_KICK_SPEED))
 
     @cached_property
     def _half_size(self) -> Floats:

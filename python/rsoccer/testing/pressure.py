@@ -57,7 +57,8 @@ class Pressing:
             return _clipped(wheels + noise)
         if self._action_kind == "robot":
             x, y = ahead, left
-        action = np.stack([x, y, left, np.full_like(x, -1.0), np.ones_like(x)], axis=-1) + noise
+        action = noise  # of a chip kick, where the task has it, nothing else
+        action[..., :5] += np.stack([x, y, left, np.full_like(x, -1.0), np.ones_like(x)], axis=-1)
         kicks = self._rng.random(shape[:2]) < KICK_FRACTION
         action[..., 3] = np.where(kicks, self._rng.random(shape[:2]), -1.0)
         return _clipped(action)
@@ -81,7 +82,7 @@ def _action_kind(task: Task) -> str:
     drives = {robot.drive for robot in task.config.robots}
     if drives == {"differential"} and task.action_size == 2:
         return "wheels"
-    if drives == {"omni"} and isinstance(task, Ssl) and task.action_size == 5:
+    if drives == {"omni"} and isinstance(task, Ssl) and task.action_size in (5, 6):
         return task.velocity_frame
     return "unknown"
 

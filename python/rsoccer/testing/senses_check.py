@@ -16,7 +16,7 @@ from rsoccer.testing.errors import TaskError
 from rsoccer.testing.method_results import DURING_EPISODES, Method, differing
 
 
-class Given:
+class _Given:
     """A sensor model whose result is given."""
 
     def columns(self, n: int) -> dict[str, Array]:
@@ -41,9 +41,9 @@ def check_senses(task: Task, play: Play) -> None:
         TaskError: a method reads the other state.
     """
     others = np.roll(np.arange(len(play.frame)), 1)
-    sensing = replace(_copy(play), senses=Senses.new(Given(), play.frame, play.rng[others]))
+    sensing = replace(_copy(play), senses=Senses.new(_Given(), play.frame, play.rng[others]))
     sensing.frame, sensing.last_frame = play.frame.take(others), play.last_frame.take(others)
-    judging = replace(_copy(play), senses=Senses.new(Given(), play.frame.take(others), play.rng))
+    judging = replace(_copy(play), senses=Senses.new(_Given(), play.frame.take(others), play.rng))
     for method in DURING_EPISODES:
         if method.reads == "sensed":
             _compare(task, method, play, sensing, "it reads the true state; robots know")

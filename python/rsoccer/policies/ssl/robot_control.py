@@ -20,7 +20,7 @@ BALL_SIDE_TOLERANCE: Final = np.float32(0.04)  # m from the ball's position in t
 
 
 def require_dribbler(policy: str, task: Task) -> None:
-    """Check that the robots of a task have a dribbler, and five numbers in an action.
+    """Check that the robots of a task have a dribbler, and actions that begin with five numbers.
 
     Args:
         policy: name of the policy, for the error message.
@@ -29,7 +29,8 @@ def require_dribbler(policy: str, task: Task) -> None:
     Raises:
         ValueError: other robots, or other actions.
     """
-    if "dribbler" not in task.config.command_columns or task.action_size != 5:
+    required = task.action_size - task.optional_action_size
+    if "dribbler" not in task.config.command_columns or required != 5:
         raise ValueError(
             f"task: {policy} needs robots with a dribbler and actions of 5 numbers, got {task.name}"
         )

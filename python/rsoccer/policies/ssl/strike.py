@@ -90,7 +90,7 @@ class Strike(Policy):
         steals = goes & opponent_has_ball(view)
         shoots = goes & ~steals & self._control.has_ball(view)
         approaches = goes & ~steals & ~shoots
-        actions = np.zeros(inputs.action_shape, np.float32)
+        actions = np.zeros((*inputs.action_shape[:2], 5), np.float32)
         for mask, behaviour in (
             (approaches, self._approach),
             (steals, self._steal),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput, require_actions
 from rsoccer.policies.labels import labels
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
@@ -52,6 +52,7 @@ class PolicyMix(Policy):
         self.observes = "nothing"
         self._policies = [make_policy(name, task) for name in shares]
         for policy in self._policies:
+            require_actions("opponents", policy)
             self.observes = max(self.observes, policy.observes, key=_INPUTS.index)
         self._shares: Doubles = np.array(list(shares.values()), np.float64)
         self._shares /= max(self._shares.sum(), 1e-12)
@@ -116,10 +117,11 @@ def _act_in(
         shape,
         None if view is None or needed < 1 else view.take(worlds),
         None if observations is None or needed < 2 else observations[worlds],
+        inputs.optional_actions,
     )
     streams = rng[worlds]
     own = {name: array[worlds] for name, array in memory.items()}
-    actions = policy.act(part, streams, own)
+    actions = part.completed(policy.act(part, streams, own))
     rng.put(worlds, streams)
     for name, array in own.items():
         memory[name][worlds] = array
