@@ -67,6 +67,8 @@ GROUPS: Final = (
             "rsoccer.senses",
             "rsoccer.markers",
             "rsoccer.registry",
+            "rsoccer.option_values",
+            "rsoccer.plugins",
             "rsoccer.testing.task_check",
         ),
     ),
@@ -110,6 +112,7 @@ GROUPS: Final = (
         (
             "rsoccer.policies",
             "rsoccer.policies.base",
+            "rsoccer.policies.names",
             "rsoccer.policies.network",
             "rsoccer.policies.policy_file",
             "rsoccer.policies.trained",
