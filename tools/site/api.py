@@ -36,7 +36,7 @@ GROUPS: Final = (
             "rsoccer.envs.single",
             "rsoccer.envs.vector",
             "rsoccer.envs.robots_vector",
-            "rsoccer.envs.spaces",
+            "rsoccer.spaces",
             "rsoccer.global_state",
         ),
     ),
@@ -133,7 +133,7 @@ GROUPS: Final = (
         (
             "rsoccer.render.image",
             "rsoccer.render.picture",
-            "rsoccer.render.record",
+            "rsoccer.recording",
             "rsoccer.render.video",
             "rsoccer.render.window",
         ),

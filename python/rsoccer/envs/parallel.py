@@ -19,14 +19,15 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils.conversions import parallel_to_aec_wrapper
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
+from rsoccer import spaces
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
-from rsoccer.envs import agent_dicts, spaces
+from rsoccer.envs import agent_dicts
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, require_learners, reset_options
-from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
 from rsoccer.registry import resolve_task, with_max_steps
+from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
 Infos = dict[str, dict[str, Any]]

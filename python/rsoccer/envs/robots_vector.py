@@ -19,10 +19,9 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SeededCopies, random_seed
 from rsoccer.envs.options import (
     action_array,

@@ -20,10 +20,9 @@ from typing import Any
 import gymnasium
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SeededCopies, SingleLearner, random_seed
 from rsoccer.envs.options import (
     action_array,

@@ -15,12 +15,10 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer._core import Simulator, Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers, assign
-from rsoccer.envs import spaces
-from rsoccer.envs.spaces import ActionSpace
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
 from rsoccer.matches import result_checks
@@ -35,6 +33,7 @@ from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
 from rsoccer.senses import Senses, SensorModel
 from rsoccer.simulator_interface import SimulatorLike
+from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -332,7 +331,7 @@ class Matches:
         from rsoccer.render.overlay import task_overlay
 
         clock = float(self.play.steps[0]) * self.task.config.time_step
-        row, extras = self.frame.rows[0], task_overlay(self)
+        row, extras = self.frame.rows[0], task_overlay(self.task, self.play)
         return Picture(draw_image(self.task.config, row, clock=clock, extras=extras)).to_png()
 
     def _step(self, actions: Floats) -> Outcome:

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, learner_controllers, reset_options
 from rsoccer.envs.viewer import Image, Viewer, metadata
