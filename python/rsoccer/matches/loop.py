@@ -16,7 +16,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from rsoccer import checks, spaces
-from rsoccer._core import Simulator, Threads
+from rsoccer._core import Threads
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
@@ -31,8 +31,8 @@ from rsoccer.play import Play
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
-from rsoccer.senses import Senses, SensorModel
-from rsoccer.simulator_interface import SimulatorLike
+from rsoccer.senses import Senses
+from rsoccer.sources import SensingSource, SimulatorSource, make_sensing, make_simulator
 from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
@@ -84,8 +84,8 @@ class Matches:
         *,
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
-        simulator: SimulatorLike | None = None,
-        sensing: SensorModel | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
@@ -103,13 +103,17 @@ class Matches:
             autoreset: reset of a match that ended: "same_step" (within the step that ends it),
                 "next_step" (the next step resets it, ignores its actions and gives no reward) or
                 "disabled" (it waits for `reset`).
-            simulator: moves the robots in place of `rsoccer.Simulator`.
-            sensing: model of what robots know of the true state; None if they know it exactly.
+            simulator: moves the robots in place of `rsoccer.Simulator`: a function
+                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+                simulator.
+            sensing: model of what robots know of the true state, or its text "module:name"; None
+                if they know it exactly.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
                 object.
             ValueError: an unknown task, controller or autoreset mode, or a number out of range.
@@ -129,10 +133,8 @@ class Matches:
         self.observation_low = self.task.layout.low
         self.observation_high = self.task.layout.high
         self._threads = Threads(checks.integer("threads", threads, 1))
-        if simulator is None:
-            simulator = Simulator(self.task.config, worlds, self._threads)
-        self._simulator = simulator
-        self._sensing = sensing
+        self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
+        self._sensing = make_sensing(sensing)
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
