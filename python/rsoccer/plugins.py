@@ -46,7 +46,8 @@ def import_modules(names: Iterable[str]) -> None:
         ValueError: a file or another text in the place of a module's name.
     """
     for name in names:
-        _import(name)
+        _import("import", name)
+        os.environ[VARIABLE] = ",".join(dict.fromkeys([*_inherited(), name]))
 
 
 def import_inherited() -> None:
@@ -95,7 +96,7 @@ def find(argument: str, text: str) -> Any:  # noqa: ANN401  (whatever the module
     module, separator, name = text.partition(":")
     if not (separator and module and all(part.isidentifier() for part in name.split("."))):
         raise ValueError(f"{argument}: expected a text 'module:name', got {text!r}")
-    _import(module, argument)
+    _import(argument, module)
     try:
         return operator.attrgetter(name)(sys.modules[module])
     except AttributeError:
@@ -117,7 +118,8 @@ def _points(group: str) -> dict[str, EntryPoint]:
     return {point.name: point for point in entry_points(group=group)}
 
 
-def _import(name: str, argument: str = "import") -> None:
+def _import(argument: str, name: str) -> None:
+    """Import a module; errors name the argument."""
     if not all(part.isidentifier() for part in name.split(".")) or name.endswith(".py"):
         stem = os.path.basename(name).removesuffix(".py")
         hint = f", such as {stem}" if stem.isidentifier() else ""
@@ -133,7 +135,6 @@ def _import(name: str, argument: str = "import") -> None:
                 f"{argument}: expected a module of {folder} or an installed one, got {name!r}"
             ) from error
         raise ImportError(f"{argument}: {name!r} raises {type(error).__name__}: {error}") from error
-    os.environ[VARIABLE] = ",".join(dict.fromkeys([*_inherited(), name]))
 
 
 def _inherited() -> list[str]:
