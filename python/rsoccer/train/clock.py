@@ -48,7 +48,10 @@ class Clock:
         return total, {part: elapsed / total for part, elapsed in seconds.items()}
 
 
-METHODS: Final = ("place", "restart", "reposition_balls", "step", "snapshot", "restore")
+METHODS: Final = (
+    *("place", "restart", "reposition_balls", "step", "read"),
+    *("close", "snapshot", "restore"),
+)
 """Methods of a simulator whose time counts, those of them that it has."""
 
 
