@@ -49,8 +49,14 @@ class Clock:
 
 
 METHODS: Final = (
-    *("place", "restart", "reposition_balls", "step", "read"),
-    *("close", "snapshot", "restore"),
+    "place",
+    "restart",
+    "reposition_balls",
+    "step",
+    "read",
+    "close",
+    "snapshot",
+    "restore",
 )
 """Methods of a simulator whose time counts, those of them that it has."""
 
