@@ -23,6 +23,8 @@ from benches.measuring import (
     world_steps_per_second,
 )
 from benches.scenarios import DEFAULT_ENGINE, HELD
+from rsoccer import SimConfig, Simulator
+from rsoccer._core import Threads
 from rsoccer.arrays import Array, Floats
 from rsoccer.train.clock import Clock, TimedSimulator
 
@@ -37,7 +39,10 @@ T = TypeVar("T")
 def matches(task: str, worlds: int, threads: int, engine: str = DEFAULT_ENGINE) -> Measure:
     """Return a measure of `Matches`: speed and time outside physics."""
     instance, clock = rsoccer.make_task(task, engine=engine), Clock()
-    simulator = TimedSimulator(instance.config, worlds, threads, clock)
+
+    def simulator(config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:
+        return TimedSimulator(Simulator(config, worlds, threads), clock)
+
     batch = rsoccer.Matches(instance, worlds, seed=0, threads=threads, simulator=simulator)
     batch.reset()
     actions = random_actions((worlds, len(batch.agents), instance.action_size))

@@ -74,7 +74,7 @@ def supersuit(task: str, worlds: int) -> Measure:
 
 def robots(task: str, worlds: int) -> Measure:
     """Return a measure of `robots_vector_env`."""
-    envs = rsoccer.robots_vector_env(task, matches=worlds, autoreset_mode="same_step")
+    envs = rsoccer.robots_vector_env(task, worlds=worlds, autoreset_mode="same_step")
     envs.reset(seed=0)
     actions = interfaces.random_actions(interfaces.shape_of(envs.action_space))
     return _settled(envs, actions, worlds)

@@ -6,7 +6,7 @@ After a minute of training the robots drive to the ball; `make demo` trains long
 from pathlib import Path
 
 import rsoccer
-from rsoccer.render.record import record_match
+from rsoccer.recording import record_match
 from rsoccer.train import Args, OpponentSettings, train
 
 OUT = Path("out/self_play")

@@ -307,3 +307,11 @@ class PassingTask(SslSelfPlay):
             "yellow_passes": 2.0 - score,
             "throw_ins": np.full_like(score, 4.0),
         }
+
+
+def test_matches_have_the_simulator_and_the_senses_that_are_named() -> None:
+    usual = evaluate("chase", "zero", matches=20, task="VSSSelfPlay-v0")
+    blind = evaluate("chase", "zero", matches=20, sensing="tests.simulators:Blind")
+    still = evaluate("chase", "zero", matches=20, simulator="tests.simulators:Still")
+    assert usual.score > blind.score
+    assert still.score == 0.0

@@ -24,7 +24,7 @@ def test_markers_of_each_task_are_drawn(name: str) -> None:
     for world in range(2):
         markers = matches.task.markers(matches.play, world)
         assert {type(marker) for marker in markers} == MARKERS.get(name, set())
-        shapes = task_overlay(matches, world)
+        shapes = task_overlay(matches.task, matches.play, world)
         assert shapes == marker_shapes(matches.task.config.field, markers)
         assert bool(shapes) == bool(markers)
 

@@ -20,9 +20,9 @@ from rsoccer.task import Task
         (rsoccer.Matches, ["worlds", "threads", "controllers", "simulator"]),
         (rsoccer.parallel_env, ["render_mode", "controllers", "max_steps", "max_cycles"]),
         (rsoccer.env, ["render_mode", "controllers", "max_steps", "max_cycles"]),
-        (rsoccer.single_env, ["render_mode", "learner", "controllers"]),
+        (rsoccer.single_env, ["render_mode", "learner", "simulator", "sensing"]),
         (rsoccer.vector_env, ["num_envs", "learner", "threads", "autoreset_mode"]),
-        (rsoccer.robots_vector_env, ["num_envs", "matches", "learner", "threads"]),
+        (rsoccer.robots_vector_env, ["num_envs", "worlds", "learner", "threads"]),
     ],
 )
 @pytest.mark.parametrize("task", ["VSS-v0", "VSSMA-v0", rsoccer.make_task("VSS-v0")], ids=str)
@@ -43,8 +43,8 @@ def test_sb3_lists_its_arguments() -> None:
     pytest.importorskip("stable_baselines3")
     from rsoccer import sb3
 
-    with pytest.raises(TypeError, match=r"'worlds'.*'matches', 'threads', 'controllers'"):
-        sb3.SoccerVecEnv("VSSMulti-v0", worlds=8)
+    with pytest.raises(TypeError, match=r"'wordls'.*'worlds', 'threads', 'controllers'"):
+        sb3.SoccerVecEnv("VSSMulti-v0", wordls=8)
 
 
 @pytest.mark.parametrize("opponent", [3, None, 0.5, ["ou"]])

@@ -213,3 +213,8 @@ def test_the_command_prints_and_writes_the_result(
     assert paths[1].read_bytes().startswith(b"\x89PNG")
     assert main([*words, "--picture", str(tmp_path / "result.jpg")]) == 2
     assert ".png" in capsys.readouterr().err
+
+
+def test_matches_have_the_simulator_that_is_named() -> None:
+    result = rsoccer.tournament(["chase", "zero"], matches=4, simulator="tests.simulators:Still")
+    assert not any(standing.wins or standing.losses for standing in result.standings)

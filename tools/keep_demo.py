@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from benches.result_files import this_machine
-from rsoccer.render.record import film_match
+from rsoccer.recording import film_match
 from rsoccer.render.video import write_video
 from rsoccer.train.run.log import read_progress
 from tools.paths import DOCS, ROOT

@@ -59,7 +59,7 @@ def draw(name: str) -> Image:
         steps += 1
         clock = steps * config.time_step
         events = effects.update(matches.frame.rows[0], clock, matches.play.commands[0])
-    extras = (*task_overlay(matches), *events)
+    extras = (*task_overlay(matches.task, matches.play), *events)
     row, clock = matches.frame.rows[0], steps * config.time_step
     return draw_image(config, row, clock=clock, extras=extras, width=WIDTH)
 

@@ -16,6 +16,7 @@ Entry points are loaded when their name is asked for, and is not registered yet.
 from __future__ import annotations
 
 import importlib
+import operator
 import os
 import sys
 from collections.abc import Iterable
@@ -45,7 +46,8 @@ def import_modules(names: Iterable[str]) -> None:
         ValueError: a file or another text in the place of a module's name.
     """
     for name in names:
-        _import(name)
+        _import("import", name)
+        os.environ[VARIABLE] = ",".join(dict.fromkeys([*_inherited(), name]))
 
 
 def import_inherited() -> None:
@@ -80,6 +82,27 @@ def load(group: str, name: str) -> Any | None:  # noqa: ANN401  (whatever a pack
         ) from error
 
 
+def find(argument: str, text: str) -> Any:  # noqa: ANN401  (whatever the module holds)
+    """Return what a text names in a module; modules of the current folder come first.
+
+    Args:
+        argument: name of the argument that has the text, for errors.
+        text: module and name, such as "my_package.robots:connect".
+
+    Raises:
+        ImportError: the module does not exist or raises an error, or has no such name.
+        ValueError: a text of another form.
+    """
+    module, separator, name = text.partition(":")
+    if not (separator and module and all(part.isidentifier() for part in name.split("."))):
+        raise ValueError(f"{argument}: expected a text 'module:name', got {text!r}")
+    _import(argument, module)
+    try:
+        return operator.attrgetter(name)(sys.modules[module])
+    except AttributeError:
+        raise ImportError(f"{argument}: the module {module!r} has no {name!r}") from None
+
+
 def list_names(group: str) -> list[str]:
     """Return the names of the entry points of a group in alphabetical order, without loading them.
 
@@ -95,11 +118,12 @@ def _points(group: str) -> dict[str, EntryPoint]:
     return {point.name: point for point in entry_points(group=group)}
 
 
-def _import(name: str) -> None:
+def _import(argument: str, name: str) -> None:
+    """Import a module; errors name the argument."""
     if not all(part.isidentifier() for part in name.split(".")) or name.endswith(".py"):
         stem = os.path.basename(name).removesuffix(".py")
         hint = f", such as {stem}" if stem.isidentifier() else ""
-        raise ValueError(f"import: expected the name of a module{hint}, got {name!r}")
+        raise ValueError(f"{argument}: expected the name of a module{hint}, got {name!r}")
     folder = os.getcwd()
     if folder not in sys.path:
         sys.path.insert(0, folder)  # as `python -m` does
@@ -108,10 +132,9 @@ def _import(name: str) -> None:
     except Exception as error:
         if isinstance(error, ModuleNotFoundError) and error.name == name.partition(".")[0]:
             raise ImportError(
-                f"import: expected a module of {folder} or an installed one, got {name!r}"
+                f"{argument}: expected a module of {folder} or an installed one, got {name!r}"
             ) from error
-        raise ImportError(f"import: {name!r} raises {type(error).__name__}: {error}") from error
-    os.environ[VARIABLE] = ",".join(dict.fromkeys([*_inherited(), name]))
+        raise ImportError(f"{argument}: {name!r} raises {type(error).__name__}: {error}") from error
 
 
 def _inherited() -> list[str]:

@@ -6,8 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
-from rsoccer import checks, option_values, plugins
-from rsoccer.envs import ids
+from rsoccer import checks, ids, option_values, plugins
 from rsoccer.task import Task
 
 

@@ -19,10 +19,12 @@ from numpy.typing import NDArray
 from rsoccer import checks
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers
+from rsoccer.envs.env_matches import EnvMatches
+from rsoccer.envs.options import learner_controllers
 from rsoccer.frame import team_of
 from rsoccer.global_state import LIMIT
-from rsoccer.matches import Matches
 from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 try:
@@ -84,6 +86,9 @@ class SoccerEnv(EnvBase):
         seed: int | None = None,
         threads: int = 1,
         controllers: Controllers | None = None,
+        learner: str | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         group_map: GroupMap | MarlGroupMapType | None = None,
         state: bool = False,
         device: Any = None,  # noqa: ANN401  (torch's own union)
@@ -99,7 +104,15 @@ class SoccerEnv(EnvBase):
                 a random one.
             threads: threads for physics, observations and rewards, at least 1.
             controllers: `LEARN`, a policy, its name or its file, by robot ("blue_1"), team
-                ("blue") or "all"; the task's defaults apply elsewhere.
+                ("blue") or "all"; the task's defaults apply elsewhere, and "ou" in place of further
+                learners if `learner` is given.
+            learner: the only robot that learns, such as "blue_0"; None for all robots that the
+                task and `controllers` let learn.
+            simulator: moves the robots in place of `rsoccer.Simulator`: a function
+                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+                simulator, with which the environment cannot be copied.
+            sensing: model of what robots know of the true state, or its text "module:name"; None if
+                they know it exactly.
             group_map: names of the learners by group, or one of TorchRL's `MarlGroupMapType`;
                 None for teams. `MarlGroupMapType.ALL_IN_ONE_GROUP` is one group "agents".
             state: True for the global state under "state".
@@ -108,21 +121,22 @@ class SoccerEnv(EnvBase):
             **options: options of a registered task, the fields of its class.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, or options for a `Task` object.
-            ValueError: an unknown task, option or controller, a number out of range, or groups
-                that do not hold each learner once.
+            ValueError: an unknown task, option or controller, a number out of range, no robot
+                that learns, or groups that do not hold each learner once.
         """
-        if seed is None:
-            seed = int(np.random.SeedSequence().generate_state(1)[0])
-        self.matches = Matches(
-            resolve_task(task, max_steps, options, type(self)),
+        self.task = resolve_task(task, max_steps, options, type(self))
+        self.matches = EnvMatches(
+            self.task,
             worlds,
             seed,
-            threads,
-            controllers=controllers,
+            threads=threads,
+            controllers=learner_controllers(self.task, learner, controllers),
             autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
         )
-        self.task = self.matches.task
         super().__init__(device=device, batch_size=(self.matches.worlds,))
         self.group_map = _groups(group_map, self.matches.agents)
         names = self.matches.agents

@@ -11,7 +11,7 @@ import rsoccer
 @pytest.fixture
 def filmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Any]:
     """Replace the video by a record of the task, the controllers and the names of the teams."""
-    record, video = pytest.importorskip("rsoccer.render.record"), tmp_path / "never.mp4"
+    record, video = pytest.importorskip("rsoccer.recording"), tmp_path / "never.mp4"
     filmed: list[Any] = []
 
     def film(task: rsoccer.Task, controllers: Any, *_: Any, names: Any, **__: Any) -> Any:  # noqa: ANN401

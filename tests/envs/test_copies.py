@@ -20,7 +20,7 @@ MAKERS: dict[str, Callable[[], Any]] = {
     "single": lambda: rsoccer.single_env("VSS-v0"),
     "make": lambda: gymnasium.make("rsoccer/VSS-v0"),
     "vector": lambda: rsoccer.vector_env("VSS-v0", 2),
-    "robots": lambda: rsoccer.robots_vector_env(NAME, matches=2),
+    "robots": lambda: rsoccer.robots_vector_env(NAME, worlds=2),
 }
 COPIES: dict[str, Callable[[Any], Any]] = {
     "deepcopy": copy.deepcopy,

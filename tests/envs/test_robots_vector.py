@@ -91,16 +91,16 @@ def test_a_single_learner_is_the_special_case() -> None:
 
 def test_the_number_of_rows_or_of_matches_is_given() -> None:
     assert robots_vector_env(NAME).num_envs == ROBOTS
-    assert robots_vector_env(NAME, matches=4).num_envs == 4 * ROBOTS
+    assert robots_vector_env(NAME, worlds=4).num_envs == 4 * ROBOTS
     assert robots_vector_env(NAME, 4, learner="yellow_2").robots == ("yellow_2",)
-    own = robots_vector_env(NAME, controllers={"yellow": "ou"}, matches=2)
+    own = robots_vector_env(NAME, controllers={"yellow": "ou"}, worlds=2)
     assert (own.robots, own.num_envs) == (("blue_0", "blue_1", "blue_2"), 6)
     with pytest.raises(ValueError, match=r"expected a multiple of the 6 robots .* got 64"):
         robots_vector_env(NAME, 64)
-    with pytest.raises(ValueError, match="num_envs and matches: expected one of them, got 6 and 1"):
-        robots_vector_env(NAME, 6, matches=1)
-    with pytest.raises(ValueError, match=r"^matches: expected at least 1, got 0"):
-        robots_vector_env(NAME, matches=0)
+    with pytest.raises(ValueError, match="num_envs and worlds: expected one of them, got 6 and 1"):
+        robots_vector_env(NAME, 6, worlds=1)
+    with pytest.raises(ValueError, match=r"^worlds: expected at least 1, got 0"):
+        robots_vector_env(NAME, worlds=0)
     with pytest.raises(ValueError, match=r"^num_envs: expected at least 1, got 0"):
         gymnasium.make_vec("rsoccer/VSS-v0", num_envs=0)
     with pytest.raises(ValueError, match="at least one learner, got none"):
@@ -147,7 +147,7 @@ def test_gymnasiums_statistics_are_by_row(mode: AutoresetMode) -> None:
 
 def test_images_are_shared_by_the_robots_of_a_match() -> None:
     pytest.importorskip("pygame")
-    envs = robots_vector_env(NAME, matches=2, render_mode="rgb_array")
+    envs = robots_vector_env(NAME, worlds=2, render_mode="rgb_array")
     envs.reset(seed=0)
     images = envs.render()
     assert images is not None

@@ -6,8 +6,8 @@ import pytest
 pytest.importorskip("pygame")
 
 from rsoccer.lineup import lineup
+from rsoccer.recording import film_match
 from rsoccer.registry import make_task
-from rsoccer.render import film_match
 from rsoccer.replay import Replay
 from rsoccer.replay.film import film_replay
 from tests.helpers import same

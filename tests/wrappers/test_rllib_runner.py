@@ -13,6 +13,7 @@ import pytest
 
 from rsoccer.matches import Matches
 from tests.ray_start import patiently
+from tests.simulators import Still
 
 torch = pytest.importorskip("torch")
 ray = pytest.importorskip("ray")
@@ -73,6 +74,20 @@ def config_of(
         )
         .debugging(seed=3)
     )
+
+
+@pytest.mark.parametrize("source", [Still, "tests.simulators:still"])
+def test_the_simulator_and_the_senses_are_those_that_are_named(source: Any) -> None:  # noqa: ANN401
+    given = {"simulator": source, "sensing": "tests.simulators:Blind", "learner": "blue_1"}
+    runner = MatchesEnvRunner(config=config_of(**given))
+    runner.sample(num_timesteps=WORLDS, random_actions=True)
+    single = SoccerMultiAgentEnv({"task": TASK, **given})
+    single.reset()
+    for matches in (runner.matches, single.matches):
+        assert matches.agents == ("blue_1",)
+        assert isinstance(matches._simulator, Still)
+        assert matches.play.frame.ball.position.any()
+        assert not matches.play.sensed.ball.position.any()
 
 
 def runner_of(**options: Any) -> Any:  # noqa: ANN401

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import rsoccer
+from tests.simulators import Still
 from tests.single_learner import TASKS
 
 stable_baselines3 = pytest.importorskip("stable_baselines3")
@@ -70,10 +71,10 @@ def test_the_time_limit_truncates_for_bootstrapped_values() -> None:
 # -- Many matches ------------------------------------------------------------------------------
 
 
-def many(name: str = "VSS-v0", matches: int = 3, **options: Any) -> Any:  # noqa: ANN401
+def many(name: str = "VSS-v0", worlds: int = 3, **options: Any) -> Any:  # noqa: ANN401
     """Short matches."""
     sb3 = importlib.import_module("rsoccer.sb3")
-    return sb3.SoccerVecEnv(name, matches, **{"max_steps": MAX_STEPS, **options})
+    return sb3.SoccerVecEnv(name, worlds, **{"max_steps": MAX_STEPS, **options})
 
 
 def drawn(envs: Any, rng: np.random.Generator) -> Any:  # noqa: ANN401
@@ -130,7 +131,7 @@ def test_rows_equal_single_environments(name: str) -> None:
     agents = rsoccer.make_task(name).agents
     ours = many(name)
     robots = rsoccer.robots_vector_env(
-        name, matches=3, max_steps=MAX_STEPS, autoreset_mode="same_step"
+        name, worlds=3, max_steps=MAX_STEPS, autoreset_mode="same_step"
     )
     ours.seed(5)
     np.testing.assert_array_equal(ours.reset(), robots.reset(seed=5)[0])
@@ -217,6 +218,19 @@ def test_unseeded_environments_and_copies_play_different_matches() -> None:
     np.testing.assert_array_equal(envs.reset(), twin.reset())
 
 
+@pytest.mark.parametrize("source", [Still, "tests.simulators:still"])
+def test_the_simulator_and_the_senses_are_those_that_are_named(source: Any) -> None:  # noqa: ANN401
+    envs = many(simulator=source, sensing="tests.simulators:Blind")
+    envs.seed(3)
+    envs.reset()
+    play = envs._matches.play
+    assert isinstance(envs._matches._simulator, Still)
+    assert play.frame.ball.position.any() and not play.sensed.ball.position.any()
+    twin = pickle.loads(pickle.dumps(envs))
+    assert twin._matches._simulator is not envs._matches._simulator
+    np.testing.assert_array_equal(envs.reset(), twin.reset())
+
+
 def test_options_set_the_start_of_the_next_reset() -> None:
     matches = rsoccer.Matches("VSSMulti-v0", 3)
     matches.reset(seed=1)
@@ -276,7 +290,7 @@ def test_images_are_of_matches() -> None:
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
-        (lambda: many(matches=0), ValueError, "matches: expected at least 1, got 0"),
+        (lambda: many(worlds=0), ValueError, "worlds: expected at least 1, got 0"),
         (lambda: many(learner="red_0"), ValueError, "learner: expected one of"),
         (lambda: many(bal_speed=1.0), TypeError, "unexpected keyword argument 'bal_speed'"),
         (lambda: many(render_mode="ansi"), ValueError, "render_mode: expected one of"),

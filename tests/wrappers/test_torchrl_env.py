@@ -10,6 +10,7 @@ import rsoccer
 from rsoccer.global_state import StateEncoder
 from rsoccer.matches import Matches
 from tests.parallel_matches import TASKS
+from tests.simulators import Still
 
 torch = pytest.importorskip("torch")
 pytest.importorskip("torchrl")
@@ -125,6 +126,22 @@ def test_seeds_are_repeatable_and_later_resets_continue() -> None:
     assert torch.equal(starts[0][0], starts[1][0])
     assert torch.equal(starts[0][1], starts[1][1])
     assert not torch.equal(starts[0][0], starts[0][1])
+
+
+@pytest.mark.parametrize("source", [Still, "tests.simulators:still"])
+def test_the_simulator_and_the_senses_are_those_that_are_named(source: Any) -> None:  # noqa: ANN401
+    env = SoccerEnv(TASK, WORLDS, simulator=source, sensing="tests.simulators:Blind")
+    env.reset()
+    play = env.matches.play
+    assert isinstance(env.matches._simulator, Still)
+    assert play.frame.ball.position.any() and not play.sensed.ball.position.any()
+
+
+def test_one_learner_may_be_named_and_none_is_refused() -> None:
+    env = SoccerEnv(TASK, WORLDS, learner="yellow_1")
+    assert env.group_map == {"yellow": ["yellow_1"]}
+    with pytest.raises(ValueError, match=r"^controllers: expected at least one learner"):
+        SoccerEnv(TASK, controllers={"all": "zero"})
 
 
 def test_bad_arguments_are_named() -> None:

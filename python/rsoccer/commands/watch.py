@@ -122,7 +122,7 @@ class Watch(Imports):
 
     def _play_match(self) -> None:
         """Show a new match while it is played."""
-        from rsoccer.render.record import film_match
+        from rsoccer.recording import film_match
 
         task, controllers, names = self._match()
         images, fps = film_match(

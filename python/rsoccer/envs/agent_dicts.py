@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats
-from rsoccer.envs import spaces
 from rsoccer.task import Task
 
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rsoccer.arrays import Array
-from rsoccer.matches import Matches, Outcome
+from rsoccer.matches import Matches
+from rsoccer.sources import is_shared
 from rsoccer.task import Task
 
 
@@ -21,28 +22,19 @@ class EnvMatches(Matches):
     different matches.
     """
 
-    def __init__(self, task: Task, worlds: int, seed: int, **settings: Any) -> None:  # noqa: ANN401
+    def __init__(self, task: Task, worlds: int, seed: int | None = None, **settings: Any) -> None:  # noqa: ANN401
         """Prepare matches; `reset` begins them.
 
         Args:
             task: the task that is played.
             worlds: number of matches, at least 1.
-            seed: seed of the first match, at least 0.
+            seed: seed of the first match, at least 0; None for a random one: two environments must
+                not play the same match.
             **settings: further arguments of `Matches`.
         """
+        seed = secrets.randbits(63) if seed is None else seed
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
-
-    @classmethod
-    def unseeded(cls, task: Task, worlds: int, **settings: Any) -> EnvMatches:  # noqa: ANN401
-        """Return matches with a random seed: two environments must not play the same match.
-
-        Args:
-            task: the task that is played.
-            worlds: number of matches, at least 1.
-            **settings: further arguments of `Matches`.
-        """
-        return cls(task, worlds, secrets.randbits(63), **settings)
 
     @property
     def begun(self) -> bool:
@@ -92,17 +84,20 @@ class EnvMatches(Matches):
         """
         return float(self.play.steps[world]) * self.task.config.time_step
 
-    def episode_info(self, outcome: Outcome) -> dict[str, float]:
-        """Return the metrics of the first match, whose episode has ended, and its `steps`.
-
-        Args:
-            outcome: outcome of the last step.
-        """
-        metrics = {name: float(value[0]) for name, value in outcome.metrics.items()}
-        return {**metrics, "steps": float(self.play.steps[0])}
-
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return a constructor, the constructor's arguments and the complete state."""
+        """Return a constructor, the constructor's arguments and the complete state.
+
+        Raises:
+            RuntimeError: the matches are inconsistent after a failure.
+            TypeError: a simulator that the copy would share, or one that has no `snapshot`.
+        """
+        simulator = self._settings.get("simulator")
+        if is_shared(simulator):
+            raise TypeError(
+                "simulator: a copy of these matches needs one of its own; expected a function "
+                "(config, worlds, threads) that makes it, or its text 'module:name', got "
+                f"{simulator!r}"
+            )
         state = None if self.fresh else self.state_dict()
         return _resumed, (self.task, self.worlds, self._settings, state)
 
@@ -151,7 +146,7 @@ def _resumed(
 ) -> EnvMatches:
     """Matches that continue from a state; without one, new matches with a random seed."""
     if state is None:
-        return EnvMatches.unseeded(task, worlds, **settings)
+        return EnvMatches(task, worlds, **settings)
     matches = EnvMatches(task, worlds, 0, **settings)
     matches.load_state_dict(state)
     return matches

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from gymnasium.spaces import Space
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controller, Controllers, given_by_name, resolve
-from rsoccer.envs import spaces
 from rsoccer.frame import team_of
 from rsoccer.lineup import DEFAULT_OPPONENT
 from rsoccer.task import LEARN, Task

@@ -19,14 +19,16 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.utils.conversions import parallel_to_aec_wrapper
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
+from rsoccer import spaces
 from rsoccer.arrays import Floats
 from rsoccer.controllers import Controllers
-from rsoccer.envs import agent_dicts, spaces
+from rsoccer.envs import agent_dicts
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, require_learners, reset_options
-from rsoccer.envs.spaces import ActionSpace
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
 from rsoccer.registry import resolve_task, with_max_steps
+from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
 Infos = dict[str, dict[str, Any]]
@@ -37,6 +39,8 @@ def parallel_env(
     render_mode: str | None = None,
     *,
     controllers: Controllers | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
     max_steps: int | None = None,
     max_cycles: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -50,6 +54,11 @@ def parallel_env(
         controllers: policies of robots that do not learn, by robot ("blue_0"), team ("blue") or
             "all": a policy, its name or its file; `LEARN` makes a robot an agent. The task's
             defaults apply elsewhere.
+        simulator: moves the robots in place of `rsoccer.Simulator`: a function
+            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+            simulator, with which the environment cannot be copied.
+        sensing: model of what robots know of the true state, or its text "module:name"; None if
+            they know it exactly.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         max_cycles: the same by PettingZoo's name; it takes precedence.
         **options: options of a registered task, the fields of its class.
@@ -58,6 +67,7 @@ def parallel_env(
         An environment to `reset`. `SoccerParallelEnv` describes spaces, infos and ends.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
             object.
         ValueError: an unknown task, controller or render mode, a value out of range, or no
@@ -71,7 +81,9 @@ def parallel_env(
     """
     time_limit = max_steps if max_cycles is None else max_cycles
     task = resolve_task(task, time_limit, options, parallel_env)
-    return SoccerParallelEnv(task, render_mode, controllers=controllers)
+    return SoccerParallelEnv(
+        task, render_mode, controllers=controllers, simulator=simulator, sensing=sensing
+    )
 
 
 def env(
@@ -86,8 +98,8 @@ def env(
     Args:
         task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
         render_mode: "rgb_array", "human" or None, as for `parallel_env`.
-        **options: further arguments of `parallel_env`: `controllers`, `max_steps`, `max_cycles` and
-            the options of a registered task.
+        **options: further arguments of `parallel_env`: `controllers`, `simulator`, `sensing`,
+            `max_steps`, `max_cycles` and the options of a registered task.
 
     Returns:
         An environment to `reset`, within PettingZoo's `OrderEnforcingWrapper`. Spaces, infos and
@@ -182,6 +194,8 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         render_mode: str | None = None,
         *,
         controllers: Controllers | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -190,6 +204,8 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             render_mode: "human", "rgb_array" or None.
             controllers: policies of robots that do not learn, by robot, team or "all", as for
                 `parallel_env`.
+            simulator: moves the robots, as for `parallel_env`.
+            sensing: what robots know of the true state, as for `parallel_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -198,7 +214,14 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         self._viewer = Viewer(render_mode, task)
         self.render_mode = render_mode
         self.last_metrics: dict[str, float] = {}
-        self._matches = EnvMatches.unseeded(task, 1, controllers=controllers, autoreset="disabled")
+        self._matches = EnvMatches(
+            task,
+            1,
+            controllers=controllers,
+            autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
+        )
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
         require_learners(self.possible_agents)
@@ -334,9 +357,9 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             raise
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
         infos = self._empty_infos()
-        if terminated or truncated:
+        if outcome.episodes is not None:
             self.agents = []
-            self.last_metrics = self._matches.episode_info(outcome)
+            self.last_metrics = outcome.episodes.info()
             for info in infos.values():
                 info.update(self.last_metrics)
                 info["TimeLimit.truncated"] = truncated

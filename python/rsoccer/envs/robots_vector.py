@@ -1,7 +1,7 @@
 """Many matches for Gymnasium in which every robot that learns is an environment of its own.
 
 >>> import rsoccer
->>> envs = rsoccer.robots_vector_env("VSSSelfPlay-v0", matches=8, threads=2)
+>>> envs = rsoccer.robots_vector_env("VSSSelfPlay-v0", worlds=8, threads=2)
 >>> observations, infos = envs.reset(seed=0)
 >>> for _ in range(10):
 ...     actions = envs.action_space.sample()
@@ -13,16 +13,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SeededCopies, random_seed
 from rsoccer.envs.options import (
     action_array,
@@ -30,15 +29,16 @@ from rsoccer.envs.options import (
     learner_controllers,
     reset_options,
 )
+from rsoccer.envs.robot_rows import RobotRows, RobotRowsEnv
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
 from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 
 RENDER_MODES = ("rgb_array",)
 
 Infos = dict[str, Any]
-A = TypeVar("A", bound=Array)
 
 
 def robots_vector_env(
@@ -46,9 +46,11 @@ def robots_vector_env(
     num_envs: int | None = None,
     render_mode: str | None = None,
     *,
-    matches: int | None = None,
+    worlds: int | None = None,
     learner: str | None = None,
     controllers: Controllers | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -60,14 +62,19 @@ def robots_vector_env(
     Args:
         task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
         num_envs: number of rows, a multiple of the number of robots that learn in a match; None
-            for that of `matches`.
+            for that of `worlds`.
         render_mode: "rgb_array" for images of all matches from `render`, or None.
-        matches: number of matches, at least 1, in place of `num_envs`; 1 if neither is given.
+        worlds: number of matches, at least 1, in place of `num_envs`; 1 if neither is given.
         learner: the only robot that learns, such as "blue_0"; None for all robots that the task
             and `controllers` let learn.
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
             policy, its name or its file; `LEARN` makes a robot a row. The task's defaults apply
             elsewhere, and "ou" in place of further learners if `learner` is given.
+        simulator: moves the robots in place of `rsoccer.Simulator`: a function
+            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+            simulator, with which the environment cannot be copied.
+        sensing: model of what robots know of the true state, or its text "module:name"; None if
+            they know it exactly.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its actions and pays no reward), "same_step" (within
@@ -81,17 +88,18 @@ def robots_vector_env(
         Environments to `reset`. `RobotsVectorEnv` describes rows, spaces, infos and seeding.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
             object.
         ValueError: an unknown task, robot, controller or mode, a value out of range, both
-            `num_envs` and `matches`, or no robot that learns.
+            `num_envs` and `worlds`, or no robot that learns.
 
     Example:
         >>> import rsoccer
         >>> envs = rsoccer.robots_vector_env("VSSMulti-v0", 12, autoreset_mode="same_step")
         >>> envs.robots
         ('blue_0', 'blue_1', 'blue_2')
-        >>> envs.matches
+        >>> envs.worlds
         4
     """
     time_limit = max_episode_steps if max_steps is None else max_steps
@@ -99,15 +107,17 @@ def robots_vector_env(
     resolved = learner_controllers(task, learner, controllers)
     return RobotsVectorEnv(
         task,
-        _match_count(num_envs, matches, list(resolved.values()).count(LEARN)),
+        _world_count(num_envs, worlds, list(resolved.values()).count(LEARN)),
         render_mode,
         controllers=resolved,
+        simulator=simulator,
+        sensing=sensing,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
 
 
-class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
+class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array]):
     """n matches of a task as a Gymnasium VectorEnv with a row for each robot that learns.
 
     Rows: with k robots that learn in a match, row `i * k + j` is robot `robots[j]` of match i, and
@@ -157,10 +167,12 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
     def __init__(
         self,
         task: Task,
-        matches: int = 1,
+        worlds: int = 1,
         render_mode: str | None = None,
         *,
         controllers: Controllers | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -168,9 +180,11 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
 
         Args:
             task: the task that is played.
-            matches: number of matches, n, at least 1.
+            worlds: number of matches, n, at least 1.
             render_mode: "rgb_array" or None.
             controllers: policies of robots that do not learn, as for `robots_vector_env`.
+            simulator: moves the robots, as for `robots_vector_env`.
+            sensing: what robots know of the true state, as for `robots_vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `robots_vector_env`.
 
@@ -185,51 +199,21 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         self.metadata = metadata(task, RENDER_MODES) | {"autoreset_mode": self.autoreset_mode}
         self._matches = EnvMatches(
             task,
-            matches,
+            worlds,
             random_seed(self),
             threads=threads,
             controllers=learner_controllers(task, None, controllers),
             autoreset=self.autoreset_mode.name.lower(),
+            simulator=simulator,
+            sensing=sensing,
         )
-        self.num_envs = self.matches * len(self.robots)
+        self._rows = RobotRows.of(self._matches)
+        self.num_envs = len(self._rows)
         self.single_observation_space = spaces.observation_space(task)
         self.single_action_space = spaces.action_space(task)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self.closed = False
-
-    @property
-    def task(self) -> Task:
-        """Task that is played."""
-        return self._matches.task
-
-    @property
-    def matches(self) -> int:
-        """Number of matches, n."""
-        return self._matches.worlds
-
-    @property
-    def robots(self) -> tuple[str, ...]:
-        """Names of the robots that learn in a match, in the order of their rows."""
-        return self._matches.agents
-
-    def states(self) -> Floats:
-        """Return the global state of each row's match, for centralized critics.
-
-        Returns:
-            (rows, state) float32, as `Matches.states` returns it, repeated for the robots of a
-            match.
-        """
-        return self._rows(self._matches.states())
-
-    def final_states(self) -> Floats:
-        """Return the global states that belong to `final_obs`; equal to `states` elsewhere.
-
-        Returns:
-            (rows, state) float32, as `Matches.final_states` returns it, repeated for the robots of
-            a match.
-        """
-        return self._rows(self._matches.final_states())
 
     def reset(
         self,
@@ -261,14 +245,14 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         """
         self._viewer.check_open("reset")
         options = reset_options(options, "reset_mask", "frame")
-        mask = _reset_mask(options, self.matches, len(self.robots))
+        mask = _reset_mask(options, self._rows)
         rows = initial_rows(options, self.task, mask)
         observations = self._matches.reset(seed, mask, rows)
         if isinstance(seed, int | np.integer):
             super().reset(seed=int(seed))
         elif seed is not None:
             self._np_random_seed = -1  # Gymnasium's value for seeds that one number cannot express
-        return self._flat(observations), {}
+        return self._rows.flat(observations), {}
 
     def step(self, actions: Array) -> tuple[Floats, Doubles, Mask, Mask, Infos]:
         """Advance all matches by one control step.
@@ -292,13 +276,13 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         if self.autoreset_mode is AutoresetMode.DISABLED:
             self._matches.check_running()
         vectors = action_array(self.task, actions, self.action_space)
-        shape = (self.matches, len(self.robots), vectors.shape[-1])
-        outcome = self._matches.step(vectors.reshape(shape))
+        rows = self._rows
+        outcome = self._matches.step(rows.by_match(vectors))
         return (
-            self._flat(outcome.observations),
-            outcome.rewards.astype(np.float64).reshape(-1),
-            self._rows(outcome.terminated),
-            self._rows(outcome.truncated),
+            rows.flat(outcome.observations),
+            rows.flat(outcome.rewards.astype(np.float64)),
+            rows.repeated(outcome.terminated),
+            rows.repeated(outcome.truncated),
             self._infos(outcome),
         )
 
@@ -315,8 +299,7 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         if self.render_mode is None:
             self._viewer.render(self._matches)
             return None
-        images = [self._viewer.image(self._matches, match) for match in range(self.matches)]
-        return tuple(image for image in images for _ in self.robots)
+        return tuple(image for image in self._images() for _ in self.robots)
 
     def close_extras(self, **kwargs: Any) -> None:  # noqa: ANN401  (Gymnasium's own)
         """Refuse later calls: `reset`, `step` and `render` raise `ClosedEnvironmentError`.
@@ -326,59 +309,38 @@ class RobotsVectorEnv(SeededCopies, VectorEnv[Floats, Array, Array]):
         """
         self._viewer.close()
 
-    def _repr_png_(self) -> bytes | None:
-        """An image of the first match, for notebooks."""
-        return self._viewer.png(self._matches)
-
     def _infos(self, outcome: Outcome) -> Infos:
         """Metrics and steps of the matches that have ended, in Gymnasium's form."""
         episodes = outcome.episodes
         if episodes is None:
             return {}
-        mask = self._rows(outcome.ended)
+        rows, mask = self._rows, self._rows.repeated(outcome.ended)
         metrics: dict[str, Array] = {**episodes.metrics, "steps": episodes.lengths}
         infos: Infos = {
-            name: self._of_rows(episodes.worlds, values[:, None].astype(np.float64))
+            name: rows.scattered(episodes.worlds, values[:, None].astype(np.float64))
             for name, values in metrics.items()
         }
         infos = _with_masks(infos, mask)
         if self.autoreset_mode is not AutoresetMode.SAME_STEP:
             return infos
         episode = {
-            "r": self._of_rows(episodes.worlds, episodes.returns),
-            "l": self._of_rows(episodes.worlds, episodes.lengths[:, None]),
+            "r": rows.scattered(episodes.worlds, episodes.returns),
+            "l": rows.scattered(episodes.worlds, episodes.lengths[:, None]),
         }
         infos |= _with_masks({"episode": _with_masks(episode, mask)}, mask)
         last = np.full(self.num_envs, None, np.object_)
-        final = self._flat(outcome.final_observations)
+        final = rows.flat(outcome.final_observations)
         for row in np.flatnonzero(mask):
             last[row] = final[row].copy()
         return _with_masks({"final_obs": last, "final_info": infos}, mask)
 
-    def _of_rows(self, worlds: Array, values: Array) -> Array:
-        """Values (rows,) of values (k, robots) or (k, 1) of k matches; 0 in the other matches."""
-        every = np.zeros((self.matches, len(self.robots)), values.dtype)
-        every[worlds] = values
-        return every.reshape(-1)
 
-    def _rows(self, values: A) -> A:
-        """Values (rows, ...) of values (n, ...)."""
-        repeats = len(self.robots)
-        return values if repeats == 1 else values.repeat(repeats, axis=0)  # type: ignore[return-value]
-
-    def _flat(self, values: Floats) -> Floats:
-        """Values (rows, ...) of values (n, robots, ...)."""
-        return values.reshape(self.num_envs, *values.shape[2:])
-
-
-def _match_count(num_envs: int | None, matches: int | None, learners: int) -> int:
+def _world_count(num_envs: int | None, worlds: int | None, learners: int) -> int:
     """Number of matches that has these rows, or is given."""
     if num_envs is None:
-        return 1 if matches is None else checks.integer("matches", matches, 1)
-    if matches is not None:
-        raise ValueError(
-            f"num_envs and matches: expected one of them, got {num_envs} and {matches}"
-        )
+        return 1 if worlds is None else checks.integer("worlds", worlds, 1)
+    if worlds is not None:
+        raise ValueError(f"num_envs and worlds: expected one of them, got {num_envs} and {worlds}")
     if checks.integer("num_envs", num_envs, 1) % learners:
         raise ValueError(
             f"num_envs: expected a multiple of the {learners} robots that learn in a match, got "
@@ -396,24 +358,24 @@ def _autoreset_mode(given: AutoresetMode | str) -> AutoresetMode:
     raise ValueError(f"autoreset_mode: expected one of {valid}, got {given!r}")
 
 
-def _reset_mask(options: Mapping[str, Any], n: int, robots: int) -> Mask:
+def _reset_mask(options: Mapping[str, Any], rows: RobotRows) -> Mask:
     """Mask (n,) of the matches to reset; all without the option."""
     given = options.get("reset_mask")
     if given is None:
-        return np.ones(n, np.bool_)
-    shape = (n * robots,)
+        return np.ones(rows.worlds, np.bool_)
+    shape = (len(rows),)
     if not isinstance(given, np.ndarray) or given.dtype != np.bool_ or given.shape != shape:
         got = f"{given.dtype} {given.shape}" if isinstance(given, np.ndarray) else repr(given)
         raise ValueError(f"options['reset_mask']: expected a bool array {shape}, got {got}")
     if not given.any():
         raise ValueError("options['reset_mask']: expected at least one match to reset, got none")
-    by_match: Mask = given.reshape(n, robots)
+    by_match: Mask = rows.by_match(given)
     mask: Mask = by_match[:, 0]
     if (by_match != mask[:, None]).any():
         parts = np.flatnonzero((by_match != mask[:, None]).any(axis=1)).tolist()
         raise ValueError(
-            f"options['reset_mask']: expected equal values for the {robots} robots of a match, got "
-            f"different ones in matches {parts}"
+            f"options['reset_mask']: expected equal values for the {len(rows.robots)} robots of a "
+            f"match, got different ones in matches {parts}"
         )
     return mask
 

@@ -20,10 +20,9 @@ from typing import Any
 import gymnasium
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches, SeededCopies, SingleLearner, random_seed
 from rsoccer.envs.options import (
     action_array,
@@ -33,6 +32,7 @@ from rsoccer.envs.options import (
 )
 from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
 from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 Action = Array | np.integer[Any] | int
@@ -46,6 +46,8 @@ def single_env(
     *,
     learner: str | None = None,
     controllers: Controllers | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerEnv:
@@ -60,6 +62,11 @@ def single_env(
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
             policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
             further learners if `learner` is given.
+        simulator: moves the robots in place of `rsoccer.Simulator`: a function
+            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+            simulator, with which the environment cannot be copied.
+        sensing: model of what robots know of the true state, or its text "module:name"; None if
+            they know it exactly.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         **options: options of a registered task, the fields of its class.
 
@@ -67,6 +74,7 @@ def single_env(
         An environment to `reset`. `SoccerEnv` describes spaces, infos and seeding.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
             object.
         ValueError: an unknown task, robot, controller or render mode, a value out of
@@ -80,7 +88,14 @@ def single_env(
         Box(-1.0, 1.0, (2,), float32)
     """
     task = resolve_task(task, max_steps, options, single_env)
-    return SoccerEnv(task, render_mode, learner=learner, controllers=controllers)
+    return SoccerEnv(
+        task,
+        render_mode,
+        learner=learner,
+        controllers=controllers,
+        simulator=simulator,
+        sensing=sensing,
+    )
 
 
 # `gymnasium.make` reads the modes here, and so offers "rgb_array_list" too.
@@ -124,6 +139,8 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
         *,
         learner: str | None = None,
         controllers: Controllers | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -132,6 +149,8 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             render_mode: "human", "rgb_array" or None.
             learner: the robot that learns; needed for tasks with several learners.
             controllers: policies of the other robots, as for `single_env`.
+            simulator: moves the robots, as for `single_env`.
+            sensing: what robots know of the true state, as for `single_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -146,6 +165,8 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             random_seed(self),
             controllers=single_learner_controllers(task, learner, controllers),
             autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
         )
         self.observation_space = spaces.observation_space(task)
         self.action_space = spaces.action_space(task)
@@ -202,7 +223,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
         vector = action_array(self.task, action, self.action_space)
         outcome = self._matches.step(vector[None, None])
         terminated, truncated = bool(outcome.terminated[0]), bool(outcome.truncated[0])
-        info = self._matches.episode_info(outcome) if terminated or truncated else {}
+        info = {} if outcome.episodes is None else outcome.episodes.info()
         if self.render_mode == "human":
             self.render()
         reward = float(outcome.rewards[0, 0])

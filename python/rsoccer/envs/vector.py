@@ -22,6 +22,7 @@ from rsoccer.envs.env_matches import SingleLearner
 from rsoccer.envs.options import single_learner_controllers
 from rsoccer.envs.robots_vector import RobotsVectorEnv
 from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 
@@ -32,6 +33,8 @@ def vector_env(
     *,
     learner: str | None = None,
     controllers: Controllers | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -49,6 +52,11 @@ def vector_env(
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
             policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
             further learners if `learner` is given.
+        simulator: moves the robots in place of `rsoccer.Simulator`: a function
+            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+            simulator, with which the environment cannot be copied.
+        sensing: model of what robots know of the true state, or its text "module:name"; None if
+            they know it exactly.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its action and pays no reward), "same_step" (within
@@ -62,6 +70,7 @@ def vector_env(
         Environments to `reset`. `SoccerVectorEnv` describes spaces, infos and seeding.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
             object.
         ValueError: an unknown task, robot, controller or mode, a value out of range, or
@@ -80,6 +89,8 @@ def vector_env(
         render_mode,
         learner=learner,
         controllers=controllers,
+        simulator=simulator,
+        sensing=sensing,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
@@ -131,6 +142,8 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
         *,
         learner: str | None = None,
         controllers: Controllers | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -142,6 +155,8 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             render_mode: "rgb_array" or None.
             learner: the robot that learns; needed for tasks with several learners.
             controllers: policies of the other robots, as for `vector_env`.
+            simulator: moves the robots, as for `vector_env`.
+            sensing: what robots know of the true state, as for `vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `vector_env`.
 
@@ -155,6 +170,8 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             checks.integer("num_envs", num_envs, 1),
             render_mode,
             controllers=single_learner_controllers(task, learner, controllers),
+            simulator=simulator,
+            sensing=sensing,
             threads=threads,
             autoreset_mode=autoreset_mode,
         )

@@ -107,7 +107,7 @@ class Viewer:
             row,
             score=matches.score(world),
             clock=clock,
-            extras=(*task_overlay(matches, world), *events),
+            extras=(*task_overlay(matches.task, matches.play, world), *events),
         )
 
     def png(self, matches: EnvMatches) -> bytes | None:

@@ -26,6 +26,7 @@ from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy
 from rsoccer.registry import as_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
@@ -42,6 +43,8 @@ def evaluate(
     task: str | Task | None = None,
     worlds: int = 50,
     threads: int | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Evaluation:
     """Play matches of a task with a policy in the place of its learners.
 
@@ -60,11 +63,17 @@ def evaluate(
         worlds: matches played at once, at least 1. The starts do not depend on it, but a network's
             actions may differ in their last bits.
         threads: threads of the simulator, at least 1; by default one per available processor.
+        simulator: moves the robots in place of `rsoccer.Simulator`: a function
+            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+            simulator, which has to fit the number of matches at once.
+        sensing: model of what robots know of the true state, or its text "module:name"; None if
+            they know it exactly.
 
     Returns:
         Counts, the mean score, the mean return and the mean duration with their intervals.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: a number out of range, an unknown policy or task, a policy that does not fit
             the task, an opponent in a task with one team, or a two-sided task without a success
             metric.
@@ -87,7 +96,9 @@ def evaluate(
     episodes = []
     for index, side in enumerate(sides):
         controllers = lineup(task, LEARN, opponent_policy, side)
-        runner = EpisodeRunner(task, controllers, own_policy, worlds, threads)
+        runner = EpisodeRunner(
+            task, controllers, own_policy, worlds, threads, simulator=simulator, sensing=sensing
+        )
         episodes.append(runner.run(per_side, first_seed(seed, index)))
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))
     opponents = opponents_of(task) if opponent is None else [name_of(opponent)]

@@ -15,6 +15,7 @@ from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
 from rsoccer.policies.base import Policy, PolicyInput, require_actions
 from rsoccer.rng import WorldRng
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 RETURN = "return"
@@ -57,6 +58,10 @@ class EpisodeRunner:
     """threads of the simulator, at least 1"""
     before_step: Callable[[Mask], None] | None = None
     """called before each step with the mask (n,) of the matches that have not ended"""
+    simulator: SimulatorSource | None = None
+    """moves the robots, as for `Matches`"""
+    sensing: SensingSource | None = None
+    """what robots know of the true state, as for `Matches`"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
@@ -99,6 +104,8 @@ class EpisodeRunner:
             self.threads,
             controllers=self.controllers,
             autoreset="disabled",
+            simulator=self.simulator,
+            sensing=self.sensing,
         )
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)

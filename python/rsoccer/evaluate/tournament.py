@@ -27,6 +27,7 @@ from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
 from rsoccer.policies.policy_file import SUFFIX
 from rsoccer.registry import as_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 
 ANCHOR = "ou"
@@ -65,6 +66,8 @@ def tournament(
     worlds: int = 50,
     threads: int | None = None,
     on_pair: Callable[[int, int], None] | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Tournament:
     """Play every policy against every other one, and rate them.
 
@@ -90,11 +93,14 @@ def tournament(
         threads: threads of the simulator, at least 1; by default one per available processor.
         on_pair: called after the matches of each pair with the number of pairs that are complete
             and the number of all.
+        simulator: moves the robots, as for `evaluate`.
+        sensing: what robots know of the true state, as for `evaluate`.
 
     Returns:
         Ratings with 95% bootstrap intervals over matches, scores of each pair, and cycles.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: fewer than two policies, the same one twice, a policy that does not fit the
             task, a task that two teams do not play, or a number out of range.
         TypeError: an argument of the wrong type.
@@ -114,7 +120,9 @@ def tournament(
     for done, (a, b) in enumerate(pairs, 1):
         for blue, yellow in ((a, b), (b, a)):
             controllers: dict[str, Controller] = {"blue": LEARN, "yellow": made[yellow]}
-            runner = EpisodeRunner(task, controllers, made[blue], worlds, threads)
+            runner = EpisodeRunner(
+                task, controllers, made[blue], worlds, threads, simulator=simulator, sensing=sensing
+            )
             scores = runner.run(per_side, first_seed(seed, 0)).scores
             counts[blue, yellow] = [(np.sign(scores) == sign).sum() for sign in (1, 0, -1)]
         if on_pair is not None:

@@ -18,9 +18,9 @@ from rsoccer.matches import Matches
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
-from rsoccer.render.record import MIN_WIDTH
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Shape
+from rsoccer.render.video import MIN_WIDTH
 from rsoccer.render.window import Window
 from rsoccer.task import Task
 
@@ -194,7 +194,7 @@ class Session:
             names=self._names,
             caption=self._caption,
             extras=(
-                *task_overlay(self.matches),
+                *task_overlay(self.matches.task, self.matches.play),
                 *self._events,
                 *screen.selection_shapes(config.field, config.robots[driver.index], (x, y)),
             ),

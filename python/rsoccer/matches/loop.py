@@ -15,12 +15,10 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from rsoccer import checks
-from rsoccer._core import Simulator, Threads
+from rsoccer import checks, spaces
+from rsoccer._core import Threads
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers, assign
-from rsoccer.envs import spaces
-from rsoccer.envs.spaces import ActionSpace
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
 from rsoccer.matches import result_checks
@@ -35,8 +33,10 @@ from rsoccer.policies.base import CommandPolicy
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
-from rsoccer.senses import Senses, SensorModel
-from rsoccer.simulator_interface import Stepper, close
+from rsoccer.senses import Senses
+from rsoccer.simulator_interface import close
+from rsoccer.sources import SensingSource, SimulatorSource, make_sensing, make_simulator
+from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
 AUTORESETS: Final = ("same_step", "next_step", "disabled")
@@ -87,8 +87,8 @@ class Matches:
         *,
         controllers: Controllers | None = None,
         autoreset: str = "same_step",
-        simulator: Stepper | None = None,
-        sensing: SensorModel | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
@@ -106,15 +106,18 @@ class Matches:
             autoreset: reset of a match that ended: "same_step" (within the step that ends it),
                 "next_step" (the next step resets it, ignores its actions and gives no reward) or
                 "disabled" (it waits for `reset`).
-            simulator: moves the robots in place of `rsoccer.Simulator`; see
-                `rsoccer.simulator_interface`. With one that cannot place bodies, such as real
-                robots, episodes begin with the state as it is.
-            sensing: model of what robots know of the true state; None if they know it exactly.
+            simulator: moves the robots in place of `rsoccer.Simulator`: a function
+                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+                simulator; see `rsoccer.simulator_interface`. With one that cannot place bodies,
+                such as real robots, episodes begin with the state as it is.
+            sensing: model of what robots know of the true state, or its text "module:name"; None
+                if they know it exactly.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, an unknown option, options for a `Task`
                 object, or a simulator that can neither place bodies nor read their state.
             ValueError: an unknown task, controller or autoreset mode, or a number out of range.
@@ -134,11 +137,9 @@ class Matches:
         self.observation_low = self.task.layout.low
         self.observation_high = self.task.layout.high
         self._threads = Threads(checks.integer("threads", threads, 1))
-        if simulator is None:
-            simulator = Simulator(self.task.config, worlds, self._threads)
-        self._simulator = simulator
-        self._starts = Starts(simulator)
-        self._sensing = sensing
+        self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
+        self._starts = Starts(self._simulator)
+        self._sensing = make_sensing(sensing)
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
@@ -351,7 +352,7 @@ class Matches:
         from rsoccer.render.overlay import task_overlay
 
         clock = float(self.play.steps[0]) * self.task.config.time_step
-        row, extras = self.frame.rows[0], task_overlay(self)
+        row, extras = self.frame.rows[0], task_overlay(self.task, self.play)
         return Picture(draw_image(self.task.config, row, clock=clock, extras=extras)).to_png()
 
     def _step(self, actions: Floats) -> Outcome:

@@ -23,6 +23,15 @@ class Episodes:
     metrics: dict[str, Floats]
     """(k,) metrics of the task by name."""
 
+    def info(self, index: int = 0) -> dict[str, float]:
+        """Return the metrics of one of the episodes, and its length as `steps`.
+
+        Args:
+            index: index of the episode, 0 to k - 1.
+        """
+        metrics = {name: float(values[index]) for name, values in self.metrics.items()}
+        return {**metrics, "steps": float(self.lengths[index])}
+
 
 @dataclass
 class Outcome:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rsoccer.render.image import Image, Renderer, draw_image
     from rsoccer.render.picture import Picture
-    from rsoccer.render.record import film_match, record_match
     from rsoccer.render.video import write_video
     from rsoccer.render.window import Window
 
@@ -21,8 +20,6 @@ __all__ = [
     "Renderer",
     "Window",
     "draw_image",
-    "film_match",
-    "record_match",
     "write_video",
 ]
 
@@ -32,8 +29,6 @@ _MODULES = {
     "Renderer": "image",
     "Window": "window",
     "draw_image": "image",
-    "film_match": "record",
-    "record_match": "record",
     "write_video": "video",
 }
 

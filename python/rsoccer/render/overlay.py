@@ -28,7 +28,8 @@ from rsoccer.render.shapes import (
 
 if TYPE_CHECKING:
     from rsoccer._core import Field
-    from rsoccer.matches import Matches
+    from rsoccer.play import Play
+    from rsoccer.task import Task
 
 STROKE = 2.0
 """Width of strokes, in widths of the field's lines."""
@@ -40,18 +41,18 @@ FILL = 0.2
 """Opacity of a surface; the lines under it stay visible."""
 
 
-def task_overlay(matches: Matches, world: int = 0) -> tuple[Shape, ...]:
+def task_overlay(task: Task, play: Play, world: int = 0) -> tuple[Shape, ...]:
     """Return the shapes of the markers that a task sets in one world.
 
     Args:
-        matches: matches of the task.
+        task: the task that is played.
+        play: state of its matches.
         world: index of the world.
 
     Returns:
         Shapes for the `extras` of a renderer; none for a task without markers.
     """
-    task = matches.task
-    return marker_shapes(task.config.field, task.markers(matches.play, world))
+    return marker_shapes(task.config.field, task.markers(play, world))
 
 
 def marker_shapes(field: Field, markers: Iterable[Marker]) -> tuple[Shape, ...]:

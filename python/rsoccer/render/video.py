@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
     from rsoccer.render.image import Image
 
+MIN_WIDTH = 720
+"""Default width of a video, pixels; a large field has a wider one."""
 VIDEO_SUFFIXES = (".mp4", ".gif")
 """Endings of the names of video files."""
 MAX_GIF_FPS = 50.0

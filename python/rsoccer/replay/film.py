@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import marker_shapes
-from rsoccer.render.record import MIN_WIDTH
 from rsoccer.render.scoreboard import GOAL_PAUSE
+from rsoccer.render.video import MIN_WIDTH
 
 if TYPE_CHECKING:
     from rsoccer.replay.replay import Replay

@@ -209,7 +209,7 @@ def record_replay(
 ) -> Replay:
     """Play a match between policies, episode after episode, and record it.
 
-    The match is the one that `rsoccer.render.film_match` shows for the same arguments.
+    The match is the one that `rsoccer.recording.film_match` shows for the same arguments.
 
     Args:
         task: the task or its id; by default the task of the first trained policy among

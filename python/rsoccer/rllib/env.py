@@ -11,8 +11,13 @@ from ray.rllib.callbacks.callbacks import RLlibCallback
 from ray.rllib.env.multi_agent_env import MultiAgentEnv
 
 from rsoccer.arrays import Array, Floats
-from rsoccer.envs.options import reset_options
+from rsoccer.controllers import Controllers
+from rsoccer.envs.env_matches import EnvMatches
+from rsoccer.envs.options import learner_controllers, reset_options
 from rsoccer.matches import Matches
+from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.task import Task
 
 METRICS: Final = "task_metrics"
 """Key of the metrics under `env_runners` in the results of `train`."""
@@ -52,16 +57,18 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
 
         Args:
             config: RLlib's `env_config`: `task`, a task or the name of a registered one; optional
-                `controllers`, `threads` and `max_steps` as for `Matches`; other keys are options
-                of the task. `frozen` is for `MatchesEnvRunner`, and ignored here.
+                `controllers`, `threads`, `simulator`, `sensing` and `max_steps` as for `Matches`,
+                and `learner`, the only robot that learns; other keys are options of the task.
+                Worker processes make a simulator and a sensor model from a function or from a text
+                "module:name". `frozen` is for `MatchesEnvRunner`, and ignored here.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an option of the wrong type or unknown.
             ValueError: no task, or a value that `Matches` refuses.
         """
         super().__init__()
-        seed = int(np.random.default_rng().integers(2**62))
-        self.matches = new_matches(config, 1, seed, "disabled")
+        self.matches = new_matches(config, 1, None, "disabled")
         self.possible_agents = list(self.matches.agents)
         self.agents = list(self.possible_agents)
         self.observation_spaces, self.action_spaces = spaces_by_agent(self.matches)
@@ -103,9 +110,7 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
         outcome = self.matches.step(actions[None])
         infos: ByAgent = {}
         if (episodes := outcome.episodes) is not None:
-            info = {name: float(values[0]) for name, values in episodes.metrics.items()}
-            info["steps"] = float(episodes.lengths[0])
-            infos = {agent: dict(info) for agent in self.agents}
+            infos = {agent: episodes.info() for agent in self.agents}
         return (
             self._by_agent(outcome.final_observations),
             dict(zip(self.agents, outcome.rewards[0].tolist(), strict=True)),
@@ -151,20 +156,44 @@ def spaces_by_agent(matches: Matches) -> tuple[Spaces, Spaces]:
     return dict.fromkeys(agents, observation_space), dict.fromkeys(agents, action_space)
 
 
-def new_matches(config: Mapping[str, Any], worlds: int, seed: int, autoreset: str) -> Matches:
+def new_matches(
+    config: Mapping[str, Any], worlds: int, seed: int | None, autoreset: str
+) -> EnvMatches:
     """Return the matches that an `env_config` describes.
 
     Args:
         config: as for `SoccerMultiAgentEnv`.
         worlds: number of matches, at least 1.
-        seed: seed of the first match, at least 0.
+        seed: seed of the first match, at least 0; None for a random one.
         autoreset: as for `Matches`.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         TypeError: an option of the wrong type or unknown.
         ValueError: no task, or a value that `Matches` refuses.
     """
-    options = {name: value for name, value in config.items() if name not in ("task", "frozen")}
-    if "task" not in config:
-        raise ValueError(f"env_config: expected a 'task', got {sorted(options)}")
-    return Matches(config["task"], worlds, seed, autoreset=autoreset, **options)
+    given = {name: value for name, value in config.items() if name != "frozen"}
+    if "task" not in given:
+        raise ValueError(f"env_config: expected a 'task', got {sorted(given)}")
+    task, settings = _settings(**given)
+    return EnvMatches(task, worlds, seed, autoreset=autoreset, **settings)
+
+
+def _settings(
+    task: Task | str,
+    learner: str | None = None,
+    controllers: Controllers | None = None,
+    threads: int = 1,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
+    max_steps: int | None = None,
+    **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
+) -> tuple[Task, dict[str, Any]]:
+    """Task of an `env_config`, and further arguments of `Matches`."""
+    found = resolve_task(task, max_steps, options, _settings)
+    return found, {
+        "controllers": learner_controllers(found, learner, controllers),
+        "threads": threads,
+        "simulator": simulator,
+        "sensing": sensing,
+    }

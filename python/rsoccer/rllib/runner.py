@@ -20,6 +20,7 @@ from ray.rllib.env.vector.vector_multi_agent_env import VectorMultiAgentEnv
 from ray.rllib.utils import metrics as keys
 
 from rsoccer.arrays import Array, Floats
+from rsoccer.envs.robot_rows import RobotRows
 from rsoccer.matches import Matches, Outcome
 from rsoccer.rllib.env import METRICS, new_matches, spaces_by_agent
 from rsoccer.rllib.episodes import Rollout, Running
@@ -85,6 +86,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         self._frozen = frozenset(settings.get("frozen", ()))
         self.num_envs = self.config.num_envs_per_env_runner
         self.matches = new_matches(settings, self.num_envs, self._first_seed(), "same_step")
+        self._robots = RobotRows.of(self.matches)
         self.env = _MatchesEnvs(self.matches)
         self._needs_initial_reset = True
         context = EnvContext(settings, worker_index=self.worker_index or 0)
@@ -191,9 +193,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             return 0
         now = time.perf_counter()
         for index, world in enumerate(episodes.worlds.tolist()):
-            info = {name: float(values[index]) for name, values in episodes.metrics.items()}
-            length = int(episodes.lengths[index])
-            info["steps"] = float(length)
+            info, length = episodes.info(index), int(episodes.lengths[index])
             running = self._running[world]
             rollout.end(world, running, outcome, info)
             returns = dict(zip(self.matches.agents, episodes.returns[index].tolist(), strict=True))
@@ -210,10 +210,9 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
 
     def _act(self, observations: Floats, steps: int, explore: bool) -> dict[str, Array]:
         """Outputs of the modules for all agents by column, (n, agents, ...), actions included."""
-        n, agents, size = observations.shape
-        flat = torch.from_numpy(observations).reshape(-1, size).to(self._device)
+        flat = torch.from_numpy(self._robots.flat(observations)).to(self._device)
         runners = self.config.num_env_runners or 1
-        t = self.num_env_steps_sampled_lifetime + steps * n * runners
+        t = self.num_env_steps_sampled_lifetime + steps * self.num_envs * runners
         columns: dict[str, Array] = {}
         for name, rows in self._rows_by_module().items():
             outputs = self._forward(name, flat if rows is None else flat[rows], explore, t)
@@ -222,11 +221,9 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
                     columns[column] = values
                     continue
                 if column not in columns:
-                    columns[column] = np.zeros((n * agents, *values.shape[1:]), values.dtype)
+                    columns[column] = np.zeros((len(flat), *values.shape[1:]), values.dtype)
                 columns[column][rows.numpy()] = values
-        return {
-            name: values.reshape(n, agents, *values.shape[1:]) for name, values in columns.items()
-        }
+        return {name: self._robots.by_match(values) for name, values in columns.items()}
 
     def _forward(
         self, name: str, observations: torch.Tensor, explore: bool, t: int
@@ -254,7 +251,7 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
     def _rows_by_module(self) -> dict[str, torch.Tensor | None]:
         """Indices among all agents (n x agents) of those of each module; None for all of them."""
         if self._rows is None:
-            modules = self._module_of.reshape(-1)
+            modules = self._robots.flat(self._module_of)
             names = sorted(set(modules.tolist()))
             self._rows = {
                 name: None if len(names) == 1 else torch.from_numpy(np.flatnonzero(modules == name))
@@ -324,10 +321,10 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
             raise ValueError(f"callbacks: MatchesEnvRunner does not call {', '.join(uncalled)}")
         self._has_end_callback = given("on_episode_end")
 
-    def _first_seed(self) -> int:
-        """Seed of the first match of this runner."""
+    def _first_seed(self) -> int | None:
+        """Seed of the first match of this runner; None for a random one."""
         if self.config.seed is None:
-            return int(np.random.SeedSequence().generate_state(1)[0])
+            return None
         runner: int = (self.worker_index or 0) * self.num_envs
         return int(self.config.seed) + runner + EVALUATION_SEED * bool(self.config.in_evaluation)
 

@@ -2,7 +2,7 @@
 
 >>> from stable_baselines3 import PPO  # doctest: +SKIP
 >>> from rsoccer.sb3 import SoccerVecEnv  # doctest: +SKIP
->>> envs = SoccerVecEnv("VSS-v0", matches=64, threads=2)  # doctest: +SKIP
+>>> envs = SoccerVecEnv("VSS-v0", worlds=64, threads=2)  # doctest: +SKIP
 >>> PPO("MlpPolicy", envs, n_steps=128, batch_size=2048).learn(200_000)  # doctest: +SKIP
 
 `SoccerVecNormalize` is the library's `VecNormalize` with compiled statistics.

@@ -9,15 +9,16 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
-from rsoccer import checks
+from rsoccer import checks, spaces
 from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.controllers import Controllers
-from rsoccer.envs import spaces
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, learner_controllers, reset_options
+from rsoccer.envs.robot_rows import RobotRows, RobotRowsEnv
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
 from rsoccer.registry import resolve_task
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 RENDER_MODES = ("rgb_array",)
@@ -26,7 +27,7 @@ Info = dict[str, Any]
 Indices = int | Iterable[int] | None
 
 
-class SoccerVecEnv(VecEnv):  # type: ignore[misc]
+class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
     """n matches of a task as a VecEnv of Stable-Baselines3.
 
     Rows: with k robots that learn in a match, row `i * k + j` is robot `robots[j]` of match i, and
@@ -69,7 +70,7 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
 
     Example:
         >>> from rsoccer.sb3 import SoccerVecEnv  # doctest: +SKIP
-        >>> envs = SoccerVecEnv("VSSMulti-v0", matches=8)  # doctest: +SKIP
+        >>> envs = SoccerVecEnv("VSSMulti-v0", worlds=8)  # doctest: +SKIP
         >>> envs.robots, envs.num_envs  # doctest: +SKIP
         (('blue_0', 'blue_1', 'blue_2'), 24)
     """
@@ -77,11 +78,13 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
     def __init__(
         self,
         task: Task | str,
-        matches: int = 1,
+        worlds: int = 1,
         *,
         threads: int = 1,
         controllers: Controllers | None = None,
         learner: str | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
         render_mode: str | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -90,19 +93,25 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
 
         Args:
             task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
-            matches: number of matches, n, at least 1.
+            worlds: number of matches, n, at least 1.
             threads: threads for physics, at least 1. Results do not depend on their number.
             controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all":
                 a policy, its name or its file; `LEARN` makes a robot a row. The task's defaults
                 apply elsewhere, and "ou" in place of further learners if `learner` is given.
             learner: the only robot that learns, such as "blue_0"; None for all robots that the
                 task and `controllers` let learn.
+            simulator: moves the robots in place of `rsoccer.Simulator`: a function
+                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
+                simulator, with which the environment cannot be copied.
+            sensing: model of what robots know of the true state, or its text "module:name"; None if
+                they know it exactly.
             render_mode: "rgb_array" for images from `render` and `get_images`, or None.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             TypeError: an argument of the wrong type, an unknown option, or options for a `Task`
                 object.
             ValueError: an unknown task, robot, controller or render mode, a value out of range, or
@@ -111,32 +120,19 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         task = resolve_task(task, max_steps, options, SoccerVecEnv)
         self._viewer = Viewer(render_mode, task, RENDER_MODES)
         self.render_mode = render_mode
-        self._matches = EnvMatches.unseeded(
+        self._matches = EnvMatches(
             task,
-            checks.integer("matches", matches, 1),
+            worlds,
             threads=threads,
             controllers=learner_controllers(task, learner, controllers),
+            simulator=simulator,
+            sensing=sensing,
         )
+        self._rows = RobotRows.of(self._matches)
         self._actions: Array | None = None
         self._began = time.time()
-        rows = self.matches * len(self.robots)
-        super().__init__(rows, spaces.observation_space(task), spaces.action_space(task))
+        super().__init__(len(self._rows), spaces.observation_space(task), spaces.action_space(task))
         self.metadata = metadata(task, RENDER_MODES)
-
-    @property
-    def task(self) -> Task:
-        """Task that is played."""
-        return self._matches.task
-
-    @property
-    def matches(self) -> int:
-        """Number of matches, n."""
-        return self._matches.worlds
-
-    @property
-    def robots(self) -> tuple[str, ...]:
-        """Names of the robots that learn in a match, in the order of their rows."""
-        return self._matches.agents
 
     def seed(self, seed: int | None = None) -> list[int | None]:
         """Set the seeds of the next `reset`.
@@ -155,7 +151,7 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         if seed is None:
             seed = int(np.random.randint(0, 2**31))  # noqa: NPY002  (as Stable-Baselines3 does)
         first = checks.integer("seed", seed, 0)
-        seeds: list[int | None] = [first + i // len(self.robots) for i in range(self.num_envs)]
+        seeds: list[int | None] = [first + self._rows.world(i) for i in range(self.num_envs)]
         self._seeds = seeds
         return seeds
 
@@ -182,7 +178,7 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         self._reset_seeds()
         self._reset_options()
         self.reset_infos: list[Info] = [{} for _ in range(self.num_envs)]
-        return observations.reshape(self.num_envs, -1)
+        return self._rows.flat(observations)
 
     def _reset_to(self, options: list[Any], framed: Mask, seeds: list[int | None]) -> Floats:
         """Observations (n, k, o) after a reset in which some matches have an initial state."""
@@ -222,13 +218,12 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
         shape = (self.num_envs, *(self.action_space.shape or ()))
         if actions.shape != shape:
             raise ValueError(f"actions: expected shape {shape}, got {actions.shape}")
-        k = len(self.robots)
-        outcome = self._matches.step(actions.reshape(self.matches, k, *actions.shape[1:]))
-        ends = outcome.ended
+        rows = self._rows
+        outcome = self._matches.step(rows.by_match(actions))
         return (
-            outcome.observations.reshape(self.num_envs, -1),
-            outcome.rewards.reshape(-1),
-            ends if k == 1 else ends.repeat(k),
+            rows.flat(outcome.observations),
+            rows.flat(outcome.rewards),
+            rows.repeated(outcome.ended),
             self._infos(outcome),
         )
 
@@ -240,31 +235,17 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
             return infos
         clock = round(time.time() - self._began, 6)
         for index, world in enumerate(episodes.worlds.tolist()):
-            length = int(episodes.lengths[index])
-            metrics = {name: float(values[index]) for name, values in episodes.metrics.items()}
+            info, length = episodes.info(index), int(episodes.lengths[index])
+            metrics = {name: info[name] for name in episodes.metrics}
             for robot in range(len(self.robots)):
                 total = float(episodes.returns[index, robot])
                 infos[world * len(self.robots) + robot] = {
-                    **metrics,
-                    "steps": float(length),
+                    **info,
                     "terminal_observation": outcome.final_observations[world, robot].copy(),
                     "TimeLimit.truncated": not episodes.terminated[index],
                     "episode": {"r": total, "l": length, "t": clock, **metrics},
                 }
         return infos
-
-    def states(self) -> Floats:
-        """Return the global state of each row's match, for centralized critics.
-
-        Returns:
-            (rows, state) float32, as `Matches.states` returns it, repeated for the robots of a
-            match.
-        """
-        return self._matches.states().repeat(len(self.robots), axis=0)
-
-    def _repr_png_(self) -> bytes | None:
-        """An image of the first match, for notebooks."""
-        return self._viewer.png(self._matches)
 
     def get_images(self) -> list[Image | None]:
         """Return an image of each match.
@@ -277,8 +258,8 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
             RuntimeError: a match has not begun.
         """
         if self.render_mode is None:
-            return [None] * self.matches
-        return [self._viewer.image(self._matches, match) for match in range(self.matches)]
+            return [None] * self.worlds
+        return list(self._images())
 
     def close(self) -> None:
         """Refuse later calls: `reset`, `step` and images raise `ClosedEnvironmentError`."""
@@ -354,8 +335,8 @@ class SoccerVecEnv(VecEnv):  # type: ignore[misc]
     def _image(self, row: int) -> Image | None:
         if self.render_mode is None:
             return None
-        return self._viewer.image(self._matches, row // len(self.robots))
+        return self._viewer.image(self._matches, self._rows.world(row))
 
     def _state(self, row: int) -> Floats:
-        state: Floats = self._matches.states()[row // len(self.robots)]
+        state: Floats = self._matches.states()[self._rows.world(row)]
         return state

@@ -24,7 +24,7 @@ class SoccerVecNormalize(VecNormalize):  # type: ignore[misc]
 
     Example:
         >>> from rsoccer.sb3 import SoccerVecEnv, SoccerVecNormalize  # doctest: +SKIP
-        >>> envs = SoccerVecNormalize(SoccerVecEnv("VSS-v0", matches=64))  # doctest: +SKIP
+        >>> envs = SoccerVecNormalize(SoccerVecEnv("VSS-v0", worlds=64))  # doctest: +SKIP
         >>> envs.save("statistics")  # doctest: +SKIP
     """
 

@@ -16,13 +16,14 @@ from typing import Any, Final, Literal, Self, get_type_hints
 from rsoccer import plugins
 from rsoccer.option_values import encoded
 from rsoccer.registry import task_with_options
+from rsoccer.sources import make_sensing
 from rsoccer.task import Task
 from rsoccer.train.network.settings import NetworkSettings
 from rsoccer.train.opponents.settings import OpponentSettings
 from rsoccer.train.ppo.settings import PpoSettings
 from rsoccer.train.rollout.settings import RolloutSettings
 from rsoccer.train.run.settings import RunSettings
-from rsoccer.train.setting_types import Count, Natural, convert_fields
+from rsoccer.train.setting_types import Count, Natural, convert_fields, expect
 from rsoccer.train.task_settings import recommended_settings
 
 SETTINGS_FILE = "args.json"
@@ -49,7 +50,9 @@ class Args:
     """Settings of one training run. A sample is one decision of one learning robot.
 
     Raises:
-        ImportError: a module of `imports` does not exist or raises an error.
+        ImportError: a module of `imports`, `simulator` or `sensing` does not exist or raises an
+            error, or a name is not in its module.
+        TypeError: `sensing` names something else than a sensor model.
         ValueError: a value of another type or outside its range, options of the task that JSON
             cannot hold, or `resume` together with `overwrite`.
     """
@@ -62,6 +65,10 @@ class Args:
     """decisions of all learning robots, up to a full update"""
     task_options: Mapping[str, Any] = field(default_factory=dict)
     """options of the task, such as opponent=chase; models of robots, balls and fields, or files"""
+    simulator: str | None = None
+    """module:function (config, worlds, threads) that makes the simulator, in place of the own"""
+    sensing: str | None = None
+    """module:name of a sensor model, of what robots know of the true state"""
     imports: tuple[str, ...] = ()
     """modules to import first: those that register a task or policies of one's own"""
     seed: Natural = 0
@@ -89,8 +96,15 @@ class Args:
 
     def __post_init__(self) -> None:
         """Convert every value to the type of its field, and check it."""
+        for name in ("simulator", "sensing"):
+            given = getattr(self, name)
+            text = "a text 'module:name', by which a resumed run finds it again"
+            expect(name, given is None or isinstance(given, str), text, given)
         convert_fields(self)
         plugins.import_modules(self.imports)
+        if self.simulator is not None:
+            plugins.find("simulator", self.simulator)
+        make_sensing(self.sensing)
         object.__setattr__(self, "task_options", _as_json(self.task_options))
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")

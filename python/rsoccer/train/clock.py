@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any, Final
 
-from rsoccer._core import SimConfig, Simulator
-from rsoccer.arrays import Floats, Mask
+from rsoccer.simulator_interface import Stepper
 
 
 class Clock:
@@ -48,81 +48,44 @@ class Clock:
         return total, {part: elapsed / total for part, elapsed in seconds.items()}
 
 
+METHODS: Final = (
+    "place",
+    "restart",
+    "reposition_balls",
+    "step",
+    "read",
+    "close",
+    "snapshot",
+    "restore",
+)
+"""Methods of a simulator whose time counts, those of them that it has."""
+
+
 class TimedSimulator:
-    """The simulator that `Matches` creates by default, with its time measured as "physics".
+    """A simulator whose time is measured as "physics"; what it cannot do, this cannot either."""
 
-    Attributes:
-        config: the simulated robots, ball and field.
-        worlds: number of worlds.
-        threads: number of threads.
-    """
+    place: Callable[..., Any]
+    restart: Callable[..., Any]
+    reposition_balls: Callable[..., Any]
+    step: Callable[..., Any]
 
-    def __init__(self, config: SimConfig, worlds: int, threads: int, clock: Clock) -> None:
-        """Create the simulator.
+    def __init__(self, simulator: Stepper, clock: Clock) -> None:
+        """Wrap the methods of a simulator.
 
         Args:
-            config: robots, ball and field to simulate.
-            worlds: number of worlds n.
-            threads: number of threads.
+            simulator: moves the robots.
             clock: measures the time of its methods.
         """
-        self._simulator = Simulator(config, worlds=worlds, threads=threads)
-        self._clock = clock
-        self.config, self.worlds, self.threads = config, worlds, threads
+        for name in METHODS:
+            if (method := getattr(simulator, name, None)) is not None:
+                setattr(self, name, _timed(method, clock))
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
-        """Start some worlds from given states.
 
-        Args:
-            worlds: (n,) mask of the k worlds to start.
-            rows: (k, row) states of these worlds.
-            out: (n, row) their rows are written.
-            params: (k, parameters) factors on the models' numbers in these worlds.
-        """
-        with self._clock.measure("physics"):
-            self._simulator.place(worlds, rows, out, params)
+def _timed(method: Callable[..., Any], clock: Clock) -> Callable[..., Any]:
+    """The method, with its time measured as "physics"."""
 
-    def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
-        """Restart play in some worlds.
+    def call(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401  (those of the method)
+        with clock.measure("physics"):
+            return method(*arguments, **named)
 
-        Args:
-            worlds: (n,) mask of the k worlds.
-            rows: (k, row) new states of these worlds.
-            out: (n, row) their rows are written.
-        """
-        with self._clock.measure("physics"):
-            self._simulator.restart(worlds, rows, out)
-
-    def reposition_balls(self, worlds: Mask, balls: Floats, out: Floats) -> None:
-        """Move the balls of some worlds; robots are not changed.
-
-        Args:
-            worlds: (n,) mask of the k worlds.
-            balls: (k, ball column) new states of the balls.
-            out: (n, row) the rows of these worlds are written.
-        """
-        with self._clock.measure("physics"):
-            self._simulator.reposition_balls(worlds, balls, out)
-
-    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
-        """Simulate one control step of every active world.
-
-        Args:
-            commands: (n, robots, command) commands of the robots.
-            out: (n, row) the rows of active worlds are written.
-            active: (n,) mask of the worlds to step; all by default.
-        """
-        with self._clock.measure("physics"):
-            self._simulator.step(commands, out, active)
-
-    def snapshot(self) -> bytes:
-        """Return the exact state of all worlds."""
-        return self._simulator.snapshot()
-
-    def restore(self, snapshot: bytes) -> None:
-        """Restore the state of all worlds.
-
-        Args:
-            snapshot: bytes from `snapshot`.
-        """
-        self._simulator.restore(snapshot)
+    return call

@@ -8,10 +8,12 @@ second part has the opponents that the settings name.
 
 from __future__ import annotations
 
+from rsoccer._core import SimConfig, Threads
 from rsoccer.frame import team_of
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
+from rsoccer.sources import SensingSource, SimulatorSource, make_simulator
 from rsoccer.task import LEARN, Learn, Task
 from rsoccer.train.clock import Clock, TimedSimulator
 from rsoccer.train.opponents.opponent_pool import OpponentPool
@@ -40,6 +42,8 @@ class Curriculum:
         worlds: int,
         threads: int,
         action_repeat: int,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> None:
         """Find the learners of a task, and make the policies of its other robots.
 
@@ -50,6 +54,8 @@ class Curriculum:
             worlds: matches at once in the second part, at least 1.
             threads: threads of the simulator, at least 1.
             action_repeat: control steps that networks hold each decision.
+            simulator: moves the robots, as for `Matches`.
+            sensing: what robots know of the true state, as for `Matches`.
 
         Raises:
             ValueError: a task without learners, opponents in a task without such robots, a policy
@@ -57,6 +63,7 @@ class Curriculum:
         """
         self._settings, self._task, self._clock = settings, task, clock
         self._worlds, self._threads = worlds, threads
+        self._simulator, self._sensing = simulator, sensing
         self.learners = learning_team(task)
         home = team_of(self.learners[0])
         self.pool: OpponentPool | None = None
@@ -131,5 +138,11 @@ class Curriculum:
             self._threads,
             controllers=controllers,
             autoreset="disabled",
-            simulator=TimedSimulator(self._task.config, worlds, self._threads, self._clock),
+            simulator=self._timed_simulator,
+            sensing=self._sensing,
         )
+
+    def _timed_simulator(self, config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:
+        """A simulator of some matches whose time is measured."""
+        simulator = make_simulator(self._simulator, config, worlds, threads)
+        return TimedSimulator(simulator, self._clock)

@@ -15,6 +15,7 @@ from rsoccer.lineup import lineup
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 from rsoccer.train.clock import Clock
 from rsoccer.train.opponents.policy_mix import PolicyMix
@@ -36,13 +37,23 @@ class Ladder:
         columns: columns of the log, one for each opponent, or one.
     """
 
-    def __init__(self, settings: RunSettings, task: Task, threads: int) -> None:
+    def __init__(
+        self,
+        settings: RunSettings,
+        task: Task,
+        threads: int,
+        *,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
+    ) -> None:
         """Choose the opponents.
 
         Args:
             settings: interval and number of matches.
             task: the task that is trained.
             threads: threads of the simulator, at least 1.
+            simulator: moves the robots, as for `Matches`.
+            sensing: what robots know of the true state, as for `Matches`.
         """
         self.opponents = tuple(filter(lambda name: _fits(name, task), OPPONENTS))
         if not task.two_sided:
@@ -50,6 +61,7 @@ class Ladder:
         metric = task.success or RETURN
         self.columns = tuple(ladder_column(metric, name) for name in self.opponents or (None,))
         self._settings, self._task, self._threads = settings, task, threads
+        self._simulator, self._sensing = simulator, sensing
 
     def is_due(self, updates: int, *, last: bool) -> bool:
         """Return whether the policy is measured after an update; it is after the last one.
@@ -74,7 +86,16 @@ class Ladder:
         opponents = _InTurn(self._task, self.opponents) if self.opponents else None
         controllers = lineup(self._task, LEARN, opponents)
         before_step = None if opponents is None else opponents.play_in
-        runner = EpisodeRunner(self._task, controllers, network, count, threads, before_step)
+        runner = EpisodeRunner(
+            self._task,
+            controllers,
+            network,
+            count,
+            threads,
+            before_step,
+            simulator=self._simulator,
+            sensing=self._sensing,
+        )
         scores = runner.run(count, SEED).scores
         step = len(self.columns)
         return {name: mean_or_nan(scores[first::step]) for first, name in enumerate(self.columns)}

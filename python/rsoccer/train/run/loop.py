@@ -31,7 +31,13 @@ class Loop:
             policy_files: digests of the policies that play beside the learners, for checkpoints.
         """
         self.trainer, self._policy_files = trainer, policy_files
-        self.ladder = Ladder(trainer.args.run, trainer.task, trainer.args.threads)
+        self.ladder = Ladder(
+            trainer.args.run,
+            trainer.task,
+            trainer.args.threads,
+            simulator=trainer.args.simulator,
+            sensing=trainer.args.sensing,
+        )
 
     def run(self, stop: StopSignal, log_size: int) -> None:
         """Train until the samples are used up or a signal comes, and save in both cases.

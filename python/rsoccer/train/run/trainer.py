@@ -74,6 +74,8 @@ class Trainer:
             worlds=args.rollout.worlds,
             threads=args.threads,
             action_repeat=args.rollout.action_repeat,
+            simulator=args.simulator,
+            sensing=args.sensing,
         )
         _check_batch(args, len(self.curriculum.learners))
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo

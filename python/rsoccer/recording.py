@@ -16,11 +16,8 @@ from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.scoreboard import GOAL_PAUSE
-from rsoccer.render.video import write_video
+from rsoccer.render.video import MIN_WIDTH, write_video
 from rsoccer.task import Task
-
-MIN_WIDTH = 720
-"""Default width of a video, pixels; a large field has a wider one."""
 
 
 def record_match(
@@ -102,7 +99,7 @@ def _images(
     effects = Effects(matches.task.config)
     matches.reset()
     row = matches.frame.rows[0]
-    yield renderer.draw(row, names=names, extras=task_overlay(matches))
+    yield renderer.draw(row, names=names, extras=task_overlay(matches.task, matches.play))
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
             matches.reset()
@@ -117,7 +114,7 @@ def _images(
             names=names,
             caption="goal" if scored else "",
             extras=(
-                *task_overlay(matches),
+                *task_overlay(matches.task, matches.play),
                 *effects.update(matches.frame.rows[0], step * time_step, matches.play.commands[0]),
             ),
         )

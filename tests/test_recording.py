@@ -9,10 +9,11 @@ from PIL import Image as Pillow
 
 from rsoccer import Matches
 from rsoccer.arrays import Floats
+from rsoccer.recording import _images, film_match, record_match
 from rsoccer.registry import make_task
-from rsoccer.render import Image, Renderer, film_match, record_match
-from rsoccer.render.record import MIN_WIDTH, _images
+from rsoccer.render import Image, Renderer
 from rsoccer.render.scoreboard import GOAL_PAUSE
+from rsoccer.render.video import MIN_WIDTH
 from tests.policies.networks import network_for
 
 CHASE = {"all": "chase"}

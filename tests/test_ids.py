@@ -66,7 +66,7 @@ def test_gymnasium_has_every_task(name: str) -> None:
     assert env.observation_space.contains(observation)
     envs = gymnasium.make_vec(f"rsoccer/{name}", 2 * len(agents))
     assert isinstance(envs.unwrapped, RobotsVectorEnv)
-    assert (envs.num_envs, envs.unwrapped.matches) == (2 * len(agents), 2)
+    assert (envs.num_envs, envs.unwrapped.worlds) == (2 * len(agents), 2)
 
 
 def test_an_id_with_several_learners_asks_for_one() -> None:

@@ -1,0 +1,87 @@
+"""Ways to say which simulator moves the robots, and which sensor model they have.
+
+Every interface takes the arguments `simulator` and `sensing` as they are described here. A text
+"module:name" suits settings that are stored, environments that are made by name, and worker
+processes: the module is imported where the matches are made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from rsoccer import plugins
+from rsoccer._core import SimConfig, Simulator, Threads
+from rsoccer.senses import SensorModel
+from rsoccer.simulator_interface import Stepper
+
+SimulatorFactory: TypeAlias = Callable[[SimConfig, int, Threads], Stepper]
+"""Makes a simulator from robots, ball and field, the number of worlds, and the threads of the
+matches. `rsoccer.Simulator` is one."""
+SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
+"""A factory, its "module:name", or a simulator of one's own, which serves one object only: an
+environment with it cannot be copied."""
+SensingSource: TypeAlias = SensorModel | str
+"""A sensor model, or "module:name" of one or of a function without arguments that makes it."""
+
+
+def make_simulator(
+    source: SimulatorSource | None, config: SimConfig, worlds: int, threads: Threads
+) -> Stepper:
+    """Return the simulator of some matches.
+
+    Args:
+        source: the factory or the simulator; None for `rsoccer.Simulator`.
+        config: robots, ball and field to simulate.
+        worlds: number of worlds, at least 1.
+        threads: threads that do other work too.
+
+    Raises:
+        ImportError: a text whose module or name does not exist.
+        TypeError: neither a factory nor a simulator, or a factory that makes none.
+        ValueError: a text of another form.
+    """
+    if source is None:
+        return Simulator(config, worlds, threads)
+    factory = plugins.find("simulator", source) if isinstance(source, str) else source
+    made = factory(config, worlds, threads) if callable(factory) else factory
+    if not callable(getattr(made, "step", None)):
+        expected = "a simulator, a function (config, worlds, threads) that makes one, or its text"
+        got = f"{factory!r}, which made {made!r}" if callable(factory) else repr(made)
+        raise TypeError(f"simulator: expected {expected}, got {got}")
+    return made
+
+
+def is_shared(source: object) -> bool:
+    """Return whether a source is a simulator itself, which two objects cannot both use.
+
+    Args:
+        source: a `SimulatorSource` or None.
+    """
+    return not (source is None or isinstance(source, str) or callable(source))
+
+
+def make_sensing(source: SensingSource | None) -> SensorModel | None:
+    """Return the sensor model of some matches.
+
+    Args:
+        source: the model or its text; None if robots know the true state.
+
+    Raises:
+        ImportError: a text whose module or name does not exist.
+        TypeError: no sensor model.
+        ValueError: a text of another form.
+    """
+    model: Any = source
+    if isinstance(source, str):
+        model = plugins.find("sensing", source)
+        model = model() if callable(model) else model
+    methods = ("columns", "begin", "sense")
+    if model is None and source is None:
+        return None
+    if isinstance(model, type) or not all(callable(getattr(model, m, None)) for m in methods):
+        raise TypeError(
+            f"sensing: expected a rsoccer.senses.SensorModel or its text, got {model!r}"
+        )
+    found: SensorModel = model
+    return found

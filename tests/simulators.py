@@ -1,0 +1,50 @@
+"""Simulators and sensor models of one's own, as a user names them: tests.simulators:still."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from rsoccer import SimConfig, Simulator
+from rsoccer._core import Threads
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
+from rsoccer.rng import WorldRng
+
+
+class Still:
+    """The package's simulator with robots that have no power: only the ball moves."""
+
+    def __init__(self, config: SimConfig, worlds: int, threads: Threads) -> None:
+        own = self._own = Simulator(config, worlds, threads)
+        self.place, self.restart, self.reposition_balls = (
+            own.place,
+            own.restart,
+            own.reposition_balls,
+        )
+        self.snapshot, self.restore = own.snapshot, own.restore
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+        self._own.step(np.zeros_like(commands), out, active)
+
+
+def still(config: SimConfig, worlds: int, threads: Threads) -> Still:
+    return Still(config, worlds, threads)
+
+
+class Blind:
+    """Robots sense the ball in the middle of the field, at rest."""
+
+    def columns(self, n: int) -> dict[str, Array]:
+        return {}
+
+    def begin(self, frame: Frame, sensed: Frame, state: Mapping[str, Array], rng: WorldRng) -> None:
+        sensed.ball.position[:] = 0.0
+        sensed.ball.velocity[:] = 0.0
+
+    def sense(self, frame: Frame, sensed: Frame, state: Mapping[str, Array], rng: WorldRng) -> None:
+        sensed.rows[:] = frame.rows
+        self.begin(frame, sensed, state, rng)
+
+
+BLIND = Blind()
+NOTHING = None

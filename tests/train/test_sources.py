@@ -1,0 +1,78 @@
+"""Runs with a simulator and a sensor model of one's own, named by texts."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer.train import Args, train
+from rsoccer.train.clock import Clock, TimedSimulator
+from rsoccer.train.run.ladder import Ladder
+from rsoccer.train.run.trainer import Trainer
+from tests.simulators import BLIND, Blind, Still, still
+from tests.test_simulator_interface import Frozen
+from tests.train.short_task import tiny
+
+NAMED = {"simulator": "tests.simulators:still", "sensing": "tests.simulators:Blind"}
+
+
+def test_the_matches_of_a_run_have_the_simulator_and_the_senses(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path, **NAMED))
+    for matches in (trainer.curriculum.solo(3), trainer.curriculum.team(3)):
+        matches.reset()
+        before = matches.frame.robots.position.copy()
+        for _ in range(5):
+            matches.step(np.ones((matches.worlds, len(matches.agents), 2), np.float32))
+        np.testing.assert_allclose(matches.frame.robots.position, before, atol=0.02)
+        assert not matches.play.sensed.ball.position.any()
+
+
+def test_the_ladder_is_measured_with_both(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    used: list[Any] = []
+    monkeypatch.setattr("rsoccer.matches.loop.make_simulator", lambda *given: _noted(used, given))
+    args = tiny(tmp_path, **NAMED)
+    trainer = Trainer(args)
+    used.clear()
+    ladder = Ladder(args.run, trainer.task, 1, simulator=args.simulator, sensing=args.sensing)
+    ladder.measure(trainer.network())
+    assert used == [NAMED["simulator"]]
+
+
+def _noted(used: list[Any], given: Any) -> Still:  # noqa: ANN401
+    used.append(given[0])
+    return Still(*given[1:])
+
+
+def test_a_run_resumes_with_the_same_texts_only(tmp_path: Path) -> None:
+    train(tiny(tmp_path, samples=1, **NAMED))
+    for name in NAMED:
+        with pytest.raises(ValueError, match=f"{name} was 'tests.simulators:.*', now None"):
+            train(tiny(tmp_path, resume=True, **{**NAMED, name: None}))
+    train(tiny(tmp_path, resume=True, **NAMED))
+
+
+@pytest.mark.parametrize(
+    ("name", "given"), [("simulator", still), ("sensing", BLIND), ("sensing", Blind)]
+)
+def test_what_json_cannot_hold_is_refused(name: str, given: Any) -> None:  # noqa: ANN401
+    with pytest.raises(ValueError, match=f"^{name} must be a text 'module:name', by which a resu"):
+        Args(**{name: given})
+
+
+def test_a_text_that_names_nothing_is_refused() -> None:
+    for name in NAMED:
+        with pytest.raises(ImportError, match=f"^{name}: .* has no 'missing'"):
+            Args(**{name: "tests.simulators:missing"})  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"^sensing: expected a"):
+        Args(sensing="tests.simulators:NOTHING")
+
+
+def test_a_timed_simulator_can_do_what_the_simulator_can() -> None:
+    clock, frozen = Clock(), Frozen()
+    timed = TimedSimulator(frozen, clock)
+    rows = np.zeros((1, 3), np.float32)
+    timed.step(rows, out=rows)
+    assert frozen.calls == ["step"]
+    assert clock.seconds["physics"] > 0.0
+    assert not hasattr(timed, "snapshot")
