@@ -173,10 +173,12 @@ class ViewedMatch:
         return self._viewer.render(self._matches)
 
     def close(self) -> None:
-        """Close the window, if any; may be repeated.
+        """Close the window and the simulator, if they hold anything; may be repeated.
 
         `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
+        if not self._viewer.closed:
+            self._matches.close()
         self._viewer.close()
 
     def _repr_png_(self) -> bytes | None:
