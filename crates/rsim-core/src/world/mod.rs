@@ -95,8 +95,8 @@ impl World {
     }
 
     /// Starts a new match from a state row; its positions, headings, velocities, the ball's spin and the
-    /// robots' `absent` are used, of an absent robot nothing else. `parameters` are factors on the models' numbers, in the order of
-    /// [`BALL_PARAMETERS`](crate::columns::BALL_PARAMETERS) and, for each robot,
+    /// robots' `absent` are used, of an absent robot nothing else. `parameters` are factors on the models'
+    /// numbers, in the order of [`BALL_PARAMETERS`](crate::columns::BALL_PARAMETERS) and, for each robot,
     /// [`ROBOT_PARAMETERS`](crate::columns::ROBOT_PARAMETERS); without them all factors are 1.
     ///
     /// # Errors
