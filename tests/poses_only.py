@@ -7,7 +7,7 @@ from rsoccer.arrays import Doubles, Floats, Mask
 
 
 class PosesOnly:
-    """`rsoccer.Simulator` whose rows have poses alone; NaN stands in all other columns.
+    """`rsoccer.Simulator` whose rows have poses and `absent` alone; others are NaN.
 
     Attributes:
         truth: (n, row) complete rows of the last call.
@@ -49,6 +49,7 @@ class PosesOnly:
         seen.ball.height[worlds] = true.ball.height[worlds]
         seen.robots.position[worlds] = true.robots.position[worlds]
         seen.robots.heading[worlds] = true.robots.heading[worlds]
+        seen.robots.absent[worlds] = true.robots.absent[worlds]
         return 100.0 + self._steps * self._config.time_step if self._stamps else None
 
 

@@ -14,7 +14,7 @@ SCENES = [
     ("VSSSelfPlay-v0", {"all": "chase"}),
     ("VSSSelfPlay-v0", {"all": "ou"}),
     ("SSLSelfPlay-v0", {"all": "strike"}),
-    ("SSLPassEnduranceMulti-v0", {"all": "passer"}),
+    ("SSLPassEnduranceMulti-v1", {"all": "passer"}),
 ]
 
 

@@ -126,7 +126,7 @@ class FiveNumbers(Policy):
         ("SSLSelfPlay-v0", "fetch"),
         ("SSLSelfPlay-v0", "hold"),
         ("SSLSelfPlay-v0", "receive"),
-        ("SSLPassEnduranceMulti-v0", "passer"),
+        ("SSLPassEnduranceMulti-v1", "passer"),
         ("SSLDribbling-v0", "weave"),
         ("SSLSelfPlay-v0", FiveNumbers()),
     ],

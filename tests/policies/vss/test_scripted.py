@@ -50,7 +50,7 @@ def test_it_beats_ou_from_either_side() -> None:
 
 
 def test_it_beats_chase_from_either_side() -> None:
-    found = score("scripted", "chase", 80, VssSelfPlay(max_steps=600))
+    found = score("scripted", "chase", 160, VssSelfPlay(max_steps=600))
     assert min(bounds(found.sides[side])[0] for side in SIDES) > 0.3
 
 
