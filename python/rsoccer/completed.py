@@ -30,8 +30,8 @@ class PlacingStepper(Stepper, Placer, Protocol):
 class CompletedStepper:
     """A stepper with complete rows, over one that fills in only poses, and `absent`.
 
-    The inner stepper has to fill in `x`, `y`, `cos`, `sin`, and `z` of the ball where it is known;
-    all other columns are overwritten. Rows with the time stamp of the last ones keep their
+    The inner stepper has to fill in `x`, `y`, `cos`, `sin` and `absent`, and `z` of the ball where
+    it is known; all other columns are overwritten. Rows with the time stamp of the last ones keep their
     velocities.
     """
 
