@@ -40,6 +40,7 @@ nitpick_ignore_regex = [
     ("py:obj", ".*"),
     ("py:.*", r"(?!rsoccer\.).*"),  # other packages have sites of their own
     ("py:.*", docstrings.private()),
+    ("py:class", r"rsoccer\..*\.[A-Z]"),  # type variables, which have no page
 ]
 python_use_unqualified_type_names = True
 toc_object_entries_show_parents = "hide"
