@@ -31,8 +31,8 @@ class CompletedStepper:
     """A stepper with complete rows, over one that fills in only poses, and `absent`.
 
     The inner stepper has to fill in `x`, `y`, `cos`, `sin` and `absent`, and `z` of the ball where
-    it is known; all other columns are overwritten. Rows with the time stamp of the last ones keep their
-    velocities.
+    it is known; all other columns are overwritten. Rows with the time stamp of the last ones keep
+    their velocities.
     """
 
     def __init__(
