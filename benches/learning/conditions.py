@@ -1,4 +1,4 @@
-"""What decides the result of a run: settings, physics, and the runs that it needs."""
+"""Conditions of a result: settings, physics, and the runs that it needs."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ class PolicyGroup:
         commands[:, self.robots] = checks.floats(name, chosen, converted.shape)
 
     def _inputs(self, play: Play, observations: Floats, shape: tuple[int, int, int]) -> PolicyInput:
-        """What the policy is to know of the current state."""
+        """Input of the policy: view and observations of its robots, as far as it observes."""
         view = observed = None
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)

@@ -45,13 +45,13 @@ class Event(NamedTuple):
     """One event of a step."""
 
     kind: EventKind
-    """What happened."""
+    """Kind of the event."""
     team: int
     """Team that it is about: `BLUE`, `YELLOW` or `NOBODY`."""
     robot: int
     """Index of the robot in the order of a state row, or `NOBODY`."""
     position: tuple[float, float]
-    """Where it happened, x and y, m."""
+    """Position of the event, x and y, m."""
 
 
 class NamedArrays(Mapping[str, Array]):

@@ -59,7 +59,7 @@ class Play:
     threads: Threads = field(default_factory=Threads, metadata=SHARED)
     """Threads that share the work on many worlds; results do not depend on their number."""
     senses: Senses | None = None
-    """What the robots sense; None if they know the true state."""
+    """Senses of the robots; None if they know the true state."""
     times: Doubles | None = None
     """(n,) time stamps of `frame` on the clock of the simulator, s; None from a simulator without
     stamps, such as `rsoccer.Simulator`, whose control steps last exactly `config.time_step`."""

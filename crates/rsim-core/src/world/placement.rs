@@ -68,7 +68,7 @@ pub(super) struct Placement {
     pub(super) walls: Vec<(Wall, Shape)>,
     ball_radius: f32,
     robots: Vec<Shape>,
-    /// Where absent robots are.
+    /// Places of absent robots.
     benches: Vec<Motion>,
     /// Radii of circles around all bodies, m.
     bounding_radii: Vec<f32>,
@@ -345,7 +345,7 @@ impl Placement {
     }
 }
 
-/// Where the robots of a match are while they are absent.
+/// Places of the robots of a match while they are absent.
 fn benches(config: &SimConfig) -> Vec<Motion> {
     let teams = [(&config.blue, true), (&config.yellow, false)];
     let places = teams.into_iter().flat_map(|(team, is_blue)| {
