@@ -101,8 +101,8 @@ def _rates(axes: "Axes", rates: list[Figure], others: list[Figure]) -> None:
     marks = {(f.scenario, f.variant, f.worlds, f.threads): f.median for f in others}
     cases = [(f.scenario, f.variant, f.worlds, f.threads) for f in rates]
     _mark(axes, [marks.get(case) for case in cases], heights, first=True)
-    colours = [_colour(figure.variant) for figure in rates]
-    axes.barh(heights, [figure.median for figure in rates], 0.7, color=colours)
+    colors = [_color(figure.variant) for figure in rates]
+    axes.barh(heights, [figure.median for figure in rates], 0.7, color=colors)
     for figure, height in zip(rates, heights, strict=True):
         axes.plot([figure.minimum, figure.maximum], [height, height], color="#333333", linewidth=1)
         axes.text(
@@ -147,7 +147,7 @@ def _label(figure: Figure) -> str:
     return f"{figure.variant}, {scenario}{worlds}{threads}"
 
 
-def _colour(variant: str) -> str:
+def _color(variant: str) -> str:
     if variant.startswith("no-op"):
         return NOOP
     return THIRD_PARTY if variant.startswith(("vmas", "pSim")) else SINGLE

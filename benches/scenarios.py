@@ -70,7 +70,7 @@ class Scenario:
 
     @property
     def radius(self) -> np.float32:
-        """Distance from a robot's centre to its nearest side, m."""
+        """Distance from a robot's center to its nearest side, m."""
         robot = self.config.robot
         return np.float32(robot.side_length / 2 if self.has_wheel_commands else robot.radius)
 
@@ -104,7 +104,7 @@ class Driver:
         cos, sin = positions.headings[..., 0], positions.headings[..., 1]
         ahead = offset[..., 0] * cos + offset[..., 1] * sin
         left = offset[..., 1] * cos - offset[..., 0] * sin
-        return self._drive_towards(ahead, left)
+        return self._drive_toward(ahead, left)
 
     def _random_commands(self, rng: np.random.Generator) -> Floats:
         config = self._scenario.config
@@ -113,7 +113,7 @@ class Driver:
             return _random_wheels(rng, shape, config.robot.max_wheel_speed)
         return _random_bodies(rng, shape)
 
-    def _drive_towards(self, ahead: Floats, left: Floats) -> Floats:
+    def _drive_toward(self, ahead: Floats, left: Floats) -> Floats:
         """Return commands that drive to a point ahead and to the left (m) while facing it."""
         bearing = np.arctan2(left, ahead)
         if self._scenario.has_wheel_commands:

@@ -12,7 +12,7 @@ print(f"agents {matches.agents}, observations {observations.shape}")
 
 
 def drive(observations: Floats, steps: int) -> tuple[Floats, float]:
-    """Drive all robots towards the ball; return the last observations and the mean reward."""
+    """Drive all robots toward the ball; return the last observations and the mean reward."""
     sine = matches.task.layout.blocks["ball_polar"].columns.start + 2
     mean_reward = 0.0
     for _ in range(steps):

@@ -35,11 +35,11 @@ def train(matches: Matches, samples: int, central: bool) -> Network:  # noqa: C9
     actor, critic = perceptron(o, matches.action_size), perceptron(size, 1)
     log_std = nn.Parameter(torch.full((matches.action_size,), 0.6).log())
     parameters = [*actor.parameters(), *critic.parameters(), log_std]
-    optimiser = torch.optim.Adam(parameters, RATE, eps=1e-5)
+    optimizer = torch.optim.Adam(parameters, RATE, eps=1e-5)
     input_rms, return_rms = RunningMeanStd(size), RunningMeanStd(1, min_std=1e-6)
 
     def read(observations: np.ndarray) -> Tensor:
-        """Return normalised inputs of the critic; the actor reads the first `o` numbers."""
+        """Return normalized inputs of the critic; the actor reads the first `o` numbers."""
         states = matches.states()[:, None].repeat(len(matches.agents), axis=1)
         inputs = np.concatenate([observations, states], axis=-1)[..., :size]
         input_rms.update(inputs.reshape(-1, size))
@@ -75,12 +75,12 @@ def train(matches: Matches, samples: int, central: bool) -> Network:  # noqa: C9
             values, future = critic(x)[..., 0], critic(after)[..., 0]
             log_probs = policy(x).log_prob(actions).sum(-1)
         advantages = rewards + GAMMA * future * ~terminated - values  # a time limit has a future
-        for t in reversed(range(HORIZON - 1)):  # generalised advantage estimation
+        for t in reversed(range(HORIZON - 1)):  # generalized advantage estimation
             advantages[t] += GAMMA * LAMBDA * ~ended[t] * advantages[t + 1]
         parts = (x, actions, log_probs, advantages, advantages + values)
         batch = [part.flatten(0, 2) for part in parts]
 
-        optimiser.param_groups[0]["lr"] = RATE * (1 - 0.9 * update / n_updates)
+        optimizer.param_groups[0]["lr"] = RATE * (1 - 0.9 * update / n_updates)
         for _ in range(EPOCHS):
             for rows in torch.randperm(len(batch[0])).chunk(MINIBATCHES):
                 x, action, old_log_prob, advantage, target = (part[rows] for part in batch)
@@ -89,10 +89,10 @@ def train(matches: Matches, samples: int, central: bool) -> Network:  # noqa: C9
                 clipped = ratio.clamp(1 - CLIP, 1 + CLIP)
                 loss: Any = -torch.minimum(ratio * advantage, clipped * advantage).mean()
                 loss += 0.5 * (critic(x)[:, 0] - target).square().mean() - ENTROPY * log_std.sum()
-                optimiser.zero_grad()
+                optimizer.zero_grad()
                 loss.backward()
                 nn.utils.clip_grad_norm_(parameters, 0.5)
-                optimiser.step()
+                optimizer.step()
         if update % 20 == 0:
             print(f"update {update} of {n_updates}, {success} {np.mean(scores[-200:]):+.2f}")
 

@@ -26,12 +26,12 @@ class Crowd(VssSelfPlay):
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
         angle = rng.uniform(0.0, 1.0)[:, None] + np.linspace(0.0, 2.0 * np.pi, 6, endpoint=False)
-        centre = (
+        center = (
             np.array([0.55, 0.05], np.float32) * np.where(rng.uniform(-1, 1) < 0, -1, 1)[:, None]
         )
         ring = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * 0.12
-        frame.ball.position[:] = centre
-        frame.robots.position[:] = centre[:, None] + ring[:, : self.n_blue + self.n_yellow]
+        frame.ball.position[:] = center
+        frame.robots.position[:] = center[:, None] + ring[:, : self.n_blue + self.n_yellow]
         frame.robots.heading[:] = -ring / 0.12
         return frame
 
@@ -42,15 +42,15 @@ def ssl_crowd(task: Task, rng: WorldRng) -> Frame:
     robots = task.n_blue + task.n_yellow
     angle = rng.uniform(0.0, 1.0)[:, None] + np.linspace(0.0, 2.0 * np.pi, robots, endpoint=False)
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=-1).astype(np.float32)
-    centre = np.array([0.4, 0.05], np.float32)  # no task ends here in its first step
-    frame.ball.position[:] = centre
-    frame.robots.position[:] = centre + ring * np.float32(max(0.13, 0.032 * robots))
+    center = np.array([0.4, 0.05], np.float32)  # no task ends here in its first step
+    frame.ball.position[:] = center
+    frame.robots.position[:] = center + ring * np.float32(max(0.13, 0.032 * robots))
     frame.robots.heading[:] = -ring
     return frame
 
 
 def touches(frame: Frame, config: SimConfig) -> int:
-    """Number of pairs that certainly touch: their inscribed circles are within a millimetre."""
+    """Number of pairs that certainly touch: their inscribed circles are within a millimeter."""
     robot = config.robot
     # Round robots meet the ball with a flat front, and each other as discs.
     half, front = (

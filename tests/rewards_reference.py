@@ -12,7 +12,7 @@ from rsoccer.view import View
 
 
 def ball_to_goal(play: Play, config: SimConfig) -> Floats:
-    """Mean progress of the ball towards the attacked goal and away from the own goal."""
+    """Mean progress of the ball toward the attacked goal and away from the own goal."""
 
     def potential(view: View) -> Floats:
         x, y = view.ball.position[..., 0], view.ball.position[..., 1]
@@ -23,7 +23,7 @@ def ball_to_goal(play: Play, config: SimConfig) -> Floats:
 
 
 def approach_behind_ball(play: Play, config: SimConfig) -> Floats:
-    """Progress of each observer towards the point behind the ball."""
+    """Progress of each observer toward the point behind the ball."""
     field, behind = config.field, np.float32(BEHIND_BALL_DISTANCE)
     max_x = np.float32(field.half_length) - behind
     max_y = np.float32(field.half_width) - behind

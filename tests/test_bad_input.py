@@ -192,7 +192,7 @@ def test_a_wrong_reset_changes_nothing(name: str) -> None:
         {"options": {"frame": np.zeros(size - 1, np.float32)}},
         {"options": {"frame": np.full(size, np.nan, np.float32)}},
         {"options": {"frame": np.zeros(size, np.float32)}},  # headings are not unit vectors
-        {"options": {"frame": "centre"}},
+        {"options": {"frame": "center"}},
         {"options": {"frames": np.zeros(size, np.float32)}},  # formerly ignored
         {"options": {"Frame": None}},
         {"options": [1]},

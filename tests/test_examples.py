@@ -37,7 +37,7 @@ def test_examples_run_and_print(name: str, tmp_path: Path) -> None:
     assert run(name, QUICK[name], tmp_path).strip()
 
 
-def test_the_policy_of_13_ppo_normalises_observations(tmp_path: Path) -> None:
+def test_the_policy_of_13_ppo_normalizes_observations(tmp_path: Path) -> None:
     run("13_ppo.py", ["--samples", "1"], tmp_path)
     policy = Network.load(tmp_path / "ppo.safetensors")
     assert np.abs(policy.mean).max() > 0.1

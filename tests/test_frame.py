@@ -93,7 +93,7 @@ def test_crossings_are_indices_of_the_cores_names() -> None:
     assert CROSSINGS[GOAL_LEFT] == "goal_left"
 
 
-def test_columns_that_are_no_neighbours_are_refused() -> None:
+def test_columns_that_are_no_neighbors_are_refused() -> None:
     with pytest.raises(ImportError, match="side by side"):
         column_slice(("x", "z", "y"), "x", "y")
 

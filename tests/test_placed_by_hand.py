@@ -28,7 +28,7 @@ class Robots:
 def with_hand(
     robots: Robots, asked: list[Placement], stepper: ReadableStepper | None = None
 ) -> PlacedByHand:
-    """A hand that places what it is asked to, one centimetre beside."""
+    """A hand that places what it is asked to, one centimeter beside."""
 
     def ask(placement: Placement) -> None:
         asked.append(placement)

@@ -22,7 +22,7 @@ from tests.helpers import same
 from tests.parallel_matches import TASKS
 
 WORLDS, STEPS = 40, 12
-WALL = 0.06  # distance of a VSSS robot's centre from a wall that it may touch, m
+WALL = 0.06  # distance of a VSSS robot's center from a wall that it may touch, m
 
 
 class ReversedDribbling(SslDribbling):

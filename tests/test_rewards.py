@@ -56,7 +56,7 @@ def test_shaping_terms_are_zero_after_a_reset() -> None:
     assert not rewards.approach_behind_ball(play, FIELD).any()
 
 
-def test_ball_to_goal_is_in_metres() -> None:
+def test_ball_to_goal_is_in_meters() -> None:
     play = initial_play(1)
     play.last_frame.ball.position[:] = [0.0, 0.0]
     play.frame.ball.position[:] = [0.2, 0.0]

@@ -1,7 +1,7 @@
 """Fit sliding and rolling of the ball to tracked kicks: the floors of two presets of balls.
 
 Usage: `python -m tools.fit_kicks FOLDER`, with folders `robocup2023` and `lab` of CSV files inside
-(https://github.com/jgocm/kick-analysis; they have no licence, so they are no part of this
+(https://github.com/jgocm/kick-analysis; they have no license, so they are no part of this
 repository). A file has the rows of one kick: position (mm) and tracked speed (mm/s), xy each; a row
 of zeros is a frame without a ball. Prints the fits, predicts each kick by the others, and writes
 what the page needs into `tools/physics/kicks.json`.
@@ -215,7 +215,7 @@ def fit_sliding(run: Run, law: Rolling) -> tuple[Array, float]:
 
 
 def rolling_part(run: Run, first: float) -> Run | None:
-    """Return the part of a run beyond `first` (m); None if it is shorter than half a metre."""
+    """Return the part of a run beyond `first` (m); None if it is shorter than half a meter."""
     part = run.distances > first
     if not part.any() or run.distances[-1] - first < 0.5:
         return None

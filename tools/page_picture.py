@@ -35,7 +35,7 @@ def main() -> None:
         flags += [f"--user-data-dir={folder}/profile", "--virtual-time-budget=4000"]
         size = ",".join(map(str, SIZE))
         subprocess.run([browser, *flags, f"--window-size={size}", page.as_uri()], check=True)
-        # The default method drops colours of a few pixels, such as those of the ball and the chart.
+        # The default method drops colors of a few pixels, such as those of the ball and the chart.
         picture = Image.open(shot).convert("RGB").quantize(256, Image.Quantize.FASTOCTREE)
         picture.save(PICTURE, optimize=True)
 

@@ -115,7 +115,7 @@ def policy_table() -> str:
         leagues = " and ".join({"SSL": "SSL", "VSS": "VSSS"}[league] for league in fits)
         summary = (next(iter(fits.values())).__doc__ or "").split("\n")[0]
         rows.append((f"`{name}`", leagues, summary))
-    return table(("policy", "robots", "behaviour"), rows)
+    return table(("policy", "robots", "behavior"), rows)
 
 
 def trained_table() -> str:

@@ -1,8 +1,8 @@
 """Compiled core of rsoccer: physics of robot soccer, and features of robots for tasks.
 
 A state row has the ball's columns, then each robot's, blue first; the column names give every
-position in a row. Positions are in metres, velocities in m/s, angles in radians. The origin is the
-centre of the field, x points at yellow's goal, y to the left, and blue attacks towards +x.
+position in a row. Positions are in meters, velocities in m/s, angles in radians. The origin is the
+center of the field, x points at yellow's goal, y to the left, and blue attacks toward +x.
 """
 
 from collections.abc import Sequence
@@ -59,7 +59,7 @@ BALL_COLUMNS: tuple[str, ...]
 
 | column | meaning | unit | range |
 | --- | --- | --- | --- |
-| `x`, `y` | position of the centre | m | within the walls |
+| `x`, `y` | position of the center | m | within the walls |
 | `z` | height of the lowest point | m | 0 or above |
 | `v_x`, `v_y`, `v_z` | velocity | m/s | any |
 | `spin_x`, `spin_y`, `spin_z` | spin about the field's axes | rad/s | any |
@@ -72,7 +72,7 @@ ROBOT_COLUMNS: tuple[str, ...]
 
 | column | meaning | unit | range |
 | --- | --- | --- | --- |
-| `x`, `y` | position of the centre | m | within the walls if not absent |
+| `x`, `y` | position of the center | m | within the walls if not absent |
 | `cos`, `sin` | heading, counterclockwise from +x | 1 | -1 to 1 |
 | `v_x`, `v_y` | velocity | m/s | any |
 | `v_theta` | turn rate, counterclockwise | rad/s | any |
@@ -125,7 +125,7 @@ def build_info() -> dict[str, str | int]:
 class Field:
     """A field: play area, goals, walls, and the lines and marks on the floor.
 
-    All lengths are in metres, measured to the middle of lines. The origin is the centre, x is along
+    All lengths are in meters, measured to the middle of lines. The origin is the center, x is along
     the length. A number that a league does not use is 0.
 
     Example:
@@ -192,11 +192,11 @@ class Field:
 
     @property
     def center_circle_radius(self) -> float:
-        """Radius of the centre circle (m, 0 or above)."""
+        """Radius of the center circle (m, 0 or above)."""
 
     @property
     def goal_area_width(self) -> float:
-        """Width of the goal area (SSL: defence area), along y (m, 0 or above)."""
+        """Width of the goal area (SSL: defense area), along y (m, 0 or above)."""
 
     @property
     def goal_area_depth(self) -> float:
@@ -224,11 +224,11 @@ class Field:
 
     @property
     def free_ball_x(self) -> float:
-        """Distance of the free-ball marks from the centre, along x (m, 0 or above)."""
+        """Distance of the free-ball marks from the center, along x (m, 0 or above)."""
 
     @property
     def free_ball_y(self) -> float:
-        """Distance of the free-ball marks from the centre, along y (m, 0 or above)."""
+        """Distance of the free-ball marks from the center, along y (m, 0 or above)."""
 
     @property
     def line_width(self) -> float:
@@ -236,19 +236,19 @@ class Field:
 
     @property
     def half_length(self) -> float:
-        """Distance of a goal line from the centre (m, above 0)."""
+        """Distance of a goal line from the center (m, above 0)."""
 
     @property
     def half_width(self) -> float:
-        """Distance of a touch line from the centre (m, above 0)."""
+        """Distance of a touch line from the center (m, above 0)."""
 
     @property
     def max_x(self) -> float:
-        """Maximum distance of a body from the centre along x (m, above 0)."""
+        """Maximum distance of a body from the center along x (m, above 0)."""
 
     @property
     def max_y(self) -> float:
-        """Maximum distance of a body from the centre along y (m, above 0)."""
+        """Maximum distance of a body from the center along y (m, above 0)."""
 
     @property
     def max_robots(self) -> int:
@@ -448,7 +448,7 @@ class RobotModel:
 
     @property
     def front_distance(self) -> float:
-        """Distance of a round body's flat front from the centre (m, above 0)."""
+        """Distance of a round body's flat front from the center (m, above 0)."""
 
     @property
     def wheel_radius(self) -> float:
@@ -468,15 +468,15 @@ class RobotModel:
 
     @property
     def longitudinal_grip(self) -> float:
-        """Maximum acceleration that the tyres transmit along the wheels (m/s², above 0)."""
+        """Maximum acceleration that the tires transmit along the wheels (m/s², above 0)."""
 
     @property
     def lateral_grip(self) -> float:
-        """Maximum acceleration that the tyres transmit along the axle (m/s², above 0)."""
+        """Maximum acceleration that the tires transmit along the axle (m/s², above 0)."""
 
     @property
     def wheel_distance(self) -> float:
-        """Distance from the centre to the point where a wheel meets the floor (m, above 0)."""
+        """Distance from the center to the point where a wheel meets the floor (m, above 0)."""
 
     @property
     def max_speed(self) -> float:
@@ -512,7 +512,7 @@ class RobotModel:
 
     @property
     def mouth_width(self) -> float:
-        """Width of the opening; the ball's centre must be within it (m, above 0)."""
+        """Width of the opening; the ball's center must be within it (m, above 0)."""
 
     @property
     def beam_distance(self) -> float:
@@ -805,7 +805,7 @@ class Threads:
 
 @final
 class Viewpoint:
-    """Observers of a match: turns state rows into the views of robots, which attack towards +x.
+    """Observers of a match: turns state rows into the views of robots, which attack toward +x.
 
     Args:
         n_robots: Number of robots in a row.
@@ -841,7 +841,7 @@ class Viewpoint:
 
 @final
 class Potential:
-    """A potential function for reward shaping, in metres.
+    """A potential function for reward shaping, in meters.
 
     Rewards by differences of a potential do not change which policy is optimal: going back and
     forth gains nothing.
@@ -1047,7 +1047,7 @@ def normalized(
         limit: Bound of the results' magnitude, 0 or above.
 
     Returns:
-        Normalised rows (n, o), float32, computed in float64. NaN stays.
+        Normalized rows (n, o), float32, computed in float64. NaN stays.
 
     Raises:
         TypeError: An array has another element type.
@@ -1078,7 +1078,7 @@ class EgoFeatures:
     | `goal_polar` | (3,) | distance of the attacked goal, 0 or above | half length |
     | | | cosine and sine of its bearing, -1 to 1 | 1 |
     | `shot` | (4,) | cosine and sine of the bearing from ball to goal, -1 to 1 | 1 |
-    | | | nearness of the ball, exp(-8 d) at d metres, 0 to 1 | 1 |
+    | | | nearness of the ball, exp(-8 d) at d meters, 0 to 1 | 1 |
     | | | nearness times alignment, -1 to 1 | 1 |
     | `own_goal_polar` | (3,) | `goal_polar` of the defended goal, without a mouth | as there |
     | `own_goal_shot` | (3,) | `shot` at it, less the nearness alone, without a mouth | 1 |

@@ -9,7 +9,7 @@
     >>> state.ball.x = 0.1
     >>> row = entities.to_row(state, n_blue=3, n_yellow=3)  # an initial state for a match
 
-Positions are metres from the field's centre; a robot's angles are degrees, as in the paper. The
+Positions are meters from the field's center; a robot's angles are degrees, as in the paper. The
 objects are too slow for many worlds or every step: there `Frame` gives arrays.
 """
 
@@ -29,9 +29,9 @@ class Ball:
     """Position and velocity of the ball.
 
     Attributes:
-        x: position towards yellow's goal, metres.
-        y: position to the left of that, metres.
-        z: height of the ball's lowest point, 0 on the floor, metres.
+        x: position toward yellow's goal, meters.
+        y: position to the left of that, meters.
+        z: height of the ball's lowest point, 0 on the floor, meters.
         v_x: velocity along x, m/s.
         v_y: velocity along y, m/s.
         v_z: velocity upwards, m/s.
@@ -62,9 +62,9 @@ class Robot:
     Attributes:
         yellow: the robot is yellow, not blue.
         id: number of the robot in its team.
-        x: position towards yellow's goal, metres.
-        y: position to the left of that, metres.
-        theta: heading, degrees from +x towards +y; (-180, 180] when read from a frame.
+        x: position toward yellow's goal, meters.
+        y: position to the left of that, meters.
+        theta: heading, degrees from +x toward +y; (-180, 180] when read from a frame.
         v_x: velocity along x, or forward in a command, m/s.
         v_y: velocity along y, or to the left in a command, m/s.
         v_theta: turn rate, counterclockwise, degrees per second.
@@ -133,17 +133,17 @@ class FieldParams:
     """Dimensions of the field, the ball and the robots: the paper's `Field`.
 
     Attributes:
-        length: length of the field, metres.
-        width: width of the field, metres.
-        penalty_length: size of a goal area along x, metres.
-        penalty_width: size of a goal area along y, metres.
-        goal_width: width of a goal, metres.
-        goal_depth: depth of a goal, metres.
-        ball_radius: radius of the ball, metres.
-        robot_radius: radius of a round robot, half the side of a square one, metres.
-        robot_front: distance from the centre to the middle of the front, metres.
-        wheel_radius: radius of a wheel, metres.
-        wheel_angles: directions of the wheels from the centre, degrees from the front.
+        length: length of the field, meters.
+        width: width of the field, meters.
+        penalty_length: size of a goal area along x, meters.
+        penalty_width: size of a goal area along y, meters.
+        goal_width: width of a goal, meters.
+        goal_depth: depth of a goal, meters.
+        ball_radius: radius of the ball, meters.
+        robot_radius: radius of a round robot, half the side of a square one, meters.
+        robot_front: distance from the center to the middle of the front, meters.
+        wheel_radius: radius of a wheel, meters.
+        wheel_angles: directions of the wheels from the center, degrees from the front.
         max_wheel_speed: largest speed of a wheel, rad/s.
     """
 

@@ -1,7 +1,7 @@
 """State rows with named columns: ball and robots of n worlds in absolute coordinates.
 
-The origin is the field's centre, x points at yellow's goal and y to the left of x, so blue attacks
-towards +x. Units are SI. A heading is stored as (cos, sin), so it never wraps, and half a turn is a
+The origin is the field's center, x points at yellow's goal and y to the left of x, so blue attacks
+toward +x. Units are SI. A heading is stored as (cos, sin), so it never wraps, and half a turn is a
 change of sign. The core defines the columns; this module derives everything from their names.
 """
 
@@ -18,14 +18,14 @@ GOAL_LEFT = CROSSINGS.index("goal_left")  # the goal at -x, blue's: yellow score
 
 
 def column_slice(columns: tuple[str, ...], *names: str) -> slice:
-    """Return the slice of neighbouring columns, so that reading them copies nothing.
+    """Return the slice of neighboring columns, so that reading them copies nothing.
 
     Args:
         columns: names of all columns.
-        *names: names of the neighbouring columns, in order.
+        *names: names of the neighboring columns, in order.
 
     Raises:
-        ImportError: the columns are not neighbours in this order.
+        ImportError: the columns are not neighbors in this order.
     """
     first = columns.index(names[0])
     if columns[first : first + len(names)] != names:
@@ -61,7 +61,7 @@ class BallColumns:
 
     @property
     def position(self) -> Floats:
-        """(..., 2) position x, y in metres."""
+        """(..., 2) position x, y in meters."""
         return self.data[..., self._POSITION]
 
     @property
@@ -71,7 +71,7 @@ class BallColumns:
 
     @property
     def height(self) -> Floats:
-        """(...) height of the ball's lowest point in metres; 0 on the floor."""
+        """(...) height of the ball's lowest point in meters; 0 on the floor."""
         return self.data[..., self._HEIGHT]
 
     @property
@@ -91,7 +91,7 @@ class BallColumns:
 
     @property
     def crossed(self) -> Floats:
-        """(...) line or goal that the ball's centre crossed in the last step.
+        """(...) line or goal that the ball's center crossed in the last step.
 
         An index into `CROSSINGS`: compare with `NO_CROSSING`, `GOAL_RIGHT` and `GOAL_LEFT`.
         """
@@ -99,7 +99,7 @@ class BallColumns:
 
     @property
     def crossed_at(self) -> Floats:
-        """(..., 2) position x, y of the crossing in metres; valid if there was one."""
+        """(..., 2) position x, y of the crossing in meters; valid if there was one."""
         return self.data[..., self._CROSSED_AT]
 
 
@@ -132,7 +132,7 @@ class RobotColumns:
 
     @property
     def position(self) -> Floats:
-        """(..., 2) position x, y in metres."""
+        """(..., 2) position x, y in meters."""
         return self.data[..., self._POSITION]
 
     @property

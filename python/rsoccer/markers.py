@@ -11,7 +11,7 @@ class Target:
     """Circle around a target position."""
 
     center: Point
-    """Centre x, y, m."""
+    """Center x, y, m."""
     radius: float
     """Radius, m."""
 

@@ -16,7 +16,7 @@ from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.task import Play
 
 BEHIND_BALL_DISTANCE: Final = 0.08
-"""Metres: half a VSSS robot, a ball's radius and two centimetres to turn in."""
+"""Meters: half a VSSS robot, a ball's radius and two centimeters to turn in."""
 
 
 def goal(play: Play) -> Floats:
@@ -68,14 +68,14 @@ def potential_difference(play: Play, potential: Potential) -> Floats:
         potential: function of the view of an observer, m.
 
     Returns:
-        (n, observers) metres.
+        (n, observers) meters.
     """
     viewpoint, last_rows, rows = play.viewpoint.core, play.last_frame.rows, play.frame.rows
     return potential.difference(viewpoint, last_rows, rows, play.threads)
 
 
 def ball_to_goal(play: Play, field: Field) -> Floats:
-    """Return the progress of the ball towards the attacked goal and away from the own goal.
+    """Return the progress of the ball toward the attacked goal and away from the own goal.
 
     The mean of both changes of distance, so it is zero-sum between the teams.
 
@@ -84,13 +84,13 @@ def ball_to_goal(play: Play, field: Field) -> Floats:
         field: gives the positions of the goals.
 
     Returns:
-        (n, observers) metres.
+        (n, observers) meters.
     """
     return potential_difference(play, Potential.ball_to_goal(field))
 
 
 def approach_behind_ball(play: Play, field: Field) -> Floats:
-    """Return the progress of each observer towards the point just behind the ball.
+    """Return the progress of each observer toward the point just behind the ball.
 
     That point lies `BEHIND_BALL_DISTANCE` from the ball, opposite to the attacked goal. A robot in
     front of the ball is rewarded for driving around it, and two robots of one team are not
@@ -101,7 +101,7 @@ def approach_behind_ball(play: Play, field: Field) -> Floats:
         field: gives the position of the goal and the walls.
 
     Returns:
-        (n, observers) metres.
+        (n, observers) meters.
     """
     return potential_difference(play, Potential.behind_ball(field, BEHIND_BALL_DISTANCE))
 
@@ -117,7 +117,7 @@ def approach_mouth(play: Play, config: SimConfig) -> Floats:
         config: gives the robot and the ball.
 
     Returns:
-        (n, observers) metres.
+        (n, observers) meters.
 
     Raises:
         ValueError: the robot has no mouth.

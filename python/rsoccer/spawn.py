@@ -20,7 +20,7 @@ Box = tuple[Sequence[float] | Floats, Sequence[float] | Floats]
 MAX_DRAWS: Final = 1000
 """Draws per world before the search for positions fails."""
 MARGIN: Final = 1e-3
-"""Metres added to each radius, for differences in rounding between float32 and the simulator."""
+"""Meters added to each radius, for differences in rounding between float32 and the simulator."""
 
 
 def random_frame(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame:
@@ -29,7 +29,7 @@ def random_frame(rng: WorldRng, config: SimConfig, min_distance: float) -> Frame
     Args:
         rng: (n,) random streams.
         config: field, ball and robots.
-        min_distance: least distance between centres, m; robots and ball never overlap.
+        min_distance: least distance between centers, m; robots and ball never overlap.
 
     Returns:
         A frame of n worlds.
@@ -58,7 +58,7 @@ def positions(
         rng: (n,) random streams.
         field: limits of the positions.
         radii: radius of each disc, m.
-        min_distance: least distance between centres, m.
+        min_distance: least distance between centers, m.
 
     Returns:
         (n, len(radii), 2) positions, m.
@@ -86,13 +86,13 @@ def positions_in_box(
     min_distance: float = 0.0,
     forbidden: Callable[[Floats], Mask] | None = None,
 ) -> Floats:
-    """Draw positions of discs with their centres in a rectangle, without overlap.
+    """Draw positions of discs with their centers in a rectangle, without overlap.
 
     Args:
         rng: (n,) random streams.
         box: lower and upper corner of the rectangle, m, for all discs (2,) or each (len(radii), 2).
         radii: radius of each disc, m.
-        min_distance: least distance between centres, m.
+        min_distance: least distance between centers, m.
         forbidden: maps positions (n, len(radii), 2) to a mask (n, len(radii)) of those to reject;
             None allows all.
 
@@ -144,9 +144,9 @@ def set_rolling_spin(ball: BallColumns, model: BallModel) -> None:
         ball: balls (...), whose velocity is read and whose spin is overwritten.
         model: gives the radius.
     """
-    per_metre = np.float32(1.0 / model.radius)
-    ball.spin[..., 0] = -ball.velocity[..., 1] * per_metre
-    ball.spin[..., 1] = ball.velocity[..., 0] * per_metre
+    per_meter = np.float32(1.0 / model.radius)
+    ball.spin[..., 0] = -ball.velocity[..., 1] * per_meter
+    ball.spin[..., 1] = ball.velocity[..., 0] * per_meter
 
 
 def _rejection_sample(

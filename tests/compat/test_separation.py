@@ -38,7 +38,7 @@ def test_a_ball_at_a_side_is_moved_outward() -> None:
 
 
 @pytest.mark.parametrize("local", [[0.08, 0.0], [0.0, 0.0], [-0.01, 0.085]])
-def test_a_ball_whose_centre_is_inside_stays(local: list[float]) -> None:
+def test_a_ball_whose_center_is_inside_stays(local: list[float]) -> None:
     assert ball_beside(local) == pytest.approx(local)
 
 

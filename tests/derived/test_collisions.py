@@ -30,7 +30,7 @@ def test_a_corner_that_turns_into_a_robot_closes_at_its_own_speed() -> None:
     last = pair(SIDE / 2 * (1 + 2**0.5) - 1e-4, spin=10.0)
     last.robots.heading[0, 0] = np.cos(0.7), np.sin(0.7)
     found = derived.collisions(last, last, VSS, 0.025)
-    # The corner is at 45 + 40.1 degrees: it still moves towards the face, slowly.
+    # The corner is at 45 + 40.1 degrees: it still moves toward the face, slowly.
     assert 0.0 <= found.speed[0, 0] < 0.2
     assert found.opponent[0, 0]
 

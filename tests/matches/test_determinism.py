@@ -63,7 +63,7 @@ def crowded(
     task_class = type(rsoccer.make_task(name))
     options: dict[str, Any] = {"max_steps": 40}
     if name in SCRIPTS:
-        options["velocity_frame"] = "robot"  # forward actions then push towards the ball
+        options["velocity_frame"] = "robot"  # forward actions then push toward the ball
 
         def late(task: Task, play: Play) -> tuple[dict[str, Floats], Mask]:
             """Ends of the task, but not in the first 20 steps."""

@@ -1,7 +1,7 @@
 """Matches in a forked worker process, also if the parent process has a pool of threads.
 
 A fork copies a pool without its threads, so a worker that waits for them would wait for ever.
-Workers of vectorised environments are forks.
+Workers of vectorized environments are forks.
 """
 
 import hashlib

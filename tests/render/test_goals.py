@@ -13,11 +13,11 @@ ENDS = ((-1, palette.BLUE), (1, palette.YELLOW))
 
 
 @FIELDS
-def test_each_goal_has_the_colour_of_the_team_that_defends_it(field: Field) -> None:
+def test_each_goal_has_the_color_of_the_team_that_defends_it(field: Field) -> None:
     for side, color in ENDS:
-        coloured = [s for s in goal_shapes(field, EDGE) if s.color == color]
-        assert len(coloured) == 3  # two sides and a back
-        for part in coloured:
+        colored = [s for s in goal_shapes(field, EDGE) if s.color == color]
+        assert len(colored) == 3  # two sides and a back
+        for part in colored:
             xs = [x for x, _ in part.points] if isinstance(part, Polygon) else []
             xs += [part.start[0], part.end[0]] if isinstance(part, Line) else []
             assert xs

@@ -22,7 +22,7 @@ SIZES = [320, 640, 1280]
 
 
 def pixel(image: Image, config: SimConfig, point: Point) -> Color:
-    """The colour at a point of the field."""
+    """The color at a point of the field."""
     bounds = scene_bounds(config.field)
     scale = image.shape[1] / bounds.width
     column, line = int((point[0] - bounds.left) * scale), int((bounds.top - point[1]) * scale)
@@ -35,7 +35,7 @@ def close(color: Color, other: Color, tolerance: int = 30) -> bool:
 
 
 def check_colors(config: SimConfig, row: Floats, width: int | None) -> None:
-    """Every robot shows the colour of its team, and the empty field does not."""
+    """Every robot shows the color of its team, and the empty field does not."""
     image, empty = draw_image(config, row, width=width), ground_image(config, width)
     frame = Frame(row[None], config.n_blue, config.n_yellow)
     colors = [palette.BLUE] * config.n_blue + [palette.YELLOW] * config.n_yellow
@@ -54,7 +54,7 @@ def check_colors(config: SimConfig, row: Floats, width: int | None) -> None:
 
 
 @pytest.mark.parametrize("width", SIZES)
-def test_every_robot_shows_the_colour_of_its_team(
+def test_every_robot_shows_the_color_of_its_team(
     config: SimConfig, row: Floats, width: int
 ) -> None:
     check_colors(config, row, width)
@@ -122,7 +122,7 @@ def test_goals_and_lines_are_visible(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", Field.PRESETS)
-def test_corner_blocks_have_the_walls_colour_and_margins_the_carpets(name: str) -> None:
+def test_corner_blocks_have_the_walls_color_and_margins_the_carpets(name: str) -> None:
     field = Field(name)
     image, config = ground_image(SimConfig(name, 1, 1), 1280), SimConfig(name, 1, 1)
     if field.corner_leg:

@@ -16,7 +16,7 @@ def straight(field: Field) -> list[Line]:
 
 
 def across(field: Field) -> dict[float, float]:
-    """Half lengths of the lines across the field, by their distance from its centre."""
+    """Half lengths of the lines across the field, by their distance from its center."""
     return {
         abs(line.start[0]): abs(line.start[1])
         for line in straight(field)

@@ -34,7 +34,7 @@ def test_a_gate_has_two_posts_and_a_line_between_them() -> None:
     assert {left, right} in [{s.start, s.end} for s in gate if isinstance(s, Line)]
 
 
-def test_the_colour_of_a_gate_shows_its_state() -> None:
+def test_the_color_of_a_gate_shows_its_state() -> None:
     pending, done = (gate_shapes(FIELD, (0, 1), (0, 0), done=done) for done in (False, True))
     assert {s.color[:3] for s in pending} == {palette.PENDING[:3]}
     assert {s.color[:3] for s in done} == {palette.DONE[:3]}

@@ -26,7 +26,7 @@ def points(shapes: tuple[Shape, ...]) -> list[Point]:
 
 
 def reach(model: RobotModel) -> tuple[float, float, float]:
-    """Distances from the centre to the back, the front and a side."""
+    """Distances from the center to the back, the front and a side."""
     if hasattr(model, "side_length"):
         return model.side_length / 2, model.side_length / 2, model.side_length / 2
     return model.radius, model.front_distance, model.radius
@@ -89,7 +89,7 @@ def test_a_dribbler_has_the_mouths_width_and_lights_up_with_the_ball(model: Robo
 @pytest.mark.parametrize("model", MODELS, ids=name)
 def test_only_wheels_beside_the_cover_are_visible(model: RobotModel) -> None:
     shapes = robot_shapes(model, ORIGIN, palette.YELLOW, 0)
-    wheels = [shape for shape in shapes if shape.color == palette.TYRE]
+    wheels = [shape for shape in shapes if shape.color == palette.TIRE]
     assert len(wheels) == (2 if model.drive == "differential" else 0)
 
 

@@ -18,7 +18,7 @@ from rsoccer.render.scoreboard import Board, scene_bounds, score_shapes
 from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Pose, Shape, Text
 
 PLAIN = Board()
-LABELLED = ("ssl_a", "ssl_b")
+LABELED = ("ssl_a", "ssl_b")
 """Fields on which a number would be too small on the robot itself."""
 MIRRORS = [(-1, 1), (1, -1), (-1, -1)]
 
@@ -33,7 +33,7 @@ def mirrored_row(config: SimConfig, original: Floats, mirror: tuple[int, int]) -
 
 
 def appearance(shape: Shape, mirror: tuple[int, int] = (1, 1)) -> tuple[object, Color]:
-    """Points and colour of a mirrored shape, without the order and orientation of points."""
+    """Points and color of a mirrored shape, without the order and orientation of points."""
 
     def flip(points: tuple[Point, ...]) -> frozenset[Point]:
         i, j = mirror
@@ -85,7 +85,7 @@ def test_every_robot_is_drawn_with_its_number(any_config: SimConfig, any_row: Fl
     texts = [shape for shape in bodies(config, any_row) if isinstance(shape, Text)]
     assert [text.text for text in texts] == ["0", "1", "2", "0", "1", "2"]
     frame = Frame(any_row[None], config.n_blue, config.n_yellow)
-    reach = (3.5 if config.field.name in LABELLED else 0.25) * config.robot.bounding_radius
+    reach = (3.5 if config.field.name in LABELED else 0.25) * config.robot.bounding_radius
     for text, position in zip(texts, frame.robots.position[0], strict=True):
         assert np.hypot(*(position - text.center)) < reach
 
@@ -96,7 +96,7 @@ def test_robots_too_small_for_a_number_have_a_label_behind_them(any_config: SimC
     frame.robots.heading[0, :, 1] = 1.0
     play = foreground_shapes(any_config, frame.rows[0], PLAIN)
     plates = [s for s in play if isinstance(s, Polygon) and s.color == palette.LABEL]
-    assert len(plates) == (6 if any_config.field.name in LABELLED else 0)
+    assert len(plates) == (6 if any_config.field.name in LABELED else 0)
     for plate in plates:
         assert all(y < -any_config.robot.bounding_radius for _, y in plate.points)
 

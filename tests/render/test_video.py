@@ -51,7 +51,7 @@ def edge(image: Image) -> int:
     return int((middle[:, 0] > middle[:, 2]).sum())
 
 
-def test_an_mp4_has_every_frame_with_its_colours(tmp_path: Path) -> None:
+def test_an_mp4_has_every_frame_with_its_colors(tmp_path: Path) -> None:
     path = write_video(tmp_path / "match.mp4", map(bar, range(12)), 40.0)
     assert path == tmp_path / "match.mp4"
     frames, about = read_mp4(path)

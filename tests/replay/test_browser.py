@@ -166,7 +166,7 @@ def test_a_finger_on_the_field_scrolls_a_narrow_page(tmp_path: Path) -> None:
     assert show(to_html(vss()), script, tmp_path).result == ["auto", "pan-y", "auto"]
 
 
-def test_a_cancelled_touch_of_the_timeline_goes_on_playing(tmp_path: Path) -> None:
+def test_a_canceled_touch_of_the_timeline_goes_on_playing(tmp_path: Path) -> None:
     script = """
       const canvas = document.getElementById("timeline");
       canvas.setPointerCapture = () => {};

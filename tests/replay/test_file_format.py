@@ -40,7 +40,7 @@ def test_rewards_are_accurate(replay: Replay) -> None:
     assert np.abs(replay.rewards).max() > 0
 
 
-def test_markers_are_rounded_to_tenths_of_millimetres() -> None:
+def test_markers_are_rounded_to_tenths_of_millimeters() -> None:
     replay = ssl()
     read = Replay.from_bytes(replay.to_bytes())
     assert len(set(replay.markers)) > 1

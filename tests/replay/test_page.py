@@ -79,7 +79,7 @@ def test_robots_of_several_models_have_outlines_of_their_own() -> None:
     assert scene(config)["robots"] == [0, 1, 0]
 
 
-def test_the_page_has_the_colours_of_the_pictures() -> None:
+def test_the_page_has_the_colors_of_the_pictures() -> None:
     red, green, blue, _ = palette.BLUE
     assert f"--blue: rgba({red},{green},{blue},1.0);" in to_html(vss())
     used = set(re.findall(r"colors(?:\.(\w+)|\[\"([\w-]+)\"\])", page._web("field.js")))

@@ -44,13 +44,13 @@ def _blocks_of_present(
         "ego": robots[:, :, 0],
         "teammates": robots[:, :, 1 : 1 + view.n_teammates],
         "opponents": robots[:, :, 1 + view.n_teammates :],
-        **body_frame_blocks(view, goal, scales.per_metre, scales.per_speed),
-        **({} if has_mouth else own_goal_blocks(view, -goal, scales.per_metre)),
+        **body_frame_blocks(view, goal, scales.per_meter, scales.per_speed),
+        **({} if has_mouth else own_goal_blocks(view, -goal, scales.per_meter)),
     }
 
 
 def body_frame_blocks(
-    view: View, goal: Floats, per_metre: np.float32, per_speed: np.float32
+    view: View, goal: Floats, per_meter: np.float32, per_speed: np.float32
 ) -> dict[str, Array]:
     """Blocks in body coordinates; `goal` (2,) is the middle of the attacked goal, m."""
     ego, ball = view.ego, view.ball
@@ -58,20 +58,20 @@ def body_frame_blocks(
     offsets = offsets - ego.position[:, :, None]  # (n, observers, ball and others, 2)
     velocities = np.stack([ego.velocity, ball.velocity], axis=2)
     return {
-        "ball_polar": _polar(ego, offsets[:, :, 0], per_metre),  # (n, observers, 3)
-        "goal_polar": _polar(ego, goal - ego.position, per_metre),  # (n, observers, 3)
+        "ball_polar": _polar(ego, offsets[:, :, 0], per_meter),  # (n, observers, 3)
+        "goal_polar": _polar(ego, goal - ego.position, per_meter),  # (n, observers, 3)
         "shot": _shot(ego, offsets[:, :, 0], goal - ball.position),  # (n, observers, 4)
         "body_velocities": _to_body(ego, velocities) * per_speed,  # (n, observers, 2, 2)
-        "body_positions": _to_body(ego, offsets) * per_metre,  # (n, observers, ball and others, 2)
+        "body_positions": _to_body(ego, offsets) * per_meter,  # (n, observers, ball and others, 2)
     }
 
 
-def own_goal_blocks(view: View, own_goal: Floats, per_metre: np.float32) -> dict[str, Array]:
+def own_goal_blocks(view: View, own_goal: Floats, per_meter: np.float32) -> dict[str, Array]:
     """Blocks of the middle of the defended goal, (2,), m, in body coordinates."""
     ego, ball = view.ego, view.ball
     shot = _shot(ego, ball.position - ego.position, own_goal - ball.position)
     return {
-        "own_goal_polar": _polar(ego, own_goal - ego.position, per_metre),  # (n, observers, 3)
+        "own_goal_polar": _polar(ego, own_goal - ego.position, per_meter),  # (n, observers, 3)
         "own_goal_shot": shot[..., [0, 1, 3]],  # (n, observers, 3)
     }
 
@@ -86,11 +86,11 @@ def _to_body(ego: RobotColumns, vectors: Floats) -> Floats:
     return body
 
 
-def _polar(ego: RobotColumns, offset: Floats, per_metre: np.float32) -> Floats:
+def _polar(ego: RobotColumns, offset: Floats, per_meter: np.float32) -> Floats:
     """Distance and bearing (cosine, sine) of a point at `offset` (n, observers, 2)."""
     distance = norm(offset[..., 0], offset[..., 1])
     polar = np.empty((*distance.shape, 3), np.float32)
-    np.multiply(distance, per_metre, out=polar[..., 0])
+    np.multiply(distance, per_meter, out=polar[..., 0])
     bearing = _to_body(ego, offset[:, :, None])[:, :, 0]
     np.divide(bearing, np.maximum(distance, TINY)[..., None], out=polar[..., 1:])
     return polar
@@ -120,16 +120,16 @@ class Scales:
     def __init__(self, config: SimConfig) -> None:
         """Compute the scales: half the field's length is 1, and so are the robot's top speeds."""
         robot = config.robot
-        self.per_metre = np.float32(1.0 / config.field.half_length)
+        self.per_meter = np.float32(1.0 / config.field.half_length)
         self.per_speed = np.float32(1.0 / robot.top_speed)
         self.per_turn = np.float32(1.0 / robot.top_turn_rate)
-        position, speed = [self.per_metre] * 2, [self.per_speed] * 2
+        position, speed = [self.per_meter] * 2, [self.per_speed] * 2
         plane = [*position, 1.0, 1.0, *speed, self.per_turn]
         slots = config.n_robots + max(config.n_blue, config.n_yellow)
         # The scales of all slots in one row, for a single product.
         self._plane = np.tile(np.array(plane, np.float32), slots)
         self._with_beam = np.tile(np.array([*plane, 1.0], np.float32), slots)
-        self._ball = np.array([self.per_metre] * 3 + [self.per_speed] * 3, np.float32)
+        self._ball = np.array([self.per_meter] * 3 + [self.per_speed] * 3, np.float32)
 
     def robots(self, view: View, *, beam: bool = False) -> Floats:
         """Pose and velocity of each slot, (n, observers, slots, 7); with the break beam, 8."""
@@ -141,7 +141,7 @@ class Scales:
     def ball(self, view: View) -> Floats:
         """Position and velocity of the ball in the plane, (n, observers, 4)."""
         position, velocity = view.ball.position, view.ball.velocity
-        return np.concatenate([position * self.per_metre, velocity * self.per_speed], axis=-1)
+        return np.concatenate([position * self.per_meter, velocity * self.per_speed], axis=-1)
 
     def ball_in_space(self, view: View) -> Floats:
         """Position and velocity of the ball in space, (n, observers, 6)."""

@@ -74,7 +74,7 @@ NAMES = [name for name in rsoccer.list_tasks() if name.startswith("SSL")]
             "reward_weights: expected a number for 'energy'",
         ),
         ({"discrete": 1}, TypeError, "discrete: expected True or False, got 1"),
-        ({"colour": 1}, TypeError, "unexpected keyword argument .colour."),
+        ({"color": 1}, TypeError, "unexpected keyword argument .color."),
     ],
 )
 @pytest.mark.parametrize("name", NAMES)
@@ -101,7 +101,7 @@ def test_reward_weights_are_data_and_paper_is_a_preset(name: str) -> None:
 
 
 def moved(task: Ssl, action: list[float]) -> tuple[Floats, float]:
-    """Position and heading after half a second of a robot that starts at the centre facing +y."""
+    """Position and heading after half a second of a robot that starts at the center facing +y."""
     matches = Matches(task, 1, autoreset="disabled")
     matches.reset(rows=scene(task, ball=(2.0, -1.5), blue_0=(0.0, 0.0, np.pi / 2)).rows)
     for _ in range(20):

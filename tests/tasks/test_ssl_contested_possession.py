@@ -21,7 +21,7 @@ def terminates_on_contact(task: SslContestedPossession, speed: float) -> bool:
     ("speed", "strict", "ends"),
     [(0.08, False, False), (0.4, False, True), (0.08, True, True), (0.4, True, True)],
 )
-def test_contact_above_half_a_metre_per_second_terminates(
+def test_contact_above_half_a_meter_per_second_terminates(
     speed: float, strict: bool, ends: bool
 ) -> None:
     assert terminates_on_contact(SslContestedPossession(strict_contact=strict), speed) == ends
@@ -51,7 +51,7 @@ def test_official_scenarios_are_the_published_ones_rotated_by_180_degrees() -> N
     frame = SslContestedPossession(scenario=2).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.yellow.position[0, 0] == pytest.approx([1.0, 1.25])
     assert frame.blue.position[0, 0] == pytest.approx([0.647, 1.604])
-    # Published: ball 15 cm in front of the opponent's centre. Here it touches the mouth.
+    # Published: ball 15 cm in front of the opponent's center. Here it touches the mouth.
     published = [(0.85, 0.0), (0.894, 1.356), (0.394, -1.606), (1.894, 1.306), (2.74, -1.4)]
     for scenario, ball in enumerate(published, start=1):
         task = SslContestedPossession(scenario=scenario)

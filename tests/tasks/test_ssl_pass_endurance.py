@@ -10,7 +10,7 @@ from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, expect_solved, run, sce
 TASK = SslPassEndurance()
 
 
-def towards(speed: float, teammate: tuple[float, float] = (1.0, 0.0)) -> Frame:
+def toward(speed: float, teammate: tuple[float, float] = (1.0, 0.0)) -> Frame:
     """Ball that rolls along the x axis, far from the passer."""
     return scene(TASK, ball=(0.0, 0.0, speed, 0.0), blue_0=(-1.0, 0.0), blue_1=(*teammate, np.pi))
 
@@ -61,9 +61,9 @@ def test_a_ball_that_is_handed_over_is_a_failure() -> None:
 @pytest.mark.parametrize(
     ("start", "reason"),
     [
-        (towards(0.3), "stopped on its way"),
-        (towards(2.0, (1.0, 0.5)), "passed by"),
-        (towards(-2.0), "goes away"),
+        (toward(0.3), "stopped on its way"),
+        (toward(2.0, (1.0, 0.5)), "passed by"),
+        (toward(-2.0), "goes away"),
         (scene(TASK, ball=(0.0, 1.9, 0.5, 1.5), blue_0=(-1.0, 0.0), blue_1=(0.5, 1.9)), "out"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",

@@ -11,7 +11,7 @@ TASK = SslPassEnduranceMulti()
 
 
 def passing(distance: float, speed: float = 0.0) -> Frame:
-    """Ball in the mouth of blue_0, or rolling out of it, towards blue_1, which faces the ball."""
+    """Ball in the mouth of blue_0, or rolling out of it, toward blue_1, which faces the ball."""
     return scene(
         TASK,
         ball=(-1.0 + float(TASK.mouth_offset), 0.0, speed, 0.0),

@@ -29,7 +29,7 @@ def test_a_goal_terminates(task: SslAttack) -> None:
 @pytest.mark.parametrize(
     "ball",
     [
-        (0.05, 1.0, -1.0, 0.0),  # over the centre line
+        (0.05, 1.0, -1.0, 0.0),  # over the center line
         (1.0, 1.9, 0.0, 1.5),
         (1.0, -1.9, 0.0, -1.5),
         (2.9, 1.5, 1.5, 0.0),  # over the goal line
@@ -46,7 +46,7 @@ def test_the_ball_outside_the_half_terminates(task: SslAttack, ball: tuple[float
 @pytest.mark.parametrize(
     ("position", "direction"),
     [
-        ((-0.1, 0.0), (-1.0, 0.0)),  # over the centre line by more than 0.2 m
+        ((-0.1, 0.0), (-1.0, 0.0)),  # over the center line by more than 0.2 m
         ((1.0, 1.9), (0.0, 1.0)),
         ((1.0, -1.9), (0.0, -1.0)),
         ((2.9, 1.5), (1.0, 0.0)),
@@ -84,7 +84,7 @@ def test_initial_positions_are_in_the_half_and_outside_the_goal_area() -> None:
 
 
 def test_official_scenarios_are_the_published_ones_rotated_by_180_degrees() -> None:
-    """Spot checks against the rules, which attack -x (millimetres there)."""
+    """Spot checks against the rules, which attack -x (millimeters there)."""
     frame = SslStaticDefenders(scenario=1).get_initial_positions_frame(WorldRng.seeded(0, 1))
     assert frame.ball.position[0] == pytest.approx([0.2, 1.8])
     expected = np.array([[2.9, 0], [2, 0.75], [2, 0.55]])
@@ -169,7 +169,7 @@ def test_other_scenarios_are_refused(scenario: int) -> None:
         SslStaticDefenders(scenario=scenario)
 
 
-def test_nearness_grows_towards_an_opponent_and_points_at_it() -> None:
+def test_nearness_grows_toward_an_opponent_and_points_at_it() -> None:
     task = SslStaticDefenders(n_opponents=2)
     matches = Matches(task, 1, autoreset="disabled")
     frame = task.get_initial_positions_frame(WorldRng.seeded(0, 1))

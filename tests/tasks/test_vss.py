@@ -85,7 +85,7 @@ def test_observed_positions_of_ball_and_goal_are_true() -> None:
     # The robot faces +y, so the goal at +x is on its right. Lengths are in half fields, 0.75 m.
     assert blocks["ball_polar"] == pytest.approx([0.4, 1.0, 0.0], abs=1e-5)
     assert blocks["goal_polar"] == pytest.approx([0.5 / 0.75, 0.0, -1.0], abs=1e-5)
-    # The own goal is 1 m behind on the left; the ball ahead is not pushed towards it.
+    # The own goal is 1 m behind on the left; the ball ahead is not pushed toward it.
     assert blocks["own_goal_polar"] == pytest.approx([1.0 / 0.75, 0.0, 1.0], abs=1e-5)
     to_own_goal = math.hypot(1.0, 0.3)
     near = math.exp(-0.3 / 0.125)

@@ -266,7 +266,7 @@ class NeedsAllObservers(Correct):
         return terms, done
 
 
-class ObservesMillimetres(Correct):
+class ObservesMillimeters(Correct):
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         blocks = super().frame_to_observations(play)
         return blocks | {"ball_mm": play.sensed_view.ball.position * np.float32(1000.0)}
@@ -306,7 +306,7 @@ class RewardsAllWorldsAlike(Correct):
         return {"goal": terms["goal"] + play.rng.uniform(0.0, 1.0)[0]}, done
 
 
-class DrawsForNeighbours(Correct):
+class DrawsForNeighbors(Correct):
     """Where one world is lucky, all draw again."""
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
@@ -455,7 +455,7 @@ def test_the_base_of_the_faulty_tasks_is_correct() -> None:
         (ObservesFloat64, "frame_to_observations: 'ball' is float64, not float32"),
         (ObservesNaN, "frame_to_observations: 'ball' has NaN"),
         (
-            ObservesMillimetres,
+            ObservesMillimeters,
             "observation_limits: a number of 'ball_mm' is beyond its limit of 10",
         ),
         (ChangesItsBlocks, "frame_to_observations: it returns other blocks than at first.*'ball'"),
@@ -468,7 +468,7 @@ def test_the_base_of_the_faulty_tasks_is_correct() -> None:
         (RewardsFromNumpyRandom, "calculate_reward_and_done draws global .* of numpy.random"),
         (RewardsFromAnUnseededGenerator, "calculate_reward_and_done: 'goal' differ between two"),
         (RewardsAllWorldsAlike, r"calculate_reward_and_done: 'goal' of worlds \[1, 2, 3\]"),
-        (DrawsForNeighbours, "calculate_reward_and_done: random stream of worlds"),
+        (DrawsForNeighbors, "calculate_reward_and_done: random stream of worlds"),
         (MarksAtRandom, "markers: it draws from play.rng"),
         (MarksTheFirstWorld, "markers: 'markers' of worlds"),
         (MeasuresOneNumber, "metrics: 'speed' is float32, not an array"),

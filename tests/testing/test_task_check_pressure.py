@@ -36,7 +36,7 @@ class RewardsNaNUnderPressure(VssSelfPlay):
 
 
 class FaultyBallOut(BallOut):
-    """The place of the ball depends on the number of worlds, or is the centre of a robot."""
+    """The place of the ball depends on the number of worlds, or is the center of a robot."""
 
     def __init__(self, config: SimConfig, fault: str) -> None:
         super().__init__(config)

@@ -16,8 +16,8 @@ from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, max_turn_rate
 from tools.physics.kicker import front_offset
 from tools.physics.page import PAGE, format_value, pages_equal, render_page
 from tools.physics.scene import contact_engine, make_config
+from tools.physics.tire_friction import Motion, motion_after
 from tools.physics.topics import MODULES, TOPICS, all_checks, checks, engines_of
-from tools.physics.tyre_friction import Motion, motion_after
 
 TEXT = PAGE.read_text()
 
@@ -109,7 +109,7 @@ def test_a_steep_bounce_sticks_and_a_flat_one_slips() -> None:
     assert flat == pytest.approx([4.0 - 0.35 * 1.3, -0.3, 0.0])
 
 
-def test_sliding_tyres_agree_with_closed_forms() -> None:
+def test_sliding_tires_agree_with_closed_forms() -> None:
     robot = cited.VSS_ROBOTS["vss_440rpm"]
     ahead = motion_after(robot, 1.0, Motion(), 0.1)
     assert ahead.forward == pytest.approx(robot.longitudinal_grip * 0.1, rel=1e-3), "acceleration"

@@ -92,7 +92,7 @@ def test_an_inherited_paragraph_is_that_of_the_base_class() -> None:
     single, match = rsoccer.make_task("VSS-v0"), rsoccer.make_task("VSSSelfPlay-v0")
     for label in ("Initial state", "Termination", "Metric"):
         assert task_docs.paragraph(single, label) == task_docs.paragraph(match, label)
-    assert task_docs.paragraph(single, "Colour") == ""
+    assert task_docs.paragraph(single, "Color") == ""
 
 
 def test_an_exception_of_a_task_is_shown() -> None:

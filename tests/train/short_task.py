@@ -21,7 +21,7 @@ FORWARD = "Forward-v0"
 
 @dataclass(frozen=True)
 class ShortSelfPlay(VssSelfPlay):
-    """The ball starts in front of a goal, often rolling towards it."""
+    """The ball starts in front of a goal, often rolling toward it."""
 
     max_steps: int = 25
 

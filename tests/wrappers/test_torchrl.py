@@ -66,7 +66,7 @@ def test_a_single_learner_match_is_wrapped(discrete: bool) -> None:
 
 
 def test_gym_env_makes_a_match_by_id() -> None:
-    """It asks for `frameskip` first and recognises an unknown option by Python's own words."""
+    """It asks for `frameskip` first and recognizes an unknown option by Python's own words."""
     env = gym_lib.GymEnv("rsoccer/VSS-v0", max_steps=MAX_CYCLES)
     utils.check_env_specs(env)
     assert ends(env.rollout(STEPS, break_when_any_done=False)) == [4, 9]

@@ -203,7 +203,7 @@ def test_a_central_critic_trains_in_a_collector() -> None:
         env, actor, frames_per_batch=80, total_frames=160, auto_register_policy_transforms=False
     )
     before = [part.clone() for part in loss.parameters()]
-    optimiser = torch.optim.Adam(loss.parameters(), 1e-2)
+    optimizer = torch.optim.Adam(loss.parameters(), 1e-2)
     batches = 0
     for data in collector:
         batches += 1
@@ -218,9 +218,9 @@ def test_a_central_critic_trains_in_a_collector() -> None:
         values = loss(data.reshape(-1))
         total = sum(values[name] for name in ("loss_objective", "loss_critic", "loss_entropy"))
         assert torch.isfinite(total)
-        optimiser.zero_grad()
+        optimizer.zero_grad()
         total.backward()
-        optimiser.step()
+        optimizer.step()
     collector.shutdown()
     assert batches == 2
     moved = [not torch.equal(old, new) for old, new in zip(before, loss.parameters(), strict=True)]

@@ -64,26 +64,26 @@ def frictionless_floor(name: str) -> BallModel:
     return BallModel(name, **dict.fromkeys(none, 0.0))
 
 
-def at_wall(name: str, towards: Array, along: Array, tick: float = 0.005) -> Trajectory:
+def at_wall(name: str, toward: Array, along: Array, tick: float = 0.005) -> Trajectory:
     """Simulate balls against the wall at y = 3.3 m, one world per velocity.
 
     Args:
         name: Ball preset.
-        towards: Speeds towards the wall, m/s, shape (worlds,).
+        toward: Speeds toward the wall, m/s, shape (worlds,).
         along: Speeds along the wall, m/s, shape (worlds,).
         tick: Physics tick, s.
     """
     config = make_config("ssl_b", 0, 0, ball=frictionless_floor(name), tick=tick)
-    scene = Scene(config, len(towards))
+    scene = Scene(config, len(toward))
     scene.ball.position[:] = (-2.0, 3.1)
-    scene.ball.velocity[:] = np.stack([along, towards], axis=-1)
+    scene.ball.velocity[:] = np.stack([along, toward], axis=-1)
     return scene.play(0.5)
 
 
-def off_wall(ball: Ball, towards: float, along: float, rolling: float = 0.0) -> tuple[Array, Array]:
+def off_wall(ball: Ball, toward: float, along: float, rolling: float = 0.0) -> tuple[Array, Array]:
     """Return velocity (m/s) and spin (rad/s) after a wall bounce by Coulomb friction."""
     surface = Surface(ball.wall_restitution, ball.wall_friction)
-    velocity, spin = np.array([along, towards, 0.0]), np.array([rolling, 0.0, 0.0])
+    velocity, spin = np.array([along, toward, 0.0]), np.array([rolling, 0.0, 0.0])
     return closed_form.bounce(ball, surface, velocity, spin, np.array([0.0, -1.0, 0.0]))
 
 
@@ -123,11 +123,11 @@ def _robots(name: str, ball: Ball) -> Checks:
 
 def _slants(name: str, ball: Ball) -> Checks:
     speed, radians = np.array([s for s, _ in SLANTS]), np.radians([d for _, d in SLANTS])
-    towards, along = speed * np.sin(radians), speed * np.cos(radians)
-    after = at_wall(name, towards, along).ball
+    toward, along = speed * np.sin(radians), speed * np.cos(radians)
+    after = at_wall(name, toward, along).ball
     for world, (impact_speed, degrees) in enumerate(SLANTS):
         case = f"`{name}`, {impact_speed:g} m/s at {degrees:g} degrees"
-        velocity, spin = off_wall(ball, towards[world], along[world])
+        velocity, spin = off_wall(ball, toward[world], along[world])
         yield NORMAL(case, -velocity[1], -after.velocity[-1, world, 1])
         yield TANGENTIAL(case, velocity[0], after.velocity[-1, world, 0])
         yield SPIN(case, spin[2], after.spin[-1, world, 2])

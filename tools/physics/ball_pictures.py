@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = {
+COLORS = {
     "ssl_tigers": "#3a7d44",
     "ssl_erforce": "#d98e04",
     "ssl_vision": "#8a8f98",
@@ -57,10 +57,10 @@ def draw_roll() -> Figure:
         trajectory = simulate_kicks(name, (KICK,), form.stop_time + 0.5).ball
         distance = np.append(0.0, trajectory.position[:, 0, 0])
         speed = np.append(KICK, trajectory.velocity[:, 0, 0])
-        axes.plot(distance, speed, color=COLOURS[name], linewidth=2, label=name)
+        axes.plot(distance, speed, color=COLORS[name], linewidth=2, label=name)
         marks = np.arange(0.5, form.stop_distance, 1.5)
         expected = [form.speed_at(at) or 0.0 for at in marks]
-        axes.plot(marks, expected, "o", color=COLOURS[name], markersize=4)
+        axes.plot(marks, expected, "o", color=COLORS[name], markersize=4)
     axes.set(xlim=(0, 29), ylim=(0, 4.2), xlabel="distance (m)", ylabel="speed (m/s)")
     axes.set_title(f"Straight kick of {KICK:g} m/s: sliding, then rolling (dots: closed form)")
     axes.legend(frameon=False, title="ball")
@@ -76,7 +76,7 @@ def draw_chip() -> Figure:
         visible = x < 7.5
         style = (0, (4, 2)) if name in DASHED else "-"
         axes.plot(
-            x[visible], z[visible], color=COLOURS[name], linestyle=style, linewidth=2, label=name
+            x[visible], z[visible], color=COLORS[name], linestyle=style, linewidth=2, label=name
         )
     axes.axhline(GENERIC.height, color="black", linewidth=0.8, linestyle="--")
     axes.text(7.45, GENERIC.height + 0.01, "robot height", ha="right", va="bottom")
@@ -94,11 +94,11 @@ def draw_bounce() -> Figure:
         after = at_wall(name, *_split(4.0, angles)).ball
         fine = np.linspace(1.0, 89.0, 177)
         law = np.array([_coulomb(name, float(angle)) for angle in fine])
-        colour = COLOURS[name]
+        color = COLORS[name]
         measured = (after.velocity[-1, :, 0], after.spin[-1, :, 2])
         for panel, values, expected in zip(axes, measured, law.T, strict=True):
-            panel.plot(fine, expected, color=colour, linewidth=2, label=f"{name}, Coulomb friction")
-            panel.plot(angles, values, "o", color=colour, markersize=4, label=f"{name}, measured")
+            panel.plot(fine, expected, color=color, linewidth=2, label=f"{name}, Coulomb friction")
+            panel.plot(angles, values, "o", color=color, markersize=4, label=f"{name}, measured")
     axes[0].set(ylabel="tangential speed after the bounce (m/s)", ylim=(0, 4.1))
     axes[1].set(ylabel="vertical spin after the bounce (rad/s)", ylim=(0, None))
     for panel in axes:
@@ -109,13 +109,13 @@ def draw_bounce() -> Figure:
 
 
 def _split(speed: float, degrees: Array) -> tuple[Array, Array]:
-    """Return the speeds towards a wall and along it."""
+    """Return the speeds toward a wall and along it."""
     return speed * np.sin(np.radians(degrees)), speed * np.cos(np.radians(degrees))
 
 
 def _coulomb(name: str, degrees: float) -> tuple[float, float]:
-    towards, along = 4.0 * sin(radians(degrees)), 4.0 * cos(radians(degrees))
-    velocity, spin = off_wall(BALLS[name], towards, along)
+    toward, along = 4.0 * sin(radians(degrees)), 4.0 * cos(radians(degrees))
+    velocity, spin = off_wall(BALLS[name], toward, along)
     return float(velocity[0]), float(spin[2])
 
 

@@ -176,7 +176,7 @@ def _grazed(ball: Ball, start: Array, kick: Array, wall: float, time: float) -> 
     """Return position and velocity after `time` s with one bounce off a wall at y = `wall`."""
     still = np.zeros(3)
     early, late = 0.0, time
-    for _ in range(60):  # bisection for the time of contact: centre one radius from the wall
+    for _ in range(60):  # bisection for the time of contact: center one radius from the wall
         middle = (early + late) / 2
         moved, _, _ = closed_form.floor(ball, kick, still, middle)
         early, late = (

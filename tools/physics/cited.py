@@ -151,7 +151,7 @@ SSL_SHARED = {
     "max_angular_deceleration": Number(51.6, "rad/s²", SPECS),
     "max_traction": Number(6.9, "m/s²", "SSL-A-Team: wheel on carpet, 0.7 g"),
     "beam_distance": Number(0.010, "m", "rSim: ball within 10 mm of the kicker plate"),
-    "beam_height": Number(0.0215, "m", "own choice: height of a resting ball's centre"),
+    "beam_height": Number(0.0215, "m", "own choice: height of a resting ball's center"),
     "kicker_recharge_time": Number(0.1, "s", "ER-Force's simulator: minimum"),
     "kick_lateral_factor": Number(
         0.35, "", "TIGERs: share of the tangential speed kept in a redirect"

@@ -24,15 +24,15 @@ RSIM_TURN = Criterion(
 RSIM_STEP = Criterion(
     TOPIC, "rSim's robot: acceleration in the first 0.1 s", "m/s²", percent(1), MEASURED
 )
-SPEED_UP = Criterion(TOPIC, "acceleration in the first 0.1 s", "m/s²", percent(1), "tyre grip")
+SPEED_UP = Criterion(TOPIC, "acceleration in the first 0.1 s", "m/s²", percent(1), "tire grip")
 TO_TOP = Criterion(
-    TOPIC, "time to 90% of the top speed", "s", absolute(0.01), "closed form, tyre grip"
+    TOPIC, "time to 90% of the top speed", "s", absolute(0.01), "closed form, tire grip"
 )
 TOP_TURN = Criterion(
     TOPIC, "top turn rate on the spot", "rad/s", percent(0.5), "rim speed by half the track"
 )
 TURN_UP = Criterion(
-    TOPIC, "angular acceleration on the spot", "rad/s²", percent(1), "tyre grip, inertia of a plate"
+    TOPIC, "angular acceleration on the spot", "rad/s²", percent(1), "tire grip, inertia of a plate"
 )
 DRIFT = Criterion(
     TOPIC, "equal wheel speeds: lateral drift after 1 m", "mm", absolute(0.01), "straight line"
@@ -91,7 +91,7 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     trajectory = scene.play(1.0)
     spin = trajectory.robots.angular_velocity[:, 0, 0]
     yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, spin[-1])
-    # Both tyres push with their full grip on a lever of half the track; inertia of a square plate.
+    # Both tires push with their full grip on a lever of half the track; inertia of a square plate.
     inertia = robot.side_length**2 / 6
     yield TURN_UP(
         f"`{name}`", robot.longitudinal_grip * robot.track_width / 2 / inertia, spin[3] / (4 * TICK)

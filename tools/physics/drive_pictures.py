@@ -29,12 +29,12 @@ def draw_steps() -> Figure:
         (turn, {"v_theta": 20.0}, "spin", "ssl_generic, command 20 rad/s"),
     ):
         _draw_step(axes, omni_drive.lone_robot(), command, quantity, label, GREEN)
-    for name, colour in zip(VSS_ROBOTS, (BLUE, YELLOW), strict=True):
+    for name, color in zip(VSS_ROBOTS, (BLUE, YELLOW), strict=True):
         full = {"left": 1e3, "right": 1e3}
         spin = {"left": -1e3, "right": 1e3}
         label = f"{name}, full speed"
-        _draw_step(forward, differential_drive.lone_robot(name), full, "speed", label, colour)
-        _draw_step(turn, differential_drive.lone_robot(name), spin, "spin", label, colour)
+        _draw_step(forward, differential_drive.lone_robot(name), full, "speed", label, color)
+        _draw_step(turn, differential_drive.lone_robot(name), spin, "spin", label, color)
     forward.set(xlabel="time (s)", ylabel="speed (m/s)", xlim=(0, 1.6), ylim=(0, 4.2))
     turn.set(xlabel="time (s)", ylabel="turn rate (rad/s)", xlim=(0, 1.6), ylim=(0, 62))
     for axes in (forward, turn):
@@ -44,7 +44,7 @@ def draw_steps() -> Figure:
 
 
 def _draw_step(
-    axes: Axes, scene: Scene, command: dict[str, float], quantity: str, label: str, colour: str
+    axes: Axes, scene: Scene, command: dict[str, float], quantity: str, label: str, color: str
 ) -> None:
     scene.command(0, **command)
     match = scene.begin()
@@ -53,7 +53,7 @@ def _draw_step(
     trajectories.append(match.run(0.8))
     values = [_values(trajectory, quantity) for trajectory in trajectories]
     times = np.arange(len(values[0]) + len(values[1]) + 1) * TICK
-    axes.plot(times, np.concatenate([[0.0], *values]), color=colour, linewidth=2, label=label)
+    axes.plot(times, np.concatenate([[0.0], *values]), color=color, linewidth=2, label=label)
 
 
 def _values(trajectory: Trajectory, quantity: str) -> Array:
@@ -80,7 +80,7 @@ def draw_dribble() -> Figure:
     robot = np.concatenate([part.robots.data[:, 0, 0] for part in parts])
     ball = np.concatenate([part.ball.position[:, 0] for part in parts])
     off = len(parts[0].times) + len(parts[1].times)
-    axes.plot(*robot[:, :2].T, color=BLUE, linewidth=2, label="robot centre")
+    axes.plot(*robot[:, :2].T, color=BLUE, linewidth=2, label="robot center")
     axes.plot(*ball[:off].T, color=BALL, linewidth=2, label="ball, dribbler on")
     axes.plot(*ball[off:].T, color=BALL, linewidth=2, linestyle=":", label="ball, dribbler off")
     for step in (0, *range(79, off, 100), off - 1):

@@ -1,4 +1,4 @@
-"""Fast shots: no tunnelling through walls or robots, no contact on a near miss."""
+"""Fast shots: no tunneling through walls or robots, no contact on a near miss."""
 
 from collections.abc import Sequence
 
@@ -62,11 +62,11 @@ def _shoot(scene: Scene, start: Array, target: Array) -> None:
     scene.ball.velocity[:] = SPEED * offset / norm(offset[:, 0], offset[:, 1])[:, None]
 
 
-def _uniform(centre: Sequence[float], spread: Sequence[float], count: int = SHOTS) -> Array:
-    """Draw numbers (count, columns), each within centre ± spread, from a fixed seed."""
-    centres, widths = np.array(centre), np.array(spread)
+def _uniform(center: Sequence[float], spread: Sequence[float], count: int = SHOTS) -> Array:
+    """Draw numbers (count, columns), each within center ± spread, from a fixed seed."""
+    centers, widths = np.array(center), np.array(spread)
     return np.random.default_rng(7).uniform(
-        centres - widths, centres + widths, (count, len(centres))
+        centers - widths, centers + widths, (count, len(centers))
     )
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#3a7d44", "#d98e04", "#6b4fa0", "#b5483a", "#2f6f9f")
+COLORS = ("#3a7d44", "#d98e04", "#6b4fa0", "#b5483a", "#2f6f9f")
 
 
 def figures() -> dict[str, Any]:
@@ -75,10 +75,10 @@ def draw_kicks() -> Figure:
     made, axes = figure(2, width=10.0)
     for panel, (preset, venue) in zip(axes, figures().items(), strict=True):
         kicks = [kick for kick in venue["kicks"] if kick["speeds"]]
-        for kick, colour in zip(kicks, COLOURS, strict=False):
+        for kick, color in zip(kicks, COLORS, strict=False):
             for run, filled in zip(kick["speeds"], (True, False), strict=False):
-                _draw_run(panel, preset, np.array(run), colour, filled)
-            panel.plot([], [], "o", color=colour, label=f"{kick['speed']:.1f} m/s")
+                _draw_run(panel, preset, np.array(run), color, filled)
+            panel.plot([], [], "o", color=color, label=f"{kick['speed']:.1f} m/s")
         panel.set(xlim=(0, None), ylim=(0, None), xlabel="distance rolled (m)")
         panel.set_title(preset)
         panel.legend(frameon=False, title="kick")
@@ -86,11 +86,11 @@ def draw_kicks() -> Figure:
     return made
 
 
-def _draw_run(panel: Axes, preset: str, run: Array, colour: str, filled: bool) -> None:
+def _draw_run(panel: Axes, preset: str, run: Array, color: str, filled: bool) -> None:
     distance = run[:, 0] - run[0, 0]
-    panel.plot(*_nearest_roll(preset, distance, run[:, 1]), color=colour, linewidth=1.2)
-    face = colour if filled else "white"
-    panel.plot(distance, run[:, 1], "o", color=colour, markerfacecolor=face, markersize=3.5)
+    panel.plot(*_nearest_roll(preset, distance, run[:, 1]), color=color, linewidth=1.2)
+    face = color if filled else "white"
+    panel.plot(distance, run[:, 1], "o", color=color, markerfacecolor=face, markersize=3.5)
 
 
 def _nearest_roll(preset: str, distance: Array, speeds: Array) -> tuple[Array, Array]:

@@ -84,14 +84,14 @@ def checks() -> Checks:
 
 
 def front_offset(robot: str = "ssl_generic") -> float:
-    """Return the distance from a robot's centre to the centre of a ball at its front, m."""
+    """Return the distance from a robot's center to the center of a ball at its front, m."""
     return SSL_ROBOTS[robot].front_distance + BALL.radius
 
 
 def with_ball(
     robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
 ) -> Scene:
-    """Return a scene with one robot at the centre and the ball at its front."""
+    """Return a scene with one robot at the center and the ball at its front."""
     scene = Scene(make_config("ssl_b", 1, 0, robot=robot, time_step=time_step), worlds)
     name = robot if isinstance(robot, str) else robot.name
     scene.ball.position[:] = (front_offset(name), 0.0)
@@ -113,7 +113,7 @@ def _beam() -> Checks:
     offsets = np.arange(0.0, 0.05, 1e-4)
     yield BEAM_DEPTH("on the floor", 1000 * BEAM, 1000 * _max_detected(offsets, "x"))
     yield BEAM_WIDTH("on the floor", 500 * GENERIC.mouth_width, 1000 * _max_detected(offsets, "y"))
-    # The beam runs at the height of a resting ball's centre; a higher ball covers less of it.
+    # The beam runs at the height of a resting ball's center; a higher ball covers less of it.
     beside = BALL.radius - BEAM
     highest = sqrt(BALL.radius**2 - beside**2)
     yield BEAM_HEIGHT("at the front", 1000 * highest, 1000 * _max_detected(offsets, "z"))

@@ -64,7 +64,7 @@ def checks() -> Checks:
 def lone_robot(
     robot: str | RobotModel = "ssl_generic", worlds: int = 1, time_step: float = TICK
 ) -> Scene:
-    """Return a scene with one robot at rest at the centre and the ball far away."""
+    """Return a scene with one robot at rest at the center and the ball far away."""
     scene = Scene(make_config("ssl_a", 1, 0, robot=robot, time_step=time_step), worlds)
     scene.ball.position[:] = (0.0, 4.0)
     return scene
@@ -123,7 +123,7 @@ def _top_speeds() -> Checks:
 def wheel_speeds(v_x: float, v_y: float, v_theta: float) -> dict[str, float]:
     """Return wheel speeds (rad/s) for a body velocity (m/s, m/s, rad/s).
 
-    The wheels of 24.75 mm radius sit at 60, 135, 225 and 300 degrees, 90 mm from the centre.
+    The wheels of 24.75 mm radius sit at 60, 135, 225 and 300 degrees, 90 mm from the center.
     """
     angles = np.radians([60.0, 135.0, 225.0, 300.0])
     rims = -v_x * np.sin(angles) + v_y * np.cos(angles) + 0.09 * v_theta

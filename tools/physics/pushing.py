@@ -21,7 +21,7 @@ STALL = Criterion(
     EQUAL,
 )
 APART = Criterion(
-    TOPIC, "two SSL robots head on: distance of their centres", "mm", absolute(1), "two radii"
+    TOPIC, "two SSL robots head on: distance of their centers", "mm", absolute(1), "two radii"
 )
 HOLD = Criterion(
     TOPIC, "standing robot pushed with 8 N for 5 s: displacement", "mm", absolute(2), "traction"
@@ -41,11 +41,11 @@ VSS_STALL = Criterion(
     EQUAL,
 )
 VSS_APART = Criterion(
-    TOPIC, "two VSSS robots head on: distance of their centres", "mm", absolute(1), "one side"
+    TOPIC, "two VSSS robots head on: distance of their centers", "mm", absolute(1), "one side"
 )
 VSS_WALL = Criterion(
     TOPIC,
-    "VSSS robot driving at a wall for 5 s: centre to wall",
+    "VSSS robot driving at a wall for 5 s: center to wall",
     "mm",
     absolute(0.5),
     "half a side",
@@ -58,7 +58,7 @@ VSS_HOLD = Criterion(
     "standing VSSS robot pushed for 10 s: displacement",
     "mm",
     absolute(2),
-    "static friction of tyres",
+    "static friction of tires",
 )
 SQUEEZE = Criterion(
     TOPIC, "ball between two pushing robots: penetration depth", "mm", absolute(1), "solid bodies"

@@ -13,9 +13,9 @@ COLLISIONS = 300
 RESTITUTION = Criterion(
     TOPIC, "head-on collision: separation speed by closing speed", "", absolute(0.02)
 )
-OFF_CENTRE = Criterion(
+OFF_CENTER = Criterion(
     TOPIC,
-    "two SSL robots, 30 degrees off the line of their centres: turn rates",
+    "two SSL robots, 30 degrees off the line of their centers: turn rates",
     "rad/s",
     percent(5),
     "closed form, Coulomb friction",
@@ -43,7 +43,7 @@ def checks() -> Checks:
     for blue_speed, yellow_speed in ((1.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 3.0)):
         yield from _head_on(blue_speed, yellow_speed)
     for speed in (1.0, 3.0):
-        yield from _off_centre(speed)
+        yield from _off_center(speed)
     for name in VSS_ROBOTS:
         for speed in (0.3, 0.6, 1.1):
             yield from _squares(name, speed)
@@ -65,18 +65,18 @@ def _head_on(blue_speed: float, yellow_speed: float) -> Checks:
     yield RESTITUTION(case, SSL_SHARED["restitution"].value, separation)
 
 
-def _off_centre(speed: float) -> Checks:
-    """Hit a robot at rest off its centre: friction stops the slip and turns both equally."""
+def _off_center(speed: float) -> Checks:
+    """Hit a robot at rest off its center: friction stops the slip and turns both equally."""
     scene, radius = Scene(make_config("ssl_b", 1, 1, time_step=TICK)), GENERIC.radius
     scene.ball.position[:] = (0.0, 2.0)
     scene.robots.position[0, 1] = (np.sqrt(3) * radius + 0.02, radius)
     scene.robots.velocity[0, 0, 0] = speed
     scene.command(0, v_x=speed)
     rates = abs(scene.play(0.1).robots.angular_velocity[:, 0]).max(axis=0)
-    # A sixth of a robot's mass stops the slip of half the speed, at one radius from both centres.
+    # A sixth of a robot's mass stops the slip of half the speed, at one radius from both centers.
     expected = speed / 2 / (3 * radius)
     for robot, rate in zip(("the moving robot", "the robot at rest"), rates, strict=True):
-        yield OFF_CENTRE(f"{speed:g} m/s, {robot}", expected, rate)
+        yield OFF_CENTER(f"{speed:g} m/s, {robot}", expected, rate)
 
 
 def _squares(name: str, speed: float) -> Checks:

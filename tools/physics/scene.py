@@ -75,7 +75,7 @@ class Trajectory:
 class Scene:
     """Start state and commands of `worlds` worlds.
 
-    Initially everything is at rest at the centre, and robots face +x.
+    Initially everything is at rest at the center, and robots face +x.
     """
 
     def __init__(self, config: SimConfig, worlds: int = 1) -> None:

@@ -66,13 +66,13 @@ def cases() -> Iterator[Case]:
             _ball_and_robot,
         )
         yield Case(
-            f"ball at {speed:g} m/s, round side of an SSL robot, 40 mm off the centre",
+            f"ball at {speed:g} m/s, round side of an SSL robot, 40 mm off the center",
             _ball_at_side(speed),
             0.15 if speed > 1 else 0.4,
             _glanced,
         )
     yield Case("SSL robot at 2 m/s, ball at rest", _robot_at_ball, 0.15, _ball_only)
-    yield Case("ball at 1 m/s, VSSS robot, 20 mm off the centre", _ball_at_vss, 0.3, _vss_ball)
+    yield Case("ball at 1 m/s, VSSS robot, 20 mm off the center", _ball_at_vss, 0.3, _vss_ball)
     for speed in (1.0, 3.0):
         yield Case(
             f"SSL robot at {speed:g} m/s, robot at rest, central",
@@ -81,7 +81,7 @@ def cases() -> Iterator[Case]:
             _struck_central,
         )
         yield Case(
-            f"SSL robot at {speed:g} m/s, robot at rest, 90 mm off the centre",
+            f"SSL robot at {speed:g} m/s, robot at rest, 90 mm off the center",
             _ssl_hits(speed, 0.09),
             0.02 / speed + 0.05,
             _struck,
@@ -90,13 +90,13 @@ def cases() -> Iterator[Case]:
         "VSSS robot at 1 m/s, robot at rest, central", _vss_hits(0.0, 0.0), 0.03, _struck_central
     )
     yield Case(
-        "VSSS robot at 1 m/s, robot at rest, 45 mm off the centre",
+        "VSSS robot at 1 m/s, robot at rest, 45 mm off the center",
         _vss_hits(0.045, 0.0),
         0.03,
         _struck,
     )
     yield Case(
-        "VSSS robot at 1 m/s, corner ahead, 10 mm off the centre",
+        "VSSS robot at 1 m/s, corner ahead, 10 mm off the center",
         _vss_hits(0.01, 45.0),
         0.03,
         _struck,

@@ -194,9 +194,9 @@ def _collision(speed: float, tick: float) -> Checks:
 def _random_collisions(speed: float) -> Checks:
     """Collide robots with random headings and lateral offsets, the ball anywhere in between."""
     scene, rng = _approach(speed, TICK, COLLISIONS), np.random.default_rng(3)
-    for index, towards in enumerate((1, -1)):
+    for index, toward in enumerate((1, -1)):
         scene.robots.position[:, index, 1] = rng.uniform(-0.01, 0.01, COLLISIONS)
-        _drive_along_x(scene, index, towards * speed, rng.uniform(-180, 180, COLLISIONS))
+        _drive_along_x(scene, index, toward * speed, rng.uniform(-180, 180, COLLISIONS))
     scene.ball.position[:, 0] = rng.uniform(-0.05, 0.05, COLLISIONS)
     smallest = gaps(scene.play(0.5)).min(axis=(0, 2))
     case = f"{speed:g} m/s each, {COLLISIONS} collisions"

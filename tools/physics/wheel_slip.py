@@ -1,4 +1,4 @@
-"""VSSS robots with sliding tyres: spins, skids and locked wheels under Coulomb friction."""
+"""VSSS robots with sliding tires: spins, skids and locked wheels under Coulomb friction."""
 
 from math import cos, pi, sin
 
@@ -9,7 +9,7 @@ from tools.physics.check import Checks, Criterion, absolute, percent
 from tools.physics.cited import VSS_ROBOTS, VssRobot
 from tools.physics.differential_drive import WIDE, lone_robot, top_rim_speed
 from tools.physics.scene import TICK, Scene, first_true, make_config
-from tools.physics.tyre_friction import Motion, motion_after, straightening_time
+from tools.physics.tire_friction import Motion, motion_after, straightening_time
 
 TOPIC = "wheel_slip"
 SPINS = {"vss_440rpm": (7.0, 15.0, 30.0), "vss_650rpm": (7.0, 15.0)}  # rad/s
@@ -50,14 +50,14 @@ LOCKED_LATERAL = Criterion(
 )
 RIM = Criterion(
     TOPIC,
-    "random full-speed reversals: maximum tyre speed along the wheel",
+    "random full-speed reversals: maximum tire speed along the wheel",
     "m/s",
     percent(1),
     "rim speed",
 )
 FASTEST = Criterion(
     TOPIC,
-    "random full-speed reversals: excess of the centre over the top speed",
+    "random full-speed reversals: excess of the center over the top speed",
     "m/s",
     absolute(0.01),
     "at most top speed",
@@ -65,7 +65,7 @@ FASTEST = Criterion(
 
 
 def checks() -> Checks:
-    """Yield all checks of sliding tyres."""
+    """Yield all checks of sliding tires."""
     for name, robot in VSS_ROBOTS.items():
         for spin in SPINS[name]:
             case = f"`{name}`, {spin:g} rad/s"
@@ -112,13 +112,13 @@ def _reversals(name: str, robot: VssRobot) -> Checks:
     scene = Scene(make_config(ENDLESS, 1, 0, robot=name), REVERSAL_WORLDS)
     scene.ball.position[:] = (0.0, 90.0)
     match, rng = scene.begin(), np.random.default_rng(3)
-    max_tyre = max_centre = 0.0
+    max_tire = max_center = 0.0
     for _ in range(200):
         scene.commands[:] = rng.choice([-1e3, 1e3], scene.commands.shape)
         robots = match.run(scene.config.time_step).robots
         velocity, heading = robots.velocity[-1, :, 0], robots.heading[-1, :, 0]
         turning = abs(robots.angular_velocity[-1, :, 0]) * robot.track_width / 2
-        max_tyre = max(max_tyre, float((abs((velocity * heading).sum(axis=-1)) + turning).max()))
-        max_centre = max(max_centre, float(np.hypot(*velocity.T).max()))
-    yield RIM(f"`{name}`, 5 s", top_rim_speed(robot), max_tyre)
-    yield FASTEST(f"`{name}`, 5 s", 0.0, max(max_centre - top_rim_speed(robot), 0.0))
+        max_tire = max(max_tire, float((abs((velocity * heading).sum(axis=-1)) + turning).max()))
+        max_center = max(max_center, float(np.hypot(*velocity.T).max()))
+    yield RIM(f"`{name}`, 5 s", top_rim_speed(robot), max_tire)
+    yield FASTEST(f"`{name}`, 5 s", 0.0, max(max_center - top_rim_speed(robot), 0.0))

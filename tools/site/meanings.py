@@ -11,7 +11,7 @@ ROBOT: Final = "robot"
 
 
 class Part(NamedTuple):
-    """Neighbouring numbers of an observation block."""
+    """Neighboring numbers of an observation block."""
 
     size: int
     meaning: str
@@ -107,7 +107,7 @@ ACTIONS: Final = {
     ),
     "omni": (
         Number(
-            "velocity x", 'towards the goal attacked; forward with `velocity_frame="robot"`', "m/s"
+            "velocity x", 'toward the goal attacked; forward with `velocity_frame="robot"`', "m/s"
         ),
         Number(
             "velocity y",

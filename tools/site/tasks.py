@@ -150,7 +150,7 @@ def _observation(task: Task) -> str:
     scales = (
         f"One learner observes {task.layout.size} numbers, float32, as its own team sees the "
         "field: every team attacks +x, and y points to the left of that. Each block lists its name "
-        "and shape; rows of absent robots are 0 (in `body_positions` the centre of the field). A "
+        "and shape; rows of absent robots are 0 (in `body_positions` the center of the field). A "
         f"half field length is {config.field.half_length:g} m, a top speed "
         f"{robot.top_speed:.3g} m/s and a top turn rate "
         f"{robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
@@ -259,7 +259,7 @@ def _reward(name: str, task: Task) -> str:
     ]
     return (
         "The reward of a step is the sum of these terms times their weights, which are per unit. "
-        f"Terms in metres are differences of a potential. `{WEIGHTS}` replaces weights by name; "
+        f"Terms in meters are differences of a potential. `{WEIGHTS}` replaces weights by name; "
         f'`{WEIGHTS}="paper"` takes those of the paper.\n\n'
         f"{table(('term', 'value before the weight (unit)', 'weight', 'paper'), rows)}"
     )

@@ -1,6 +1,6 @@
 //! Bodies of one match: their motions, and all numbers that robots keep from tick to tick.
 //!
-//! Numbers of a body are in the block of four that its index names, next to those of its neighbours. A
+//! Numbers of a body are in the block of four that its index names, next to those of its neighbors. A
 //! block is plain data of fixed size, so the blocks of a match are copied at once.
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use crate::geometry::motion_block::MotionBlock;
 use crate::math::Vector;
 
 /// Maximum number of warm starts by block. Bodies in the plane have fewer than three contacts each
-/// on average, since lines between the centres of those that touch do not cross, and only bodies around
+/// on average, since lines between the centers of those that touch do not cross, and only bodies around
 /// a crowd touch walls. Crowds of 23 bodies have up to 56 of 96.
 pub(crate) const WARM_STARTS: usize = 4 * LANES;
 
@@ -179,7 +179,7 @@ impl Bodies {
         }
     }
 
-    /// Applies an impulse (N s) to a body, at `arm` (m) from its centre of mass.
+    /// Applies an impulse (N s) to a body, at `arm` (m) from its center of mass.
     pub(crate) fn apply_impulse(
         &mut self,
         params: &BodyParams,
@@ -309,7 +309,7 @@ impl Bodies {
         }
     }
 
-    /// Drops those of the first `count` warm starts whose keys fulfil a condition.
+    /// Drops those of the first `count` warm starts whose keys fulfill a condition.
     pub(crate) fn drop_warm_starts(&mut self, count: usize, dropped: impl Fn(u16) -> bool) {
         let stored = self.blocks.iter_mut().flat_map(|block| &mut block.warm_starts);
         for warm_start in stored.take(count).filter(|stored| dropped(stored.key)) {

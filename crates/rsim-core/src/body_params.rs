@@ -79,7 +79,7 @@ impl RobotParams {
         }
     }
 
-    /// Inverse effective mass along `normal` at `arm` (m) from the centre, 1/kg: the speed that a unit
+    /// Inverse effective mass along `normal` at `arm` (m) from the center, 1/kg: the speed that a unit
     /// impulse gives that point.
     pub(crate) fn inverse_effective_mass(&self, arm: Vector, normal: Vector) -> f32 {
         let turn = arm.perp_dot(normal);

@@ -6,7 +6,7 @@
 ///
 /// Position (m; `z` is the height of the lowest point, 0 on the floor), velocity (m/s), spin (rad/s,
 /// about the field's axes), index of the last robot that touched the ball (or -1), the line that its
-/// centre crossed during the control step (an index in [`CROSSINGS`]), and the point of the crossing (m;
+/// center crossed during the control step (an index in [`CROSSINGS`]), and the point of the crossing (m;
 /// 0 without one).
 pub const BALL_COLUMNS: [&str; 14] = [
     "x",

@@ -4,7 +4,7 @@
 //! [`World`] is one match; a [`Batch`] is many, stepped on several [`Threads`]. Commands go in as plain
 //! rows, states come out as plain rows, whose columns are named once in [`columns`].
 //!
-//! SI units and radians everywhere. The origin is the centre of the field, x points at the goal
+//! SI units and radians everywhere. The origin is the center of the field, x points at the goal
 //! that the first team attacks, y to the left. The crate knows no episodes and no rules of play; a
 //! team is a range of robots in a row.
 //!

@@ -34,8 +34,8 @@ mod soak;
 mod spinning;
 mod squeeze;
 mod stub;
+mod tires;
 mod trains;
-mod tyres;
 
 #[test]
 fn no_file_of_tests_is_forgotten() {

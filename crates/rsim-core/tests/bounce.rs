@@ -18,12 +18,12 @@ fn slippery(ball: &BallModel, n_blue: usize) -> SimConfig {
 }
 
 /// Coulomb's law for a ball that hits a wall: speeds back and along it, and spin about the vertical axis
-/// (rad/s), from its speeds towards and along it.
-fn coulomb(ball: &BallModel, towards: f32, along: f32) -> (f32, f32, f32) {
+/// (rad/s), from its speeds toward and along it.
+fn coulomb(ball: &BallModel, toward: f32, along: f32) -> (f32, f32, f32) {
     // A solid sphere stops slipping when friction has taken 2/7 of the slip.
     let taken =
-        (ball.wall_friction * (1.0 + ball.wall_restitution) * towards).min(2.0 / 7.0 * along);
-    (ball.wall_restitution * towards, along - taken, 2.5 * taken / ball.radius)
+        (ball.wall_friction * (1.0 + ball.wall_restitution) * toward).min(2.0 / 7.0 * along);
+    (ball.wall_restitution * toward, along - taken, 2.5 * taken / ball.radius)
 }
 
 #[test]
@@ -45,11 +45,11 @@ fn a_wall_gives_back_its_restitution_at_every_speed() {
 fn steep_and_grazing_bounces_obey_coulomb() {
     for ball in BallModel::PRESETS {
         for (speed, degrees) in [(2.0_f32, 45.0_f32), (6.0, 45.0), (4.0, 15.0), (4.0, 75.0)] {
-            let (towards, along) = (degrees.to_radians().sin(), degrees.to_radians().cos());
-            let (towards, along) = (speed * towards, speed * along);
-            let scene = lone_ball(slippery(&ball, 0), [-2.0, 3.1], [along, towards]);
+            let (toward, along) = (degrees.to_radians().sin(), degrees.to_radians().cos());
+            let (toward, along) = (speed * toward, speed * along);
+            let scene = lone_ball(slippery(&ball, 0), [-2.0, 3.1], [along, toward]);
             let row = scene.after(20);
-            let (back, left, spin) = coulomb(&ball, towards, along);
+            let (back, left, spin) = coulomb(&ball, toward, along);
             for (what, got, expected) in [
                 ("back", -row[ball_column("v_y")], back),
                 ("along", row[ball_column("v_x")], left),
@@ -72,7 +72,7 @@ fn the_spin_of_a_bounce_decays_by_its_law() {
     assert!((early - late - 10.0).abs() < 0.1, "10 rad/s in a second: {early}, {late}");
 }
 
-/// An SSL robot at the centre; the ball comes at it from `degrees` of its front.
+/// An SSL robot at the center; the ball comes at it from `degrees` of its front.
 fn at_robot(ball: &BallModel, degrees: f32, speed: f32) -> Scene {
     let poses = [[0.0, 0.0, 0.0]];
     let mut scene = Scene::at("at_robot", slippery(ball, 1), &poses, Driver::STILL);
@@ -156,9 +156,9 @@ fn a_ball_turns_a_round_robot_by_its_friction_at_every_speed_and_tick() {
         for aside in [0.03_f32, 0.06, 0.09] {
             // Against the back of the robot.
             let sin = aside / (radius + ball.radius);
-            let (towards, along) = (speed * (1.0 - sin * sin).sqrt(), speed * sin);
+            let (toward, along) = (speed * (1.0 - sin * sin).sqrt(), speed * sin);
             let push =
-                (1.0 + ball.robot_restitution) * towards / (1.0 / ball.mass + 1.0 / robot.mass);
+                (1.0 + ball.robot_restitution) * toward / (1.0 / ball.mass + 1.0 / robot.mass);
             let turning = radius * radius / inertia;
             let stop = along / (3.5 / ball.mass + 1.0 / robot.mass + turning);
             let expected = (ball.robot_friction * push).min(stop) * radius / inertia;

@@ -167,10 +167,10 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
     }
 }
 
-/// Two discs that meet 30 degrees off the line of their centres: friction stops the slip, so both get
+/// Two discs that meet 30 degrees off the line of their centers: friction stops the slip, so both get
 /// the turn rate of closed form, the same for both.
 #[test]
-fn discs_that_meet_off_centre_turn_at_the_same_rate() {
+fn discs_that_meet_off_center_turn_at_the_same_rate() {
     let model = RobotModel::SSL_GENERIC;
     let radius = model.bounding_radius();
     for speed in [1.0, 3.0] {
@@ -178,7 +178,7 @@ fn discs_that_meet_off_centre_turn_at_the_same_rate() {
         let ahead = (3.0_f32.sqrt() * radius) + 0.02;
         let poses = [[0.0, 0.0, 0.0], [ahead, aside, 0.0]];
         let driver = Driver::Constant(vec![vec![speed, 0.0, 0.0, 0.0, 0.0, 0.0], vec![0.0; 6]]);
-        let mut scene = Scene::at("off_centre", scenes::ssl(1, 1), &poses, driver);
+        let mut scene = Scene::at("off_center", scenes::ssl(1, 1), &poses, driver);
         scene.set_ball([0.0, 2.0], [0.0, 0.0]);
         scene.set_robot_column(0, "v_x", speed);
         let rows = scene.every_tick(0.02 / speed + 0.03);

@@ -81,7 +81,7 @@ impl Corner {
     }
 }
 
-/// Distance from a robot's centre to its round side, or to its back.
+/// Distance from a robot's center to its round side, or to its back.
 fn behind(model: &RobotModel) -> f32 {
     match model.body {
         Body::Round { radius, .. } => radius,

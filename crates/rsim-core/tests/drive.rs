@@ -28,7 +28,7 @@ fn equal_wheels_drive_straight_at_their_rim_speed() {
 }
 
 #[test]
-fn acceleration_is_limited_by_the_tyres() {
+fn acceleration_is_limited_by_the_tires() {
     // 6.85 m/s² measured on the old simulator's robot: 0.1 s to 0.685 m/s and 34 mm.
     let robot = after(&lone_robot([100.0, 100.0]), 4);
     close(robot[4], 0.685, 0.005);
@@ -79,8 +79,8 @@ fn wheels_that_differ_by_2_percent_drive_the_arc_of_the_closed_form() {
     let chord = (late[0] - early[0]).hypot(late[1] - early[1]);
     let turned = late[3].atan2(late[2]) - early[3].atan2(early[2]);
     close(chord / (2.0 * (turned / 2.0).sin()), radius, 0.01 * radius);
-    let travelled = drive.wheel_radius * (left + right) / 2.0 * 2.0; // m/s times 2 s
-    close(turned, travelled / radius, 0.01 * travelled / radius);
+    let traveled = drive.wheel_radius * (left + right) / 2.0 * 2.0; // m/s times 2 s
+    close(turned, traveled / radius, 0.01 * traveled / radius);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn the_faster_preset_responds_by_its_numbers() {
         after(&scene, steps)
     };
     let full = [drive.max_wheel_speed; 2];
-    // Tyres give 0.6 g, the motors would give 32 m/s².
+    // Tires give 0.6 g, the motors would give 32 m/s².
     close(preset(full, 4)[4], 0.6 * 9.81 * 0.1, 0.005);
     close(preset(full, 4)[0] + 0.6, 0.5 * 0.6 * 9.81 * 0.01, 0.001);
     let top = drive.wheel_radius * drive.max_wheel_speed; // 1.7 m/s, after 0.289 s
@@ -115,7 +115,7 @@ fn a_standing_robot_pushed_sideways_skids_and_stops() {
     columns[5] = 1.0; // m/s along its axle
     let robot = after(&scene, 40);
     close(robot[5], 0.0, 1e-4);
-    // v² / (2 a) with the tyres' 9.81 m/s².
+    // v² / (2 a) with the tires' 9.81 m/s².
     close(robot[1], 1.0 / (2.0 * 9.81), 0.003);
 }
 

@@ -76,7 +76,7 @@ fn two_bodies_that_overlap_are_moved_apart_by_as_much_as_they_must() {
 }
 
 #[test]
-fn a_robot_in_a_goals_wall_and_a_ball_in_a_robot_move_by_millimetres() {
+fn a_robot_in_a_goals_wall_and_a_ball_in_a_robot_move_by_millimeters() {
     // Measured: the side of an SSL goal of the field for hardware challenges, 20 mm thick.
     let mut config = scenes::ssl(2, 0);
     config.field = Field::SSL_CHALLENGE;

@@ -1,4 +1,4 @@
-//! Static friction of tyres: a standing robot holds what pushes it with less than their grip.
+//! Static friction of tires: a standing robot holds what pushes it with less than their grip.
 
 use rsim_core::scenes::{self, Driver, Scene, robots, steps};
 use rsim_core::{Body, DifferentialDrive, Drive, RobotModel};
@@ -15,13 +15,13 @@ fn side(model: &RobotModel) -> f32 {
     side_length
 }
 
-/// The model with tyres that push with `force` by its mass (m/s²) and do not slip aside.
+/// The model with tires that push with `force` by its mass (m/s²) and do not slip aside.
 fn pusher(model: &RobotModel, force: f32) -> RobotModel {
     let drive = DifferentialDrive { longitudinal_grip: force, lateral_grip: 20.0, ..drive(model) };
     RobotModel { drive: Drive::Differential(drive), ..model.clone() }
 }
 
-/// A robot with heading `degrees` at the centre that is commanded to stand, pushed along +x by robots that
+/// A robot with heading `degrees` at the center that is commanded to stand, pushed along +x by robots that
 /// touch it at `places` across and `forces` (by its mass, m/s²).
 fn pushed(model: &RobotModel, degrees: f32, pushes: &[[f32; 2]]) -> Scene {
     let mut config = scenes::vss(1, pushes.len());
@@ -37,7 +37,7 @@ fn pushed(model: &RobotModel, degrees: f32, pushes: &[[f32; 2]]) -> Scene {
     scene
 }
 
-/// How far the robot at the centre is, and by how many degrees it has turned, after 10 s.
+/// How far the robot at the center is, and by how many degrees it has turned, after 10 s.
 fn displaced(scene: &Scene, degrees: f32) -> [f32; 2] {
     let row = scene.after(steps(10.0, scene.config.time_step));
     let robot = robots(&row).next().expect("a robot");
@@ -83,14 +83,14 @@ fn a_push_beyond_the_grip_moves_the_robot() {
 }
 
 #[test]
-fn a_robot_holds_pushes_off_its_centre_and_of_two_robots() {
+fn a_robot_holds_pushes_off_its_center_and_of_two_robots() {
     for model in MODELS {
         let half = side(&model) / 2.0 + 5e-4;
         for degrees in [0.0, 90.0] {
             let grip = grip(&model, degrees);
             let off = pushed(&model, degrees, &[[0.02, 0.6 * grip]]);
             let two = pushed(&model, degrees, &[[half, 0.3 * grip], [-half, 0.4 * grip]]);
-            for (what, scene) in [("off its centre", off), ("two robots", two)] {
+            for (what, scene) in [("off its center", off), ("two robots", two)] {
                 let [way, turned] = displaced(&scene, degrees);
                 let label = format!("{} at {degrees}, {what}", model.name);
                 assert!(way < 2e-3 && turned.abs() < 1.0, "{label}: {way} m, {turned} degrees");
@@ -100,7 +100,7 @@ fn a_robot_holds_pushes_off_its_centre_and_of_two_robots() {
 }
 
 #[test]
-fn tyres_that_roll_hold_a_push_across() {
+fn tires_that_roll_hold_a_push_across() {
     // The robot drives away under the smooth front of the pusher.
     for model in MODELS {
         let mut scene = pushed(&model, 90.0, &[[0.0, 0.8 * drive(&model).lateral_grip]]);

@@ -40,7 +40,7 @@ impl Row {
         turned([x - self.center[0], y - self.center[1]], -self.turned)
     }
 
-    /// Half the length between the centres of the last robots, m.
+    /// Half the length between the centers of the last robots, m.
     fn half_length(&self) -> f32 {
         (2.0 * half_side() + self.gap) * (ROW as f32 - 1.0) / 2.0
     }
@@ -196,7 +196,7 @@ fn a_robot_along_a_row_was_caught_at_a_joint() {
 
 /// Robots out of line by less than an edge protrudes are a flush row.
 #[test]
-fn edges_of_a_tenth_of_a_millimetre_do_not_count() {
+fn edges_of_a_tenth_of_a_millimeter_do_not_count() {
     for turned in DIRECTIONS {
         let row = Row { step: 1e-4, turned, ..FLUSH };
         for speed in [0.5, 1.0] {

@@ -139,7 +139,7 @@ fn a_flight_mirrors_exactly() {
 }
 
 #[test]
-fn one_contact_mirrors_to_a_tenth_of_a_millimetre() {
+fn one_contact_mirrors_to_a_tenth_of_a_millimeter() {
     let vss = |driver| {
         let poses = [[-0.3, 0.02, 5.0], [0.6, 0.0, 180.0]];
         let mut scene = Scene::at("vss", scenes::vss(1, 1), &poses, driver);

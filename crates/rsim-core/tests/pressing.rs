@@ -5,13 +5,13 @@ use rsim_core::columns::{BALL_COLUMNS, ball_column};
 use rsim_core::scenes::{self, Driver, Scene, driving, robots, steps, uniform};
 use rsim_core::{Body, RobotModel, SimConfig};
 
-/// Speed of bodies at rest, m/s. The slowest creep of a loaded tyre is as fast.
+/// Speed of bodies at rest, m/s. The slowest creep of a loaded tire is as fast.
 const REST: f32 = 0.008;
 
 /// Time for a crowd to come to rest, and then a sixth of it at rest, s.
 const SETTLING: f32 = 6.0;
 
-/// Distance from a robot's centre to its side, m.
+/// Distance from a robot's center to its side, m.
 fn side(model: &RobotModel) -> f32 {
     match model.body {
         Body::Square { side_length } => side_length / 2.0,

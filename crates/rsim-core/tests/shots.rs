@@ -83,7 +83,7 @@ fn no_shot_passes_a_robot() {
             let from = [-0.4 + 0.1 * draw(0), 0.3 * draw(1)];
             shoot(&mut scene, from, [0.0, 0.8 * half * draw(2)]);
             let direction = [-from[0], -from[1]];
-            // Undisturbed it would be half a metre behind the robot after 0.1 s.
+            // Undisturbed it would be half a meter behind the robot after 0.1 s.
             let last = rows(&scene, 4).pop().expect("a row");
             let behind = last[0] * direction[0] + last[1] * direction[1];
             let moving = last[ball_column("v_x")].hypot(last[ball_column("v_x") + 1]);

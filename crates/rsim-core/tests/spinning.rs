@@ -6,7 +6,7 @@ use rsim_core::{Body, Drive, RobotModel, SimConfig};
 
 const DRAWS: u64 = 2000;
 
-/// A robot at the centre that turns at its maximum rate.
+/// A robot at the center that turns at its maximum rate.
 fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
     let draw = |part: u64| uniform(nth * 16 + part);
     let rate = if draw(0) > 0.0 { 1.0 } else { -1.0 } * model.top_turn_rate();
@@ -34,7 +34,7 @@ fn inner(model: &RobotModel) -> f32 {
     }
 }
 
-/// Shoots a ball at the robot, past its centre by a fraction of the distance at which it would miss.
+/// Shoots a ball at the robot, past its center by a fraction of the distance at which it would miss.
 fn shoot(scene: &mut Scene, nth: u64, share: f32) -> f32 {
     let draw = |part: u64| uniform(nth * 16 + part);
     let aim = share * draw(2) * (inner(&scene.config.blue[0]) + scene.config.ball.radius);

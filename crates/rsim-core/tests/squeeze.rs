@@ -29,7 +29,7 @@ impl Outcome {
     }
 }
 
-/// Distance from a robot's centre to its front or its back, m.
+/// Distance from a robot's center to its front or its back, m.
 fn reach(model: &RobotModel, back: bool) -> f32 {
     match model.body {
         Body::Round { radius, .. } if back => radius,

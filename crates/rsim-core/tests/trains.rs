@@ -8,7 +8,7 @@ const TICKS: [f32; 2] = [0.005, 0.0025];
 /// Maximum separation speed of bodies with a ball between them, by their closing speed.
 const BOUNCE: f32 = 0.25;
 
-/// Distance from a robot's centre to its back, m.
+/// Distance from a robot's center to its back, m.
 fn behind(model: &RobotModel) -> f32 {
     if model.mouth.is_some() { model.bounding_radius() } else { model.front_distance() }
 }

@@ -70,7 +70,7 @@ pub(crate) fn clip_actions<'py>(
 }
 
 /// Clips a value to [-bound, bound]; NaN stays. Unlike `clamp` this has nothing to check, so a loop
-/// of it is vectorised.
+/// of it is vectorized.
 pub(crate) fn clip<T: Copy + PartialOrd + Neg<Output = T>>(value: T, bound: T) -> T {
     if value > bound {
         bound

@@ -1,4 +1,4 @@
-//! Running means and variances of columns, and rows normalised with them.
+//! Running means and variances of columns, and rows normalized with them.
 
 use numpy::{Ix1, Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::exceptions::PyValueError;

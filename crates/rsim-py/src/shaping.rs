@@ -14,7 +14,7 @@ use crate::viewpoint::Viewpoint;
 /// Most worlds whose terms the caller's thread computes alone.
 const ALONE: usize = 256;
 
-/// A potential function for reward shaping, in metres.
+/// A potential function for reward shaping, in meters.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Potential(rsim_core::Potential);
 

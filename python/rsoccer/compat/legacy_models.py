@@ -1,7 +1,7 @@
 """Fields, balls and robots of rSim (rc-robosim 1.2), as models for this physics.
 
 Numbers: robocin/rSim at b413932 (release 1.2), as its `get_field_params` reports them or as its
-behaviour was measured.
+behavior was measured.
 """
 
 import math
@@ -55,7 +55,7 @@ def vss_parameters(field: Field) -> dict[str, float]:
         field: one of `VSS_FIELDS`.
 
     Returns:
-        Parameters by rSim's names, metres, degrees and turns per minute; -1 for those of parts
+        Parameters by rSim's names, meters, degrees and turns per minute; -1 for those of parts
         that VSS robots do not have.
     """
     return {
@@ -75,7 +75,7 @@ def ssl_parameters(field: Field) -> dict[str, float]:
         field: one of `SSL_FIELDS`.
 
     Returns:
-        Parameters by rSim's names, metres, degrees and turns per minute.
+        Parameters by rSim's names, meters, degrees and turns per minute.
     """
     return {
         **_field_parameters(field, SSL_BALL),

@@ -96,10 +96,10 @@ class _Simulation:
         """Start a new match; robots start at rest.
 
         Bodies that overlap slightly are moved apart: robots that overlap by up to 1 cm; a ball
-        whose centre is outside the robot, straight ahead if it is at the robot's front.
+        whose center is outside the robot, straight ahead if it is at the robot's front.
 
         Args:
-            ball_pos: ball `[x, y, v_x, v_y]`, metres and m/s; a list or array.
+            ball_pos: ball `[x, y, v_x, v_y]`, meters and m/s; a list or array.
             blue_robots_pos: `[x, y, degrees]` of each blue robot.
             yellow_robots_pos: `[x, y, degrees]` of each yellow robot.
 
@@ -146,7 +146,7 @@ class _Simulation:
 
         Returns:
             Ball `x, y, z, v_x, v_y`, then the numbers of each robot, blue first; see the class.
-            Metres and m/s; `z` is the height of the ball's centre, a heading is in [0, 360)
+            Meters and m/s; `z` is the height of the ball's center, a heading is in [0, 360)
             degrees.
         """
         ball = self._frame.ball
@@ -159,7 +159,7 @@ class _Simulation:
         """Return sizes of the field, the ball and the robots.
 
         Returns:
-            Parameters by rSim's names: metres, degrees, turns per minute.
+            Parameters by rSim's names: meters, degrees, turns per minute.
         """
         return self._parameters(self._config.field)
 

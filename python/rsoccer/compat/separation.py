@@ -13,11 +13,11 @@ from rsoccer._core import RobotModel
 from rsoccer.arrays import Doubles
 
 MAX_OVERLAP: Final = 0.01
-"""Deepest overlap of two robots that is resolved, metres: squares at 0.1 m overlap corner to corner
+"""Deepest overlap of two robots that is resolved, meters: squares at 0.1 m overlap corner to corner
 by 6 mm."""
 
 MAX_ROUNDS: Final = 20  # a body moved out of one body may overlap the next
-TOLERANCE: Final = 1e-9  # metres; also keeps from dividing by zero
+TOLERANCE: Final = 1e-9  # meters; also keeps from dividing by zero
 
 
 def separate(
@@ -27,17 +27,17 @@ def separate(
 
     Two robots move by the same distance. A ball moves out of a robot: straight ahead from its
     front, outward elsewhere. Robots that overlap by more than `MAX_OVERLAP`, and a ball whose
-    centre is inside a robot, stay.
+    center is inside a robot, stay.
 
     Args:
-        ball: position of the ball (2,), metres.
-        robots: positions of the robots (n, 2), metres.
+        ball: position of the ball (2,), meters.
+        robots: positions of the robots (n, 2), meters.
         headings: headings of the robots (n, 2), cosine and sine.
         model: the model of all robots.
-        radius: radius of the ball, metres.
+        radius: radius of the ball, meters.
 
     Returns:
-        New positions of the ball (2,) and of the robots (n, 2), metres.
+        New positions of the ball (2,) and of the robots (n, 2), meters.
     """
     ball, robots = ball.copy(), robots.copy()
     for _ in range(MAX_ROUNDS):
@@ -96,7 +96,7 @@ def _square_overlap(offset: Doubles, a: Doubles, b: Doubles, half: float) -> tup
 
 
 def _disc_overlap(offset: Doubles, radius: float) -> tuple[float, Doubles]:
-    """Overlap of two discs, and the way out for the one at `offset`; zero at equal centres."""
+    """Overlap of two discs, and the way out for the one at `offset`; zero at equal centers."""
     distance = float(np.hypot(*offset))
     return 2.0 * radius - distance, offset / max(distance, TOLERANCE)
 

@@ -12,9 +12,9 @@ from rsoccer.frame import Frame
 from rsoccer.vectors import norm
 
 ACCELERATION: Final = np.float32(10.0)
-"""Acceleration that no wheels give a robot, m/s²: tyres with a friction of 1 give 9.81."""
+"""Acceleration that no wheels give a robot, m/s²: tires with a friction of 1 give 9.81."""
 ANGULAR_ACCELERATION: Final = np.float32(400.0)
-"""Angular acceleration that no wheels give a robot, rad/s²: the same tyres turn a VSSS robot, a
+"""Angular acceleration that no wheels give a robot, rad/s²: the same tires turn a VSSS robot, a
 square of 8 cm with its wheels 7 cm apart, with 320."""
 
 

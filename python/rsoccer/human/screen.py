@@ -63,7 +63,7 @@ def selection_shapes(field: Field, model: RobotModel, center: Point) -> tuple[Sh
     Args:
         field: the field.
         model: the robot.
-        center: position of the robot, metres.
+        center: position of the robot, meters.
 
     Returns:
         One arc.

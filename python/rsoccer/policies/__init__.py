@@ -2,7 +2,7 @@
 
 `zero`, `uniform` and `ou` ignore the game, `best` is trained, the other names are scripts:
 
-| name | league | behaviour |
+| name | league | behavior |
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
 | `zero` | any | stands still |

@@ -54,7 +54,7 @@ class Network(HeldActions):
         """Build a network from the content of a policy file; the arrays are copied.
 
         Args:
-            arrays: weights and normalisation by name, see `rsoccer.policies.policy_file`.
+            arrays: weights and normalization by name, see `rsoccer.policies.policy_file`.
             metadata: text by key, see the same module.
             mode: "sample" or "mean"; None is "sample" if there is an `action_std`, else "mean".
 
@@ -65,7 +65,7 @@ class Network(HeldActions):
         self.clip, self.action_repeat = policy_file.read_metadata(self.metadata)
         policy_file.read_task_options(self.metadata)  # refuses wrong ones before they are needed
         self.layers = policy_file.read_layers(arrays)
-        self.mean, self.std = policy_file.read_normaliser(arrays, self.observation_size)
+        self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
         self.action_std = policy_file.read_action_std(arrays, self.action_size)
         self.mode = _checked_mode(mode, self.action_std)
         for name, size in self._sizes().items():
@@ -101,7 +101,7 @@ class Network(HeldActions):
             action_repeat: control steps for which an action is held, at least 1.
             mean: (o,) or a number: subtracted from observations.
             std: (o,) or a number above 0: observations are divided by it.
-            clip: bound of a normalised observation, above 0, standard deviations.
+            clip: bound of a normalized observation, above 0, standard deviations.
             task_name: name of the task for `make_task`; None for the task's own.
             task_options: options of the task for `make_task`; None for those of the task that
                 differ from its defaults.

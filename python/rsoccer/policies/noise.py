@@ -28,7 +28,7 @@ class Uniform(Policy):
 
 
 class OrnsteinUhlenbeck(Policy):
-    """Ornstein-Uhlenbeck noise: a random walk that is pulled towards zero.
+    """Ornstein-Uhlenbeck noise: a random walk that is pulled toward zero.
 
     The default parameters are those of rSoccer's VSSS environment. Their stationary standard
     deviation is sigma / sqrt(2 theta) = 0.86: actions change slowly and are often near -1 or 1, so
@@ -41,7 +41,7 @@ class OrnsteinUhlenbeck(Policy):
         """Set the parameters of the process.
 
         Args:
-            theta: rate of the pull towards zero, 1/s.
+            theta: rate of the pull toward zero, 1/s.
             sigma: strength of the noise, 1/sqrt(s).
             time_step: duration of a control step, s.
         """

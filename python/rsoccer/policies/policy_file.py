@@ -1,7 +1,7 @@
 """The file format of trained policies: its definition, reading, checks and writing.
 
 A policy file is one safetensors file, `policy.safetensors`. It holds a perceptron with tanh
-layers, the normalisation of its observations, and how it acts. With observation size o, action
+layers, the normalization of its observations, and how it acts. With observation size o, action
 size a and layers 0 to k:
 
 | array | shape | dtype | content |
@@ -23,7 +23,7 @@ The metadata are text:
 | `observation_size` | o | numbers in an observation |
 | `action_size` | a | numbers in an action |
 | `activation` | `tanh` | activation after each layer but the last |
-| `clip` | above 0, default 10 | bound of a normalised observation, in standard deviations |
+| `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
@@ -157,8 +157,8 @@ def read_layers(arrays: Mapping[str, Array]) -> list[tuple[Floats, Floats]]:
     return layers
 
 
-def read_normaliser(arrays: Mapping[str, Array], size: int) -> tuple[Floats, Floats]:
-    """Read the normalisation of observations.
+def read_normalizer(arrays: Mapping[str, Array], size: int) -> tuple[Floats, Floats]:
+    """Read the normalization of observations.
 
     Args:
         arrays: arrays by name, with `mean` and `std`.

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 SHADOW_OFFSET = 0.4
 """Offset of a shadow to the right and down, per height of the ball; light comes from the left."""
 SHADOW_BLUR = 1.0
-"""Growth of a shadow's blur, in drawn radii, for each metre of height."""
+"""Growth of a shadow's blur, in drawn radii, for each meter of height."""
 STEM = 0.4
 """Width of the line between a ball in flight and its shadow, in drawn radii."""
 GROWTH = 1.3
-"""Growth of a ball's drawn radius for each metre of height, as it nears the camera."""
+"""Growth of a ball's drawn radius for each meter of height, as it nears the camera."""
 MAX_GROWTH = 2.5
 """Largest factor on a ball's drawn radius."""
 MIN_RADIUS = 0.0042
@@ -44,10 +44,10 @@ def drawn_radius(model: BallModel, picture_width: float) -> float:
 
     Args:
         model: the ball.
-        picture_width: width of the part of the world that the picture shows, metres.
+        picture_width: width of the part of the world that the picture shows, meters.
 
     Returns:
-        The true radius, or `MIN_RADIUS` of the picture's width if that is more, metres.
+        The true radius, or `MIN_RADIUS` of the picture's width if that is more, meters.
     """
     return max(model.radius, MIN_RADIUS * picture_width)
 
@@ -56,10 +56,10 @@ def ring_radius(picture_width: float) -> float:
     """Return the radius of the ring around a small ball.
 
     Args:
-        picture_width: width of the part of the world that the picture shows, metres.
+        picture_width: width of the part of the world that the picture shows, meters.
 
     Returns:
-        Metres.
+        Meters.
     """
     return RING * picture_width
 
@@ -69,8 +69,8 @@ def ring_shapes(model: BallModel, center: Point, picture_width: float) -> tuple[
 
     Args:
         model: the ball.
-        center: position of the ball, metres.
-        picture_width: width of the part of the world that the picture shows, metres.
+        center: position of the ball, meters.
+        picture_width: width of the part of the world that the picture shows, meters.
 
     Returns:
         Surface and ring, or nothing where the ball is drawn at its true size.
@@ -88,9 +88,9 @@ def shadow_shapes(radius: float, center: Point, height: float = 0.0) -> tuple[Sh
     """Return the shadow on the floor, and for a ball in flight a line up to the ball.
 
     Args:
-        radius: drawn radius of the ball on the floor, metres.
-        center: position of the ball, metres.
-        height: height of the ball's lowest point above the floor, metres.
+        radius: drawn radius of the ball on the floor, meters.
+        center: position of the ball, meters.
+        height: height of the ball's lowest point above the floor, meters.
 
     Returns:
         The shadow, and the line if `height` is not 0.
@@ -110,9 +110,9 @@ def ball_shapes(radius: float, center: Point, height: float = 0.0) -> tuple[Shap
     """Return the ball with an outline and a highlight, larger in flight.
 
     Args:
-        radius: drawn radius of the ball on the floor, metres.
-        center: position of the ball, metres.
-        height: height of the ball's lowest point above the floor, metres.
+        radius: drawn radius of the ball on the floor, meters.
+        center: position of the ball, meters.
+        height: height of the ball's lowest point above the floor, meters.
 
     Returns:
         Three circles: the outline, the ball and the highlight.
@@ -135,8 +135,8 @@ def trail_shapes(radius: float, center: Point, velocity: Point) -> tuple[Shape, 
     """Return the motion trail of a fast ball: wedges that taper off behind the ball.
 
     Args:
-        radius: drawn radius of the ball on the floor, metres.
-        center: position of the ball, metres.
+        radius: drawn radius of the ball on the floor, meters.
+        center: position of the ball, meters.
         velocity: velocity of the ball, m/s.
 
     Returns:

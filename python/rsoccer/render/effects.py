@@ -44,7 +44,7 @@ MAX_GAP = 2.5
 
 @dataclass(frozen=True, slots=True)
 class _Kick:
-    """A kick: its time and its pose, with the ball's position as the centre."""
+    """A kick: its time and its pose, with the ball's position as the center."""
 
     clock: float
     pose: Pose

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rsoccer._core import Field
 
 TINT = 0.38
-"""Share of the team's colour in the floor of a goal."""
+"""Share of the team's color in the floor of a goal."""
 MAX_ROWS = 100
 """Most meshes between the middle of a goal and a post: a shallow goal has no endless net."""
 
@@ -22,7 +22,7 @@ def goal_shapes(field: Field, edge: float) -> tuple[Shape, ...]:
 
     Args:
         field: the field.
-        edge: width of the rim of a goal that is a pocket in a wall, metres.
+        edge: width of the rim of a goal that is a pocket in a wall, meters.
 
     Returns:
         Floor, net and frame of each goal.
@@ -34,7 +34,7 @@ def goal_shapes(field: Field, edge: float) -> tuple[Shape, ...]:
 
 
 def _goal(field: Field, side: int, color: Color, edge: float) -> tuple[Shape, ...]:
-    """The goal at the end `side` (-1 or 1), in the colour of the team that defends it."""
+    """The goal at the end `side` (-1 or 1), in the color of the team that defends it."""
     mouth, back = side * field.half_length, side * (field.half_length + field.goal_depth)
     y = field.goal_width / 2
     pocket = ((mouth, y), (back, y), (back, -y), (mouth, -y))

@@ -1,4 +1,4 @@
-"""Field markings: lines, centre circle, goal areas and marks."""
+"""Field markings: lines, center circle, goal areas and marks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def line_shapes(field: Field) -> tuple[Shape, ...]:
         field: the field.
 
     Returns:
-        Boundary lines, centre line and circle, goal areas, penalty and free-ball marks.
+        Boundary lines, center line and circle, goal areas, penalty and free-ball marks.
     """
     return (
         *_boundary(field),
@@ -43,7 +43,7 @@ def _boundary(field: Field) -> tuple[Shape, ...]:
 
 
 def _center(field: Field) -> tuple[Shape, ...]:
-    """Centre line, circle and mark."""
+    """Center line, circle and mark."""
     y, width = field.half_width, field.line_width
     return (
         *_lines(field, ((0.0, -y), (0.0, y))),

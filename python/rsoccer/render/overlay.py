@@ -86,9 +86,9 @@ def target_shapes(
 
     Args:
         field: the field; its line width sets the width of strokes.
-        center: centre of the ring, metres.
-        radius: radius of the ring, metres.
-        color: colour of ring and dot; the surface is a lighter one.
+        center: center of the ring, meters.
+        radius: radius of the ring, meters.
+        color: color of ring and dot; the surface is a lighter one.
 
     Returns:
         Surface, ring and dot.
@@ -108,9 +108,9 @@ def gate_shapes(
 
     Args:
         field: the field; its line width sets the width of strokes.
-        left: left post as seen by a robot that drives through, metres.
-        right: right post, metres.
-        done: the gate has been passed, which changes its colour.
+        left: left post as seen by a robot that drives through, meters.
+        right: right post, meters.
+        done: the gate has been passed, which changes its color.
 
     Returns:
         Line, arrow and posts.
@@ -138,8 +138,8 @@ def area_shapes(field: Field, bounds: Bounds, color: Color = palette.PENDING) ->
 
     Args:
         field: the field; its line width sets the width of strokes.
-        bounds: the rectangle, metres.
-        color: colour of the edge; the surface is a lighter one.
+        bounds: the rectangle, meters.
+        color: color of the edge; the surface is a lighter one.
 
     Returns:
         Surface and edges.
@@ -156,9 +156,9 @@ def segment_shapes(
 
     Args:
         field: the field; its line width sets the width of strokes.
-        start: one end, metres.
-        end: the other end, metres.
-        color: colour of stroke and dots.
+        start: one end, meters.
+        end: the other end, meters.
+        color: color of stroke and dots.
 
     Returns:
         Stroke and dots.
@@ -169,5 +169,5 @@ def segment_shapes(
 
 
 def _surface_color(color: Color) -> Color:
-    """A colour for surfaces: half white, so that it does not look grey on the opposite colour."""
+    """A color for surfaces: half white, so that it does not look gray on the opposite color."""
     return palette.fade(palette.mix(color, palette.WHITE, 0.5), FILL)

@@ -1,4 +1,4 @@
-"""Colours of pictures: red, green, blue and opacity, 0 to 255."""
+"""Colors of pictures: red, green, blue and opacity, 0 to 255."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LINES: Color = (222, 228, 235, 255)
 BOARD: Color = (36, 43, 53, 255)
 MUTED: Color = (172, 183, 197, 255)
 SHADOW: Color = (4, 6, 9, 150)
-TYRE: Color = (14, 16, 19, 255)
+TIRE: Color = (14, 16, 19, 255)
 HIGHLIGHT: Color = (255, 226, 200, 150)
 TRAIL: Color = (255, 112, 32, 42)
 HALO: Color = (255, 240, 222, 46)
@@ -37,15 +37,15 @@ DONE: Color = (126, 242, 176, 255)
 
 
 def mix(color: Color, other: Color, share: float) -> Color:
-    """Mix two colours.
+    """Mix two colors.
 
     Args:
-        color: the colour to start from; its opacity is kept.
-        other: the colour to mix in.
+        color: the color to start from; its opacity is kept.
+        other: the color to mix in.
         share: share of `other`, 0 to 1.
 
     Returns:
-        The mixed colour.
+        The mixed color.
     """
     red, green, blue = (
         round(a + (b - a) * share) for a, b in zip(color[:3], other[:3], strict=True)
@@ -54,10 +54,10 @@ def mix(color: Color, other: Color, share: float) -> Color:
 
 
 def fade(color: Color, opacity: float) -> Color:
-    """Make a colour more transparent.
+    """Make a color more transparent.
 
     Args:
-        color: the colour.
+        color: the color.
         opacity: factor on its opacity, 0 to 1.
 
     Returns:

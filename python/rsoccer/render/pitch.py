@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 WALL_SHARE = 0.5
 """Thickness of a wall, as a fraction of its height: the VSS rules ask for 0.025 m by 0.05 m."""
 BOARD_THICKNESS = 0.06
-"""Thickness of walls without a height, such as the boards around a carpet, metres."""
+"""Thickness of walls without a height, such as the boards around a carpet, meters."""
 MARGIN = 0.02
 """Empty border around the walls, as a fraction of the field's length."""
 
@@ -27,7 +27,7 @@ def wall_thickness(field: Field) -> float:
         field: the field.
 
     Returns:
-        Metres, from the height of the walls, or `BOARD_THICKNESS` without one.
+        Meters, from the height of the walls, or `BOARD_THICKNESS` without one.
     """
     return WALL_SHARE * field.wall_height or BOARD_THICKNESS
 
@@ -39,7 +39,7 @@ def arena_bounds(field: Field) -> Bounds:
         field: the field.
 
     Returns:
-        The rectangle, with a margin around the walls, metres.
+        The rectangle, with a margin around the walls, meters.
     """
     border = wall_thickness(field) + MARGIN * field.length
     x, y = field.max_x + border, field.max_y + border
@@ -99,7 +99,7 @@ def _pockets(field: Field) -> tuple[Shape, ...]:
 
 
 def _wall_distances(field: Field) -> Point:
-    """Distance of the walls from the centre along x and y, regardless of the goals."""
+    """Distance of the walls from the center along x and y, regardless of the goals."""
     return field.half_length + field.goal_line_margin, field.half_width + field.touch_line_margin
 
 

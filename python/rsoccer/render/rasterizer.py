@@ -32,12 +32,12 @@ FAR = 1 << 20
 
 @dataclass(frozen=True, slots=True)
 class Camera:
-    """An orthographic view from above: the map from metres to pixels.
+    """An orthographic view from above: the map from meters to pixels.
 
     Attributes:
-        scale: pixels per metre.
-        left: x of the image's left edge, metres.
-        top: y of the image's upper edge, metres; rows of pixels count downwards.
+        scale: pixels per meter.
+        left: x of the image's left edge, meters.
+        top: y of the image's upper edge, meters; rows of pixels count downwards.
     """
 
     scale: float
@@ -48,7 +48,7 @@ class Camera:
         """Project points of the world into the image.
 
         Args:
-            points: x and y of each, metres.
+            points: x and y of each, meters.
 
         Returns:
             Column and row of each, pixels, with fractions.
@@ -62,14 +62,14 @@ class Rasterizer:
 
     Each shape is filled on a small layer of its own at `SUPERSAMPLING` times the size, averaged
     down and blended over the canvas, so edges are smooth and move by fractions of a pixel. Layers
-    hold premultiplied colours: averaging then mixes in no colour of transparent pixels.
+    hold premultiplied colors: averaging then mixes in no color of transparent pixels.
     """
 
     def __init__(self, camera: Camera) -> None:
         """Prepare for one camera.
 
         Args:
-            camera: the map from metres to pixels.
+            camera: the map from meters to pixels.
         """
         pygame.font.init()
         self._camera = camera
@@ -80,7 +80,7 @@ class Rasterizer:
 
         Args:
             canvas: the surface, changed in place.
-            shapes: shapes in metres, the lowest first.
+            shapes: shapes in meters, the lowest first.
         """
         for shape in shapes:
             self._draw_one(canvas, shape)
@@ -102,7 +102,7 @@ class Rasterizer:
     def _fill(
         self, canvas: pygame.Surface, points: Iterable[Point], color: Color, blur: float = 0.0
     ) -> None:
-        """Fill an outline given in metres."""
+        """Fill an outline given in meters."""
         outline = self._camera.project(points)
         blur_pixels = math.ceil(_near(blur * self._camera.scale))
         area = _pixel_bounds(outline, 2 * blur_pixels).clip(canvas.get_rect().inflate(2, 2))
@@ -194,7 +194,7 @@ def _between(start: Point, end: Point, share: float, axis: int, bound: float) ->
 
 
 def _premultiplied(color: Color) -> Color:
-    """The colour with red, green and blue multiplied by its opacity."""
+    """The color with red, green and blue multiplied by its opacity."""
     red, green, blue, opacity = color
     return (red * opacity // 255, green * opacity // 255, blue * opacity // 255, opacity)
 
@@ -225,7 +225,7 @@ def _line_outline(line: Line) -> tuple[Point, ...]:
 
 
 def _text_layer(text: str, color: Color, height: float, max_width: float) -> pygame.Surface:
-    """A text at `SUPERSAMPLING` times its size, centred on the middle of its capitals.
+    """A text at `SUPERSAMPLING` times its size, centered on the middle of its capitals.
 
     `height` is the cap height in pixels; a text wider than `max_width` pixels is shrunk.
     """

@@ -37,19 +37,19 @@ SQUARE_SHADE, ROUND_SHADE = 0.5, 0.88
 
 
 class Outlines(NamedTuple):
-    """Outlines of a robot in its body frame, x forward, y left, metres; absent parts are empty.
+    """Outlines of a robot in its body frame, x forward, y left, meters; absent parts are empty.
 
     Attributes:
-        size: width of the body, metres.
+        size: width of the body, meters.
         shade: darkness of the hull, 0 to 1.
         hull: outline of the body.
-        cover: outline of the plate in the team's colour.
+        cover: outline of the plate in the team's color.
         wheels: outlines of the visible wheels.
         arrow: outline of the arrow that marks the front of a robot without a dribbler.
         big_arrow: outline of the arrow in the place of the number.
         dribbler: outline of the dribbler's bar.
-        number_x: x of the centre of the number, metres.
-        number_height: height of the number, metres.
+        number_x: x of the center of the number, meters.
+        number_height: height of the number, meters.
     """
 
     size: float
@@ -73,12 +73,12 @@ def robot_shapes(
     has_ball: bool = False,
     has_number: bool = True,
 ) -> tuple[Shape, ...]:
-    """Return a robot: hull, wheels, cover in its team's colour, front and upright number.
+    """Return a robot: hull, wheels, cover in its team's color, front and upright number.
 
     Args:
         model: the robot.
         pose: position and heading.
-        color: colour of its team.
+        color: color of its team.
         number: number of the robot in its team.
         has_ball: the ball cuts the beam, which lights the dribbler.
         has_number: the number is on the robot; otherwise an arrow to the front is in its place.
@@ -94,7 +94,7 @@ def robot_shapes(
     return (
         Polygon(hull, palette.SHADOW, blur=SHADOW_BLUR * outlines.size),
         Polygon(hull, palette.mix(color, palette.INK, outlines.shade)),
-        *(Polygon(pose.to_world(wheel), palette.TYRE) for wheel in outlines.wheels),
+        *(Polygon(pose.to_world(wheel), palette.TIRE) for wheel in outlines.wheels),
         Polygon(pose.to_world(outlines.cover), color),
         *((Polygon(pose.to_world(outlines.arrow), ink),) if outlines.arrow else ()),
         *(_dribbler(outlines, pose, has_ball) if outlines.dribbler else ()),
@@ -110,9 +110,9 @@ def label_shapes(
     Args:
         model: the robot.
         pose: position and heading.
-        color: colour of its team.
+        color: color of its team.
         number: number of the robot in its team.
-        height: height of the number, metres.
+        height: height of the number, meters.
 
     Returns:
         A dark plate and the number.
@@ -122,7 +122,7 @@ def label_shapes(
     half_width = DIGIT_WIDTH * height * len(text) / 2 + padding
     half_height = height / 2 + padding
     size = robot_outlines(model).size
-    # The plate is upright, so its extent towards the robot depends on the direction.
+    # The plate is upright, so its extent toward the robot depends on the direction.
     reach = abs(pose.cos) * half_width + abs(pose.sin) * half_height
     ((x, y),) = pose.to_world(((-(0.5 + LABEL_GAP) * size - reach, 0.0),))
     plate = rounded_rectangle(
@@ -222,6 +222,6 @@ def _bar(front: float, half_flat: float, width: float, depth: float) -> tuple[Po
 
 
 def _is_light(color: Color) -> bool:
-    """Whether the colour needs dark text rather than white (relative luminance)."""
+    """Whether the color needs dark text rather than white (relative luminance)."""
     red, green, blue = color[:3]
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue > 150

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 NUMBER_HEIGHT = 0.0098
 """Height of numbers on labels, as a fraction of the picture's width: 12 of 1280 pixels."""
-LABELLED_BELOW = 0.0095
+LABELED_BELOW = 0.0095
 """Height of the number on a robot below which the robot has a label, in the same fraction."""
 
 
@@ -111,7 +111,7 @@ def _team_labels(
 
 def _has_number(model: RobotModel, picture_width: float) -> bool:
     """Whether a robot is large enough in the picture for a readable number on it."""
-    return robot_outlines(model).number_height >= LABELLED_BELOW * picture_width
+    return robot_outlines(model).number_height >= LABELED_BELOW * picture_width
 
 
 def _poses(robots: RobotColumns) -> list[Pose | None]:

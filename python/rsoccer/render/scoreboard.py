@@ -51,20 +51,20 @@ def scene_bounds(field: Field) -> Bounds:
         field: the field.
 
     Returns:
-        The rectangle, metres.
+        The rectangle, meters.
     """
     arena = arena_bounds(field)
     return Bounds(arena.left, arena.bottom, arena.right, arena.top + (HEIGHT + SPACE) * arena.width)
 
 
 def board_shapes(field: Field) -> tuple[Shape, ...]:
-    """Return the empty board: a dark plate between the colours of the teams.
+    """Return the empty board: a dark plate between the colors of the teams.
 
     Args:
         field: the field.
 
     Returns:
-        The plate and its two coloured ends.
+        The plate and its two colored ends.
     """
     bounds = _board_bounds(field)
     radius, edge = 0.22 * bounds.height, PLATE * bounds.right
@@ -152,7 +152,7 @@ def _end_panel(
 
 
 def _board_bounds(field: Field) -> Bounds:
-    """Bounds of the board: centred above the arena."""
+    """Bounds of the board: centered above the arena."""
     arena = arena_bounds(field)
     half = WIDTH * arena.width / 2
     return Bounds(-half, arena.top, half, arena.top + HEIGHT * arena.width)

@@ -1,4 +1,4 @@
-"""Shapes of a picture: coloured, in metres, x to the right and y upwards.
+"""Shapes of a picture: colored, in meters, x to the right and y upwards.
 
 A new kind of robot or mark needs no new shape, only another function that returns these.
 """
@@ -11,13 +11,13 @@ from itertools import pairwise
 from typing import TypeAlias
 
 Point: TypeAlias = tuple[float, float]
-"""x and y, metres."""
+"""x and y, meters."""
 
 Color: TypeAlias = tuple[int, int, int, int]
 """Red, green, blue and opacity, each 0 to 255."""
 
 ARC_TOLERANCE = 1e-4
-"""Largest distance between an arc and its chords, metres: below a pixel at any sensible size.
+"""Largest distance between an arc and its chords, meters: below a pixel at any sensible size.
 
 Half the points take half the time."""
 MAX_CHORDS = 1000
@@ -29,9 +29,9 @@ class Polygon:
     """A filled polygon.
 
     Attributes:
-        points: corners, metres.
-        color: the colour.
-        blur: width of the soft edge, metres; for shadows.
+        points: corners, meters.
+        color: the color.
+        blur: width of the soft edge, meters; for shadows.
     """
 
     points: tuple[Point, ...]
@@ -44,10 +44,10 @@ class Circle:
     """A filled disc.
 
     Attributes:
-        center: centre, metres.
-        radius: radius, metres.
-        color: the colour.
-        blur: width of the soft edge, metres; for shadows.
+        center: center, meters.
+        radius: radius, meters.
+        color: the color.
+        blur: width of the soft edge, meters; for shadows.
     """
 
     center: Point
@@ -61,12 +61,12 @@ class Arc:
     """A stroke along a circle.
 
     Attributes:
-        center: centre of the circle, metres.
-        radius: radius of the circle, metres.
+        center: center of the circle, meters.
+        radius: radius of the circle, meters.
         start: first angle, radians from +x.
         end: last angle, counterclockwise from `start`, radians.
-        width: width of the stroke, metres.
-        color: the colour.
+        width: width of the stroke, meters.
+        color: the color.
     """
 
     center: Point
@@ -82,10 +82,10 @@ class Line:
     """A straight stroke with square caps.
 
     Attributes:
-        start: one end, metres.
-        end: the other end, metres.
-        width: width of the stroke, metres; each cap adds half of it.
-        color: the colour.
+        start: one end, meters.
+        end: the other end, meters.
+        width: width of the stroke, meters; each cap adds half of it.
+        color: the color.
     """
 
     start: Point
@@ -96,15 +96,15 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """Upright text, centred on a point unless `align` moves it.
+    """Upright text, centered on a point unless `align` moves it.
 
     Attributes:
-        center: centre of the text, metres.
-        height: height of a capital, metres.
+        center: center of the text, meters.
+        height: height of a capital, meters.
         text: the text, one line.
-        color: the colour.
-        max_width: width beyond which the text is shrunk, metres.
-        align: share of the text to the left of the point: 0.5 centres it, 0 begins there.
+        color: the color.
+        max_width: width beyond which the text is shrunk, meters.
+        align: share of the text to the left of the point: 0.5 centers it, 0 begins there.
     """
 
     center: Point
@@ -123,10 +123,10 @@ class Bounds:
     """A rectangle along the axes.
 
     Attributes:
-        left: smallest x, metres.
-        bottom: smallest y, metres.
-        right: largest x, metres.
-        top: largest y, metres.
+        left: smallest x, meters.
+        bottom: smallest y, meters.
+        right: largest x, meters.
+        top: largest y, meters.
     """
 
     left: float
@@ -136,12 +136,12 @@ class Bounds:
 
     @property
     def width(self) -> float:
-        """Extent along x, metres."""
+        """Extent along x, meters."""
         return self.right - self.left
 
     @property
     def height(self) -> float:
-        """Extent along y, metres."""
+        """Extent along y, meters."""
         return self.top - self.bottom
 
 
@@ -150,7 +150,7 @@ class Pose:
     """Position and heading of a body.
 
     Attributes:
-        center: position, metres.
+        center: position, meters.
         cos: cosine of the heading.
         sin: sine of the heading.
     """
@@ -163,10 +163,10 @@ class Pose:
         """Transform points from the body frame to the world.
 
         Args:
-            points: points in the body frame, x forward, y left, metres.
+            points: points in the body frame, x forward, y left, meters.
 
         Returns:
-            The same points in the world, metres.
+            The same points in the world, meters.
         """
         x_0, y_0 = self.center
         cos, sin = self.cos, self.sin
@@ -177,8 +177,8 @@ def arc_points(center: Point, radius: float, start: float, end: float) -> tuple[
     """Return points along an arc, both ends included.
 
     Args:
-        center: centre of the circle, metres.
-        radius: radius of the circle, metres.
+        center: center of the circle, meters.
+        radius: radius of the circle, meters.
         start: first angle, radians from +x.
         end: last angle, radians; clockwise if below `start`.
 
@@ -197,10 +197,10 @@ def rectangle(left: float, bottom: float, right: float, top: float) -> tuple[Poi
     """Return the corners of a rectangle along the axes.
 
     Args:
-        left: smallest x, metres.
-        bottom: smallest y, metres.
-        right: largest x, metres.
-        top: largest y, metres.
+        left: smallest x, meters.
+        bottom: smallest y, meters.
+        right: largest x, meters.
+        top: largest y, meters.
 
     Returns:
         Four points, counterclockwise from the lower left.
@@ -214,11 +214,11 @@ def rounded_rectangle(
     """Return the outline of a rectangle with round corners.
 
     Args:
-        left: smallest x, metres.
-        bottom: smallest y, metres.
-        right: largest x, metres.
-        top: largest y, metres.
-        radius: radius of the corners, metres; at most half the shorter side is used.
+        left: smallest x, meters.
+        bottom: smallest y, meters.
+        right: largest x, meters.
+        top: largest y, meters.
+        radius: radius of the corners, meters; at most half the shorter side is used.
 
     Returns:
         Points of the outline, counterclockwise.
@@ -237,9 +237,9 @@ def stroke(points: tuple[Point, ...], width: float, color: Color) -> tuple[Line,
     """Return lines from each point to the next.
 
     Args:
-        points: the points, metres.
-        width: width of the lines, metres.
-        color: the colour.
+        points: the points, meters.
+        width: width of the lines, meters.
+        color: the color.
 
     Returns:
         One line fewer than there are points.

@@ -145,12 +145,12 @@ def _write_mp4(ffmpeg: str, path: Path, first: Image, others: Iterator[Image], f
 
 
 def _ffmpeg_command(ffmpeg: str, path: Path, shape: tuple[int, ...], fps: float) -> list[str]:
-    """Raw images in, H.264 out: 4:2:0 colour, even sizes, index first, as all players take it."""
+    """Raw images in, H.264 out: 4:2:0 color, even sizes, index first, as all players take it."""
     height, width = shape[:2]
     source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(fps)]
     filters = (
         "pad=ceil(iw/2)*2:ceil(ih/2)*2,"
-        # Without tags, players guess the colour matrix by the image size, and half guess wrong.
+        # Without tags, players guess the color matrix by the image size, and half guess wrong.
         "scale=out_color_matrix=bt709:out_range=tv,"
         "setparams=color_primaries=bt709:color_trc=bt709:colorspace=bt709"
     )

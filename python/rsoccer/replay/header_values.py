@@ -16,7 +16,7 @@ from rsoccer.view import SIDES
 
 ENDS: Final = ("terminated", "truncated", "")
 MIN_FIELD, MAX_FIELD = 0.1, 1000.0
-"""Smallest length and width of a field that can be drawn, and largest size in it, metres."""
+"""Smallest length and width of a field that can be drawn, and largest size in it, meters."""
 MIN_TIME_STEP: Final = 1e-4
 """Shortest control step that can be played, seconds: a pause of a second is 10,000 images."""
 

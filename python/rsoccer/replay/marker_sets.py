@@ -18,7 +18,7 @@ KINDS: Final[dict[str, type[Marker]]] = {
 }
 """Kinds of markers by name."""
 DIGITS: Final = 4
-"""Decimals of coordinates, metres: tenths of a millimetre."""
+"""Decimals of coordinates, meters: tenths of a millimeter."""
 
 
 def written(markers: tuple[tuple[Marker, ...], ...]) -> dict[str, Any]:

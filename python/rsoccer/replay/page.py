@@ -32,11 +32,11 @@ FRAME_HEIGHT: Final = 620
 """Height of the page in a notebook, pixels."""
 _COLORS: Final = (
     *("BLUE", "YELLOW", "ORANGE", "WHITE", "INK", "WALL", "WALL_EDGE", "TABLE", "CARPET", "BOARD"),
-    *("SHADOW", "TYRE", "HIGHLIGHT", "HALO", "TRAIL", "DRIBBLER", "DRIBBLER_LIT"),
+    *("SHADOW", "TIRE", "HIGHLIGHT", "HALO", "TRAIL", "DRIBBLER", "DRIBBLER_LIT"),
     *("CAPTION_BAND", "PENDING", "DONE"),
 )
 _PART: Final = re.compile(r"\{\{(\w+)\}\}")
-_DIGITS: Final = 5  # of coordinates, hundredths of a millimetre
+_DIGITS: Final = 5  # of coordinates, hundredths of a millimeter
 
 
 def to_html(replay: Replay) -> str:
@@ -88,7 +88,7 @@ def scene(config: SimConfig) -> dict[str, Any]:
         config: the configuration.
 
     Returns:
-        Values for JSON: bounds, shapes of the field, outlines and colours of the robots, the ball.
+        Values for JSON: bounds, shapes of the field, outlines and colors of the robots, the ball.
     """
     bounds = arena_bounds(config.field)
     outlines = {model.to_json(): _outlines(model) for model in config.robots}
@@ -113,7 +113,7 @@ def scene(config: SimConfig) -> dict[str, Any]:
 
 
 def _outlines(model: RobotModel) -> dict[str, Any]:
-    """Outlines of a robot, and the colours of its hull by team."""
+    """Outlines of a robot, and the colors of its hull by team."""
     outlines = robot_outlines(model)
     hulls = {
         team: _css(palette.mix(color, palette.INK, outlines.shade))
@@ -133,7 +133,7 @@ def _outlines(model: RobotModel) -> dict[str, Any]:
 
 
 def _shape(shape: Shape) -> list[Any]:
-    """A shape as a list: its kind, its colour, its numbers."""
+    """A shape as a list: its kind, its color, its numbers."""
     if isinstance(shape, Polygon):
         return ["polygon", _css(shape.color), shape.blur, _flat(shape.points)]
     if isinstance(shape, Circle):
@@ -156,13 +156,13 @@ def _flat(points: Iterable[Point]) -> list[float]:
 
 
 def _css(color: Color | str) -> str:
-    """A colour, or the colour of a name of the palette, as CSS."""
+    """A color, or the color of a name of the palette, as CSS."""
     red, green, blue, alpha = getattr(palette, color) if isinstance(color, str) else color
     return f"rgba({red},{green},{blue},{round(alpha / 255, 3)})"
 
 
 def _name(color: str) -> str:
-    """Name of a colour on the page."""
+    """Name of a color on the page."""
     return color.lower().replace("_", "-")
 
 

@@ -71,7 +71,7 @@ class BallOut(Rule):
 
     @cached_property
     def clearance(self) -> float:
-        """Least distance from the ball to the centre of a robot, m."""
+        """Least distance from the ball to the center of a robot, m."""
         return self.config.robot.bounding_radius + 2.0 * self.config.ball.radius
 
     @cached_property

@@ -29,8 +29,8 @@ STUCK_SECONDS: Final = 10.0
 STUCK_DISTANCE: Final = 0.1
 """Distance from its place that a stuck ball does not leave, m.
 
-The laws leave the judgement to the referee. A ball that robots squeeze moves to and fro by some
-centimetres, and robots that push it by less than this in 10 s, little more than their own length,
+The laws leave the judgment to the referee. A ball that robots squeeze moves to and fro by some
+centimeters, and robots that push it by less than this in 10 s, little more than their own length,
 make no progress. Measured over 100 matches between two learned teams: 77 free balls with 0.03 m, 81
 with 0.1 m, 84 with 0.2 m. Between two scripted teams, whose crowds drift: 0, 28 and 53.
 """

@@ -11,7 +11,7 @@ def is_free(positions: Floats, robots: Floats, clearance: float) -> Mask:
     Args:
         positions: (..., m, 2) positions, m.
         robots: (..., r, 2) positions of robots, m.
-        clearance: least distance to the centre of a robot, m.
+        clearance: least distance to the center of a robot, m.
 
     Returns:
         (..., m).
@@ -24,7 +24,7 @@ def is_free(positions: Floats, robots: Floats, clearance: float) -> Mask:
 
 
 def grid(max_x: float, max_y: float, spacing: float) -> Floats:
-    """Return the positions of a grid that is symmetric about the centre of the field.
+    """Return the positions of a grid that is symmetric about the center of the field.
 
     Args:
         max_x: greatest x, m.

@@ -16,7 +16,7 @@ from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.touches import team_of
 
 REACH: Final = np.float32(0.25)
-"""Distance from a robot's centre within which the ball is still with it, m."""
+"""Distance from a robot's center within which the ball is still with it, m."""
 STOPPED_SPEED: Final = np.float32(0.1)
 """Speed of the ball below which it counts as stopped, m/s."""
 
@@ -66,7 +66,7 @@ class Passes(Rule):
         arrived = self._arrived(play)
         begins = self._with_robot_or_stopped(play)
         if arrived is not None:
-            # The beam breaks some millimetres before the ball touches: a pass has arrived, and
+            # The beam breaks some millimeters before the ball touches: a pass has arrived, and
             # another one begins, while the passer is still the last that touched it.
             begins |= arrived
             worlds = np.flatnonzero(arrived)

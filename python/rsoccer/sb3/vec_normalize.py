@@ -1,4 +1,4 @@
-"""Normalised rows: `VecNormalize` with compiled statistics."""
+"""Normalized rows: `VecNormalize` with compiled statistics."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ class SoccerVecNormalize(VecNormalize):  # type: ignore[misc]
             raise ValueError(f"observation_space: expected Box (o,) float32, got {space}")
 
     def step_wait(self) -> tuple[Floats, Floats, Mask, list[Info]]:
-        """Advance all rows by one step, and normalise the results.
+        """Advance all rows by one step, and normalize the results.
 
         Returns:
-            Observations (rows, o) float32 and rewards (rows,) float32, both normalised, ends
-            (rows,) bool and an info for each row, in which terminal observations are normalised.
+            Observations (rows, o) float32 and rewards (rows,) float32, both normalized, ends
+            (rows,) bool and an info for each row, in which terminal observations are normalized.
         """
         observations, rewards, ends, infos = self.venv.step_wait()
         self.old_obs, self.old_reward = observations, rewards
@@ -68,7 +68,7 @@ class SoccerVecNormalize(VecNormalize):  # type: ignore[misc]
         moments.count += len(reward)
 
     def normalize_reward(self, reward: Floats) -> Floats:
-        """Return normalised rewards, without an update of the statistics.
+        """Return normalized rewards, without an update of the statistics.
 
         Args:
             reward: rewards (rows,) float32.
@@ -84,7 +84,7 @@ class SoccerVecNormalize(VecNormalize):  # type: ignore[misc]
         return np.minimum(scaled, limit, out=scaled)
 
     def normalize_obs(self, obs: Floats) -> Floats:
-        """Return normalised observations, without an update of the statistics.
+        """Return normalized observations, without an update of the statistics.
 
         Args:
             obs: observations (rows, o) or (o,) float32.

@@ -60,7 +60,7 @@ class Course:
             ball: (n, 2) positions of the balls, m.
 
         Returns:
-            (n,) metres.
+            (n,) meters.
         """
         low, high, direction = gate.T
         along = ball[:, 1 - self.crosses] - np.float32(0.5) * (low + high)

@@ -56,9 +56,9 @@ class Soccer(Task):
 
     Each robot observes positions and velocities of the ball and of all robots, without noise. Not
     observed are the spin of the ball, the charge of kickers and the actions of other robots.
-    Coordinates are those of the robot's team: origin at the centre of the field, +x towards the
+    Coordinates are those of the robot's team: origin at the center of the field, +x toward the
     attacked goal, +y to the left of that. Blocks from `ball_polar` to `body_positions` repeat
-    positions and velocities in the coordinates of the robot's body: origin at its centre, first
+    positions and velocities in the coordinates of the robot's body: origin at its center, first
     axis ahead, second axis to its left.
 
     Blocks of the flat observation, in this order:
@@ -75,7 +75,7 @@ class Soccer(Task):
     opponents        (o, r)     the same of each opponent                        as ego  2
     ball_polar       (3,)       distance of the ball; cosine and sine of its     L; 1    3
                                 bearing
-    goal_polar       (3,)       the same of the centre of the attacked goal      L; 1    3
+    goal_polar       (3,)       the same of the center of the attacked goal      L; 1    3
     shot             (4,)       cosine and sine of the direction from ball to    1       1
                                 goal; nearness of the ball, exp(-d / 0.125 m)
                                 at distance d; nearness times the cosine of
@@ -96,7 +96,7 @@ class Soccer(Task):
     Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
     Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
     teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
-    it shows the centre of the field. Numbers of an absent robot are 0, and an absent robot observes
+    it shows the center of the field. Numbers of an absent robot are 0, and an absent robot observes
     nothing but its last action and zeros. Values are clipped to [-limit, limit]. `Task.layout`
     gives the columns of each block.
     """
@@ -188,7 +188,7 @@ class Soccer(Task):
 
     @cached_property
     def position_scale(self) -> np.float32:
-        """Scale of positions in observations, per metre: the inverse of half the field's length."""
+        """Scale of positions in observations, per meter: the inverse of half the field's length."""
         return np.float32(1.0 / self.config.field.half_length)
 
     @cached_property

@@ -63,7 +63,7 @@ class Ssl(Soccer):
     =====  ==========================================  ==================================  =======
     Index  Meaning                                     Value of 1                          Range
     =====  ==========================================  ==================================  =======
-    0      velocity towards the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
+    0      velocity toward the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
            ahead if `velocity_frame` is "robot"
     1      velocity to the left of that                `config.robot.top_speed`, m/s       -1 to 1
     2      turn rate, counterclockwise                 10 rad/s                            -1 to 1
@@ -177,7 +177,7 @@ class Ssl(Soccer):
         """Return the positions that are beyond the lines of the field.
 
         Args:
-            positions: (n, 2) metres.
+            positions: (n, 2) meters.
 
         Returns:
             (n,).
@@ -189,7 +189,7 @@ class Ssl(Soccer):
         """Return the positions that are in the goal area at +x, or beyond its front line.
 
         Args:
-            positions: (..., 2) metres.
+            positions: (..., 2) meters.
             margin: distance by which the area is extended to all sides, m.
 
         Returns:
@@ -202,7 +202,7 @@ class Ssl(Soccer):
 
     @cached_property
     def mouth_offset(self) -> np.float32:
-        """Distance from a robot's centre to the centre of a ball in its mouth, m."""
+        """Distance from a robot's center to the center of a ball in its mouth, m."""
         return np.float32(self.config.robot.front_distance + self.config.ball.radius)
 
     @cached_property
@@ -246,10 +246,10 @@ def ball_at_mouth(frame: Frame, robot: int, mouth_offset: np.float32) -> Floats:
     Args:
         frame: state of n worlds.
         robot: index of the robot in the order of a state row.
-        mouth_offset: distance from the robot's centre to the ball's, m.
+        mouth_offset: distance from the robot's center to the ball's, m.
 
     Returns:
-        (n, 2) metres.
+        (n, 2) meters.
     """
     robots = frame.robots
     position: Floats = robots.position[:, robot] + robots.heading[:, robot] * mouth_offset
@@ -257,7 +257,7 @@ def ball_at_mouth(frame: Frame, robot: int, mouth_offset: np.float32) -> Floats:
 
 
 def rotated_180(poses: Array) -> Array:
-    """Rotate poses by 180 degrees about the centre of the field.
+    """Rotate poses by 180 degrees about the center of the field.
 
     Args:
         poses: (..., 3) x and y, m; heading, rad.

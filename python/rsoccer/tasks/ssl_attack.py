@@ -16,8 +16,8 @@ from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl, ball_at_mouth
 from rsoccer.vectors import TINY, norm
 
-CENTRE_LINE_TOLERANCE: Final = np.float32(0.2)
-"""Distance that the attacker may go behind the centre line, m."""
+CENTER_LINE_TOLERANCE: Final = np.float32(0.2)
+"""Distance that the attacker may go behind the center line, m."""
 RANDOM_START_FRACTION: Final = 0.5
 """Fraction of the episodes that start with the ball, with the option `random_start`."""
 RANDOM_START_CLEARANCE: Final = 0.15
@@ -47,7 +47,7 @@ class SslAttack(Ssl):
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
     goal          1 for a goal, -1 for one against                                    goals
-    ball_to_goal  progress of the ball towards the attacked goal and away from the    m
+    ball_to_goal  progress of the ball toward the attacked goal and away from the    m
                   own goal
     approach      decrease of the distance between the ball and the mouth             m
     failed        1 if the episode terminates without a goal, else 0                  episodes
@@ -55,7 +55,7 @@ class SslAttack(Ssl):
     ============  ==================================================================  ========
 
     Termination: a goal; the ball leaves the opponents' half other than into the goal; the attacker
-    leaves it by more than 0.2 m over the centre line or over any other line, enters the goal area,
+    leaves it by more than 0.2 m over the center line or over any other line, enters the goal area,
     or touches an opponent. Truncation: after `max_steps`.
 
     Metric: `goal_score`, 1 for a goal, -1 for one against, else 0.
@@ -183,7 +183,7 @@ class SslAttack(Ssl):
         position, field = frame.blue.position[:, 0], self.config.field
         x, abs_y = position[:, 0], np.abs(position[:, 1])
         outside = (abs_y > np.float32(field.half_width)) | (x > np.float32(field.half_length))
-        return np.logical_or(x < -CENTRE_LINE_TOLERANCE, outside | self.is_in_goal_area(position))
+        return np.logical_or(x < -CENTER_LINE_TOLERANCE, outside | self.is_in_goal_area(position))
 
     def _has_fouled(self, frame: Frame) -> Mask:
         """(n,) whether the attacker touched an opponent in the last step."""

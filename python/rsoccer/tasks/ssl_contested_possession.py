@@ -27,7 +27,7 @@ class SslContestedPossession(SslAttack):
     contact with the opponent terminates only above a closing speed of 0.5 m/s, because taking a
     ball from a dribbler needs contact.
 
-    Initial state: blue_0 at the centre, facing the goal; an opponent at a random position in its
+    Initial state: blue_0 at the center, facing the goal; an opponent at a random position in its
     half, outside its goal area, with a random heading and the ball in its mouth. With `scenario`,
     the poses of an official scenario. The opponent keeps its position with the dribbler on. With
     `random_start` half of the episodes start with blue_0 at a random position in the opponent's

@@ -223,7 +223,7 @@ class SslDribbling(Ssl):
         return ahead
 
     def _marker(self, low: float, high: float, direction: float, done: bool) -> Gate:
-        """Marker of a gate. Towards +x the left post has the greater y, towards +y the lesser x."""
+        """Marker of a gate. Toward +x the left post has the greater y, toward +y the lesser x."""
         if self.course.crosses == 0:
             lower, upper = (self.course.line, low), (self.course.line, high)
             return Gate(upper, lower, done) if direction > 0 else Gate(lower, upper, done)

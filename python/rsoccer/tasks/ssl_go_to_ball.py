@@ -15,7 +15,7 @@ from rsoccer.task import LEARN, Learn, Play
 from rsoccer.tasks.ssl import Ssl
 
 MIN_START_DISTANCE: Final = 0.2
-"""Least distance between centres in the initial state, m."""
+"""Least distance between centers in the initial state, m."""
 MAX_OPPONENTS: Final = 6
 
 

@@ -95,5 +95,5 @@ class SslPass(Ssl):
         ball = frame.ball
         speed = norm(ball.velocity[:, 0], ball.velocity[:, 1])
         offset = receiver - ball.position
-        towards = offset[:, 0] * ball.velocity[:, 0] + offset[:, 1] * ball.velocity[:, 1]
-        return np.logical_or(speed < STOPPED_SPEED, (towards < 0.0) & (speed > MOVING_SPEED))
+        toward = offset[:, 0] * ball.velocity[:, 0] + offset[:, 1] * ball.velocity[:, 1]
+        return np.logical_or(speed < STOPPED_SPEED, (toward < 0.0) & (speed > MOVING_SPEED))

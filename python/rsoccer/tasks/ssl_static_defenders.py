@@ -13,7 +13,7 @@ from rsoccer.tasks import scenarios
 from rsoccer.tasks.ssl_attack import SslAttack
 
 MIN_START_DISTANCE: Final = 0.25
-"""Least distance between centres in the initial state, m."""
+"""Least distance between centers in the initial state, m."""
 ATTACKER_CLEARANCE: Final = 0.3
 """Least distance from the attacker's initial position to ball and opponents, m."""
 BALL_START_X: Final = 0.15
@@ -31,7 +31,7 @@ class SslStaticDefenders(SslAttack):
 
     Goal of the task, reward terms, termination and metrics are those of `SslAttack`.
 
-    Initial state: blue_0 at the centre, facing the goal; the ball and the opponents at random
+    Initial state: blue_0 at the center, facing the goal; the ball and the opponents at random
     positions in the opponents' half, outside their goal area, opponents with random headings. With
     `scenario`, the ball and the opponents of an official scenario, one of them in the goal area.
     The opponents keep their positions with the dribbler on. With `random_start` half of the
@@ -73,7 +73,7 @@ class SslStaticDefenders(SslAttack):
         return 1, self.n_opponents
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
-        """Place the attacker at the centre; ball and opponents at random or by scenario."""
+        """Place the attacker at the center; ball and opponents at random or by scenario."""
         if self.scenario is not None:
             frame = self._scenario_frame(self.scenario, len(rng))
         else:

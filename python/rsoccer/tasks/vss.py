@@ -26,7 +26,7 @@ DISCRETE_ACTIONS: Final = np.array(
 """(9, 2) left and right wheel: forward, back, turns on the spot, arcs forward and back, stop."""
 
 MIN_START_DISTANCE: Final = 0.1
-"""Least distance between centres in the initial state, m."""
+"""Least distance between centers in the initial state, m."""
 
 
 @dataclass(frozen=True)
@@ -53,16 +53,16 @@ class Vss(Soccer):
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
     goal          1 for a goal of the robot's team, -1 for a goal against it          goals
-    ball_to_goal  progress of the ball towards the attacked goal and away from the    m
+    ball_to_goal  progress of the ball toward the attacked goal and away from the    m
                   own goal, for each team's robot nearest to the ball
-    approach      progress of the robot towards the point just behind the ball        m
+    approach      progress of the robot toward the point just behind the ball        m
     energy        negative mean magnitude of the action                               steps
     ============  ==================================================================  ========
 
     Termination: a goal of either team. Truncation: after `max_steps`.
 
     Free ball, with the option `free_ball`: a ball that stays within 0.1 m of a place for 10 s is
-    placed at the mark of its quarter of the field, (0.375, 0.4) m from the centre, and (0.55, 0.6)
+    placed at the mark of its quarter of the field, (0.375, 0.4) m from the center, and (0.55, 0.6)
     m on a field of at least 2.2 m. The robot of each team nearest to the ball stands beside it
     along x, on its own side, at a distance of 0.2 m, or 0.3 m on that field. Other robots leave the
     quarter, to the nearest free place, and all bodies are at rest. The move is not rewarded. Goal
@@ -107,7 +107,7 @@ class Vss(Soccer):
         "approach": 3.0,
         "energy": 0.0002,
     }
-    """Default weights: per goal, per metre, per metre, per step at full speed.
+    """Default weights: per goal, per meter, per meter, per step at full speed.
 
     With the policy `chase` against robots at rest, goals are the largest part of the return.
     """

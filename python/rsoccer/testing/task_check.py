@@ -90,7 +90,7 @@ def check_task(task: Task, worlds: int = 7, steps: int = 200, seed: int = 3) -> 
         >>> check_task(rsoccer.make_task("VSS-v0"), worlds=2, steps=40)
     """
     if worlds < 2:
-        raise ValueError(f"worlds: expected at least 2, to compare neighbours, got {worlds}")
+        raise ValueError(f"worlds: expected at least 2, to compare neighbors, got {worlds}")
     long, task = _with_time_limit(task, steps), _with_time_limit(task, max(2, steps // 5))
     _check_controllers(task)
     _check_start(task, worlds, seed)

@@ -14,10 +14,10 @@ def test_the_path_past_an_obstacle_keeps_its_distance() -> None:
     )
     target_xy = target[..., 0], target[..., 1]
     zero, radius = np.zeros((n, 1), np.float32), np.float32(0.1)
-    centre, active = (zero, zero), zero == 0.0
+    center, active = (zero, zero), zero == 0.0
     nearest, detour = np.inf, np.zeros((n, 1), np.bool_)
     for _ in range(150):
-        x, y = avoid_obstacle(position, target_xy, centre, radius, active)
+        x, y = avoid_obstacle(position, target_xy, center, radius, active)
         detour |= x != target[..., 0]
         step = np.stack([x, y], axis=-1) - position
         scale = reciprocal(norm(step[..., 0], step[..., 1]), np.float32(0.01))
@@ -26,5 +26,5 @@ def test_the_path_past_an_obstacle_keeps_its_distance() -> None:
     assert detour.all(), "the obstacle is in every path"
     assert nearest > 0.095
     assert np.abs(position - target).max() < 0.02
-    straight, _ = avoid_obstacle(position, centre, centre, radius, ~active)
+    straight, _ = avoid_obstacle(position, center, center, radius, ~active)
     assert not straight.any(), "an inactive robot drives straight to its target"

@@ -57,7 +57,7 @@ def test_a_resting_ball_stays() -> None:
 @pytest.mark.parametrize(
     ("ball", "direction"),
     [
-        ((0.0, 0.0), (1.0, 0.0)),  # towards the goal
+        ((0.0, 0.0), (1.0, 0.0)),  # toward the goal
         ((0.35, 0.4), (1.0, -1.0)),
         ((-0.7, 0.19), (0.05, 0.19)),  # away from the own goal
         ((0.2, 0.62), (1.0, 0.0)),  # along a side wall
@@ -65,7 +65,7 @@ def test_a_resting_ball_stays() -> None:
         ((-0.72, 0.4), (0.0, 1.0)),  # along the own end wall, away from the goal
     ],
 )
-def test_the_ball_is_pushed_towards_the_goal_and_away_from_the_own_one(
+def test_the_ball_is_pushed_toward_the_goal_and_away_from_the_own_one(
     ball: tuple[float, float], direction: tuple[float, float]
 ) -> None:
     x, y = FIELD.push_direction(column(ball[0]), column(ball[1]))

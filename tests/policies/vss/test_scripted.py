@@ -73,7 +73,7 @@ def test_teams_of_any_size_play(blue: int, yellow: int) -> None:
     assert found.wins - found.losses >= 5
 
 
-# -- Behaviour --------------------------------------------------------------------------------
+# -- Behavior --------------------------------------------------------------------------------
 
 
 def test_the_keeper_stays_home() -> None:

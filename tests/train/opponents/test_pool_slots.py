@@ -1,4 +1,4 @@
-"""Slots of past policies: prioritised draws, and draws from shares."""
+"""Slots of past policies: prioritized draws, and draws from shares."""
 
 import numpy as np
 import pytest

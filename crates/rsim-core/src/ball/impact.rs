@@ -21,7 +21,7 @@ pub(crate) struct Sphere {
 pub(crate) struct ContactBody {
     /// Velocity of the surface at the point, m/s.
     pub(crate) velocity: Vec3,
-    /// Vector from the centre of mass to the point, m.
+    /// Vector from the center of mass to the point, m.
     pub(crate) arm: Vector,
     /// 1/kg; 0 for a fixed body. Only the ball moves vertically.
     pub(crate) inverse_mass: f32,
@@ -82,7 +82,7 @@ impl Sphere {
             return Vec3::ZERO;
         }
         let direction = slip / speed;
-        // The inverse effective mass at a solid sphere's surface is 3.5 times that of its centre.
+        // The inverse effective mass at a solid sphere's surface is 3.5 times that of its center.
         let stop = speed / (3.5 / self.mass + other.inverse_effective_mass(direction));
         direction * -stop.min(other.surface.friction * normal_impulse)
     }

@@ -9,7 +9,7 @@ use crate::models::ball::BallModel;
 use crate::models::mouth::Mouth;
 use crate::models::robot::RobotModel;
 
-/// Rate at which the dribbler centres the ball in the mouth, 1/s.
+/// Rate at which the dribbler centers the ball in the mouth, 1/s.
 const CENTERING_RATE: f32 = 20.0;
 
 /// A ball in a robot's mouth.
@@ -17,7 +17,7 @@ pub(crate) struct HeldBall<'a> {
     mouth: &'a Mouth,
     robot: &'a Motion,
     model: &'a BallModel,
-    /// Vector from the robot's centre to the ball's, in the robot's frame, m.
+    /// Vector from the robot's center to the ball's, in the robot's frame, m.
     place: Vector,
     /// Distance from the front to the ball's surface, m.
     gap: f32,
@@ -58,7 +58,7 @@ impl<'a> HeldBall<'a> {
         })
     }
 
-    /// Velocity of the robot at the ball's centre, m/s.
+    /// Velocity of the robot at the ball's center, m/s.
     fn robot_velocity(&self) -> Vector {
         let arm = self.robot.heading * self.place.x + self.robot.heading.perp() * self.place.y;
         self.robot.velocity + arm.perp() * self.robot.spin
@@ -99,7 +99,7 @@ impl<'a> HeldBall<'a> {
         let radius = self.model.radius;
         let target = self.robot.heading * (-self.mouth.dribbler_speed * speed);
         // A force at a solid sphere's surface accelerates the surface by its rotation 2.5 times as much
-        // as the centre.
+        // as the center.
         let force = self.mouth.dribbler_friction * self.mouth.dribbler_force * speed;
         let limit = 2.5 * force / self.model.mass * tick;
         let now = ball.rolling_velocity(radius);
@@ -122,7 +122,7 @@ pub(crate) fn beam_is_cut(
 mod tests {
     use super::*;
 
-    /// Whether a ball there cuts the beam of the generic SSL robot at the centre, facing +x.
+    /// Whether a ball there cuts the beam of the generic SSL robot at the center, facing +x.
     fn is_cut(x: f32, y: f32, z: f32) -> bool {
         let robot = Motion::at_rest(Vector::ZERO, Vector::X);
         let (model, ball) = (RobotModel::SSL_GENERIC, BallModel::SSL_TIGERS);

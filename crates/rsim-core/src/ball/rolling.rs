@@ -68,7 +68,7 @@ impl GroundMotion {
             displacement += added;
             now = Self { velocity, ..now }.without_slip(model.radius);
         }
-        now.spin.z = towards_zero(self.spin.z, model.spin_deceleration * time);
+        now.spin.z = toward_zero(self.spin.z, model.spin_deceleration * time);
         (displacement, now)
     }
 }
@@ -124,7 +124,7 @@ fn decay_integral(z: f32) -> f32 {
     divisors.iter().fold(1.0, |sum, divisor| 1.0 - z / divisor * sum) / 2.0
 }
 
-fn towards_zero(value: f32, by: f32) -> f32 {
+fn toward_zero(value: f32, by: f32) -> f32 {
     (value.abs() - by).max(0.0).copysign(value)
 }
 

@@ -1,7 +1,7 @@
-//! Two wheels on one axle: Coulomb friction of each tyre against its slip.
+//! Two wheels on one axle: Coulomb friction of each tire against its slip.
 //!
-//! Friction that can stop the slip of a tyre within the tick stops it, up to the limit of the tyre: a robot
-//! that stands holds whatever pushes it less. Only tyres that slide all the same are iterated for.
+//! Friction that can stop the slip of a tire within the tick stops it, up to the limit of the tire: a robot
+//! that stands holds whatever pushes it less. Only tires that slide all the same are iterated for.
 
 mod sliding;
 
@@ -11,7 +11,7 @@ use super::{Driven, MAX_COLUMNS, OwnMotion, WheelEffect};
 use crate::blocks::{LANES, Lanes, VectorLanes, lanes_of, larger, limited, smaller};
 use crate::models::robot::DifferentialDrive;
 
-/// Limits of one tick. A limit of friction is the change of a robot's speed by one tyre.
+/// Limits of one tick. A limit of friction is the change of a robot's speed by one tire.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
     /// m.
@@ -22,12 +22,12 @@ pub(super) struct Wheels {
     max_wheel_speed: Lanes,
     /// Maximum friction against a motor at its limit, m/s.
     motor: Lanes,
-    /// Maximum friction along a wheel, by motor and tyre, m/s.
+    /// Maximum friction along a wheel, by motor and tire, m/s.
     drive: Lanes,
-    /// Maximum friction of a tyre that slips along its wheel only, m/s, and its inverse.
+    /// Maximum friction of a tire that slips along its wheel only, m/s, and its inverse.
     longitudinal: Lanes,
     per_longitudinal: Lanes,
-    /// Maximum friction of a tyre that slips along the axle only, m/s, and its inverse.
+    /// Maximum friction of a tire that slips along the axle only, m/s, and its inverse.
     lateral: Lanes,
     per_lateral: Lanes,
     /// Change of the turn rate (rad/s) by friction of 1 m/s at one wheel.
@@ -37,24 +37,24 @@ pub(super) struct Wheels {
     own: Lanes,
     other: Lanes,
     per_own: Lanes,
-    /// Friction (m/s) that stops a slip of 1 m/s of one tyre against the other.
+    /// Friction (m/s) that stops a slip of 1 m/s of one tire against the other.
     stop_turning: Lanes,
 }
 
-/// Slip of the two tyres over the floor, m/s: the velocity of their contact patches.
+/// Slip of the two tires over the floor, m/s: the velocity of their contact patches.
 #[derive(Clone, Copy)]
 struct Slip {
     /// Along the wheels, minus the rim speeds: left, right.
     along: [Lanes; 2],
-    /// Along the axle, the same for both tyres.
+    /// Along the axle, the same for both tires.
     across: Lanes,
 }
 
-/// Friction of the floor on the tyres in a tick, as changes of the robot's speed, m/s.
+/// Friction of the floor on the tires in a tick, as changes of the robot's speed, m/s.
 struct Friction {
     /// Along the wheels: left, right.
     along: [Lanes; 2],
-    /// Along the axle, of both tyres.
+    /// Along the axle, of both tires.
     across: Lanes,
 }
 
@@ -94,7 +94,7 @@ impl Wheels {
     /// Effect of the wheels that follow the speeds `[left, right, ..]`, rad/s, in a tick, for the robots
     /// of `mask`.
     ///
-    /// Rims turn as commanded; friction acts on each tyre against its slip at the end of the tick.
+    /// Rims turn as commanded; friction acts on each tire against its slip at the end of the tick.
     pub(super) fn effect(
         &self,
         mask: Lanes,
@@ -106,7 +106,7 @@ impl Wheels {
         let slip = self.slip(own.velocity, own.spin, rims);
         let (mut slip, (mut holding, mut holds)) = (slip, self.holding(&slip, mask));
         if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
-            // Tyres that hold also compensate the load of the last tick. Those that slide give their
+            // Tires that hold also compensate the load of the last tick. Those that slide give their
             // maximum whatever the load.
             let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
             slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
@@ -132,8 +132,8 @@ impl Wheels {
         Slip { along, across: velocity.y }
     }
 
-    /// Friction with which at least one tyre does not slip at the end of the tick, and whether motors and
-    /// tyres can transmit it. Then it is the only solution.
+    /// Friction with which at least one tire does not slip at the end of the tick, and whether motors and
+    /// tires can transmit it. Then it is the only solution.
     fn holding(&self, slip: &Slip, mask: Lanes) -> (Friction, Lanes) {
         let rolling = self.rolling(slip);
         let rolls = self.is_possible_in_halves(&rolling);
@@ -154,7 +154,7 @@ impl Wheels {
         (friction, holds)
     }
 
-    /// Whether friction of both tyres at their limits would stop the slip of one: a necessary condition of
+    /// Whether friction of both tires at their limits would stop the slip of one: a necessary condition of
     /// [`Self::holding`].
     fn can_be_held(&self, slip: &Slip) -> Lanes {
         let [left, right] = slip.along.map(Lanes::abs);
@@ -170,12 +170,12 @@ impl Wheels {
         Friction { along: [both - apart, both + apart], across: -slip.across }
     }
 
-    /// Friction that stops the slip of the tyre of `wheel` alone, and whether it is possible. Slip along the
-    /// axle, which is the same for both tyres, stops as well, so that the other tyre slips along its wheel
+    /// Friction that stops the slip of the tire of `wheel` alone, and whether it is possible. Slip along the
+    /// axle, which is the same for both tires, stops as well, so that the other tire slips along its wheel
     /// only, at the limit of its motor or of its grip.
     fn pivoting(&self, slip: &Slip, wheel: usize) -> (Friction, Lanes) {
         let [held, slips] = [slip.along[wheel], slip.along[1 - wheel]];
-        // The slip of the other tyre while this one is held has the sign that it would have without friction.
+        // The slip of the other tire while this one is held has the sign that it would have without friction.
         let direction = slips - held * self.other * self.per_own;
         let other = -limited_to_sign(self.drive, direction);
         let along = -(held + self.other * other) * self.per_own;
@@ -188,8 +188,8 @@ impl Wheels {
         (friction, possible)
     }
 
-    /// Whether motors and tyres can transmit this friction if both tyres give half of that along the axle:
-    /// the friction of a tyre lies within an ellipse. Then it also is [`Self::is_possible`].
+    /// Whether motors and tires can transmit this friction if both tires give half of that along the axle:
+    /// the friction of a tire lies within an ellipse. Then it also is [`Self::is_possible`].
     fn is_possible_in_halves(&self, friction: &Friction) -> Lanes {
         let across = Lanes::splat(0.5) * friction.across * self.per_lateral;
         let [left, right] = friction.along.map(|force| {
@@ -199,7 +199,7 @@ impl Wheels {
         left & right
     }
 
-    /// Whether motors and tyres can transmit this friction: each tyre gives along the axle what it has left.
+    /// Whether motors and tires can transmit this friction: each tire gives along the axle what it has left.
     fn is_possible(&self, friction: &Friction) -> Lanes {
         let [left, right] = friction.along;
         left.abs().simd_le(self.drive)
@@ -207,14 +207,14 @@ impl Wheels {
             & friction.across.abs().simd_le(self.lateral_left(left) + self.lateral_left(right))
     }
 
-    /// Maximum friction along the axle of a tyre with friction `along` its wheel, m/s.
+    /// Maximum friction along the axle of a tire with friction `along` its wheel, m/s.
     fn lateral_left(&self, along: Lanes) -> Lanes {
         let used = along * self.per_longitudinal;
         self.lateral * larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt()
     }
 
-    /// Friction of a tyre whose motor is weaker than its grip: the rim follows the floor, which leaves the
-    /// tyre more friction along the axle.
+    /// Friction of a tire whose motor is weaker than its grip: the rim follows the floor, which leaves the
+    /// tire more friction along the axle.
     fn stalled(&self, along: Lanes, across: Lanes) -> (Lanes, Lanes) {
         (limited(along, self.motor), limited(across, self.lateral_left(self.motor)))
     }

@@ -35,9 +35,9 @@ pub(crate) enum BallPhase {
     Floor,
     /// In the air: no contacts here; `tick::flight` solves them.
     Air,
-    /// In the air and jammed: contacts with everything as high as its centre.
+    /// In the air and jammed: contacts with everything as high as its center.
     JammedInAir {
-        /// Height of the centre, m.
+        /// Height of the center, m.
         height: f32,
     },
 }
@@ -54,13 +54,13 @@ pub(crate) struct SqueezedBall {
 /// A body or wall that the ball approaches.
 pub(super) struct Approached {
     pub(super) place: PlacedOutline,
-    /// Velocity of the ball relative to the centre of the approached body, m/s.
+    /// Velocity of the ball relative to the center of the approached body, m/s.
     pub(super) velocity: Vector,
     /// Turn rate of the approached body, rad/s.
     pub(super) spin: f32,
 }
 
-/// A predicted contact: normal, distance to it now, and the ball's centre at that instant.
+/// A predicted contact: normal, distance to it now, and the ball's center at that instant.
 pub(super) struct Touch {
     pub(super) normal: Vector,
     /// Distance along the normal, m.

@@ -17,7 +17,7 @@ pub(crate) struct BallContact {
     pub(crate) normal: Vector,
     /// Impulse along the normal, N s.
     pub(crate) impulse: f32,
-    /// From the centre of a partner that is a robot to the point that the ball touched, when it touched
+    /// From the center of a partner that is a robot to the point that the ball touched, when it touched
     /// it, m: both move on within the tick.
     pub(crate) arm: Vector,
 }

@@ -10,7 +10,7 @@ use crate::models::ball::BallModel;
 use crate::models::field::Field;
 use crate::models::robot::RobotModel;
 
-/// A potential function, in metres, of a robot's view, which attacks +x.
+/// A potential function, in meters, of a robot's view, which attacks +x.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Potential {
     /// Half the difference of the ball's distances to the own goal and to the attacked goal, so that the
@@ -31,7 +31,7 @@ pub enum Potential {
     /// Negative distance of the ball to its place in the robot's mouth. It is maximal only with the ball
     /// directly in front, so it pulls the robot close and turns it to face the ball.
     AtMouth {
-        /// Distance of that place from the robot's centre, m.
+        /// Distance of that place from the robot's center, m.
         reach: f32,
     },
 }

@@ -184,12 +184,12 @@ fn corner_block(field: &Field, end: f32, side: f32) -> Wall {
     }
 }
 
-/// Distance of the outermost wall from the centre along x, m.
+/// Distance of the outermost wall from the center along x, m.
 pub(crate) fn outermost_x(field: &Field) -> f32 {
     outer(field).x + THICKNESS
 }
 
-/// Maximum distance of a body at height `z` from the centre, m; above a low wall it can be beyond the
+/// Maximum distance of a body at height `z` from the center, m; above a low wall it can be beyond the
 /// wall.
 pub(crate) fn position_limit(field: &Field, z: f32) -> Vector {
     let walls = Vector::new(field.max_x(), field.max_y());

@@ -20,7 +20,7 @@ pub(crate) struct Clearance {
 }
 
 impl Clearance {
-    /// Clearance of a ball of `radius`, whose centre is at height `z`, from an upright body between two
+    /// Clearance of a ball of `radius`, whose center is at height `z`, from an upright body between two
     /// heights; `nearest` is the nearest point of the body's outline.
     pub(crate) fn of_upright(
         nearest: &NearestPoint,

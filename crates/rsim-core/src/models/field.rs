@@ -11,7 +11,7 @@ numbers! {
     /// A field: play area, goals, walls, and the lines and marks on the floor.
     ///
     /// Distances are measured to the middle of a line. Goals are pockets behind the short sides,
-    /// centred on the x axis. The lines of a VSSS table lie at its walls, those of an SSL field inside
+    /// centered on the x axis. The lines of a VSSS table lie at its walls, those of an SSL field inside
     /// them by the margins. A number that a league does not use is 0.
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     pub struct Field, "field";
@@ -42,9 +42,9 @@ numbers! {
         corner_leg: NotNegative, "m";
         /// Height of the outer walls; 0 for walls that no ball can fly over.
         wall_height: NotNegative, "m";
-        /// Radius of the centre circle.
+        /// Radius of the center circle.
         center_circle_radius: NotNegative, "m";
-        /// Width of the goal area (SSL: defence area), along y.
+        /// Width of the goal area (SSL: defense area), along y.
         goal_area_width: NotNegative, "m";
         /// Depth of the goal area, along x.
         goal_area_depth: NotNegative, "m";
@@ -58,9 +58,9 @@ numbers! {
         area_arc_depth: NotNegative, "m";
         /// Distance of a penalty mark from the attacked goal line.
         penalty_mark_distance: NotNegative, "m";
-        /// Distance of the free-ball marks from the centre, along x.
+        /// Distance of the free-ball marks from the center, along x.
         free_ball_x: NotNegative, "m";
-        /// Distance of the free-ball marks from the centre, along y.
+        /// Distance of the free-ball marks from the center, along y.
         free_ball_y: NotNegative, "m";
         /// Width of the painted lines.
         line_width: NotNegative, "m";
@@ -78,22 +78,22 @@ impl Field {
         (find(Self::NUMBERS, name)?.get_mut)(self)
     }
 
-    /// Distance of a goal line from the centre, m.
+    /// Distance of a goal line from the center, m.
     pub fn half_length(&self) -> f32 {
         self.length / 2.0
     }
 
-    /// Distance of a touch line from the centre, m.
+    /// Distance of a touch line from the center, m.
     pub fn half_width(&self) -> f32 {
         self.width / 2.0
     }
 
-    /// Maximum distance of a body from the centre along x, to the wall or the back of a goal, m.
+    /// Maximum distance of a body from the center along x, to the wall or the back of a goal, m.
     pub fn max_x(&self) -> f32 {
         self.half_length() + self.goal_line_margin.max(self.goal_depth)
     }
 
-    /// Maximum distance of a body from the centre along y, m.
+    /// Maximum distance of a body from the center along y, m.
     pub fn max_y(&self) -> f32 {
         self.half_width() + self.touch_line_margin
     }

@@ -10,7 +10,7 @@ numbers! {
     pub struct Mouth, "robot";
     fields {}
     numbers {
-        /// Width of the opening; the ball's centre must be within it.
+        /// Width of the opening; the ball's center must be within it.
         mouth_width: Positive, "m";
         /// Distance of the break beam before the front.
         beam_distance: Positive, "m";

@@ -47,7 +47,7 @@ pub enum Body {
     Round {
         /// Radius of the disc, m.
         radius: f32,
-        /// Distance of the flat front, where the ball meets the kicker's plate, from the centre, m.
+        /// Distance of the flat front, where the ball meets the kicker's plate, from the center, m.
         front_distance: f32,
     },
 }
@@ -81,7 +81,7 @@ impl Body {
         body_number!(
             Round,
             front_distance,
-            "Distance of a round body's flat front from the centre."
+            "Distance of a round body's flat front from the center."
         ),
     ];
 }
@@ -111,9 +111,9 @@ numbers! {
         track_width: Positive, "m";
         /// Torque of a motor at its wheel.
         motor_torque: Positive, "N m";
-        /// Maximum acceleration that the tyres transmit along the wheels.
+        /// Maximum acceleration that the tires transmit along the wheels.
         longitudinal_grip: Positive, "m/s²";
-        /// Maximum acceleration that the tyres transmit along the axle.
+        /// Maximum acceleration that the tires transmit along the axle.
         lateral_grip: Positive, "m/s²";
     }
 }
@@ -134,7 +134,7 @@ numbers! {
         wheel_radius: Positive, "m";
         /// Maximum speed of a wheel, free of load.
         max_wheel_speed: Positive, "rad/s";
-        /// Distance from the centre to the point where a wheel meets the floor.
+        /// Distance from the center to the point where a wheel meets the floor.
         wheel_distance: Positive, "m";
         /// Maximum speed in every direction.
         max_speed: Positive, "m/s";
@@ -227,7 +227,7 @@ impl RobotModel {
         }
     }
 
-    /// Distance from the centre to the middle of the front, m.
+    /// Distance from the center to the middle of the front, m.
     pub fn front_distance(&self) -> f32 {
         match self.body {
             Body::Square { side_length } => side_length / 2.0,

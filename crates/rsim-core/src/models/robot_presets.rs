@@ -35,7 +35,7 @@ impl RobotModel {
         friction: 0.2, // as measured by ER-Force for ball on robot; none published for two robots
     };
 
-    /// A robot with Pololu 50:1 micro gear motors, as modelled from CAD by `TraveSim`: 78 mm, 62 mm
+    /// A robot with Pololu 50:1 micro gear motors, as modeled from CAD by `TraveSim`: 78 mm, 62 mm
     /// high, 180 g, wheels 25 mm, 71 mm apart, 0.073 N m, 650 rpm (1.7 m/s); field friction 0.6.
     pub const VSS_650RPM: Self = Self {
         name: Cow::Borrowed("vss_650rpm"),

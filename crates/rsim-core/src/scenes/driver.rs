@@ -31,7 +31,7 @@ impl Driver {
         match self {
             Self::Constant(all) => all.get(index).cloned().unwrap_or_default(),
             Self::Random => random_command(model, key),
-            Self::Chase => towards(model, robot, ball),
+            Self::Chase => toward(model, robot, ball),
         }
     }
 }
@@ -72,7 +72,7 @@ fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
 }
 
 /// Command that drives a robot to `target`, facing it.
-fn towards(model: &RobotModel, robot: &[f32], target: [f32; 2]) -> Vec<f32> {
+fn toward(model: &RobotModel, robot: &[f32], target: [f32; 2]) -> Vec<f32> {
     let [x, y, cos, sin, ..] = robot else { unreachable!("a robot has {ROBOT_COLUMNS:?}") };
     let (to_x, to_y) = (target[0] - x, target[1] - y);
     let (ahead, aside) = (to_x * cos + to_y * sin, to_y * cos - to_x * sin);

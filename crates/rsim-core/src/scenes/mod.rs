@@ -84,7 +84,7 @@ pub fn lone_omni(command: &[f32]) -> Scene {
     scene
 }
 
-/// An SSL robot at the centre, facing +x, with the ball at rest at its front.
+/// An SSL robot at the center, facing +x, with the ball at rest at its front.
 pub fn ball_in_mouth(command: &[f32]) -> Scene {
     let mut scene = Scene { name: "ball_in_mouth", ..lone_omni(command) };
     let touching = scene.config.blue[0].front_distance() + scene.config.ball.radius;
@@ -127,7 +127,7 @@ const CROWDED: [[f32; 3]; 6] = [
 ];
 
 impl Scene {
-    /// Robots at these poses (x and y in m, heading in degrees), ball at rest at the centre.
+    /// Robots at these poses (x and y in m, heading in degrees), ball at rest at the center.
     ///
     /// # Panics
     /// If the number of poses is not that of robots.

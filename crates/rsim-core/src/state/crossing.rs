@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::Vec3;
 use crate::models::field::Field;
 
-/// The first line that the ball's centre crossed outward in the running control step.
+/// The first line that the ball's center crossed outward in the running control step.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Crossing {
     /// Position in [`crate::columns::CROSSINGS`].

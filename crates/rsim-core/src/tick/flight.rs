@@ -51,7 +51,7 @@ pub(super) struct Flight<'a> {
 
 /// The ball as a sphere in space.
 struct FlyingBall {
-    /// Position of the centre, m.
+    /// Position of the center, m.
     center: Vec3,
     sphere: Sphere,
     hops: u8,
@@ -59,7 +59,7 @@ struct FlyingBall {
     down: bool,
 }
 
-/// A contact ahead: time until it (s), obstacle, and normal towards the ball.
+/// A contact ahead: time until it (s), obstacle, and normal toward the ball.
 type Contact = (f32, Obstacle, Vec3);
 
 impl Flight<'_> {
@@ -203,7 +203,7 @@ impl Flight<'_> {
         None
     }
 
-    /// Clearance of a ball with its centre at `center` from an obstacle.
+    /// Clearance of a ball with its center at `center` from an obstacle.
     fn clearance(&self, obstacle: Obstacle, center: Vec3) -> Clearance {
         let radius = self.params.ball.radius;
         let point = center.truncate();

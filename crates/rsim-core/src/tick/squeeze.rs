@@ -40,7 +40,7 @@ struct Side {
     normal: Vector,
     /// m.
     gap: f32,
-    /// Speed of the surface towards the ball, m/s.
+    /// Speed of the surface toward the ball, m/s.
     speed: f32,
     /// Effective mass at the contact point, kg; infinite for a wall.
     mass: f32,
@@ -84,7 +84,7 @@ pub(super) struct Squeeze {
 }
 
 impl Squeeze {
-    /// The squeeze within the coming `tick` (s) of a ball that moves with `velocity` and has its centre
+    /// The squeeze within the coming `tick` (s) of a ball that moves with `velocity` and has its center
     /// at `height`, if any.
     pub(super) fn find(
         bodies: &Bodies,

@@ -5,7 +5,7 @@ use crate::math::Vector;
 use crate::models::config::SimConfig;
 use crate::models::robot::RobotModel;
 
-/// Motions of ball and robots: the ball at the centre, each team in a line across the middle of its
+/// Motions of ball and robots: the ball at the center, each team in a line across the middle of its
 /// half, facing the other goal.
 pub(super) fn line_up(config: &SimConfig) -> Vec<Motion> {
     let widest = config.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);

@@ -61,7 +61,7 @@ struct Shared {
 }
 
 impl World {
-    /// A match in its default line-up: robots side by side in their own halves, ball at the centre.
+    /// A match in its default line-up: robots side by side in their own halves, ball at the center.
     ///
     /// # Errors
     /// As [`SimConfig::validate`]; teams that do not fit on the field.

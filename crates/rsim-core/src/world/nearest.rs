@@ -19,7 +19,7 @@ const LEFT: f32 = 0.9 * TOLERANCE;
 const TOO_DEEP: f32 = 0.95 * TOLERANCE;
 
 /// Maximum number of passes over all pairs. Of the rows in `tests/estimate.rs`, most of which mean nothing,
-/// nineteen of twenty settle in as many; estimates with errors of some centimetres settle in two.
+/// nineteen of twenty settle in as many; estimates with errors of some centimeters settle in two.
 const MAX_PASSES: usize = 32;
 
 /// Share of a wall's or robot's normal in the vertical above which the ball is moved up or down.
@@ -77,7 +77,7 @@ impl Placement {
         false
     }
 
-    /// Whether the centre of a body is outside the field or in a wall. The shortest way out of a wall may
+    /// Whether the center of a body is outside the field or in a wall. The shortest way out of a wall may
     /// then lead into the next one, and passes would not settle: most such rows would take the slower search
     /// for spots.
     fn is_behind_a_face(&self, who: usize, start: &Start) -> bool {

@@ -23,7 +23,7 @@ use crate::world::line_up::line_up;
 /// their states can be placed again.
 pub(super) const TOLERANCE: f32 = 0.01;
 
-/// Allowed error of the length of a heading, which is then normalised.
+/// Allowed error of the length of a heading, which is then normalized.
 const HEADING_TOLERANCE: f32 = 1e-3;
 
 /// Error of the squared length of a heading by rounding, up to which it is unchanged, so that a state
@@ -113,7 +113,7 @@ impl Placement {
         Ok(start)
     }
 
-    /// Checks a start against the field and the models, and normalises headings.
+    /// Checks a start against the field and the models, and normalizes headings.
     pub(super) fn check(&self, start: &mut Start, params: &BodyParams) -> Result<(), PlaceError> {
         self.check_ball_alone(&mut start.motions[BALL], &start.ball)?;
         for who in start.present() {
@@ -251,7 +251,7 @@ impl Placement {
         Ok(())
     }
 
-    /// Checks a body against the field, and normalises its heading.
+    /// Checks a body against the field, and normalizes its heading.
     pub(super) fn check_alone(
         &self,
         who: usize,
@@ -278,7 +278,7 @@ impl Placement {
         Ok(())
     }
 
-    /// Maximum distance of a body from the centre, m; of the ball at height `z`.
+    /// Maximum distance of a body from the center, m; of the ball at height `z`.
     pub(super) fn limit(&self, who: usize, z: f32) -> Vector {
         position_limit(&self.field, if who == BALL { z + self.ball_radius } else { 0.0 })
     }

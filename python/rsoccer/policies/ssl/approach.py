@@ -41,8 +41,8 @@ def approach_direction(
         ball: (n, robots, 2) position of the ball, m.
         robots: (n, robots, others) positions of other robots, m.
         region: allowed positions.
-        mouth_distance: from a robot's centre to a ball in its mouth, m.
-        clearance: distance to keep from the centres of other robots, m.
+        mouth_distance: from a robot's center to a ball in its mouth, m.
+        clearance: distance to keep from the centers of other robots, m.
 
     Returns:
         Unit vectors (n, robots) from the robot's future position to the ball.

@@ -12,7 +12,7 @@ from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 
 MAX_SPEED: Final = 2.0  # m/s
-LINE_MARGIN: Final = 0.02  # m between the robot's centre and the field's lines
+LINE_MARGIN: Final = 0.02  # m between the robot's center and the field's lines
 
 
 class Fetch(Policy):

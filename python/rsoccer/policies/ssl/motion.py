@@ -1,4 +1,4 @@
-"""Motion of omnidirectional robots: velocities towards positions, turn rates to directions."""
+"""Motion of omnidirectional robots: velocities toward positions, turn rates to directions."""
 
 from typing import Final
 
@@ -10,7 +10,7 @@ from rsoccer.vectors import TINY, XY, norm, reciprocal, rotate_into_body
 
 BRAKE: Final = np.float32(3.0)  # m/s², deceleration before a target
 TURN_GAIN: Final = np.float32(6.0)  # rad/s, per rad of heading error
-POSITION_GAIN: Final = np.float32(8.0)  # m/s, per m to the target: the last centimetres
+POSITION_GAIN: Final = np.float32(8.0)  # m/s, per m to the target: the last centimeters
 SLOW_SPEED: Final = 0.5  # m/s, into the ball and close to robots
 SPEED_PER_GAP: Final = np.float32(3.0)  # m/s more, per m of gap to the nearest robot
 
@@ -79,7 +79,7 @@ def limit_speed_near_robots(
         position: (n, robots, 2) positions of the robots, m.
         velocity: (n, robots) wanted velocities, m/s.
         robots: (n, robots, others) positions of other robots, m.
-        robot_diameter: distance between centres of robots that touch, m.
+        robot_diameter: distance between centers of robots that touch, m.
         max_speed: upper bound far from robots, m/s.
 
     Returns:

@@ -24,7 +24,7 @@ MAX_KICK_SPIN: Final = np.float32(0.15)  # rad/s, turn rate of the robot for a k
 MAX_RECEIVER_SPEED: Final = np.float32(0.1)  # m/s of a teammate for a pass
 MIN_BALL_SPEED: Final = np.float32(0.3)  # m/s of a ball that is on its way
 MIN_DISTANCE: Final = np.float32(2.0)  # m to the teammate
-LINE_MARGIN: Final = 0.3  # m between the robot's centre and the field's lines
+LINE_MARGIN: Final = 0.3  # m between the robot's center and the field's lines
 MAX_SPEED: Final = 2.0  # m/s
 RETREAT_SPEED: Final = 1.0  # m/s, away from a teammate that is too near
 

@@ -21,11 +21,11 @@ class Obstacles(NamedTuple):
     """Obstacles of each robot, (n, robots, obstacles) each."""
 
     x: Floats
-    """x of the centre, m."""
+    """x of the center, m."""
     y: Floats
-    """y of the centre, m."""
+    """y of the center, m."""
     clearance: Floats
-    """Distance to keep from the centre, m."""
+    """Distance to keep from the center, m."""
 
 
 def other_robots(view: View) -> XY:

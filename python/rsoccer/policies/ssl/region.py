@@ -8,7 +8,7 @@ from rsoccer.vectors import FAR, XY, norm, reciprocal
 
 
 class Region:
-    """Allowed positions of a robot's centre: a box, less the goal area that its team attacks."""
+    """Allowed positions of a robot's center: a box, less the goal area that its team attacks."""
 
     def __init__(self, low: tuple[float, float], high: tuple[float, float]) -> None:
         """Set the box; no goal area is excluded.

@@ -66,11 +66,11 @@ class RobotControl:
         """
         robot, ball = task.config.robot, task.config.ball
         self.mouth_distance = np.float32(robot.front_distance + ball.radius)
-        """From a robot's centre to the centre of a ball at its front, m."""
+        """From a robot's center to the center of a ball at its front, m."""
         self.robot_diameter = np.float32(2.0 * robot.bounding_radius)
-        """Distance between the centres of robots that touch, m."""
+        """Distance between the centers of robots that touch, m."""
         self.ball_distance = np.float32(robot.bounding_radius + ball.radius)
-        """Distance between the centres of robot and ball beyond which they cannot touch, m."""
+        """Distance between the centers of robot and ball beyond which they cannot touch, m."""
         self.max_kick_speed = np.float32(task.action_scales[KICK])
         """Speed of the hardest kick, m/s."""
         self._max_change = DRIBBLE_ACCELERATION * np.float32(task.config.time_step)

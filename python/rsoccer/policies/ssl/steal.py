@@ -19,7 +19,7 @@ from rsoccer.view import View
 
 APPROACH_ANGLE: Final = np.float32(np.radians(20.0))  # rad off the opponent's axis
 SLIDE_SPEED: Final = np.float32(0.4)  # m/s along the opponent's front; a crash counts from 0.5 m/s
-PRESS_SPEED: Final = np.float32(0.1)  # m/s towards the opponent in the slide, to keep contact
+PRESS_SPEED: Final = np.float32(0.1)  # m/s toward the opponent in the slide, to keep contact
 SIDE_THRESHOLD: Final = np.float32(-0.23)  # m inwards from which it slides to the opponent's left
 FACING_COSINE: Final = np.float32(-0.8)  # cosine between the headings of robots face to face
 MAX_TURN_RATE: Final = 4.0  # rad/s in the slide
@@ -41,7 +41,7 @@ def opponent_has_ball(view: View) -> Mask:
 def steal_ball(
     control: RobotControl, view: View, robots: XY, region: Region, max_speed: float
 ) -> tuple[Floats, Floats, Floats]:
-    """Return velocities towards the ball that an opponent holds, then along its front.
+    """Return velocities toward the ball that an opponent holds, then along its front.
 
     Args:
         control: control of the robots.

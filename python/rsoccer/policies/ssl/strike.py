@@ -91,7 +91,7 @@ class Strike(Policy):
         shoots = goes & ~steals & self._control.has_ball(view)
         approaches = goes & ~steals & ~shoots
         actions = np.zeros((*inputs.action_shape[:2], 5), np.float32)
-        for mask, behaviour in (
+        for mask, behavior in (
             (approaches, self._approach),
             (steals, self._steal),
             (shoots, self._shoot),
@@ -99,7 +99,7 @@ class Strike(Policy):
         ):
             worlds = np.flatnonzero(mask.any(axis=1))
             if len(worlds):
-                part = behaviour(view.take(worlds))
+                part = behavior(view.take(worlds))
                 actions[worlds] = np.where(mask[worlds][..., None], part, actions[worlds])
         return actions
 

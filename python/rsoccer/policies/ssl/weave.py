@@ -22,8 +22,8 @@ MAX_TURN_RATE: Final = 2.0  # rad/s, with the ball on the dribbler
 MAX_ACCELERATION: Final = np.float32(2.5)  # m/s², with the ball; more could pull the ball off
 WAYPOINT_OFFSET: Final = np.float32(0.35)  # m between the line of gates and the waypoints
 ARRIVAL_DISTANCE: Final = np.float32(0.06)  # m from a waypoint at which the next one follows
-ROBOT_CLEARANCE: Final = np.float32(0.22)  # m to the centres of the standing robots
-BOUNDS_MARGIN: Final = 0.12  # m between the robot's centre and the bounds of the course
+ROBOT_CLEARANCE: Final = np.float32(0.22)  # m to the centers of the standing robots
+BOUNDS_MARGIN: Final = 0.12  # m between the robot's center and the bounds of the course
 RUN_UP: Final = np.float32(0.1)  # m behind a lost ball from which it is taken again
 
 
@@ -57,7 +57,7 @@ class Weave(Policy):
         self._region = Region(low, (x_max - BOUNDS_MARGIN, y_max - BOUNDS_MARGIN))
         self._time_step = np.float32(task.config.time_step)
         # Robot and ball together are longer than the robot, so their middle lies ahead of its
-        # centre. A waypoint centres the two between the sides of a gate.
+        # center. A waypoint centers the two between the sides of a gate.
         ball, robot = task.config.ball, task.config.robot
         ahead = 0.5 * (robot.front_distance + 2.0 * ball.radius - robot.bounding_radius)
         self._waypoints = _waypoints(course, ahead)

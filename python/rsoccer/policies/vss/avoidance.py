@@ -9,7 +9,7 @@ from rsoccer.vectors import FAR, TINY, XY, norm, reciprocal, rotate_into, unit
 from rsoccer.view import View
 
 WAYPOINT_DISTANCE: Final = np.float32(0.25)  # m from the robot to the waypoint of a detour
-ROBOT_CLEARANCE: Final = np.float32(0.08)  # m between centres of robots: about a width
+ROBOT_CLEARANCE: Final = np.float32(0.08)  # m between centers of robots: about a width
 AVOID_RANGE: Final = np.float32(0.2)  # m ahead in which other robots are avoided
 DUEL_RADIUS: Final = np.float32(0.15)  # m from the ball in which an attacker pushes other robots
 
@@ -22,8 +22,8 @@ def avoid_obstacle(
     Args:
         position: (n, robots, 2) positions of the robots, m.
         target: target positions.
-        obstacle: centres of the obstacles.
-        radius: distance to keep from the centre, m.
+        obstacle: centers of the obstacles.
+        radius: distance to keep from the center, m.
         active: (n, robots) whether a robot avoids its obstacle.
 
     Returns:
@@ -38,7 +38,7 @@ def avoid_obstacle(
     blocked &= (toward > 0.0) & active
     distance = np.maximum(norm(to_x, to_y), TINY)
     u_x, u_y = to_x / distance, to_y / distance
-    # Along the tangent to the circle; from inside the circle, perpendicular to its centre.
+    # Along the tangent to the circle; from inside the circle, perpendicular to its center.
     sin = np.minimum(radius / distance, np.float32(1.0))
     ahead = np.sqrt(np.float32(1.0) - sin * sin)
     right = np.copysign(sin, path_x * to_y - path_y * to_x)  # of the obstacle, if that is shorter

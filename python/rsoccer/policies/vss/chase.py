@@ -50,7 +50,7 @@ class Chase(Policy):
         return {"slow_steps": np.zeros(shape[:2], np.int64)}
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return the normalised wheel speeds, (n, robots, 2)."""
+        """Return the normalized wheel speeds, (n, robots, 2)."""
         view = inputs.required_view("chase")
         ego, ball = view.ego, view.ball.position
         x, y = self._target(ball, ego.position)

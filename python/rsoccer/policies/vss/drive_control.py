@@ -1,6 +1,6 @@
 """Motion control of differential drives: from a target position to the speed of each wheel.
 
-Speeds of wheels are normalised: 1 is full speed, that is, an action of magnitude 1.
+Speeds of wheels are normalized: 1 is full speed, that is, an action of magnitude 1.
 """
 
 from typing import Final, NamedTuple
@@ -65,12 +65,12 @@ class DriveController:
         Args:
             ego: state of the robots, (n, robots, ...).
             target: their motion targets.
-            max_wheel_speed: largest normalised wheel speed, in (0, 1].
+            max_wheel_speed: largest normalized wheel speed, in (0, 1].
             slow_steps: (n, robots) counters of `back_off`; updated in place.
             rng: (n,) random streams; a robot that backs off turns at random.
 
         Returns:
-            (n, robots, 2) normalised speeds of the left and the right wheel, within
+            (n, robots, 2) normalized speeds of the left and the right wheel, within
             -max_wheel_speed to max_wheel_speed.
         """
         forward, turn = self._steer(ego, target)
@@ -156,7 +156,7 @@ def back_off(velocity: Floats, min_speed: np.float32, pushing: Mask, slow_steps:
 
 
 def wheel_speeds(forward: Floats, turn: Floats) -> Floats:
-    """Return the normalised speeds of the left and the right wheel, (..., 2) in [-1, 1].
+    """Return the normalized speeds of the left and the right wheel, (..., 2) in [-1, 1].
 
     If a wheel exceeds 1, both are scaled down alike, which keeps the curvature.
 

@@ -20,7 +20,7 @@ CLEARING: Final = np.float32(0.2)
 
 
 class FieldGeometry:
-    """Field, ball and robot of a task, in the view of a team that attacks +x. Metres."""
+    """Field, ball and robot of a task, in the view of a team that attacks +x. Meters."""
 
     def __init__(self, config: SimConfig) -> None:
         """Read the dimensions.
@@ -30,9 +30,9 @@ class FieldGeometry:
         """
         field, ball, clearance = config.field, config.ball, turning_clearance(config.robot)
         self.half_length = np.float32(field.half_length)
-        """From the centre to a goal line."""
+        """From the center to a goal line."""
         self.half_width = np.float32(field.half_width)
-        """From the centre to a side wall."""
+        """From the center to a side wall."""
         self.half_mouth = np.float32(field.goal_width / 2)
         """Half the width of a goal."""
         self.contact_distance = np.float32(config.robot.bounding_radius + ball.radius)
@@ -132,7 +132,7 @@ class FieldGeometry:
         share = np.minimum(np.maximum((FREE - distance) / (FREE - CLEARING), 0.0), np.float32(1.0))
         away_x, away_y = unit(away_x, away_y)
         push_x, push_y = push_x + share * (away_x - push_x), push_y + share * (away_y - push_y)
-        # Along the opponents' end wall towards the goal, along the own one away from it.
+        # Along the opponents' end wall toward the goal, along the own one away from it.
         along_end = np.copysign(np.float32(1.0), -y * x)
         push_x = np.where(side, np.float32(1.0), np.where(end, np.float32(0.0), push_x))
         push_y = np.where(side, np.float32(0.0), np.where(end, along_end, push_y))

@@ -69,7 +69,7 @@ class Scripted(Policy):
         }
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return the normalised wheel speeds, (n, robots, 2)."""
+        """Return the normalized wheel speeds, (n, robots, 2)."""
         view = inputs.required_view("scripted")
         assign_roles(self._field, view, memory["roles"])
         ego_roles = memory["roles"][:, :, 0]

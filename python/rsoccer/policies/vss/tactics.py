@@ -29,7 +29,7 @@ TRAPPED_ERROR: Final = np.float32(0.1)  # m that the run-up lacks to a position 
 NEAR_WALL: Final = np.float32(0.1)  # m from a wall within which the ball is pressed against it
 MIN_FLICK_SINE: Final = np.float32(0.5)  # of the angle between ball and push direction, for a flick
 # -- Keeper --
-MIN_SHOT_SPEED: Final = np.float32(0.15)  # m/s towards the goal that count as a shot
+MIN_SHOT_SPEED: Final = np.float32(0.15)  # m/s toward the goal that count as a shot
 DEPTH_RATIO: Final = np.float32(0.5)  # m off the goal line, per m of a ball beside the goal
 MIN_DEPTH: Final = np.float32(0.05)  # m off the goal line at least
 # -- All but the attacker --

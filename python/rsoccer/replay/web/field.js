@@ -1,5 +1,5 @@
 // Drawing of the field, the robots and the ball on a canvas.
-// World coordinates are metres, x towards yellow's goal and y to the left of it.
+// World coordinates are meters, x toward yellow's goal and y to the left of it.
 
 const TRAIL_SECONDS = 1.2;
 const KICK_SECONDS = 0.3;
@@ -50,7 +50,7 @@ class Moment {
   }
 }
 
-/** View of the world: scale, centre and orientation. */
+/** View of the world: scale, center and orientation. */
 class Camera {
   constructor(scene) {
     this.scene = scene;
@@ -86,7 +86,7 @@ class Camera {
     this.y = Math.min(Math.max(y, -limitY), limitY);
   }
 
-  /** Coefficients for `setTransform`, from metres to pixels. */
+  /** Coefficients for `setTransform`, from meters to pixels. */
   get matrix() {
     const s = this.scale;
     const [cx, cy] = [this.pixelWidth / 2, this.pixelHeight / 2];
@@ -397,7 +397,7 @@ class FieldView {
     context.shadowBlur = 0.16 * outlines.size * scale;
     fill(outlines.hull, outlines.hullColors[team]);
     context.shadowColor = "transparent";
-    outlines.wheels.forEach((wheel) => fill(wheel, colors.tyre));
+    outlines.wheels.forEach((wheel) => fill(wheel, colors.tire));
     fill(outlines.cover, colors[team]);
     if (outlines.arrow.length) fill(outlines.arrow, team === "blue" ? colors.white : colors.ink);
     if (outlines.dribbler.length) {

@@ -2,7 +2,7 @@
 
 Self-play against the current policy alone can cycle: a policy learns to beat its predecessor and
 forgets how to beat others. Frozen past policies and a share of fixed ones keep that skill. Past
-policies are drawn by prioritised fictitious self-play: those that the learner seldom beats often.
+policies are drawn by prioritized fictitious self-play: those that the learner seldom beats often.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ EQUAL = 0.5
 class PoolSlots:
     """Ages of the past policies in a pool of limited size, and the win rates against them.
 
-    Past policies are drawn by prioritised fictitious self-play (PFSP, Vinyals et al. 2019): those
+    Past policies are drawn by prioritized fictitious self-play (PFSP, Vinyals et al. 2019): those
     that the learner beats seldom are drawn often.
 
     Example:

@@ -1,4 +1,4 @@
-//! Two tyres that both slide: their friction acts against a slip that depends on it.
+//! Two tires that both slide: their friction acts against a slip that depends on it.
 
 use super::{Friction, Slip, Wheels};
 use crate::blocks::{Lanes, larger};
@@ -6,10 +6,10 @@ use crate::blocks::{Lanes, larger};
 /// Factor by which an estimate reduces the speed of a slip at most, so that it stays positive.
 const MAX_REDUCTION: f32 = 0.02;
 
-/// Slip below which a tyre rolls, m/s.
+/// Slip below which a tire rolls, m/s.
 const MIN_SLIP: f32 = 1e-6;
 
-/// Slip of two tyres that slide, at the end of a tick, and what it depends on.
+/// Slip of two tires that slide, at the end of a tick, and what it depends on.
 struct SlidingEnd {
     /// Along the wheels: left, right, m/s.
     along: [Lanes; 2],
@@ -20,16 +20,16 @@ struct SlidingEnd {
     /// Change of the slip at a wheel, left or right, by friction of 1 m/s along it, and at the other one.
     own: [Lanes; 2],
     other: Lanes,
-    /// Change of the slip along the axle by full friction of a tyre, m/s.
+    /// Change of the slip along the axle by full friction of a tire, m/s.
     lateral: Lanes,
 }
 
 impl Wheels {
-    /// Friction of tyres that both slide, against their slip at the end of the tick: along the wheel and
+    /// Friction of tires that both slide, against their slip at the end of the tick: along the wheel and
     /// along the axle each by its own grip.
     ///
     /// One step of Newton's method from the first estimate leaves an error of some thousandths of the
-    /// friction, and of some hundredths where a tyre comes to rest in the tick.
+    /// friction, and of some hundredths where a tire comes to rest in the tick.
     pub(super) fn sliding(&self, slip: &Slip) -> Friction {
         let speeds = self.refined(slip, self.estimate(slip));
         let SlidingEnd { along, across, .. } = self.sliding_end(slip, speeds);
@@ -46,7 +46,7 @@ impl Wheels {
         Friction { along: [left[0], right[0]], across: left[1] + right[1] }
     }
 
-    /// Estimate of the speeds of the slips at the end of the tick: exact for tyres that slip alike, along
+    /// Estimate of the speeds of the slips at the end of the tick: exact for tires that slip alike, along
     /// their wheels or along the axle.
     fn estimate(&self, slip: &Slip) -> [Lanes; 2] {
         slip.along.map(|along| {
@@ -57,7 +57,7 @@ impl Wheels {
         })
     }
 
-    /// Slip at the end of a tick in which friction is that of tyres that slide at `speeds`, m/s: for given
+    /// Slip at the end of a tick in which friction is that of tires that slide at `speeds`, m/s: for given
     /// speeds, friction is linear in the components of the slip.
     fn sliding_end(&self, slip: &Slip, speeds: [Lanes; 2]) -> SlidingEnd {
         let per_speed = speeds.map(|speed| Lanes::ONE / speed);
@@ -79,7 +79,7 @@ impl Wheels {
         }
     }
 
-    /// Better speeds of tyres that slide: a step of Newton's method, for speeds that are those of the slip
+    /// Better speeds of tires that slide: a step of Newton's method, for speeds that are those of the slip
     /// that follows from them.
     fn refined(&self, slip: &Slip, speeds: [Lanes; 2]) -> [Lanes; 2] {
         let end = self.sliding_end(slip, speeds);

@@ -13,14 +13,14 @@ use crate::math::Vector;
 /// A contact point in the solver.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ConstraintPoint {
-    /// From both bodies' centres to the point, m.
+    /// From both bodies' centers to the point, m.
     pub(super) arms: [Vector; 2],
     feature: u32,
     /// Along the normal, N s.
     pub(super) impulse: f32,
     /// m.
     separation: f32,
-    /// Levers of the normal about both bodies' centres, m.
+    /// Levers of the normal about both bodies' centers, m.
     levers: [f32; 2],
     /// Speed by a unit impulse, 1/kg, and its inverse.
     response: f32,
@@ -33,7 +33,7 @@ struct Friction {
     coefficient: f32,
     /// Along the tangent, N s.
     impulse: f32,
-    /// Levers of the tangent about both bodies' centres, m.
+    /// Levers of the tangent about both bodies' centers, m.
     levers: [f32; 2],
     /// kg.
     mass: f32,
@@ -57,7 +57,7 @@ pub(super) struct Constraint {
 
 /// Relative motion of the two bodies of a constraint.
 struct Relative {
-    /// Of the centres, along the normal and along the tangent, m/s.
+    /// Of the centers, along the normal and along the tangent, m/s.
     along: f32,
     aside: f32,
     /// rad/s.

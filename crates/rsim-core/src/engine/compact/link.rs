@@ -45,7 +45,7 @@ pub(super) struct Link {
 pub(super) struct Total {
     /// Normals weighted by impulse, N s.
     pub(super) normal: Vector,
-    /// From both bodies' centres to the points, weighted by impulse, N s m.
+    /// From both bodies' centers to the points, weighted by impulse, N s m.
     pub(super) arms: [Vector; 2],
     /// N s.
     pub(super) impulse: f32,

@@ -21,7 +21,7 @@ pub(in crate::engine) struct Manifold {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::engine) struct Point {
-    /// From both bodies' centres to the point when they touch, m.
+    /// From both bodies' centers to the point when they touch, m.
     pub(in crate::engine) arms: [Vector; 2],
     /// Now, along the normal, m; negative for overlapping outlines.
     pub(in crate::engine) separation: f32,

@@ -9,7 +9,7 @@ pub(in crate::engine) struct Rectangle<'a> {
     pub(in crate::engine) body: &'a SolverBody,
     /// Half sides, m.
     pub(in crate::engine) half: Vector,
-    /// Distance of the corners from the centre, m.
+    /// Distance of the corners from the center, m.
     pub(in crate::engine) radius: f32,
 }
 
@@ -38,7 +38,7 @@ impl Rectangle<'_> {
         [self.body.heading, self.body.heading.perp()]
     }
 
-    /// The farthest corner in a direction, from the centre, m.
+    /// The farthest corner in a direction, from the center, m.
     pub(super) fn corner(&self, direction: Vector) -> Vector {
         let [x, y] = self.axes();
         let along = |axis: Vector, half: f32| axis * half.copysign(axis.dot(direction));

@@ -2,7 +2,7 @@
 //!
 //! Robots side by side have an edge at their joint, which a robot that slides along them must not catch
 //! on. The contact of least depth cannot tell that edge from the side of a robot that stands alone: a
-//! box whose corner is a hundredth of a millimetre deep in a face comes upon the side of the next box
+//! box whose corner is a hundredth of a millimeter deep in a face comes upon the side of the next box
 //! first there. So an edge counts only if it protrudes.
 
 use super::rectangle::{Face, Met, Rectangle};
@@ -13,7 +13,7 @@ use crate::math::Vector;
 /// one that they would catch on. Boxes that press close by less.
 const SLIDING: f32 = 0.02;
 
-/// Whether two boxes are so slow that they do not slide, by the velocity of their centres and the speed of their
+/// Whether two boxes are so slow that they do not slide, by the velocity of their centers and the speed of their
 /// corners by rotation, m/s.
 pub(super) fn press(velocity: Vector, rim: f32) -> bool {
     let most = SLIDING - rim;

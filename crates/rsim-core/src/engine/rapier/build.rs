@@ -1,4 +1,4 @@
-//! Bodies and walls in rapier, and settings for bodies of a few centimetres.
+//! Bodies and walls in rapier, and settings for bodies of a few centimeters.
 
 use rapier2d::dynamics::{
     CoefficientCombineRule, IntegrationParameters, IslandManager, RigidBodyBuilder, RigidBodySet,
@@ -114,13 +114,13 @@ const MAX_BALL_SPEED_FACTOR: f32 = 3.0;
 /// Scale of the engine's tolerances, a tenth of their default.
 pub(super) const LENGTH_UNIT: f32 = 0.1;
 
-/// Settings for bodies of a few centimetres; the engine's defaults suit bodies of a metre.
+/// Settings for bodies of a few centimeters; the engine's defaults suit bodies of a meter.
 fn parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
         num_solver_iterations: SUB_STEPS,
         length_unit: LENGTH_UNIT,
-        // Stiff: bodies sink in by tenths of a millimetre, measured in crowds (default: 2 to 4 mm).
+        // Stiff: bodies sink in by tenths of a millimeter, measured in crowds (default: 2 to 4 mm).
         contact_softness: SpringCoefficients::new(200.0, 2.0),
         static_contact_softness: SpringCoefficients::new(400.0, 2.0),
         normalized_allowed_linear_error: 0.000_5,

@@ -1,4 +1,4 @@
-//! Tyres of a differential drive: Coulomb friction of each against its slip, also if both slide.
+//! Tires of a differential drive: Coulomb friction of each against its slip, also if both slide.
 
 use rsim_core::scenes::{Scene, kinetic_energy, lone_robot, robots, uniform};
 use rsim_core::{DifferentialDrive, Drive, RobotModel};
@@ -40,7 +40,7 @@ fn motions(scene: &Scene, seconds: f32) -> Vec<[f32; 3]> {
     scene.every_tick(seconds).iter().map(|row| motion(row)).collect()
 }
 
-/// Integration of the law in steps of 10 microseconds: friction acts on each tyre against its slip.
+/// Integration of the law in steps of 10 microseconds: friction acts on each tire against its slip.
 fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f64) -> [f64; 3] {
     const STEP: f64 = 1e-5;
     let DifferentialDrive {
@@ -107,7 +107,7 @@ fn a_spin_lasted_through_full_speed_straight_on() {
 
 #[test]
 fn the_faster_robots_spin_did_not_fall_at_full_speed() {
-    // Its rims are faster, so that its tyres slide nearly straight back for longer.
+    // Its rims are faster, so that its tires slide nearly straight back for longer.
     for tick in TICKS {
         for rate in [4.0, 6.0, 11.0, 19.0, 30.0] {
             let scene = moving(&RobotModel::VSS_650RPM, tick, [0.0, 0.0, rate], [1.0; 2]);
@@ -185,7 +185,7 @@ fn saturated_commands_drove_robots_past_their_top_speed() {
 }
 
 #[test]
-fn locked_tyres_never_add_energy() {
+fn locked_tires_never_add_energy() {
     for nth in 0..200 {
         for model in MODELS {
             let scene = moving(&model, 0.005, random_motion(nth), [0.0; 2]);
@@ -199,7 +199,7 @@ fn locked_tyres_never_add_energy() {
     }
 }
 
-/// A robot whose motors give less at the rim than its tyres transmit: 2.5 m/s².
+/// A robot whose motors give less at the rim than its tires transmit: 2.5 m/s².
 fn weak() -> RobotModel {
     let model = RobotModel::VSS_440RPM;
     let motor_torque = 2.5 * model.mass / 2.0 * drive(&model).wheel_radius;
@@ -208,7 +208,7 @@ fn weak() -> RobotModel {
 }
 
 #[test]
-fn motors_weaker_than_the_tyres_limit_the_longitudinal_force_only() {
+fn motors_weaker_than_the_tires_limit_the_longitudinal_force_only() {
     let model = weak();
     let [ahead, ..] = motions(&moving(&model, 0.005, [0.0; 3], [1.0; 2]), 0.1)[20];
     assert!((ahead - 0.25).abs() < 0.01, "2.5 m/s² for 0.1 s: {ahead}");
@@ -230,7 +230,7 @@ fn motors_weaker_than_the_tyres_limit_the_longitudinal_force_only() {
 const FROM_THE_LAW: [f32; 3] = [0.03, 0.03, 0.8];
 
 #[test]
-fn sliding_tyres_follow_the_law_at_every_tick() {
+fn sliding_tires_follow_the_law_at_every_tick() {
     for nth in 0..24 {
         for model in MODELS {
             let (start, wheels) = (random_motion(nth), [3, 4].map(|part| draw(nth, part)));

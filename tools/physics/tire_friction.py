@@ -1,4 +1,4 @@
-"""Reference solution for two sliding tyres: Coulomb friction integrated in small steps."""
+"""Reference solution for two sliding tires: Coulomb friction integrated in small steps."""
 
 from dataclasses import dataclass, replace
 from math import hypot
@@ -6,7 +6,7 @@ from math import hypot
 from tools.physics.cited import VssRobot
 
 STEP = 2e-5  # s
-CREEP = 1e-3  # m/s: below this slip friction is proportional to the slip, so that tyres can roll
+CREEP = 1e-3  # m/s: below this slip friction is proportional to the slip, so that tires can roll
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,9 @@ def straightening_time(robot: VssRobot, rim: float, spin: float, slow: float) ->
 
 
 def _step(robot: VssRobot, rim: float, motion: Motion) -> Motion:
-    """Integrate one step: friction opposes the slip of each tyre, bounded by a grip ellipse.
+    """Integrate one step: friction opposes the slip of each tire, bounded by a grip ellipse.
 
-    Each tyre carries half the weight; the body is a uniform square plate.
+    Each tire carries half the weight; the body is a uniform square plate.
     """
     forward = left = turning = 0.0
     for lever in (-robot.track_width / 2, robot.track_width / 2):
