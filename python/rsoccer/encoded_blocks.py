@@ -1,12 +1,15 @@
 """Observation blocks that the core computes at once, when they are needed."""
 
+import math
 from collections import UserDict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any
+from types import MappingProxyType
+from typing import Any, Final
 
 import numpy as np
 
+from rsoccer._core import clip_in_place
 from rsoccer.arrays import Floats
 from rsoccer.play import Play
 
@@ -15,11 +18,15 @@ Encode = Callable[[Play, Floats, Floats | None], None]
 (columns,), or not clipped for None."""
 
 
+_NONE: Final[Mapping[str, Floats]] = MappingProxyType({})
+
+
 class EncodedBlocks(UserDict[str, Floats]):
     """Blocks by name, computed when one of them is first read.
 
     As long as none has been read or replaced, all of them can be written at once to the place where
-    the flat observation is wanted, which saves a copy.
+    the flat observation is wanted, which saves a copy. `|` adds blocks of other names without
+    reading these.
     """
 
     def __init__(
@@ -27,31 +34,37 @@ class EncodedBlocks(UserDict[str, Floats]):
         encode: Encode,
         play: Play,
         layout: tuple[tuple[str, slice, tuple[int, ...]], ...],
+        added: Mapping[str, Floats] = _NONE,
     ) -> None:
         """Prepare blocks.
 
         Args:
-            encode: computes all blocks.
+            encode: computes all blocks of the layout.
             play: state of n worlds.
             layout: name, columns and shape of each block.
+            added: further blocks (n, observers, ...), of other names.
         """
         # UserDict's constructor would set `data`.
-        self._encode, self._play, self._layout = encode, play, layout
+        self._encode, self._play, self._layout, self._added = encode, play, layout, added
 
     @cached_property
     def data(self) -> dict[str, Floats]:  # type: ignore[override]  # an attribute of UserDict
-        """Blocks (n, observers, ...) by name, views of one array."""
-        rows = len(self._play.frame), len(self._play.observers)
-        flat = np.empty((*rows, self._layout[-1][1].stop), np.float32)
-        self._encode(self._play, flat, None)
-        return {
+        """Blocks (n, observers, ...) by name; those of the layout are views of one array."""
+        flat = self._flat()
+        rows = flat.shape[:2]
+        blocks = {
             name: flat[:, :, columns].reshape(*rows, *shape)
             for name, columns, shape in self._layout
         }
+        return {**blocks, **self._added}
 
     def __or__(self, other: Any) -> Any:  # noqa: ANN401  (overloaded in UserDict)
-        """Return a dict of these blocks and others."""
-        return {**self.data, **other}
+        """Return these blocks and others: not yet computed, or a dict where one is replaced."""
+        names = [name for name, _, _ in self._layout]
+        if "data" in self.__dict__ or not other.keys().isdisjoint(names):
+            return {**self.data, **other}
+        added = {**self._added, **other}
+        return EncodedBlocks(self._encode, self._play, self._layout, added)
 
     def __ror__(self, other: Any) -> Any:  # noqa: ANN401  (overloaded in UserDict)
         """Return a dict of other blocks and these."""
@@ -71,7 +84,26 @@ class EncodedBlocks(UserDict[str, Floats]):
         Returns:
             Whether they were written.
         """
-        if "data" in self.__dict__ or out.shape[-1] != self._layout[-1][1].stop:
+        if "data" in self.__dict__:
             return False
-        self._encode(self._play, out, bounds)
+        size = self._size + sum(math.prod(block.shape[2:]) for block in self._added.values())
+        if out.shape[-1] != size:
+            return False
+        if not self._added:
+            self._encode(self._play, out, bounds)
+            return True
+        added = (block.reshape(*out.shape[:2], -1) for block in self._added.values())
+        np.concatenate([self._flat(), *added], axis=-1, out=out, casting="same_kind")
+        clip_in_place(out, bounds)
         return True
+
+    @property
+    def _size(self) -> int:
+        """Numbers in the blocks of the layout."""
+        return self._layout[-1][1].stop
+
+    def _flat(self) -> Floats:
+        """The blocks of the layout as (n, observers, columns), a new array."""
+        flat = np.empty((len(self._play.frame), len(self._play.observers), self._size), np.float32)
+        self._encode(self._play, flat, None)
+        return flat

@@ -450,14 +450,17 @@ class Matches:
     def _sum_terms(self, named: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
         """Copies (n, agents) of the learners' reward terms by name, and their sum (n, agents)."""
         shape = (self.worlds, len(self.play.observers))
-        copies = np.empty((len(named), self.worlds, len(self.agents)), np.float32)
+        terms: dict[str, Floats] = {}
         rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
-        for copied, (name, term) in zip(copies, named.items(), strict=True):
+        for name, term in named.items():
             result_checks.term(name, term, shape)
-            is_common = term.shape != shape  # one column for all observers
-            copied[:] = term if is_common or self._all_learn else term[:, self._learner_indices]
-            rewards = rewards + copied  # `+=` is ten times slower on a single element
-        return dict(zip(named, copies, strict=True)), rewards
+            if term.shape != shape:  # one column for all observers
+                term = np.broadcast_to(term, shape)
+            if not self._all_learn:
+                term = term[:, self._learner_indices]
+            terms[name] = term.astype(np.float32, order="C")  # copies
+            rewards = rewards + terms[name]  # `+=` is ten times slower on a single element
+        return terms, rewards
 
     def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
         """Reset matches as `autoreset` demands, and fill in the outcome's observations."""

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Floats, Mask
-from rsoccer.frame import Frame
+from rsoccer.frame import NO_CROSSING, Frame
 from rsoccer.game import EventKind
 from rsoccer.play import Play
 from rsoccer.rules import free_places
@@ -114,11 +114,12 @@ class FreeBalls(Rule):
         offset = ball.position - place
         squared = offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1]
         left = squared > np.float32(STUCK_DISTANCE * STUCK_DISTANCE)
-        place[left] = ball.position[left]
+        np.copyto(place, ball.position, where=left[:, None])
         steps += 1
-        steps[left] = 0
-        in_play = ball.crossed == 0.0  # a ball may creep over the goal line
-        stuck: Mask = (steps >= self._limit) & in_play
+        np.copyto(steps, 0, where=left)
+        stuck = steps >= self._limit
+        if np.count_nonzero(stuck):  # in few steps
+            stuck &= ball.crossed == NO_CROSSING  # a ball may creep over the goal line
         return stuck
 
     def _restarted(self, frame: Frame) -> Frame:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, Final
 
 import numpy as np
@@ -99,7 +100,7 @@ class SslAttack(Ssl):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block "nearness" (n, observers, o, 3)."""
-        return {**super().frame_to_observations(play), "nearness": self._nearness(play)}
+        return super().frame_to_observations(play) | {"nearness": self._nearness(play)}
 
     def observation_limits(self) -> dict[str, float]:
         """Return the bounds of `Soccer` and of the block "nearness"."""
@@ -159,7 +160,7 @@ class SslAttack(Ssl):
         view = play.sensed_view
         offset = view.opponents.position - view.ego.position[..., None, :]  # (n, observers, o, 2)
         distance = norm(offset[..., 0], offset[..., 1])
-        gap = np.maximum(distance - np.float32(2.0 * self.config.robot.bounding_radius), 0.0)
+        gap = np.maximum(distance - self._contact_distance, 0.0)
         near = np.exp(-gap / NEARNESS_DISTANCE)
         opponents = np.where(play.observers < self.n_blue, self.n_yellow, self.n_blue)
         near *= np.arange(near.shape[-1]) < opponents[:, None]  # other slots are empty
@@ -167,23 +168,25 @@ class SslAttack(Ssl):
         block: Floats = np.concatenate([near[..., None], near[..., None] * direction], axis=-1)
         return block
 
+    @cached_property
+    def _contact_distance(self) -> np.float32:
+        """Distance between the centers of two robots that touch, m."""
+        return np.float32(2.0 * self.config.robot.bounding_radius)
+
     def _failed(self, frame: Frame) -> Mask:
         """(n,) whether ball or attacker left its area or the attacker committed a foul."""
         return self._ball_left(frame) | self._attacker_left(frame) | self._has_fouled(frame)
 
     def _ball_left(self, frame: Frame) -> Mask:
         """(n,) whether the ball is outside the opponents' half; the inside of the goal counts."""
-        ball, field = frame.ball.position, self.config.field
-        over_touch_line = np.abs(ball[:, 1]) > np.float32(field.half_width)
-        over_goal_line = ball[:, 0] > np.float32(field.half_length)
-        return np.logical_or(ball[:, 0] < 0.0, over_touch_line | over_goal_line)
+        ball = frame.ball.position
+        return np.logical_or(ball[:, 0] < 0.0, self.is_off_field(ball))
 
     def _attacker_left(self, frame: Frame) -> Mask:
         """(n,) whether the attacker is outside the opponents' half or in their goal area."""
-        position, field = frame.blue.position[:, 0], self.config.field
-        x, abs_y = position[:, 0], np.abs(position[:, 1])
-        outside = (abs_y > np.float32(field.half_width)) | (x > np.float32(field.half_length))
-        return np.logical_or(x < -CENTER_LINE_TOLERANCE, outside | self.is_in_goal_area(position))
+        position = frame.blue.position[:, 0]
+        outside = self.is_off_field(position) | self.is_in_goal_area(position)
+        return np.logical_or(position[:, 0] < -CENTER_LINE_TOLERANCE, outside)
 
     def _has_fouled(self, frame: Frame) -> Mask:
         """(n,) whether the attacker touched an opponent in the last step."""

@@ -155,7 +155,7 @@ class SslDribbling(Ssl):
         ones = np.ones_like(ahead)  # (n, observers)
         columns = [ahead * scale, left * scale]
         columns += [gate[:, 2:] * ones, fraction[:, None] * ones]
-        return {**super().frame_to_observations(play), "gate": np.stack(columns, axis=-1)}
+        return super().frame_to_observations(play) | {"gate": np.stack(columns, axis=-1)}
 
     def observation_limits(self) -> dict[str, float]:
         """Return the bounds of `Soccer` and of the block "gate"."""

@@ -163,7 +163,12 @@ class Vss(Soccer):
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
         """Convert actions to wheel speeds (n, robots, 2), rad/s."""
-        return actions * np.float32(self.config.robot.max_wheel_speed)
+        return actions * self._wheel_speed
+
+    @cached_property
+    def _wheel_speed(self) -> np.float32:
+        """Wheel speed of a full action, rad/s."""
+        return np.float32(self.config.robot.max_wheel_speed)
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         """Compute the reward terms of the class's table; a goal terminates."""
