@@ -30,6 +30,9 @@ pub(super) struct Wheels {
     /// Maximum friction of a tire that slips along the axle only, m/s, and its inverse.
     lateral: Lanes,
     per_lateral: Lanes,
+    /// Maximum friction along the axle of a tire whose friction along the wheel is `motor`, and `drive`, m/s.
+    lateral_at_motor: Lanes,
+    lateral_at_drive: Lanes,
     /// Change of the turn rate (rad/s) by friction of 1 m/s at one wheel.
     turn: Lanes,
     /// Speed of the robot at a wheel, and at the other one, by friction of 1 m/s along that wheel; and the
@@ -73,14 +76,19 @@ impl Wheels {
         let motor =
             lanes(|robot| robot.drive.motor_torque / (robot.drive.wheel_radius * robot.mass))
                 * tick;
+        let drive = smaller(motor, longitudinal);
+        let per_longitudinal = Lanes::ONE / longitudinal;
+        let lateral_at = |along: Lanes| lateral * part_left(along * per_longitudinal);
         Self {
             half_track,
             wheel_radius: lanes(|robot| robot.drive.wheel_radius),
             max_wheel_speed: lanes(|robot| robot.drive.max_wheel_speed),
             motor,
-            drive: smaller(motor, longitudinal),
+            drive,
             longitudinal,
-            per_longitudinal: Lanes::ONE / longitudinal,
+            per_longitudinal,
+            lateral_at_motor: lateral_at(motor),
+            lateral_at_drive: lateral_at(drive),
             lateral,
             per_lateral: Lanes::ONE / lateral,
             turn,
@@ -145,13 +153,8 @@ impl Wheels {
             return (rolling, rolls);
         }
         let rolls = rolls | (near & self.is_possible(&rolling));
-        let (mut friction, mut holds) = (rolling, rolls);
-        for wheel in [0, 1] {
-            let (pivoting, pivots) = self.pivoting(slip, wheel);
-            friction = friction.where_else(holds, &pivoting);
-            holds |= near & pivots;
-        }
-        (friction, holds)
+        let (pivoting, pivots) = self.pivoting(slip, &rolling);
+        (rolling.where_else(rolls, &pivoting), rolls | (near & pivots))
     }
 
     /// Whether friction of both tires at their limits would stop the slip of one: a necessary condition of
@@ -170,22 +173,25 @@ impl Wheels {
         Friction { along: [both - apart, both + apart], across: -slip.across }
     }
 
-    /// Friction that stops the slip of the tire of `wheel` alone, and whether it is possible. Slip along the
-    /// axle, which is the same for both tires, stops as well, so that the other tire slips along its wheel
-    /// only, at the limit of its motor or of its grip.
-    fn pivoting(&self, slip: &Slip, wheel: usize) -> (Friction, Lanes) {
-        let [held, slips] = [slip.along[wheel], slip.along[1 - wheel]];
+    /// Friction that stops the slip of one tire alone, and whether it is possible. Slip along the axle,
+    /// which is the same for both tires, stops as well, so that the other tire slips along its wheel only,
+    /// at the limit of its motor or of its grip. That is the tire that needs more friction to roll.
+    fn pivoting(&self, slip: &Slip, rolling: &Friction) -> (Friction, Lanes) {
+        let [left, right] = rolling.along.map(Lanes::abs);
+        let left_slips = right.simd_lt(left);
+        let swapped = |[left, right]: [Lanes; 2]| {
+            [left_slips.bitselect(right, left), left_slips.bitselect(left, right)]
+        };
+        let [held, slips] = swapped(slip.along);
         // The slip of the other tire while this one is held has the sign that it would have without friction.
         let direction = slips - held * self.other * self.per_own;
         let other = -limited_to_sign(self.drive, direction);
         let along = -(held + self.other * other) * self.per_own;
         let left = slips + self.own * other + self.other * along;
-        let mut friction = Friction { along: [along, other], across: -slip.across };
-        if wheel == 1 {
-            friction.along.swap(0, 1);
-        }
-        let possible = self.is_possible(&friction) & (left * direction).simd_ge(Lanes::ZERO);
-        (friction, possible)
+        let possible = along.abs().simd_le(self.drive)
+            & slip.across.abs().simd_le(self.lateral_left(along) + self.lateral_at_drive)
+            & (left * direction).simd_ge(Lanes::ZERO);
+        (Friction { along: swapped([along, other]), across: -slip.across }, possible)
     }
 
     /// Whether motors and tires can transmit this friction if both tires give half of that along the axle:
@@ -209,14 +215,13 @@ impl Wheels {
 
     /// Maximum friction along the axle of a tire with friction `along` its wheel, m/s.
     fn lateral_left(&self, along: Lanes) -> Lanes {
-        let used = along * self.per_longitudinal;
-        self.lateral * larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt()
+        self.lateral * part_left(along * self.per_longitudinal)
     }
 
     /// Friction of a tire whose motor is weaker than its grip: the rim follows the floor, which leaves the
     /// tire more friction along the axle.
     fn stalled(&self, along: Lanes, across: Lanes) -> (Lanes, Lanes) {
-        (limited(along, self.motor), limited(across, self.lateral_left(self.motor)))
+        (limited(along, self.motor), limited(across, self.lateral_at_motor))
     }
 }
 
@@ -231,6 +236,12 @@ impl Friction {
             across: mask.bitselect(self.across, other.across),
         }
     }
+}
+
+/// Part of the friction along the axle that a tire has left if it gives the part `used` of that along the
+/// wheel.
+fn part_left(used: Lanes) -> Lanes {
+    larger(Lanes::ONE - used * used, Lanes::ZERO).sqrt()
 }
 
 /// `limit` with the sign of `direction`.
