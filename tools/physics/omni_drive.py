@@ -26,11 +26,11 @@ TURN = Criterion(TOPIC, "time from 0 to 20 rad/s at 50.8 rad/s²", "s", absolute
 STOP_TURN = Criterion(TOPIC, "time from 20 rad/s to 0 at 51.6 rad/s²", "s", absolute(0.01), SPECS)
 TOP_SPEED = Criterion(TOPIC, "top speed of each preset", "m/s", percent(0.1), "`robot-specs.yaml`")
 TOP_TURN = Criterion(
-    TOPIC, "top turn rate of each preset", "rad/s", percent(0.1), "`robot-specs.yaml`"
+    TOPIC, "top angular velocity of each preset", "rad/s", percent(0.1), "`robot-specs.yaml`"
 )
 BY_WHEELS = Criterion(TOPIC, "speed for four wheel speeds", "m/s", percent(0.1), "wheel kinematics")
 WHEELS_TURN = Criterion(
-    TOPIC, "turn rate for four wheel speeds", "rad/s", absolute(0.001), "wheel kinematics"
+    TOPIC, "angular velocity for four wheel speeds", "rad/s", absolute(0.001), "wheel kinematics"
 )
 AGREE = Criterion(
     TOPIC,
@@ -117,7 +117,7 @@ def _top_speeds() -> Checks:
         scene.command(0, v_y=np.array([-9.0, 0.0]), v_theta=np.array([0.0, 99.0]))
         last = scene.play(1.2).robots
         yield TOP_SPEED(f"`{name}`", robot.max_speed, -last.velocity[-1, 0, 0, 1])
-        yield TOP_TURN(f"`{name}`", robot.max_turn_rate, last.angular_velocity[-1, 1, 0])
+        yield TOP_TURN(f"`{name}`", robot.max_angular_velocity, last.angular_velocity[-1, 1, 0])
 
 
 def wheel_speeds(v_x: float, v_y: float, v_theta: float) -> dict[str, float]:

@@ -89,7 +89,7 @@ pub(crate) struct Undisturbed {
     /// m/s.
     pub(crate) velocity: Vector,
     /// rad/s.
-    pub(crate) spin: f32,
+    pub(crate) angular_velocity: f32,
 }
 
 /// Sub-steps of a tick.
@@ -192,7 +192,7 @@ impl Bodies {
         let motion = &mut self.blocks[block].motion;
         let velocity = motion.velocity.get(lane) + impulse * inverse.mass;
         motion.velocity.set(lane, velocity);
-        motion.spin.as_mut_array()[lane] += arm.perp_dot(impulse) * inverse.inertia;
+        motion.angular_velocity.as_mut_array()[lane] += arm.perp_dot(impulse) * inverse.inertia;
     }
 
     /// Acceleration of a body during the next tick.
@@ -216,7 +216,7 @@ impl Bodies {
             let (motion, gain) = (self.motion(body), self.acceleration(body));
             Undisturbed {
                 velocity: motion.velocity + gain.linear * time,
-                spin: motion.spin + gain.angular * time,
+                angular_velocity: motion.angular_velocity + gain.angular * time,
             }
         }));
     }

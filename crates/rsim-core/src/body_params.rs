@@ -95,7 +95,7 @@ impl RobotParams {
     ) -> ContactBody {
         let arm = point - motion.position;
         ContactBody {
-            velocity: (motion.velocity + arm.perp() * motion.spin).extend(0.0),
+            velocity: (motion.velocity + arm.perp() * motion.angular_velocity).extend(0.0),
             arm,
             inverse_mass: self.inverse_mass,
             inverse_inertia: self.inverse_inertia,
@@ -221,7 +221,7 @@ fn varied_robot(model: &RobotModel, factors: &[f32]) -> RobotParams {
                 *limit *= acceleration;
             }
             for limit in
-                [&mut drive.max_speed, &mut drive.max_turn_rate, &mut drive.max_wheel_speed]
+                [&mut drive.max_speed, &mut drive.max_angular_velocity, &mut drive.max_wheel_speed]
             {
                 *limit *= speed;
             }

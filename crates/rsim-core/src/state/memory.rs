@@ -88,7 +88,7 @@ mod tests {
             let config = SimConfig { engine, ..SimConfig::ssl(3, 2) };
             let (mut changed, pristine) = (state(&config), state(&config));
             let mut motion = changed.bodies.motion(4);
-            motion.spin = 2.0;
+            motion.angular_velocity = 2.0;
             changed.place(4, &motion);
             changed.bodies.set_dribbling(1, 0.5);
             changed.bodies.add_collision(2, 0.25);

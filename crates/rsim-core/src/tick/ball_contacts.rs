@@ -87,7 +87,7 @@ fn contact_body(
                 other.velocity.z = -down;
             }
             let before = &undisturbed[index];
-            (before.velocity + other.arm.perp() * before.spin, other)
+            (before.velocity + other.arm.perp() * before.angular_velocity, other)
         }
     }
 }

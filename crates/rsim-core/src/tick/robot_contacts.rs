@@ -29,7 +29,7 @@ pub(super) fn resolve(
     for contact in contacts {
         let closing = -separation_speed(state, contact, |_, index| {
             let before = &undisturbed[index];
-            (before.velocity, before.spin)
+            (before.velocity, before.angular_velocity)
         });
         if let Partner::Robot(other) = contact.with {
             let pair = [contact.robot, other];
@@ -58,22 +58,22 @@ pub(super) fn sustained(state: &State, contacts: &[RobotContact]) -> u64 {
     })
 }
 
-/// Velocity (m/s) and turn rate (rad/s) of a robot now.
+/// Velocity (m/s) and angular velocity (rad/s) of a robot now.
 fn current_motion(state: &State, index: usize) -> (Vector, f32) {
     let motion = state.bodies.motion(robot(index));
-    (motion.velocity, motion.spin)
+    (motion.velocity, motion.angular_velocity)
 }
 
-/// Separation speed at a contact, m/s, with the velocities and turn rates that `motion_of` returns.
+/// Separation speed at a contact, m/s, with the velocities and angular velocities that `motion_of` returns.
 fn separation_speed(
     state: &State,
     contact: &RobotContact,
     motion_of: impl Fn(&State, usize) -> (Vector, f32),
 ) -> f32 {
     let at = |index: usize| {
-        let (velocity, spin) = motion_of(state, index);
+        let (velocity, angular_velocity) = motion_of(state, index);
         let arm = contact.point - state.bodies.motion(robot(index)).position;
-        velocity + arm.perp() * spin
+        velocity + arm.perp() * angular_velocity
     };
     let with = if let Partner::Robot(other) = contact.with { at(other) } else { Vector::ZERO };
     (with - at(contact.robot)).dot(contact.normal)

@@ -60,7 +60,7 @@ impl Side {
         let normal = nearest.normal;
         let arm = center - motion.position - normal * nearest.distance;
         let velocity = motion.velocity + bodies.acceleration(robot(index)).linear * tick;
-        let speed = (velocity + arm.perp() * motion.spin).dot(normal);
+        let speed = (velocity + arm.perp() * motion.angular_velocity).dot(normal);
         let mass = 1.0 / body.inverse_effective_mass(arm, normal);
         Self { normal, gap: nearest.distance - radius, speed, mass }
     }

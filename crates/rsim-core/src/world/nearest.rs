@@ -6,7 +6,9 @@
 
 use crate::blocks::{BALL, robot};
 use crate::body_params::BodyParams;
-use crate::columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
+use crate::columns::{
+    MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
+};
 use crate::error::PlaceError;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::Clearance;
@@ -219,7 +221,9 @@ fn tidy(start: &mut Start) {
     ball.spin = at_most(ball.spin, MAX_PLACED_SPIN);
     for motion in &mut start.motions[robot(0)..] {
         motion.velocity = at_most(motion.velocity.extend(0.0), MAX_PLACED_SPEED).truncate();
-        motion.spin = motion.spin.clamp(-MAX_PLACED_TURN_RATE, MAX_PLACED_TURN_RATE);
+        motion.angular_velocity = motion
+            .angular_velocity
+            .clamp(-MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_ANGULAR_VELOCITY);
         // A heading of no length has no direction.
         motion.heading = direction(motion.heading).unwrap_or(Vector::X);
     }

@@ -4,8 +4,8 @@ use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot, set_bits};
 use crate::body_params::BodyParams;
 use crate::columns::{
-    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
-    MAX_PLACED_TURN_RATE, ROBOT_COLUMNS,
+    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED,
+    MAX_PLACED_SPIN, ROBOT_COLUMNS,
 };
 use crate::engine::Shape;
 use crate::error::PlaceError;
@@ -218,9 +218,10 @@ impl Placement {
     /// Checks a robot against the limits of a start and the field.
     fn check_robot_alone(&self, who: usize, motion: &mut Motion) -> Result<(), PlaceError> {
         self.check_speed(who, "v_x, v_y", motion.velocity.extend(0.0))?;
-        let rate = motion.spin;
-        if rate.abs() > MAX_PLACED_TURN_RATE * ROUNDED {
-            return Err(PlaceError::TurnsTooFast { who: self.names[who].clone(), rate });
+        let angular_velocity = motion.angular_velocity;
+        if angular_velocity.abs() > MAX_PLACED_ANGULAR_VELOCITY * ROUNDED {
+            let who = self.names[who].clone();
+            return Err(PlaceError::TurnsTooFast { who, angular_velocity });
         }
         self.check_alone(who, motion, 0.0)
     }
@@ -385,6 +386,6 @@ fn read_robot(columns: &[f32]) -> Motion {
         position: Vector::new(*x, *y),
         heading: Vector::new(*cos, *sin),
         velocity: Vector::new(*v_x, *v_y),
-        spin: *v_theta,
+        angular_velocity: *v_theta,
     }
 }

@@ -48,7 +48,7 @@ fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [
         motion.heading.y,
         motion.velocity.x,
         motion.velocity.y,
-        motion.spin,
+        motion.angular_velocity,
         f32::from(u8::from(cut)),
         f32::from(u8::from(state.touches.touched_ball(index))),
         f32::from(u8::from(state.touches.touched_opponent(index))),

@@ -92,7 +92,8 @@ impl Link {
             return false;
         }
         let (a, b) = (&bodies[self.first], &bodies[self.second]);
-        let rims = a.spin.abs() * self.radii[0] + b.spin.abs() * self.radii[1];
+        let rims =
+            a.angular_velocity.abs() * self.radii[0] + b.angular_velocity.abs() * self.radii[1];
         rims < STEADY && (b.velocity - a.velocity).length_squared() < STEADY * STEADY
     }
 

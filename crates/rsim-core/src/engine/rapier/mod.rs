@@ -156,7 +156,7 @@ impl RapierSolver {
                 body.set_position(Pose::from_parts(motion.position, motion.rotation()), true);
             }
             body.set_linvel(motion.velocity, true);
-            body.set_angvel(motion.spin, true);
+            body.set_angvel(motion.angular_velocity, true);
             body.reset_forces(false);
             body.reset_torques(false);
             if index != BALL {
@@ -175,7 +175,7 @@ impl RapierSolver {
                 position: body.translation(),
                 heading: Vector::new(rotation.re, rotation.im),
                 velocity: body.linvel(),
-                spin: body.angvel(),
+                angular_velocity: body.angvel(),
             };
             bodies.set_motion(index, &motion);
         }
