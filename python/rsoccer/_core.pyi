@@ -1180,7 +1180,7 @@ class Simulator:
         worlds: NDArray[np.bool_],
         rows: NDArray[np.float32],
         out: NDArray[np.float32],
-        params: NDArray[np.float32] | None = None,
+        parameters: NDArray[np.float32] | None = None,
     ) -> None:
         """Start new matches in some worlds.
 
@@ -1193,7 +1193,7 @@ class Simulator:
                 `MAX_PLACED_HEIGHT`.
             out: Output (n, row), float32; the rows of these worlds are written. It may share memory
                 with `rows`.
-            params: Factors on the models' numbers in these worlds (number of True, parameters),
+            parameters: Factors on the models' numbers in these worlds (number of True, parameter),
                 float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot; from 0.001 to
                 1000, and 0 for the ball, except its mass. None for factors of 1.
 

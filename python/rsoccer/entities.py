@@ -129,7 +129,7 @@ class Entities:
 
 
 @dataclass(frozen=True)
-class FieldParams:
+class FieldParameters:
     """Dimensions of the field, the ball and the robots: the paper's `Field`.
 
     Attributes:
@@ -161,7 +161,7 @@ class FieldParams:
     max_wheel_speed: float
 
     @classmethod
-    def from_config(cls, config: SimConfig) -> "FieldParams":
+    def from_config(cls, config: SimConfig) -> "FieldParameters":
         """Read the dimensions of a configuration.
 
         Args:

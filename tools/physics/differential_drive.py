@@ -18,7 +18,7 @@ MISMATCH = 0.02
 MEASURED = "measured on rSim"
 TOP_SPEED = Criterion(TOPIC, "top speed", "m/s", percent(0.5), "rpm times wheel radius")
 RSIM_SPEED = Criterion(TOPIC, "rSim's robot: top speed", "m/s", percent(0.5), MEASURED)
-RSIM_TURN = Criterion(
+RSIM_ANGULAR_VELOCITY = Criterion(
     TOPIC, "rSim's robot: angular velocity, wheels at ±40 rad/s", "rad/s", percent(1), MEASURED
 )
 RSIM_STEP = Criterion(
@@ -28,7 +28,7 @@ SPEED_UP = Criterion(TOPIC, "acceleration in the first 0.1 s", "m/s²", percent(
 TO_TOP = Criterion(
     TOPIC, "time to 90% of the top speed", "s", absolute(0.01), "closed form, tire grip"
 )
-TOP_TURN = Criterion(
+TOP_ANGULAR_VELOCITY = Criterion(
     TOPIC, "top angular velocity on the spot", "rad/s", percent(0.5), "rim speed by half the track"
 )
 TURN_UP = Criterion(
@@ -40,7 +40,7 @@ DRIFT = Criterion(
 ARC = Criterion(
     TOPIC, "wheel speeds 2% apart: radius of the arc", "m", percent(1), "wheel kinematics"
 )
-ARC_TURN = Criterion(
+ARC_ANGULAR_VELOCITY = Criterion(
     TOPIC, "wheel speeds 2% apart: angular velocity", "rad/s", percent(1), "wheel kinematics"
 )
 SKID = Criterion(
@@ -90,7 +90,9 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     scene.command(0, left=-1e3, right=1e3)
     trajectory = scene.play(1.0)
     angular_velocity = trajectory.robots.angular_velocity[:, 0, 0]
-    yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, angular_velocity[-1])
+    yield TOP_ANGULAR_VELOCITY(
+        f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, angular_velocity[-1]
+    )
     # Both tires push with their full grip on a lever of half the track; inertia of a square plate.
     inertia = robot.side_length**2 / 6
     yield TURN_UP(
@@ -109,7 +111,7 @@ def _arc(name: str, robot: VssRobot) -> Checks:
     radius = robot.track_width / 2 * (right + left) / (right - left)
     yield ARC(f"`{name}`", radius, radius_of(robots.position[40::30, 0, 0]))
     turn = robot.wheel_radius * (right - left) / robot.track_width
-    yield ARC_TURN(f"`{name}`", turn, robots.angular_velocity[-1, 0, 0])
+    yield ARC_ANGULAR_VELOCITY(f"`{name}`", turn, robots.angular_velocity[-1, 0, 0])
 
 
 def radius_of(points: Array) -> float:
@@ -136,4 +138,4 @@ def _rsim_reference() -> Checks:
     yield RSIM_STEP("440 rpm", 6.85, speed[round(0.1 / TICK) - 1] / 0.1)
     scene = lone_robot("vss_440rpm")
     scene.command(0, left=-40.0, right=40.0)
-    yield RSIM_TURN("440 rpm", 26.6, scene.play(0.5).robots.angular_velocity[-1, 0, 0])
+    yield RSIM_ANGULAR_VELOCITY("440 rpm", 26.6, scene.play(0.5).robots.angular_velocity[-1, 0, 0])

@@ -170,7 +170,7 @@ pub enum PlaceError {
         z: f32,
     },
     /// Factors out of their range.
-    #[error("params: {0}")]
+    #[error("parameters: {0}")]
     Parameters(ConfigError),
     /// A ball or robots for a match whose state became non-finite.
     #[error("its state became non-finite; place that world again")]

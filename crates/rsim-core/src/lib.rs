@@ -16,7 +16,7 @@
 mod ball;
 mod blocks;
 mod bodies;
-mod body_params;
+mod body_parameters;
 pub mod columns;
 mod drive;
 mod engine;

@@ -63,10 +63,11 @@ impl Row {
             commands.push(command);
         }
         let mut scene = Scene::at("row", config, &poses, Driver::Constant(commands));
-        let mut factors = vec![1.0; scene.config.parameters_size()];
-        let of_robots = factors[BALL_PARAMETERS.len()..].chunks_exact_mut(ROBOT_PARAMETERS.len());
+        let mut parameters = vec![1.0; scene.config.parameters_size()];
+        let of_robots =
+            parameters[BALL_PARAMETERS.len()..].chunks_exact_mut(ROBOT_PARAMETERS.len());
         of_robots.take(ROW).for_each(|robot| robot[0] = self.mass);
-        scene.parameters = Some(factors);
+        scene.parameters = Some(parameters);
         scene
     }
 }

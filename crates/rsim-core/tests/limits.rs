@@ -76,20 +76,20 @@ fn a_repositioned_ball_has_the_limits_of_a_placed_one() {
 }
 
 #[test]
-fn absurd_factors_are_refused() {
+fn absurd_parameters_are_refused() {
     let scene = scenes::random_play();
     let size = parameters_size(scene.config.n_robots());
     for nth in 0..size {
         for wrong in [1e30, 1001.0, -1.0, f32::NAN, f32::INFINITY] {
-            let mut factors = vec![1.0; size];
-            factors[nth] = wrong;
-            let error = scene.world().place(&scene.start, Some(&factors)).expect_err("refused");
+            let mut parameters = vec![1.0; size];
+            parameters[nth] = wrong;
+            let error = scene.world().place(&scene.start, Some(&parameters)).expect_err("refused");
             assert!(matches!(error, PlaceError::Parameters(_)), "{nth} {wrong}: {error}");
         }
     }
-    let mut factors = vec![1.0; size];
-    factors[0] = 1e-30;
-    let error = scene.world().place(&scene.start, Some(&factors)).expect_err("refused");
+    let mut parameters = vec![1.0; size];
+    parameters[0] = 1e-30;
+    let error = scene.world().place(&scene.start, Some(&parameters)).expect_err("refused");
     assert!(error.to_string().contains("mass must be a factor from 0.001 to 1000"), "{error}");
 }
 

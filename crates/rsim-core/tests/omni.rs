@@ -84,11 +84,11 @@ fn pushing(push: f32, hold: f32, blue_traction: f32) -> Scene {
     let commands = vec![vec![push, 0.0, 0.0], vec![hold, 0.0, 0.0]];
     let mut scene = Scene::at("pushing", config, &poses, Driver::Constant(commands));
     scene.set_ball([0.0, 3.0], [0.0, 0.0]);
-    let mut factors = vec![1.0; parameters_size(2)];
-    let blue = factors.len() - 2 * ROBOT_PARAMETERS.len();
+    let mut parameters = vec![1.0; parameters_size(2)];
+    let blue = parameters.len() - 2 * ROBOT_PARAMETERS.len();
     let column = ROBOT_PARAMETERS.iter().position(|known| *known == "traction");
-    factors[blue + column.expect("known")] = blue_traction;
-    scene.parameters = Some(factors);
+    parameters[blue + column.expect("known")] = blue_traction;
+    scene.parameters = Some(parameters);
     scene
 }
 

@@ -1,7 +1,7 @@
 //! Rules for contacts of the ball: it may fly, it is fast for its size, and robots have a flat front.
 
 use super::contacts::Partner;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::arena::Wall;
 use crate::geometry::motion::{rotated, rotation};
 use crate::geometry::outline::{NearestPoint, PlacedOutline};
@@ -19,7 +19,7 @@ const MAX_ITERATIONS: usize = 32;
 
 /// Contact rules of the ball in one tick, or in a part of it.
 pub(crate) struct BallRules<'a> {
-    pub(crate) params: &'a BodyParams,
+    pub(crate) parameters: &'a BodyParameters,
     pub(crate) walls: &'a [Wall],
     pub(crate) phase: BallPhase,
     /// Set for a squeezed ball, which stays in contact with all bodies around it.
@@ -75,7 +75,7 @@ impl BallRules<'_> {
             BallPhase::Floor => true,
             BallPhase::Air => false,
             BallPhase::JammedInAir { height } => match with {
-                Partner::Robot(index) => height < self.params.robots[index].model.height,
+                Partner::Robot(index) => height < self.parameters.robots[index].model.height,
                 Partner::Wall(index) => height < self.walls[index].top,
             },
         }

@@ -1,7 +1,7 @@
 //! Bodies in the solver.
 
 use crate::bodies::Acceleration;
-use crate::body_params::InverseInertia;
+use crate::body_parameters::InverseInertia;
 use crate::geometry::motion::{Motion, rotated};
 use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::{Rotation, Vector};

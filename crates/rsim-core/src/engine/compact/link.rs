@@ -56,7 +56,7 @@ impl Link {
     /// end of `bodies`.
     pub(super) fn of(pair: &Pair, rules: &BallRules, bodies: &mut Vec<SolverBody>) -> Option<Self> {
         let one = pair.one;
-        let of = |body: usize| rules.params.robots[body - 1].model.friction;
+        let of = |body: usize| rules.parameters.robots[body - 1].model.friction;
         let (first, second, outlines, with, met_friction) = match pair.other {
             Other::Wall(index, place) => {
                 let outlines = [place.outline, one.outline];

@@ -69,7 +69,7 @@ impl PhysicsHooks for BallRules<'_> {
             }
         };
         let met = approached(other, outline);
-        let radius = self.params.ball.radius;
+        let radius = self.parameters.ball.radius;
         let touch = if self.squeezed.is_some() {
             Some(Touch::of(&met.place.nearest(center), center, radius))
         } else {
@@ -158,7 +158,7 @@ impl BallRules<'_> {
     /// Outline of a robot or wall as the ball meets it.
     fn outline_of(&self, partner: Partner) -> Outline {
         match partner {
-            Partner::Robot(index) => self.params.robots[index].outline,
+            Partner::Robot(index) => self.parameters.robots[index].outline,
             Partner::Wall(index) => self.walls[index].outline(),
         }
     }
