@@ -63,7 +63,7 @@ class Ssl(Soccer):
     =====  ==========================================  ==================================  =======
     Index  Meaning                                     Value of 1                          Range
     =====  ==========================================  ==================================  =======
-    0      velocity toward the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
+    0      velocity toward the attacked goal, or       `config.robot.top_speed`, m/s       -1 to 1
            ahead if `velocity_frame` is "robot"
     1      velocity to the left of that                `config.robot.top_speed`, m/s       -1 to 1
     2      angular velocity, counterclockwise          10 rad/s                            -1 to 1
