@@ -34,14 +34,14 @@ class Reach(Task):
         return actions * np.float32(self.config.robot.max_wheel_speed)
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
-        """Return the ball's position in the robot's frame (m) and the robot's scaled turn rate."""
+        """Return the ball's position in the robot's frame (m) and the scaled angular velocity."""
         view = play.sensed_view
         ego, offset = view.ego, view.ball.position - view.ego.position
         ahead = (offset * ego.heading).sum(axis=-1)
         left = offset[..., 1] * ego.heading[..., 0] - offset[..., 0] * ego.heading[..., 1]
         return {
             "ball_offset": np.stack([ahead, left], axis=-1),
-            "turn_rate": ego.angular_velocity / 10,
+            "angular_velocity": ego.angular_velocity / 10,
         }
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:

@@ -9,8 +9,8 @@ task = rsoccer.make_task("VSSSelfPlay-v0")
 matches = rsoccer.Matches(task, seed=0)
 matches.reset()
 state = entities.from_frame(matches.frame, 0)
-params = entities.FieldParams.from_config(task.config)
-print(f"a goal is {params.goal_width} m wide")
+parameters = entities.FieldParameters.from_config(task.config)
+print(f"a goal is {parameters.goal_width} m wide")
 
 ball, robot = state.ball, state.robots_blue[0]
 robot.x, robot.y, robot.theta = ball.x - 0.1, ball.y, 0.0  # behind the ball, facing yellow's goal

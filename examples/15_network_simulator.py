@@ -52,7 +52,7 @@ class NetworkSimulator:
         return self._receive(self.request(json.dumps({"commands": commands[0].tolist()})), out)
 
     def place(
-        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles:
         """Place all bodies."""
         return self._receive(self.request(json.dumps({"place": rows[0].tolist()})), out)

@@ -28,9 +28,9 @@ class PosesOnly:
         return self._hide(slice(None), out)
 
     def place(
-        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:
-        self._simulator.place(worlds, rows, self.truth, params)
+        self._simulator.place(worlds, rows, self.truth, parameters)
         return self._hide(worlds, out)
 
     def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:

@@ -144,9 +144,9 @@ def test_a_tracker_keeps_its_velocities() -> None:
             return times
 
         def place(
-            self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+            self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
         ) -> Doubles | None:
-            times = super().place(worlds, rows, out, params)
+            times = super().place(worlds, rows, out, parameters)
             out[worlds] = self.truth[worlds]
             return times
 

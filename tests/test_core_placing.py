@@ -47,15 +47,15 @@ def test_rows_can_be_a_part_of_the_output(method: str) -> None:
     np.testing.assert_array_equal(rows[0], starts()[0])
 
 
-def test_factors_can_lie_in_the_output() -> None:
+def test_parameters_can_lie_in_the_output() -> None:
     apart, within = Simulator(CONFIG, WORLDS), Simulator(CONFIG, WORLDS)
     memory = np.zeros((WORLDS, CONFIG.row_size), np.float32)
-    params = memory.reshape(-1)[: WORLDS * CONFIG.parameters_size]
-    params = params.reshape(WORLDS, CONFIG.parameters_size)
-    params[:] = np.random.default_rng(1).uniform(0.5, 1.0, params.shape)
+    parameters = memory.reshape(-1)[: WORLDS * CONFIG.parameters_size]
+    parameters = parameters.reshape(WORLDS, CONFIG.parameters_size)
+    parameters[:] = np.random.default_rng(1).uniform(0.5, 1.0, parameters.shape)
     expected = np.empty_like(memory)
-    apart.place(EVERY, starts(), expected, params.copy())
-    within.place(EVERY, starts(), memory, params)
+    apart.place(EVERY, starts(), expected, parameters.copy())
+    within.place(EVERY, starts(), memory, parameters)
     np.testing.assert_array_equal(memory, expected)
     assert within.snapshot() == apart.snapshot()
 
@@ -83,17 +83,17 @@ def test_a_refused_row_leaves_the_array_as_it_is(method: str) -> None:
     assert simulator.snapshot() == kept
 
 
-def test_a_restart_keeps_factors() -> None:
-    params = np.full((WORLDS, CONFIG.parameters_size), 0.8, np.float32)
+def test_a_restart_keeps_parameters() -> None:
+    parameters = np.full((WORLDS, CONFIG.parameters_size), 0.8, np.float32)
     restarted, new = Simulator(CONFIG, WORLDS), Simulator(CONFIG, WORLDS)
     rows, out = starts(), np.empty_like(starts())
-    restarted.place(EVERY, rows, out, params)
+    restarted.place(EVERY, rows, out, parameters)
     shape = (WORLDS, CONFIG.n_robots, len(CONFIG.command_columns))
     for _ in range(20):
         restarted.step(np.full(shape, 30.0, np.float32), out)
     restarted.restart(EVERY, rows, out)
     np.testing.assert_array_equal(out, rows)
-    new.place(EVERY, rows, out, params)
+    new.place(EVERY, rows, out, parameters)
     assert restarted.snapshot() == new.snapshot()
 
 

@@ -3,7 +3,7 @@ import pytest
 
 import rsoccer
 from rsoccer import SimConfig, Simulator, entities
-from rsoccer.entities import Ball, Entities, FieldParams, Robot
+from rsoccer.entities import Ball, Entities, FieldParameters, Robot
 from rsoccer.frame import Frame
 
 
@@ -122,10 +122,10 @@ def test_a_robot_converts_to_a_command() -> None:
     assert entities.to_command(robot, "omni_wheels").tolist() == [7, 0, 0, 0, 5, 0, 1]
 
 
-def test_field_params_have_the_configurations_dimensions() -> None:
+def test_field_parameters_have_the_configurations_dimensions() -> None:
     table, pitch = (
-        FieldParams.from_config(SimConfig("vss_5v5", 5, 5)),
-        FieldParams.from_config(SimConfig("ssl_a", 1, 0)),
+        FieldParameters.from_config(SimConfig("vss_5v5", 5, 5)),
+        FieldParameters.from_config(SimConfig("ssl_a", 1, 0)),
     )
     assert (table.length, table.goal_depth, table.penalty_length) == (2.2, 0.15, 0.35)
     assert (table.robot_radius, table.robot_front, table.wheel_angles) == (

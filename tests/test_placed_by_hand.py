@@ -74,10 +74,10 @@ def test_play_may_go_on_as_it_is() -> None:
     assert same(matches.frame.rows, start)
 
 
-def test_factors_are_refused() -> None:
+def test_parameters_are_refused() -> None:
     task = make_task("VSSSelfPlay-v0")
     hand = PlacedByHand(Robots(Simulator(task.config)), lambda placement: None)
     rows = np.zeros((1, task.config.row_size), np.float32)
-    params = np.ones((1, task.config.parameters_size), np.float32)
-    with pytest.raises(ValueError, match="params: expected None"):
-        hand.place(np.ones(1, np.bool_), rows, rows, params)
+    parameters = np.ones((1, task.config.parameters_size), np.float32)
+    with pytest.raises(ValueError, match="parameters: expected None"):
+        hand.place(np.ones(1, np.bool_), rows, rows, parameters)

@@ -40,7 +40,7 @@ def mirrored(task: Task) -> Task:
 
 
 def reflected_actions(actions: Floats) -> Floats:
-    """Actions with left and right swapped: wheels, or lateral velocity and turn rate."""
+    """Actions with left and right swapped: wheels, or lateral velocity and angular velocity."""
     if actions.shape[-1] == 2:
         return np.ascontiguousarray(actions[..., ::-1])
     return actions * np.array([1, -1, -1, 1, 1], np.float32)

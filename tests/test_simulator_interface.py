@@ -17,7 +17,9 @@ class Frozen:
     def __init__(self) -> None:
         self.calls: list[str] = []
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
+    ) -> None:
         self.calls.append("place")
         out[worlds] = rows
 

@@ -1,6 +1,7 @@
 """One word for one thing: words that the project has replaced do not come back."""
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -30,8 +31,30 @@ REPLACED = {
     "put_back": "reposition",
     "told": "commanded, reported",
     "whoever": "the agent, the caller",
+    r"turn(ing)?[\s_#/*-]+rates?": "angular velocity",
+    "(turning|rotation(al)?|angular)[ _](speed|rate)s?": "angular velocity",
+    "(max|top)_(spin|v_theta)": "angular velocity",
+    r"(motion|body|robots?|ego|own|target)\.spin": "angular velocity, as spin is the ball's",
+    "robot's spins?|spins? of (a|the|all) robots?": "angular velocity, as spin is the ball's",
+    r"\w*params\w*": "parameters",
+    r"(self|scene|world)\.factors": "parameters",
+    "(defense|penalty)[ _]areas?": "goal area",
 }
 """Patterns of replaced words, an underscore being a boundary, and the word in their place."""
+
+OF_OTHERS = {
+    "get_field_params": "the old simulator",
+    "`botParamsDatabase`": "a team's software",
+    ".tick_params(": "Matplotlib",
+    '"setparams=': "FFmpeg",
+    "fixture(params=": "pytest",
+    'scope="module", params=': "pytest",
+    "share_params=True": "TorchRL",
+    " params=loss.critic_network_params": "TorchRL",
+    "target_params=loss.target_critic_network_params": "TorchRL",
+    "(SSL: defense area)": "the rules of the SSL",
+}
+"""Phrases with a replaced word in a name that is not the project's, and whose name it is."""
 
 BRITISH = {
     "(off|half)?cent(re[sd]?|ring)": "center",
@@ -50,10 +73,23 @@ BRITISH = {
 """Patterns of British spellings, and the American one that users of Gymnasium search for."""
 
 
+@cache
 def sources() -> list[Path]:
     found = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*")]
     kept = [path for path in found if path.suffix in ENDINGS and "__pycache__" not in path.parts]
     return [path for path in [*kept, *(ROOT / page for page in PAGES)] if path != Path(__file__)]
+
+
+@cache
+def own_words(path: Path) -> str:
+    """Name and text of a file, without the names of others."""
+    return without_names_of_others(f"{path.relative_to(ROOT)}\n{path.read_text()}")
+
+
+def without_names_of_others(text: str) -> str:
+    for phrase in OF_OTHERS:
+        text = text.replace(phrase, "")
+    return text
 
 
 def uses(pattern: str, text: str) -> list[str]:
@@ -62,7 +98,7 @@ def uses(pattern: str, text: str) -> list[str]:
 
 @pytest.mark.parametrize("pattern", [*REPLACED, *BRITISH])
 def test_replaced_words_are_not_used(pattern: str) -> None:
-    using = [str(p.relative_to(ROOT)) for p in sources() if uses(pattern, p.read_text())]
+    using = [str(path.relative_to(ROOT)) for path in sources() if uses(pattern, own_words(path))]
     assert not using, f"write {(REPLACED | BRITISH)[pattern]!r}"
 
 
@@ -76,6 +112,30 @@ def test_replaced_words_are_not_used(pattern: str) -> None:
 )
 def test_british_spellings_are_found(word: str) -> None:
     assert any(uses(pattern, word) for pattern in BRITISH)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("turn rate", "max_turn_rate", "MAX_TURN_RATE", "top turn\n    rates", "turning rate"),
+        *("max_v_theta", "top_spin", "motion.spin", "the robot's spin", "rotational speed"),
+        *("params=None", "BodyParams", "field_params", "crates/rsim-core/src/body_params.rs"),
+        *("set_params(", "params = loss.critic_network_params", "fixture(scope, params=["),
+        *("scene.factors", "penalty area", "defense area"),
+    ],
+)
+def test_replaced_names_are_found(text: str) -> None:
+    assert any(uses(pattern, without_names_of_others(text)) for pattern in REPLACED)
+
+
+@pytest.mark.parametrize("text", ["return rate", "ball.spin", "MAX_PLACED_SPIN", *OF_OTHERS])
+def test_other_names_are_not_found(text: str) -> None:
+    assert not any(uses(pattern, without_names_of_others(text)) for pattern in REPLACED)
+
+
+@pytest.mark.parametrize("phrase", OF_OTHERS)
+def test_names_of_others_are_in_use(phrase: str) -> None:
+    assert any(phrase in path.read_text() for path in sources())
 
 
 def test_uses_are_found() -> None:

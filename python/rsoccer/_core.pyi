@@ -16,10 +16,10 @@ __all__ = [
     "BALL_PARAMETERS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
+    "MAX_PLACED_ANGULAR_VELOCITY",
     "MAX_PLACED_HEIGHT",
     "MAX_PLACED_SPEED",
     "MAX_PLACED_SPIN",
-    "MAX_PLACED_TURN_RATE",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
     "BallModel",
@@ -42,6 +42,9 @@ __all__ = [
     "pooled_moments",
 ]
 
+MAX_PLACED_ANGULAR_VELOCITY: float
+"""Maximum angular velocity with which a robot can be placed, rad/s."""
+
 MAX_PLACED_HEIGHT: float
 """Maximum height at which the ball can be placed, m."""
 
@@ -50,9 +53,6 @@ MAX_PLACED_SPEED: float
 
 MAX_PLACED_SPIN: float
 """Maximum spin with which the ball can be placed, rad/s."""
-
-MAX_PLACED_TURN_RATE: float
-"""Maximum turn rate with which a robot can be placed, rad/s."""
 
 BALL_COLUMNS: tuple[str, ...]
 """Names of the ball's columns in a state row.
@@ -75,12 +75,14 @@ ROBOT_COLUMNS: tuple[str, ...]
 | `x`, `y` | position of the center | m | within the walls if not absent |
 | `cos`, `sin` | heading, counterclockwise from +x | 1 | -1 to 1 |
 | `v_x`, `v_y` | velocity | m/s | any |
-| `v_theta` | turn rate, counterclockwise | rad/s | any |
+| `v_theta` | angular velocity, counterclockwise | rad/s | any |
 | `infrared` | whether the ball cuts the break beam | 1 | 0 or 1 |
 | `touched_ball` | whether it touched the ball in the last control step | 1 | 0 or 1 |
 | `touched_opponent` | whether it touched an opponent in that step | 1 | 0 or 1 |
 | `collision_speed` | closing speed of its hardest robot contact in that step | m/s | 0 or above |
 | `absent` | whether it is not on the field | 1 | 0 or 1 |
+
+`v_theta` is the name of the column of the angular velocity only, beside `v_x` and `v_y`.
 
 An absent robot rests behind its own goal, beyond all walls. It meets nothing, and its commands are
 ignored. `Simulator.place`, `restart` and `reposition_robots` take robots off the field and put them
@@ -93,7 +95,7 @@ COMMAND_COLUMNS: dict[str, tuple[str, ...]]
 | --- | --- | --- | --- |
 | `differential` | `left`, `right` | wheel speeds, positive is forward | rad/s |
 | `omni` | `v_x`, `v_y` | velocity forward and to the left | m/s |
-| | `v_theta` | turn rate, counterclockwise | rad/s |
+| | `v_theta` | angular velocity, counterclockwise | rad/s |
 | `omni_wheels` | `wheel_0` to `wheel_3` | wheel speeds, positive turns counterclockwise | rad/s |
 | both omni | `kick_v_x`, `kick_v_z` | kick forward and upward from the front; 0: none | m/s |
 | both omni | `dribbler` | dribbler speed by its maximum, 0 to 1 | 1 |
@@ -483,8 +485,8 @@ class RobotModel:
         """Maximum speed in every direction (m/s, above 0)."""
 
     @property
-    def max_turn_rate(self) -> float:
-        """Maximum turn rate (rad/s, above 0)."""
+    def max_angular_velocity(self) -> float:
+        """Maximum angular velocity (rad/s, above 0)."""
 
     @property
     def max_acceleration(self) -> float:
@@ -567,8 +569,8 @@ class RobotModel:
         """Maximum driving speed (m/s, above 0)."""
 
     @property
-    def top_turn_rate(self) -> float:
-        """Maximum turn rate on the spot (rad/s, above 0)."""
+    def top_angular_velocity(self) -> float:
+        """Maximum angular velocity on the spot (rad/s, above 0)."""
 
     @property
     def has_mouth(self) -> bool:
@@ -731,7 +733,7 @@ class Steering:
     | index | action, -1 to 1 | command at 1 |
     | --- | --- | --- |
     | 0, 1 | velocity along x and y of the chosen frame | `scales[0]`, `scales[1]` m/s |
-    | 2 | turn rate, counterclockwise | `scales[2]` rad/s |
+    | 2 | angular velocity, counterclockwise | `scales[2]` rad/s |
     | 3 | kick along the floor; none up to 0 | `scales[3]` m/s |
     | 4 | dribbler; off up to 0, else on | dribbler speed `scales[4]`, 0 to 1 |
 
@@ -1058,9 +1060,9 @@ def normalized(
 class EgoFeatures:
     """Egocentric features of robots, scaled for a network.
 
-    Positions are in half lengths of the field, velocities in top speeds and turn rates in top turn
-    rates of a robot, so most numbers are within -1 to 1; the table has the range of those that
-    are bounded. The blocks, in order:
+    Positions are in half lengths of the field, velocities in top speeds and angular velocities in
+    top angular velocities of a robot, so most numbers are within -1 to 1; the table has the range
+    of those that are bounded. The blocks, in order:
 
     | block | shape | meaning | unit |
     | --- | --- | --- | --- |
@@ -1069,7 +1071,7 @@ class EgoFeatures:
     | `ego` | (7,) or (8,) | x, y | half length |
     | | | cos, sin of the heading, -1 to 1 | 1 |
     | | | v_x, v_y | top speed |
-    | | | turn rate | top turn rate |
+    | | | angular velocity | top angular velocity |
     | | | break beam, 0 or 1, with a mouth | 1 |
     | `teammates` | (n_teammates, 7 or 8) | as `ego`; zeros for an empty slot | as `ego` |
     | `opponents` | (n_opponents, 7 or 8) | as `ego`; zeros for an empty slot | as `ego` |
@@ -1178,7 +1180,7 @@ class Simulator:
         worlds: NDArray[np.bool_],
         rows: NDArray[np.float32],
         out: NDArray[np.float32],
-        params: NDArray[np.float32] | None = None,
+        parameters: NDArray[np.float32] | None = None,
     ) -> None:
         """Start new matches in some worlds.
 
@@ -1186,11 +1188,12 @@ class Simulator:
             worlds: Mask of these worlds (n,), bool.
             rows: State rows of the starts (number of True, row), float32; positions, headings,
                 velocities, the ball's spin and `absent` are used, of an absent robot nothing else.
-                Speeds are at most `MAX_PLACED_SPEED`, turn rates `MAX_PLACED_TURN_RATE`, the ball's
-                spin `MAX_PLACED_SPIN` and its height `MAX_PLACED_HEIGHT`.
+                Speeds are at most `MAX_PLACED_SPEED`, angular velocities
+                `MAX_PLACED_ANGULAR_VELOCITY`, the ball's spin `MAX_PLACED_SPIN` and its height
+                `MAX_PLACED_HEIGHT`.
             out: Output (n, row), float32; the rows of these worlds are written. It may share memory
                 with `rows`.
-            params: Factors on the models' numbers in these worlds (number of True, parameters),
+            parameters: Factors on the models' numbers in these worlds (number of True, parameter),
                 float32: `BALL_PARAMETERS`, then `ROBOT_PARAMETERS` of each robot; from 0.001 to
                 1000, and 0 for the ball, except its mass. None for factors of 1.
 

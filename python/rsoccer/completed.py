@@ -201,7 +201,7 @@ class CompletedSimulator(CompletedStepper):
         super().__init__(stepper, config, worlds, velocities=velocities, gap=gap)
 
     def place(
-        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:
         """Start new matches in some worlds.
 
@@ -209,13 +209,13 @@ class CompletedSimulator(CompletedStepper):
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial states.
             out: (n, row) output; the rows of the k worlds are overwritten.
-            params: (k, parameters) factors on the models' numbers, or None.
+            parameters: (k, parameter) factors on the models' numbers, or None.
 
         Returns:
             Time stamps, or None.
         """
         known = self._known(rows)
-        times = self._stepper.place(worlds, rows, self._raw.rows, params)
+        times = self._stepper.place(worlds, rows, self._raw.rows, parameters)
         return self._placed(worlds, known, out, times)
 
     def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:

@@ -67,7 +67,7 @@ class Robot:
         theta: heading, degrees from +x toward +y; (-180, 180] when read from a frame.
         v_x: velocity along x, or forward in a command, m/s.
         v_y: velocity along y, or to the left in a command, m/s.
-        v_theta: turn rate, counterclockwise, degrees per second.
+        v_theta: angular velocity, counterclockwise, degrees per second.
         infrared: the ball cuts the beam.
         absent: the robot is not on the field.
         v_wheel0: wheel speed, rad/s; of two wheels the left one.
@@ -129,7 +129,7 @@ class Entities:
 
 
 @dataclass(frozen=True)
-class FieldParams:
+class FieldParameters:
     """Dimensions of the field, the ball and the robots: the paper's `Field`.
 
     Attributes:
@@ -161,7 +161,7 @@ class FieldParams:
     max_wheel_speed: float
 
     @classmethod
-    def from_config(cls, config: SimConfig) -> "FieldParams":
+    def from_config(cls, config: SimConfig) -> "FieldParameters":
         """Read the dimensions of a configuration.
 
         Args:
@@ -260,7 +260,7 @@ def to_command(robot: Robot, drive: str) -> Floats:
         drive: kind of drive: a key of `COMMAND_COLUMNS`.
 
     Returns:
-        The columns of the command (command,), float32; the turn rate in rad/s.
+        The columns of the command (command,), float32; the angular velocity in rad/s.
     """
     numbers = {part.name: getattr(robot, part.name) for part in fields(robot)}
     numbers["v_theta"] = np.radians(robot.v_theta)
@@ -304,7 +304,7 @@ def headings(angles: float | Array) -> Doubles:
 def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]:
     """Robots of a team in one world, by their number."""
     thetas = degrees(columns.heading[world])
-    turn_rates = np.degrees(columns.angular_velocity[world], dtype=np.float64)
+    angular_velocities = np.degrees(columns.angular_velocity[world], dtype=np.float64)
     return {
         i: Robot(
             yellow,
@@ -314,11 +314,11 @@ def _robots(columns: RobotColumns, world: int, yellow: bool) -> dict[int, Robot]
             theta=float(theta),
             v_x=float(columns.velocity[world, i, 0]),
             v_y=float(columns.velocity[world, i, 1]),
-            v_theta=float(turn_rate),
+            v_theta=float(angular_velocity),
             infrared=bool(columns.infrared[world, i]),
             absent=bool(columns.absent[world, i]),
         )
-        for i, (theta, turn_rate) in enumerate(zip(thetas, turn_rates, strict=True))
+        for i, (theta, angular_velocity) in enumerate(zip(thetas, angular_velocities, strict=True))
     }
 
 

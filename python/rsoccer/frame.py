@@ -147,7 +147,7 @@ class RobotColumns:
 
     @property
     def angular_velocity(self) -> Floats:
-        """(...) turn rate in rad/s, counterclockwise."""
+        """(...) angular velocity in rad/s, counterclockwise."""
         return self.data[..., self._ANGULAR_VELOCITY]
 
     @property

@@ -25,7 +25,7 @@ class StateEncoder:
     | ball, robot | `v_x`, `v_y` | top speed of the fastest robot |
     | ball | `z`, `v_z`; only if a robot has a mouth | as `x` and `v_x` |
     | robot | `cos`, `sin` of the heading | 1 |
-    | robot | `v_theta` | turn rate of the fastest robot spinning at top speed |
+    | robot | `v_theta` | top angular velocity of the fastest robot |
     | robot | `infrared`; only if a robot has a mouth | 1 if the ball cuts the beam |
 
     The columns stand in the order of `BALL_COLUMNS` and `ROBOT_COLUMNS`.
@@ -40,7 +40,7 @@ class StateEncoder:
         fastest = max(config.robots, key=lambda robot: robot.top_speed)
         top_speed, half_length = fastest.top_speed, config.field.half_length
         scales = {"x": half_length, "y": half_length, "v_x": top_speed, "v_y": top_speed}
-        robot_scales = {"cos": 1.0, "sin": 1.0, "v_theta": fastest.top_turn_rate}
+        robot_scales = {"cos": 1.0, "sin": 1.0, "v_theta": fastest.top_angular_velocity}
         if any(robot.has_mouth for robot in config.robots):
             scales |= {"z": half_length, "v_z": top_speed}
             robot_scales["infrared"] = 1.0

@@ -74,7 +74,7 @@ class PlacedByHand:
         return self._stepper.read(out)
 
     def place(
-        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:
         """Ask for the initial states of new episodes.
 
@@ -82,7 +82,7 @@ class PlacedByHand:
             worlds: (n,) bool, k of them True.
             rows: (k, row) wanted states.
             out: (n, row) output; the rows of the k worlds become the states that are found.
-            params: None.
+            parameters: None.
 
         Returns:
             Time stamps, or None.
@@ -90,8 +90,8 @@ class PlacedByHand:
         Raises:
             ValueError: factors on the numbers of models, which nobody can change by hand.
         """
-        if params is not None:
-            raise ValueError("params: expected None, because robots are as they are")
+        if parameters is not None:
+            raise ValueError("parameters: expected None, because robots are as they are")
         return self._placed(worlds, rows, out, ball_only=False)
 
     def restart(self, worlds: Mask, rows: Floats, out: Floats) -> Doubles | None:

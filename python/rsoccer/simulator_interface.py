@@ -52,17 +52,17 @@ class Placer(Protocol):
     """A stepper that can put bodies anywhere."""
 
     def place(
-        self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
     ) -> Doubles | None:
         """Start new matches in some worlds.
 
-        `Matches` calls this method for new episodes, without `params`.
+        `Matches` calls this method for new episodes, without `parameters`.
 
         Args:
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial state rows.
             out: (n, row) output; the rows of the k worlds are overwritten.
-            params: (k, parameters) factors on the models' numbers in these worlds,
+            parameters: (k, parameter) factors on the models' numbers in these worlds,
                 `BALL_PARAMETERS` and then `ROBOT_PARAMETERS` of each robot; the simulator's choice
                 if None.
 

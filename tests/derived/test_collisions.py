@@ -8,13 +8,13 @@ VSS = SimConfig()
 SIDE = VSS.robot.side_length
 
 
-def pair(distance: float, speed: float = 0.0, spin: float = 0.0) -> Frame:
+def pair(distance: float, speed: float = 0.0, angular_velocity: float = 0.0) -> Frame:
     """blue_0 at the center, yellow_0 ahead of it; the others far away."""
     frame = Frame.empty(1, 3, 3)
     frame.robots.position[0] = [(-0.5, 0.1 * i) for i in range(-3, 3)]
     frame.robots.position[0, 0], frame.robots.position[0, 3] = (0.0, 0.0), (distance, 0.0)
     frame.robots.velocity[0, 0] = speed, 0.0
-    frame.robots.angular_velocity[0, 0] = spin
+    frame.robots.angular_velocity[0, 0] = angular_velocity
     return frame
 
 
@@ -27,7 +27,7 @@ def test_opponents_that_meet_have_their_closing_speed() -> None:
 
 
 def test_a_corner_that_turns_into_a_robot_closes_at_its_own_speed() -> None:
-    last = pair(SIDE / 2 * (1 + 2**0.5) - 1e-4, spin=10.0)
+    last = pair(SIDE / 2 * (1 + 2**0.5) - 1e-4, angular_velocity=10.0)
     last.robots.heading[0, 0] = np.cos(0.7), np.sin(0.7)
     found = derived.collisions(last, last, VSS, 0.025)
     # The corner is at 45 + 40.1 degrees: it still moves toward the face, slowly.

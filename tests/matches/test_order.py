@@ -176,9 +176,11 @@ class TracedSimulator:
         self._own, self._calls = Simulator(task.config, 1), task.trace.calls
         self.reposition_balls = self._own.reposition_balls
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
+    ) -> None:
         self._calls.append("place")
-        self._own.place(worlds, rows, out, params)
+        self._own.place(worlds, rows, out, parameters)
 
     def restart(self, worlds: Mask, rows: Floats, out: Floats) -> None:
         self._calls.append("restart")

@@ -112,27 +112,31 @@ class Varied:
 
     def __init__(self, config: SimConfig) -> None:
         self.simulator, self.rng = Simulator(config), np.random.default_rng(0)
-        self.params = np.empty((1, config.parameters_size), np.float32)
+        self.parameters = np.empty((1, config.parameters_size), np.float32)
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401
         return getattr(self.simulator, name)
 
-    def place(self, worlds: Mask, rows: Floats, out: Floats, params: Floats | None = None) -> None:
-        self.params[:] = self.rng.uniform(0.7, 1.3, self.params.shape)
-        self.simulator.place(worlds, rows, out, self.params if params is None else params)
+    def place(
+        self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None
+    ) -> None:
+        self.parameters[:] = self.rng.uniform(0.7, 1.3, self.parameters.shape)
+        self.simulator.place(
+            worlds, rows, out, self.parameters if parameters is None else parameters
+        )
 
 
 def test_free_balls_leave_the_parameters_of_a_world_as_they_are() -> None:
     task = VssSelfPlay(free_ball=True)
     varied = Varied(task.config)
     matches = started(task, wedge(), simulator=varied, autoreset="disabled")
-    params = varied.params.copy()
+    parameters = varied.parameters.copy()
     for _ in range(STEPS):
         outcome = matches.step(zeros(matches))
     assert outcome.metrics["free_balls"][0] == 1.0
     # A match that begins in the same state with the parameters of this one has the same future.
     new, rows = Simulator(task.config), np.empty_like(matches.frame.rows)
-    new.place(np.ones(1, np.bool_), matches.frame.rows, rows, params)
+    new.place(np.ones(1, np.bool_), matches.frame.rows, rows, parameters)
     for _ in range(20):
         matches.step(zeros(matches) + 1.0)
         new.step(matches.play.commands, rows)

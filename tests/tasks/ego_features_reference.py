@@ -115,16 +115,16 @@ def _shot(ego: RobotColumns, to_ball: Floats, to_goal: Floats) -> Floats:
 
 
 class Scales:
-    """Scales of positions, velocities and turn rates for a field and a robot model."""
+    """Scales of positions, velocities and angular velocities for a field and a robot model."""
 
     def __init__(self, config: SimConfig) -> None:
         """Compute the scales: half the field's length is 1, and so are the robot's top speeds."""
         robot = config.robot
         self.per_meter = np.float32(1.0 / config.field.half_length)
         self.per_speed = np.float32(1.0 / robot.top_speed)
-        self.per_turn = np.float32(1.0 / robot.top_turn_rate)
+        self.per_angular_velocity = np.float32(1.0 / robot.top_angular_velocity)
         position, speed = [self.per_meter] * 2, [self.per_speed] * 2
-        plane = [*position, 1.0, 1.0, *speed, self.per_turn]
+        plane = [*position, 1.0, 1.0, *speed, self.per_angular_velocity]
         slots = config.n_robots + max(config.n_blue, config.n_yellow)
         # The scales of all slots in one row, for a single product.
         self._plane = np.tile(np.array(plane, np.float32), slots)

@@ -12,7 +12,7 @@ from tools.physics import cited
 from tools.physics.__main__ import PICTURES
 from tools.physics.check import EXACT, Check, Criterion, Tolerance, absolute, percent
 from tools.physics.closed_form import StraightKick, Surface, bounce, floor
-from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, max_turn_rate
+from tools.physics.dribbler import BALL, BAR_SPEED, GRIP, max_angular_velocity
 from tools.physics.kicker import front_offset
 from tools.physics.page import PAGE, format_value, pages_equal, render_page
 from tools.physics.scene import contact_engine, make_config
@@ -119,13 +119,13 @@ def test_sliding_tires_agree_with_closed_forms() -> None:
     aside = motion_after(robot, 0.0, Motion(left=1.0), 0.05)
     assert aside.left == pytest.approx(1.0 - robot.lateral_grip * 0.05, rel=1e-3)
     inertia = robot.side_length**2 / 6
-    turned = motion_after(robot, 0.0, Motion(spin=20.0), 0.05)
+    turned = motion_after(robot, 0.0, Motion(angular_velocity=20.0), 0.05)
     lost = robot.longitudinal_grip * robot.track_width / 2 / inertia * 0.05
-    assert turned.spin == pytest.approx(20.0 - lost, rel=1e-3)
+    assert turned.angular_velocity == pytest.approx(20.0 - lost, rel=1e-3)
 
 
-def test_maximum_turn_rate_balances_grip_floor_and_centripetal_force() -> None:
-    turn = max_turn_rate()
+def test_maximum_angular_velocity_balances_grip_floor_and_centripetal_force() -> None:
+    turn = max_angular_velocity()
     slip = math.hypot(turn * front_offset(), BAR_SPEED)
     floor = BALL.mass * BALL.sliding_deceleration
     along = floor * turn * front_offset() / slip

@@ -110,7 +110,7 @@ class SslRobot:
     front_distance: float
     mouth_width: float
     max_speed: float = 3.7
-    max_turn_rate: float = 26.2
+    max_angular_velocity: float = 26.2
     max_acceleration: float = 4.7
     max_deceleration: float = 5.9
     max_angular_acceleration: float = 50.8
@@ -144,7 +144,7 @@ class Number:
 SPECS = "`robot-specs.yaml`, all listed teams"
 SSL_SHARED = {
     "max_speed": Number(3.7, "m/s", SPECS),
-    "max_turn_rate": Number(26.2, "rad/s", SPECS),
+    "max_angular_velocity": Number(26.2, "rad/s", SPECS),
     "max_acceleration": Number(4.7, "m/s²", SPECS),
     "max_deceleration": Number(5.9, "m/s²", SPECS),
     "max_angular_acceleration": Number(50.8, "rad/s²", SPECS),

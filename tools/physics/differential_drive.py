@@ -18,8 +18,8 @@ MISMATCH = 0.02
 MEASURED = "measured on rSim"
 TOP_SPEED = Criterion(TOPIC, "top speed", "m/s", percent(0.5), "rpm times wheel radius")
 RSIM_SPEED = Criterion(TOPIC, "rSim's robot: top speed", "m/s", percent(0.5), MEASURED)
-RSIM_TURN = Criterion(
-    TOPIC, "rSim's robot: turn rate, wheels at ±40 rad/s", "rad/s", percent(1), MEASURED
+RSIM_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "rSim's robot: angular velocity, wheels at ±40 rad/s", "rad/s", percent(1), MEASURED
 )
 RSIM_STEP = Criterion(
     TOPIC, "rSim's robot: acceleration in the first 0.1 s", "m/s²", percent(1), MEASURED
@@ -28,8 +28,8 @@ SPEED_UP = Criterion(TOPIC, "acceleration in the first 0.1 s", "m/s²", percent(
 TO_TOP = Criterion(
     TOPIC, "time to 90% of the top speed", "s", absolute(0.01), "closed form, tire grip"
 )
-TOP_TURN = Criterion(
-    TOPIC, "top turn rate on the spot", "rad/s", percent(0.5), "rim speed by half the track"
+TOP_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "top angular velocity on the spot", "rad/s", percent(0.5), "rim speed by half the track"
 )
 TURN_UP = Criterion(
     TOPIC, "angular acceleration on the spot", "rad/s²", percent(1), "tire grip, inertia of a plate"
@@ -40,8 +40,8 @@ DRIFT = Criterion(
 ARC = Criterion(
     TOPIC, "wheel speeds 2% apart: radius of the arc", "m", percent(1), "wheel kinematics"
 )
-ARC_TURN = Criterion(
-    TOPIC, "wheel speeds 2% apart: turn rate", "rad/s", percent(1), "wheel kinematics"
+ARC_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "wheel speeds 2% apart: angular velocity", "rad/s", percent(1), "wheel kinematics"
 )
 SKID = Criterion(
     TOPIC, "sideways skid from 1 m/s: distance", "m", absolute(0.003), "closed form, side grip"
@@ -89,12 +89,16 @@ def _on_the_spot(name: str, robot: VssRobot) -> Checks:
     scene = lone_robot(name)
     scene.command(0, left=-1e3, right=1e3)
     trajectory = scene.play(1.0)
-    spin = trajectory.robots.angular_velocity[:, 0, 0]
-    yield TOP_TURN(f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, spin[-1])
+    angular_velocity = trajectory.robots.angular_velocity[:, 0, 0]
+    yield TOP_ANGULAR_VELOCITY(
+        f"`{name}`", 2 * top_rim_speed(robot) / robot.track_width, angular_velocity[-1]
+    )
     # Both tires push with their full grip on a lever of half the track; inertia of a square plate.
     inertia = robot.side_length**2 / 6
     yield TURN_UP(
-        f"`{name}`", robot.longitudinal_grip * robot.track_width / 2 / inertia, spin[3] / (4 * TICK)
+        f"`{name}`",
+        robot.longitudinal_grip * robot.track_width / 2 / inertia,
+        angular_velocity[3] / (4 * TICK),
     )
     yield SPOT(f"`{name}`", 0.0, 1000 * norm(*trajectory.robots.position[-1, 0, 0]))
 
@@ -107,7 +111,7 @@ def _arc(name: str, robot: VssRobot) -> Checks:
     radius = robot.track_width / 2 * (right + left) / (right - left)
     yield ARC(f"`{name}`", radius, radius_of(robots.position[40::30, 0, 0]))
     turn = robot.wheel_radius * (right - left) / robot.track_width
-    yield ARC_TURN(f"`{name}`", turn, robots.angular_velocity[-1, 0, 0])
+    yield ARC_ANGULAR_VELOCITY(f"`{name}`", turn, robots.angular_velocity[-1, 0, 0])
 
 
 def radius_of(points: Array) -> float:
@@ -134,4 +138,4 @@ def _rsim_reference() -> Checks:
     yield RSIM_STEP("440 rpm", 6.85, speed[round(0.1 / TICK) - 1] / 0.1)
     scene = lone_robot("vss_440rpm")
     scene.command(0, left=-40.0, right=40.0)
-    yield RSIM_TURN("440 rpm", 26.6, scene.play(0.5).robots.angular_velocity[-1, 0, 0])
+    yield RSIM_ANGULAR_VELOCITY("440 rpm", 26.6, scene.play(0.5).robots.angular_velocity[-1, 0, 0])

@@ -38,13 +38,17 @@ WITHOUT = Criterion(
 )
 TURN = Criterion(
     TOPIC,
-    "maximum turn rate from rest that keeps the ball",
+    "maximum angular velocity from rest that keeps the ball",
     "rad/s",
     percent(10),
     "driving limit of TIGERs",
 )
 STEADY = Criterion(
-    TOPIC, "maximum steady turn rate that keeps the ball", "rad/s", percent(5), "0.12 N and floor"
+    TOPIC,
+    "maximum steady angular velocity that keeps the ball",
+    "rad/s",
+    percent(5),
+    "0.12 N and floor",
 )
 BRAKE = Criterion(
     TOPIC, "maximum deceleration that keeps the ball", "m/s²", percent(5), "0.12 N and floor"
@@ -110,7 +114,7 @@ def checks() -> Checks:
     yield from _holding()
     yield from _losing()
     yield from _speed()
-    yield from _spinning()
+    yield from _back_spin()
     yield from _releasing()
     yield from _stealing()
 
@@ -143,12 +147,12 @@ def _holding() -> Checks:
 
 
 def _losing() -> Checks:
-    rates = np.arange(3.0, 10.0, 0.1)
-    turns = np.stack([0 * rates, 0 * rates, rates], axis=-1)
+    angular_velocities = np.arange(3.0, 10.0, 0.1)
+    turns = np.stack([0 * angular_velocities, 0 * angular_velocities, angular_velocities], axis=-1)
     kept = _drive(turns, 1.0, 3.0).robots.infrared[-1, :, 0] == 1.0
-    yield TURN("full dribbler", TURN_WITH_BALL, highest_kept(rates, kept))
-    kept = turning_scene(rates).play(3.0).robots.infrared[-1, :, 0] == 1.0
-    yield STEADY("full dribbler", max_turn_rate(), highest_kept(rates, kept))
+    yield TURN("full dribbler", TURN_WITH_BALL, highest_kept(angular_velocities, kept))
+    kept = turning_scene(angular_velocities).play(3.0).robots.infrared[-1, :, 0] == 1.0
+    yield STEADY("full dribbler", max_angular_velocity(), highest_kept(angular_velocities, kept))
     # The back-spin makes floor friction decelerate the ball as well, up to sliding friction.
     hardest = GRIP / BALL.mass + BALL.sliding_deceleration
     candidates = np.append(np.arange(1.0, GENERIC.max_deceleration, 0.1), GENERIC.max_deceleration)
@@ -172,14 +176,14 @@ def highest_kept(values: Array, kept: Array) -> float:
 
 
 def turning_scene(
-    rates: Array | float, worlds: int | None = None, time_step: float = STEP
+    angular_velocities: Array | float, worlds: int | None = None, time_step: float = STEP
 ) -> Scene:
     """Return robots that already turn (rad/s), each with the ball and its back-spin."""
-    scene = with_ball(worlds=worlds or np.size(rates), time_step=time_step)
-    scene.robots.angular_velocity[:, 0] = rates
-    scene.ball.velocity[:, 1] = np.asarray(rates) * front_offset()
+    scene = with_ball(worlds=worlds or np.size(angular_velocities), time_step=time_step)
+    scene.robots.angular_velocity[:, 0] = angular_velocities
+    scene.ball.velocity[:, 1] = np.asarray(angular_velocities) * front_offset()
     scene.ball.spin[:, 1] = -BAR_SPEED / BALL.radius
-    scene.command(0, v_theta=rates, dribbler=1.0)
+    scene.command(0, v_theta=angular_velocities, dribbler=1.0)
     return scene
 
 
@@ -202,8 +206,8 @@ def _keeps_ball(brake: float) -> bool:
     return bool(kept)
 
 
-def max_turn_rate() -> float:
-    """Return the turn rate (rad/s) at which the grip just holds the ball on its circle.
+def max_angular_velocity() -> float:
+    """Return the angular velocity (rad/s) at which the grip just holds the ball on its circle.
 
     Floor friction opposes the slip of the ball. Its tangential part loads the grip; its radial
     part, caused by the back-spin, points to the robot and relieves the grip.
@@ -231,7 +235,7 @@ def _speed() -> Checks:
         yield NO_SLOWER(direction, 1.0, distances[0][world] / distances[1][world])
 
 
-def _spinning() -> Checks:
+def _back_spin() -> Checks:
     spin = _drive(np.zeros((1, 3)), 1.0, 1.0).ball.spin[-1, 0, 1]
     yield BACK_SPIN("robot at rest", -BAR_SPEED, spin * BALL.radius)
 

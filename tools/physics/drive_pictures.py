@@ -26,17 +26,19 @@ def draw_steps() -> Figure:
     made, (forward, turn) = figure(2, width=9.0)
     for axes, command, quantity, label in (
         (forward, {"v_x": 3.0}, "speed", "ssl_generic, command 3 m/s"),
-        (turn, {"v_theta": 20.0}, "spin", "ssl_generic, command 20 rad/s"),
+        (turn, {"v_theta": 20.0}, "angular velocity", "ssl_generic, command 20 rad/s"),
     ):
         _draw_step(axes, omni_drive.lone_robot(), command, quantity, label, GREEN)
     for name, color in zip(VSS_ROBOTS, (BLUE, YELLOW), strict=True):
         full = {"left": 1e3, "right": 1e3}
-        spin = {"left": -1e3, "right": 1e3}
+        on_the_spot = {"left": -1e3, "right": 1e3}
         label = f"{name}, full speed"
         _draw_step(forward, differential_drive.lone_robot(name), full, "speed", label, color)
-        _draw_step(turn, differential_drive.lone_robot(name), spin, "spin", label, color)
+        _draw_step(
+            turn, differential_drive.lone_robot(name), on_the_spot, "angular velocity", label, color
+        )
     forward.set(xlabel="time (s)", ylabel="speed (m/s)", xlim=(0, 1.6), ylim=(0, 4.2))
-    turn.set(xlabel="time (s)", ylabel="turn rate (rad/s)", xlim=(0, 1.6), ylim=(0, 62))
+    turn.set(xlabel="time (s)", ylabel="angular velocity (rad/s)", xlim=(0, 1.6), ylim=(0, 62))
     for axes in (forward, turn):
         axes.legend(frameon=False, loc="upper right")
     made.suptitle("Step response from rest to speed; stop command at 0.8 s")

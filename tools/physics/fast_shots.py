@@ -26,8 +26,8 @@ SIDES = Criterion(
 BACKS = Criterion(TOPIC, "shots through the back of an SSL goal", "of 500", EXACT, SOLID_WALLS)
 ROBOTS = Criterion(TOPIC, "shots through a robot", "of 1000", EXACT, SOLID_ROBOTS)
 TOUCHED = Criterion(TOPIC, "shots aimed at a robot: contacts", "of 1000", EXACT, "aim")
-SPINNING = Criterion(TOPIC, "shots through a spinning robot", "of 1000", EXACT, SOLID_ROBOTS)
-SPIN_TOUCHED = Criterion(
+TURNING = Criterion(TOPIC, "shots through a spinning robot", "of 1000", EXACT, SOLID_ROBOTS)
+TURNING_TOUCHED = Criterion(
     TOPIC, "shots aimed at a spinning robot: contacts", "of 1000", EXACT, "aim"
 )
 DEFLECTION = Criterion(TOPIC, "shots 2 mm beside a robot: deflection", "mm", absolute(0.001), CLEAR)
@@ -50,7 +50,7 @@ def checks() -> Checks:
     yield from _goal_sides()
     yield from _goal_backs()
     yield from _robots()
-    yield from _spinning()
+    yield from _turning()
     yield from _near_robots()
     yield from _near_walls()
     yield from _corners()
@@ -113,28 +113,30 @@ def _robots() -> Checks:
         yield TOUCHED(f"`{field}`", SHOTS, (ball.last_touch[-1] == 0).sum())
 
 
-def _spinning() -> Checks:
-    """Shoot at fast spinning robots.
+def _turning() -> Checks:
+    """Shoot at robots that turn fast.
 
     A ball beyond the robot counts as through if it is hardly deflected: few glance off a corner.
     """
-    for field, half, spin in (("vss_3v3", 0.0375, 30.0), ("ssl_b", 0.0715, 26.2)):
+    for field, half, top in (("vss_3v3", 0.0375, 30.0), ("ssl_b", 0.0715, 26.2)):
         scene = Scene(make_config(field, 1, 0), SHOTS)
         shots = _uniform([-0.4, 0, 0, 0, 0], [0.1, 0.3, 0.0, 0.8 * half, 180.0])
         scene.face(0, shots[:, 4])
-        spins = np.where(np.arange(SHOTS) % 2, spin, -spin)
-        scene.robots.angular_velocity[:, 0] = spins
+        angular_velocities = np.where(np.arange(SHOTS) % 2, top, -top)
+        scene.robots.angular_velocity[:, 0] = angular_velocities
         if field == "ssl_b":
-            scene.command(0, v_theta=spins)
+            scene.command(0, v_theta=angular_velocities)
         else:
-            scene.command(0, left=-46 * np.sign(spins), right=46 * np.sign(spins))
+            scene.command(
+                0, left=-46 * np.sign(angular_velocities), right=46 * np.sign(angular_velocities)
+            )
         _shoot(scene, shots[:, :2], shots[:, 2:4])
         ball = scene.play(0.1).ball
         beyond = (ball.position[-1] * -shots[:, :2]).sum(axis=-1) > 0.1
         ahead = (ball.velocity[-1] * scene.ball.velocity).sum(axis=-1)
         straight = ahead > 0.9 * SPEED * norm(*ball.velocity[-1].T)
-        yield SPINNING(f"`{field}`, {spin:g} rad/s", 0, (beyond & straight).sum())
-        yield SPIN_TOUCHED(f"`{field}`, {spin:g} rad/s", SHOTS, (ball.last_touch[-1] == 0).sum())
+        yield TURNING(f"`{field}`, {top:g} rad/s", 0, (beyond & straight).sum())
+        yield TURNING_TOUCHED(f"`{field}`, {top:g} rad/s", SHOTS, (ball.last_touch[-1] == 0).sum())
 
 
 def _shoot_along_x(field: str, robots: int, start: Array, seconds: float) -> Trajectory:

@@ -25,12 +25,12 @@ BRAKE = Criterion(
 TURN = Criterion(TOPIC, "time from 0 to 20 rad/s at 50.8 rad/s²", "s", absolute(0.01), SPECS)
 STOP_TURN = Criterion(TOPIC, "time from 20 rad/s to 0 at 51.6 rad/s²", "s", absolute(0.01), SPECS)
 TOP_SPEED = Criterion(TOPIC, "top speed of each preset", "m/s", percent(0.1), "`robot-specs.yaml`")
-TOP_TURN = Criterion(
-    TOPIC, "top turn rate of each preset", "rad/s", percent(0.1), "`robot-specs.yaml`"
+TOP_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "top angular velocity of each preset", "rad/s", percent(0.1), "`robot-specs.yaml`"
 )
 BY_WHEELS = Criterion(TOPIC, "speed for four wheel speeds", "m/s", percent(0.1), "wheel kinematics")
-WHEELS_TURN = Criterion(
-    TOPIC, "turn rate for four wheel speeds", "rad/s", absolute(0.001), "wheel kinematics"
+WHEELS_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "angular velocity for four wheel speeds", "rad/s", absolute(0.001), "wheel kinematics"
 )
 AGREE = Criterion(
     TOPIC,
@@ -117,7 +117,9 @@ def _top_speeds() -> Checks:
         scene.command(0, v_y=np.array([-9.0, 0.0]), v_theta=np.array([0.0, 99.0]))
         last = scene.play(1.2).robots
         yield TOP_SPEED(f"`{name}`", robot.max_speed, -last.velocity[-1, 0, 0, 1])
-        yield TOP_TURN(f"`{name}`", robot.max_turn_rate, last.angular_velocity[-1, 1, 0])
+        yield TOP_ANGULAR_VELOCITY(
+            f"`{name}`", robot.max_angular_velocity, last.angular_velocity[-1, 1, 0]
+        )
 
 
 def wheel_speeds(v_x: float, v_y: float, v_theta: float) -> dict[str, float]:
@@ -138,7 +140,7 @@ def _wheels() -> Checks:
         a, b = (scene.play(1.0).robots for scene in (by_wheels, by_body))
         case = f"{v_x:g} m/s, {v_y:g} m/s, {v_theta:g} rad/s"
         yield BY_WHEELS(case, hypot(v_x, v_y), norm(*a.velocity[-1, 0, 0]))
-        yield WHEELS_TURN(case, v_theta, a.angular_velocity[-1, 0, 0])
+        yield WHEELS_ANGULAR_VELOCITY(case, v_theta, a.angular_velocity[-1, 0, 0])
         yield AGREE(case, 0.0, norm(*(a.position[-1, 0, 0] - b.position[-1, 0, 0])))
 
 

@@ -31,7 +31,7 @@ EFFECTS = {
         "mass": "Momentum in pushing, ball contacts and kicks. Accelerations do not change.",
         "height": "Height above which the ball flies over the robot.",
         "acceleration": "SSL: all four acceleration limits. VSSS: motor torque and forward grip.",
-        "speed": "Top speed, top turn rate and maximum wheel speed.",
+        "speed": "Top speed, top angular velocity and maximum wheel speed.",
         "traction": "Maximum force of the wheels: pushing, holding position, skidding.",
         "kick": "Speed of kicks and chips, after the limit of the kicker.",
         "grip": "Holding force of the dribbler.",

@@ -126,7 +126,7 @@ def ssl_table() -> str:
         "mass (kg)",
         "mouth width (mm)",
         "maximum kick / chip (m/s)",
-        "top speed, turn rate (m/s, rad/s)",
+        "top speed, angular velocity (m/s, rad/s)",
         "wheel angles (degrees)",
     )
     rows = []
@@ -142,7 +142,7 @@ def ssl_table() -> str:
                 f"{robot.mass:.4g}",
                 f"{1000 * robot.mouth_width:.4g}",
                 _numbers(robot, "max_kick_speed", "max_chip_speed"),
-                _numbers(robot, "top_speed", "top_turn_rate"),
+                _numbers(robot, "top_speed", "top_angular_velocity"),
                 " ".join(f"{angle:g}" for angle in robot.wheel_angles),
             )
         )
@@ -166,7 +166,7 @@ def vss_table() -> str:
         "side / height (mm)",
         "mass (g)",
         "wheel radius / track (mm)",
-        "top speed, turn rate (m/s, rad/s)",
+        "top speed, angular velocity (m/s, rad/s)",
         "torque per wheel (N m)",
         "grip forward / sideways (m/s²)",
         "source",
@@ -180,7 +180,7 @@ def vss_table() -> str:
                 f"{1000 * robot.side_length:.4g} / {1000 * robot.height:.4g}",
                 f"{1000 * robot.mass:.4g}",
                 f"{1000 * robot.wheel_radius:.4g} / {1000 * robot.track_width:.4g}",
-                _numbers(robot, "top_speed", "top_turn_rate"),
+                _numbers(robot, "top_speed", "top_angular_velocity"),
                 _numbers(robot, "motor_torque"),
                 _numbers(robot, "longitudinal_grip", "lateral_grip"),
                 cited.source,

@@ -15,12 +15,14 @@ RESTITUTION = Criterion(
 )
 OFF_CENTER = Criterion(
     TOPIC,
-    "two SSL robots, 30 degrees off the line of their centers: turn rates",
+    "two SSL robots, 30 degrees off the line of their centers: angular velocities",
     "rad/s",
     percent(5),
     "closed form, Coulomb friction",
 )
-TURNS = Criterion(TOPIC, "squares face to face: turn rate", "rad/s", absolute(0.01), "symmetry")
+TURNS = Criterion(
+    TOPIC, "squares face to face: angular velocity", "rad/s", absolute(0.01), "symmetry"
+)
 LATERAL = Criterion(
     TOPIC,
     "squares face to face: lateral displacement after 2 s of pushing",
@@ -72,11 +74,11 @@ def _off_center(speed: float) -> Checks:
     scene.robots.position[0, 1] = (np.sqrt(3) * radius + 0.02, radius)
     scene.robots.velocity[0, 0, 0] = speed
     scene.command(0, v_x=speed)
-    rates = abs(scene.play(0.1).robots.angular_velocity[:, 0]).max(axis=0)
+    highest = abs(scene.play(0.1).robots.angular_velocity[:, 0]).max(axis=0)
     # A sixth of a robot's mass stops the slip of half the speed, at one radius from both centers.
     expected = speed / 2 / (3 * radius)
-    for robot, rate in zip(("the moving robot", "the robot at rest"), rates, strict=True):
-        yield OFF_CENTER(f"{speed:g} m/s, {robot}", expected, rate)
+    for robot, got in zip(("the moving robot", "the robot at rest"), highest, strict=True):
+        yield OFF_CENTER(f"{speed:g} m/s, {robot}", expected, got)
 
 
 def _squares(name: str, speed: float) -> Checks:
@@ -95,7 +97,7 @@ def _squares(name: str, speed: float) -> Checks:
 
 
 def _random_collisions(name: str) -> Checks:
-    """Let one spinning robot run into another; all wheel commands are zero."""
+    """Let one turning robot run into another; all wheel commands are zero."""
     vss, rng = VSS_ROBOTS.get(name), np.random.default_rng(5)
     field, size = ("vss_3v3", vss.side_length) if vss else ("ssl_b", 2 * GENERIC.radius)
     scene = Scene(make_config(field, 1, 1, robot=name, time_step=TICK), COLLISIONS)
@@ -122,9 +124,11 @@ def _random_collisions(name: str) -> Checks:
 
 def _energy(source: Scene | Trajectory, mass: float, inertia: float) -> Array:
     """Return the kinetic energy, J; `inertia` is that of a plate divided by its mass, m²."""
-    velocity, spin = (
+    velocity, angular_velocity = (
         source.robots.velocity.astype(np.float64),
         source.robots.angular_velocity.astype(np.float64),
     )
-    energy: Array = mass / 2 * ((velocity**2).sum(axis=-1) + inertia * spin**2).sum(axis=-1)
+    energy: Array = (
+        mass / 2 * ((velocity**2).sum(axis=-1) + inertia * angular_velocity**2).sum(axis=-1)
+    )
     return energy

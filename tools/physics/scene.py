@@ -85,7 +85,7 @@ class Scene:
         self.ball, self.robots = self.start.ball, self.start.robots
         width = len(config.command_columns)
         self.commands = np.zeros((worlds, config.n_robots, width), np.float32)
-        self.factors = np.ones((worlds, config.parameters_size), np.float32)
+        self.parameters = np.ones((worlds, config.parameters_size), np.float32)
 
     def face(self, robot: int, degrees: float | Array) -> None:
         """Set a robot's heading (degrees), one for all worlds or one per world."""
@@ -101,12 +101,12 @@ class Scene:
 
     def vary_ball(self, name: str, factor: float | Array) -> None:
         """Scale a parameter of the ball model, one factor for all worlds or one per world."""
-        self.factors[:, BALL_PARAMETERS.index(name)] = factor
+        self.parameters[:, BALL_PARAMETERS.index(name)] = factor
 
     def vary_robot(self, robot: int, name: str, factor: float | Array) -> None:
         """Scale a parameter of a robot's model, one factor for all worlds or one per world."""
         robots = len(BALL_PARAMETERS) + robot * len(ROBOT_PARAMETERS)
-        self.factors[:, robots + ROBOT_PARAMETERS.index(name)] = factor
+        self.parameters[:, robots + ROBOT_PARAMETERS.index(name)] = factor
 
     def begin(self) -> "Match":
         """Return matches placed at this start."""
@@ -128,7 +128,7 @@ class Match:
         worlds = len(scene.start)
         self.simulator = Simulator(scene.config, worlds)
         every = np.ones(worlds, np.bool_)
-        varied = scene.factors if (scene.factors != 1.0).any() else None
+        varied = scene.parameters if (scene.parameters != 1.0).any() else None
         self.simulator.place(every, scene.start.rows, self.frame.rows, varied)
 
     def run(self, seconds: float) -> Trajectory:

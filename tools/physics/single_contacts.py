@@ -21,12 +21,14 @@ FULL_SPEED = 46.0  # rad/s, of a VSSS wheel
 BALL_SPEED = Criterion(TOPIC, "speed of the ball", "m/s", TOLERANCE, REFERENCE)
 BALL_DIRECTION = Criterion(TOPIC, "direction of the ball", "degrees", TOLERANCE, REFERENCE)
 ROBOT_SPEED = Criterion(TOPIC, "speed of the robot", "m/s", TOLERANCE, REFERENCE)
-TURN_RATE = Criterion(TOPIC, "turn rate of the robot", "rad/s", TOLERANCE, REFERENCE)
+ANGULAR_VELOCITY = Criterion(TOPIC, "angular velocity of the robot", "rad/s", TOLERANCE, REFERENCE)
 STRUCK_SPEED = Criterion(TOPIC, "speed of the struck robot", "m/s", TOLERANCE, REFERENCE)
 STRUCK_DIRECTION = Criterion(
     TOPIC, "direction of the struck robot", "degrees", TOLERANCE, REFERENCE
 )
-STRUCK_TURN_RATE = Criterion(TOPIC, "turn rate of the struck robot", "rad/s", TOLERANCE, REFERENCE)
+STRUCK_ANGULAR_VELOCITY = Criterion(
+    TOPIC, "angular velocity of the struck robot", "rad/s", TOLERANCE, REFERENCE
+)
 PUSHED = Criterion(TOPIC, "displacement of the pushed robot", "m", TOLERANCE, REFERENCE)
 CARRIED = Criterion(TOPIC, "displacement of the ball", "m", TOLERANCE, REFERENCE)
 
@@ -182,7 +184,7 @@ def _ball_at_vss() -> Scene:
 
 def _vss_ball(of: Trajectory) -> Iterator[Measurement]:
     yield BALL_SPEED, np.hypot(*of.ball.velocity[-1, 0])
-    yield STRUCK_TURN_RATE, abs(of.robots.angular_velocity[:, 0, 0]).max()
+    yield STRUCK_ANGULAR_VELOCITY, abs(of.robots.angular_velocity[:, 0, 0]).max()
 
 
 def _ssl_hits(speed: float, aside: float) -> Callable[[], Scene]:
@@ -207,7 +209,7 @@ def _struck(of: Trajectory) -> Iterator[Measurement]:
     yield from _struck_central(of)
     first = np.hypot(*of.robots.velocity[:, 0, 1].T).argmax()
     yield STRUCK_DIRECTION, _direction(of.robots.velocity[first, 0, 1])
-    yield STRUCK_TURN_RATE, abs(of.robots.angular_velocity[:, 0, 1]).max()
+    yield STRUCK_ANGULAR_VELOCITY, abs(of.robots.angular_velocity[:, 0, 1]).max()
 
 
 def _vss_hits(aside: float, degrees: float) -> Callable[[], Scene]:
@@ -263,7 +265,7 @@ def _speed_after(of: Trajectory) -> Iterator[Measurement]:
 
 def _robot_after(of: Trajectory) -> Iterator[Measurement]:
     yield from _speed_after(of)
-    yield TURN_RATE, abs(of.robots.angular_velocity[:, 0, 0]).max()
+    yield ANGULAR_VELOCITY, abs(of.robots.angular_velocity[:, 0, 0]).max()
 
 
 def _push() -> Scene:

@@ -15,7 +15,7 @@ class Motion:
 
     forward: float = 0.0  # m/s
     left: float = 0.0  # m/s
-    spin: float = 0.0  # rad/s
+    angular_velocity: float = 0.0  # rad/s
 
 
 def motion_after(robot: VssRobot, rim: float, motion: Motion, seconds: float) -> Motion:
@@ -25,13 +25,13 @@ def motion_after(robot: VssRobot, rim: float, motion: Motion, seconds: float) ->
     return motion
 
 
-def straightening_time(robot: VssRobot, rim: float, spin: float, slow: float) -> float:
+def straightening_time(robot: VssRobot, rim: float, angular_velocity: float, slow: float) -> float:
     """Return the time (s) until a robot spinning on the spot turns slower than `slow` (rad/s).
 
     Both rims turn forward at the speed `rim`, m/s.
     """
-    motion, steps = Motion(spin=spin), 0
-    while motion.spin > slow:
+    motion, steps = Motion(angular_velocity=angular_velocity), 0
+    while motion.angular_velocity > slow:
         motion, steps = _step(robot, rim, motion), steps + 1
     return steps * STEP
 
@@ -43,7 +43,7 @@ def _step(robot: VssRobot, rim: float, motion: Motion) -> Motion:
     """
     forward = left = turning = 0.0
     for lever in (-robot.track_width / 2, robot.track_width / 2):
-        along = motion.forward + motion.spin * lever - rim
+        along = motion.forward + motion.angular_velocity * lever - rim
         slip = max(hypot(along, motion.left), CREEP)
         push = -robot.longitudinal_grip / 2 * along / slip
         forward += push
@@ -51,7 +51,7 @@ def _step(robot: VssRobot, rim: float, motion: Motion) -> Motion:
         turning += push * lever / (robot.side_length**2 / 6)
     return replace(
         motion,
-        forward=motion.forward + (forward + motion.spin * motion.left) * STEP,
-        left=motion.left + (left - motion.spin * motion.forward) * STEP,
-        spin=motion.spin + turning * STEP,
+        forward=motion.forward + (forward + motion.angular_velocity * motion.left) * STEP,
+        left=motion.left + (left - motion.angular_velocity * motion.forward) * STEP,
+        angular_velocity=motion.angular_velocity + turning * STEP,
     )

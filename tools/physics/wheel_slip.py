@@ -1,4 +1,4 @@
-"""VSSS robots with sliding tires: spins, skids and locked wheels under Coulomb friction."""
+"""VSSS robots with sliding tires, under Coulomb friction: turns, skids and locked wheels."""
 
 from math import cos, pi, sin
 
@@ -12,7 +12,7 @@ from tools.physics.scene import TICK, Scene, first_true, make_config
 from tools.physics.tire_friction import Motion, motion_after, straightening_time
 
 TOPIC = "wheel_slip"
-SPINS = {"vss_440rpm": (7.0, 15.0, 30.0), "vss_650rpm": (7.0, 15.0)}  # rad/s
+ANGULAR_VELOCITIES = {"vss_440rpm": (7.0, 15.0, 30.0), "vss_650rpm": (7.0, 15.0)}  # rad/s
 SHORT_TICK = 0.001  # s
 SLOW = 1.0  # rad/s
 MOMENTS = (0.05, 0.1)  # s
@@ -67,20 +67,20 @@ FASTEST = Criterion(
 def checks() -> Checks:
     """Yield all checks of sliding tires."""
     for name, robot in VSS_ROBOTS.items():
-        for spin in SPINS[name]:
-            case = f"`{name}`, {spin:g} rad/s"
-            expected = straightening_time(robot, top_rim_speed(robot), spin, SLOW)
-            yield STRAIGHT(case, expected, _straight(name, spin, TICK))
-            yield STRAIGHT_SHORT(case, expected, _straight(name, spin, SHORT_TICK))
+        for angular_velocity in ANGULAR_VELOCITIES[name]:
+            case = f"`{name}`, {angular_velocity:g} rad/s"
+            expected = straightening_time(robot, top_rim_speed(robot), angular_velocity, SLOW)
+            yield STRAIGHT(case, expected, _straight(name, angular_velocity, TICK))
+            yield STRAIGHT_SHORT(case, expected, _straight(name, angular_velocity, SHORT_TICK))
         yield from _skids(name, robot)
         yield from _reversals(name, robot)
 
 
-def _straight(name: str, spin: float, tick: float) -> float:
+def _straight(name: str, angular_velocity: float, tick: float) -> float:
     """Return the time until the robot turns slower than SLOW, s; NaN if it never does."""
     scene = Scene(make_config(WIDE, 1, 0, robot=name, tick=tick, time_step=tick))
     scene.ball.position[:] = (0.0, 3.0)
-    scene.robots.angular_velocity[:] = spin
+    scene.robots.angular_velocity[:] = angular_velocity
     scene.command(0, left=1e3, right=1e3)
     trajectory = scene.play(3.0)
     step = first_true(trajectory.robots.angular_velocity[:, 0, 0] < SLOW)

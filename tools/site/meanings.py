@@ -25,7 +25,7 @@ ROBOT_PARTS: Final = (
     Part(2, "position x, y", LENGTH),
     Part(2, "heading: cosine, sine", "1"),
     Part(2, "velocity x, y", SPEED),
-    Part(1, "turn rate, counterclockwise positive", "top turn rates"),
+    Part(1, "angular velocity, counterclockwise positive", "top angular velocities"),
     Part(1, "break beam: 1 while the ball interrupts it, else 0", "0 or 1"),
 )
 """One robot of an observation; robots without a break beam lack the last part."""
@@ -114,7 +114,7 @@ ACTIONS: Final = {
             'to the left of it; left of the robot with `velocity_frame="robot"`',
             "m/s",
         ),
-        Number("turn rate", "counterclockwise positive", "rad/s"),
+        Number("angular velocity", "counterclockwise positive", "rad/s"),
         Number("kick", "speed of a straight kick; no kick at or below 0", "m/s"),
         Number("dribbler", "dribbler speed, as a fraction of its maximum; off at or below 0", "1"),
     ),

@@ -152,8 +152,8 @@ def _observation(task: Task) -> str:
         "field: every team attacks +x, and y points to the left of that. Each block lists its name "
         "and shape; rows of absent robots are 0 (in `body_positions` the center of the field). A "
         f"half field length is {config.field.half_length:g} m, a top speed "
-        f"{robot.top_speed:.3g} m/s and a top turn rate "
-        f"{robot.top_turn_rate:.3g} rad/s. Numbers beyond a range are clipped to it."
+        f"{robot.top_speed:.3g} m/s and a top angular velocity "
+        f"{robot.top_angular_velocity:.3g} rad/s. Numbers beyond a range are clipped to it."
     )
     rows = [
         row

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::blocks::{
     BALL, LANES, Lanes, VectorLanes, blocks_of, larger, mask_of, place_of, robot, set_bits,
 };
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::drive::{BlockAcceleration, DriveState};
 use crate::geometry::motion::Motion;
 use crate::geometry::motion_block::MotionBlock;
@@ -89,7 +89,7 @@ pub(crate) struct Undisturbed {
     /// m/s.
     pub(crate) velocity: Vector,
     /// rad/s.
-    pub(crate) spin: f32,
+    pub(crate) angular_velocity: f32,
 }
 
 /// Sub-steps of a tick.
@@ -102,11 +102,11 @@ pub(crate) struct SubSteps {
 
 impl Bodies<Vec<BodyBlock>> {
     /// Bodies at rest in the origin.
-    pub(crate) fn new(params: &BodyParams) -> Self {
-        let robots = params.robots.len();
+    pub(crate) fn new(parameters: &BodyParameters) -> Self {
+        let robots = parameters.robots.len();
         Self {
             count: robot(robots),
-            ball_mass: params.ball.mass,
+            ball_mass: parameters.ball.mass,
             blocks: vec![BodyBlock::AT_REST; blocks_of(robots)],
         }
     }
@@ -182,17 +182,17 @@ impl Bodies {
     /// Applies an impulse (N s) to a body, at `arm` (m) from its center of mass.
     pub(crate) fn apply_impulse(
         &mut self,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         body: usize,
         impulse: Vector,
         arm: Vector,
     ) {
-        let inverse = params.inverse(body);
+        let inverse = parameters.inverse(body);
         let (block, lane) = place_of(body);
         let motion = &mut self.blocks[block].motion;
         let velocity = motion.velocity.get(lane) + impulse * inverse.mass;
         motion.velocity.set(lane, velocity);
-        motion.spin.as_mut_array()[lane] += arm.perp_dot(impulse) * inverse.inertia;
+        motion.angular_velocity.as_mut_array()[lane] += arm.perp_dot(impulse) * inverse.inertia;
     }
 
     /// Acceleration of a body during the next tick.
@@ -216,14 +216,14 @@ impl Bodies {
             let (motion, gain) = (self.motion(body), self.acceleration(body));
             Undisturbed {
                 velocity: motion.velocity + gain.linear * time,
-                spin: motion.spin + gain.angular * time,
+                angular_velocity: motion.angular_velocity + gain.angular * time,
             }
         }));
     }
 
     /// Whether the ball was jammed in the solver's last tick.
-    pub(crate) fn ball_was_jammed(&self, params: &BodyParams) -> bool {
-        self.ball_mass * params.inverse(BALL).mass > 1.0 + f32::EPSILON
+    pub(crate) fn ball_was_jammed(&self, parameters: &BodyParameters) -> bool {
+        self.ball_mass * parameters.inverse(BALL).mass > 1.0 + f32::EPSILON
     }
 
     /// Bound of the speeds of robots within `time` (s) without contacts, m/s.
@@ -242,13 +242,13 @@ impl Bodies {
     /// Indices of the robots whose surrounding circle is nearer than `gap` (m) to that of the ball.
     pub(crate) fn robots_near_ball(
         &self,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         gap: f32,
     ) -> impl Iterator<Item = usize> {
         let ball = VectorLanes::splat(self.motion(BALL).position);
-        let gap = Lanes::splat(gap + params.ball.radius);
+        let gap = Lanes::splat(gap + parameters.ball.radius);
         let mut near = 0;
-        let blocks = self.blocks.iter().zip(&params.inertia);
+        let blocks = self.blocks.iter().zip(&parameters.inertia);
         for (index, (BodyBlock { motion, .. }, inertia)) in blocks.enumerate() {
             let reach = inertia.bounding_radius + gap;
             let bits = (motion.position - ball).length_squared().simd_lt(reach * reach);
@@ -354,7 +354,7 @@ mod tests {
     #[test]
     fn warm_starts_fill_the_blocks_in_order_and_those_beyond_are_dropped() {
         let config = SimConfig::vss(3, 3);
-        let mut state = State::new(&config, &BodyParams::of(&config), &[]).boxed();
+        let mut state = State::new(&config, &BodyParameters::of(&config), &[]).boxed();
         let bodies = &mut state.bodies;
         for (given, kept) in [(0, 0), (1, 1), (16, 16), (17, 17), (32, 32), (40, 32)] {
             let count = bodies.store_warm_starts(warm_starts(given));

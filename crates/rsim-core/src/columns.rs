@@ -27,11 +27,13 @@ pub const BALL_COLUMNS: [&str; 14] = [
 
 /// Columns of a robot.
 ///
-/// Position (m), heading as cosine and sine, velocity (m/s), turn rate (rad/s, counterclockwise),
+/// Position (m), heading as cosine and sine, velocity (m/s), angular velocity (rad/s, counterclockwise),
 /// whether the ball cuts the break beam (1 or 0), and of the control step: whether the robot touched the
 /// ball or an opponent (1 or 0), and the closing speed of its hardest contact with any robot (m/s). Last,
 /// whether the robot is absent (1 or 0): not on the field. It then rests behind its own goal, beyond all
 /// walls.
+///
+/// `v_theta` is the name of the column of the angular velocity only, beside `v_x` and `v_y`.
 pub const ROBOT_COLUMNS: [&str; 12] = [
     "x",
     "y",
@@ -50,9 +52,9 @@ pub const ROBOT_COLUMNS: [&str; 12] = [
 /// Command of a differential robot: wheel speeds, rad/s, positive is forward.
 pub const DIFFERENTIAL_COLUMNS: [&str; 2] = ["left", "right"];
 
-/// Command of an omnidirectional robot by its velocity: velocity forward and to the left (m/s), turn rate
-/// (rad/s), speed of a kick along the heading and upward (m/s; 0 for none), dribbler speed (0 is off, 1
-/// is full).
+/// Command of an omnidirectional robot by its velocity: velocity forward and to the left (m/s), angular
+/// velocity (rad/s), speed of a kick along the heading and upward (m/s; 0 for none), dribbler speed (0 is
+/// off, 1 is full).
 pub const OMNI_COLUMNS: [&str; 6] = ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
 /// Command of an omnidirectional robot by its wheels: wheel speeds (rad/s) in the order of the model's
@@ -95,9 +97,9 @@ pub const ROBOT_PARAMETERS: [&str; 7] =
 /// Maximum speed of a body in a start row, m/s, height included. Kicks reach 14 m/s with the robot's own speed.
 pub const MAX_PLACED_SPEED: f32 = 20.0;
 
-/// Maximum turn rate of a robot in a start row, rad/s: at most a radian in the longest tick, for which the
-/// solver still rotates bodies accurately. The fastest preset turns at 48 rad/s.
-pub const MAX_PLACED_TURN_RATE: f32 = 200.0;
+/// Maximum angular velocity of a robot in a start row, rad/s: at most a radian in the longest tick, for
+/// which the solver still rotates bodies accurately. The fastest preset turns at 48 rad/s.
+pub const MAX_PLACED_ANGULAR_VELOCITY: f32 = 200.0;
 
 /// Maximum spin of the ball in a start row, rad/s. A golf ball that rolls at [`MAX_PLACED_SPEED`] spins at
 /// 940 rad/s.

@@ -1,6 +1,8 @@
 //! All errors of the crate; the binding maps them to Python exceptions.
 
-use crate::columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
+use crate::columns::{
+    MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
+};
 
 /// An invalid configuration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -135,15 +137,16 @@ pub enum PlaceError {
         /// The given value.
         got: f32,
     },
-    /// A robot that turns faster than [`MAX_PLACED_TURN_RATE`].
+    /// A robot that turns faster than [`MAX_PLACED_ANGULAR_VELOCITY`].
     #[error(
-        "{who} turns at {rate:?} rad/s (v_theta); at most {MAX_PLACED_TURN_RATE} rad/s can be placed"
+        "{who} turns at {angular_velocity:?} rad/s (v_theta); at most \
+         {MAX_PLACED_ANGULAR_VELOCITY} rad/s can be placed"
     )]
     TurnsTooFast {
         /// Name of the robot.
         who: String,
-        /// Its turn rate, rad/s.
-        rate: f32,
+        /// Its angular velocity, rad/s.
+        angular_velocity: f32,
     },
     /// A ball that spins faster than [`MAX_PLACED_SPIN`].
     #[error(
@@ -167,7 +170,7 @@ pub enum PlaceError {
         z: f32,
     },
     /// Factors out of their range.
-    #[error("params: {0}")]
+    #[error("parameters: {0}")]
     Parameters(ConfigError),
     /// A ball or robots for a match whose state became non-finite.
     #[error("its state became non-finite; place that world again")]

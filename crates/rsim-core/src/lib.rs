@@ -16,7 +16,7 @@
 mod ball;
 mod blocks;
 mod bodies;
-mod body_params;
+mod body_parameters;
 pub mod columns;
 mod drive;
 mod engine;
@@ -31,7 +31,9 @@ mod threads;
 mod tick;
 mod world;
 
-pub use columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
+pub use columns::{
+    MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
+};
 pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
 pub use features::ego_features::{Block, EgoFeatures};
 pub use features::shaping::Potential;

@@ -138,7 +138,7 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
     // which finds contacts four times a tick, a corner that rubs on it may leave slowly within a tick:
     // a lasting contact, whose small load is compensated for one more tick. The load of a crash would
     // give 0.03 m/s and 1 rad/s in a tick.
-    let [speed_gain, spin_gain] = match scenes::vss(1, 1).engine {
+    let [speed_gain, angular_gain] = match scenes::vss(1, 1).engine {
         EngineKind::Rapier => [1e-3, 1e-2],
         EngineKind::Compact => [1e-2, 0.2],
     };
@@ -158,7 +158,7 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
                     );
                     let [slow, fast] = [after, before].map(|robot| robot[6].abs());
                     assert!(
-                        slow <= fast + spin_gain,
+                        slow <= fast + angular_gain,
                         "{label}, tick {tick}: {fast} to {slow} rad/s"
                     );
                 }
@@ -168,9 +168,9 @@ fn the_load_of_a_crash_was_compensated_in_the_next_tick() {
 }
 
 /// Two discs that meet 30 degrees off the line of their centers: friction stops the slip, so both get
-/// the turn rate of closed form, the same for both.
+/// the angular velocity of closed form, the same for both.
 #[test]
-fn discs_that_meet_off_center_turn_at_the_same_rate() {
+fn discs_that_meet_off_center_turn_at_the_same_angular_velocity() {
     let model = RobotModel::SSL_GENERIC;
     let radius = model.bounding_radius();
     for speed in [1.0, 3.0] {
@@ -184,10 +184,10 @@ fn discs_that_meet_off_center_turn_at_the_same_rate() {
         let rows = scene.every_tick(0.02 / speed + 0.03);
         let expected = 0.5 * speed / (3.0 * radius);
         for robot in 0..2 {
-            let rates = rows.iter().map(|row| robots(row).nth(robot).expect("two")[6].abs());
-            let rate = rates.fold(0.0, f32::max);
-            let error = (rate / expected - 1.0).abs();
-            assert!(error < 0.05, "{speed} m/s, robot {robot}: {rate} rad/s, not {expected}");
+            let all = rows.iter().map(|row| robots(row).nth(robot).expect("two")[6].abs());
+            let got = all.fold(0.0, f32::max);
+            let error = (got / expected - 1.0).abs();
+            assert!(error < 0.05, "{speed} m/s, robot {robot}: {got} rad/s, not {expected}");
         }
     }
 }

@@ -164,8 +164,9 @@ fn first_robot(scene: &mut Scene) -> &mut [f32] {
     rsim_core::scenes::robots_mut(&mut scene.start).next().expect("a robot")
 }
 
-/// Turn rates of a robot that turns for `steps` on the spot and is then commanded to drive at `power`.
-fn spin_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
+/// Angular velocities of a robot that turns for `steps` on the spot and is then commanded to drive at
+/// `power`.
+fn turn_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
     let top = wheels(model).max_wheel_speed;
     let mut scene = lone_robot([0.0, 0.0]);
     scene.config.blue = vec![model.clone()];
@@ -187,8 +188,8 @@ fn spin_then_drive(model: &RobotModel, steps: usize, power: f32) -> Vec<f32> {
 #[test]
 fn a_spinning_robot_commanded_straight_at_full_speed_stops_spinning() {
     for steps in [1, 2, 4, 12] {
-        let rates = spin_then_drive(&RobotModel::VSS_440RPM, steps, 1.0);
-        assert!(rates[0] > 4.0, "it spun: {} rad/s", rates[0]);
-        assert!(rates[19].abs() < 1e-2, "{steps} steps: {rates:?}");
+        let angular_velocities = turn_then_drive(&RobotModel::VSS_440RPM, steps, 1.0);
+        assert!(angular_velocities[0] > 4.0, "it spun: {} rad/s", angular_velocities[0]);
+        assert!(angular_velocities[19].abs() < 1e-2, "{steps} steps: {angular_velocities:?}");
     }
 }

@@ -238,7 +238,7 @@ fn what_is_not_finite_is_refused_without_a_change() {
 fn a_world_keeps_its_parameters_and_threads_change_nothing() {
     let scene = Scene::lined_up("random", scenes::vss(3, 3), Driver::Random);
     let worlds = 80;
-    let factors: Vec<f32> =
+    let parameters: Vec<f32> =
         (0..worlds * parameters_size(6)).map(|nth| 1.0 + 0.2 * uniform(nth as u64)).collect();
     let size = scene.start.len();
     let mut estimates = scene.start.repeat(worlds);
@@ -262,14 +262,14 @@ fn a_world_keeps_its_parameters_and_threads_change_nothing() {
     for threads in [1, 3] {
         let (mut batch, mut rows) = scene.batch(worlds, threads);
         batch
-            .place(&vec![true; worlds], &scene.start.repeat(worlds), Some(&factors), &mut rows)
+            .place(&vec![true; worlds], &scene.start.repeat(worlds), Some(&parameters), &mut rows)
             .expect("valid");
         let mut moved = vec![f32::NAN; chosen.len() / size * 7];
         batch.place_estimates(&mask, &chosen, &mut rows, &mut moved).expect("finite");
         assert!(moved.iter().any(|way| *way > 0.0) && moved.contains(&0.0));
         let mut restarted = scene.batch(worlds, threads).0;
         let mut valid = rows.clone();
-        restarted.place(&vec![true; worlds], &rows, Some(&factors), &mut valid).expect("valid");
+        restarted.place(&vec![true; worlds], &rows, Some(&parameters), &mut valid).expect("valid");
         assert_eq!(valid, rows);
         let commands = scene.commands(&scene.start, 0, 0).repeat(worlds);
         for batch in [&mut batch, &mut restarted] {

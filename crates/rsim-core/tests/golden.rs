@@ -63,8 +63,9 @@ fn corner() -> Scene {
 fn own_parameters() -> Scene {
     let mut scene = scenes::ssl_chase(scenes::ssl(2, 2));
     let of_robots = ROBOT_PARAMETERS.len() * scene.config.n_robots();
-    let factors = (0..BALL_PARAMETERS.len() + of_robots).map(|nth| 0.8 + 0.05 * (nth % 9) as f32);
-    scene.parameters = Some(factors.collect());
+    let parameters =
+        (0..BALL_PARAMETERS.len() + of_robots).map(|nth| 0.8 + 0.05 * (nth % 9) as f32);
+    scene.parameters = Some(parameters.collect());
     scene
 }
 

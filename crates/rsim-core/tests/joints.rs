@@ -63,10 +63,11 @@ impl Row {
             commands.push(command);
         }
         let mut scene = Scene::at("row", config, &poses, Driver::Constant(commands));
-        let mut factors = vec![1.0; scene.config.parameters_size()];
-        let of_robots = factors[BALL_PARAMETERS.len()..].chunks_exact_mut(ROBOT_PARAMETERS.len());
+        let mut parameters = vec![1.0; scene.config.parameters_size()];
+        let of_robots =
+            parameters[BALL_PARAMETERS.len()..].chunks_exact_mut(ROBOT_PARAMETERS.len());
         of_robots.take(ROW).for_each(|robot| robot[0] = self.mass);
-        scene.parameters = Some(factors);
+        scene.parameters = Some(parameters);
         scene
     }
 }
@@ -91,8 +92,8 @@ fn energy_of(scene: &Scene, mass: f32, state: &[f32]) -> f32 {
     // A square plate, by its mass.
     let plate = (2.0 * half_side()).powi(2) / 6.0;
     let robots = robots(state).map(|robot| {
-        let [v_x, v_y, spin] = [robot[4], robot[5], robot[6]];
-        mass * (model.mass * (v_x * v_x + v_y * v_y + plate * spin * spin))
+        let [v_x, v_y, angular_velocity] = [robot[4], robot[5], robot[6]];
+        mass * (model.mass * (v_x * v_x + v_y * v_y + plate * angular_velocity * angular_velocity))
     });
     f32::midpoint(ball.mass * (square("v_x") + rolling), robots.sum())
 }

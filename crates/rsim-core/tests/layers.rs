@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["models", "threads"],
     &["geometry"],
     &["drive", "ball", "features"],
-    &["body_params"],
+    &["body_parameters"],
     &["bodies"],
     &["engine"],
     &["state"],

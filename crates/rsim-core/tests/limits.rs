@@ -3,8 +3,8 @@
 use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, parameters_size, robot_column};
 use rsim_core::scenes;
 use rsim_core::{
-    BallModel, Field, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE,
-    PlaceError, RobotModel, World,
+    BallModel, Field, MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED,
+    MAX_PLACED_SPIN, PlaceError, RobotModel, World,
 };
 
 #[test]
@@ -39,7 +39,7 @@ fn absurd_numbers_of_a_start_are_refused_by_their_column() {
 fn starts_at_the_limits_are_played_and_those_beyond_are_refused() {
     for mut scene in [scenes::random_play(), scenes::ssl_random(scenes::ssl(2, 2))] {
         for sign in [1.0, -1.0] {
-            scene.set_robot_column(0, "v_theta", sign * MAX_PLACED_TURN_RATE);
+            scene.set_robot_column(0, "v_theta", sign * MAX_PLACED_ANGULAR_VELOCITY);
             scene.set_robot_column(1, "v_x", sign * MAX_PLACED_SPEED);
             scene.set_ball_column("z", MAX_PLACED_HEIGHT);
             scene.set_ball_column("v_z", -MAX_PLACED_SPEED);
@@ -57,7 +57,7 @@ fn starts_at_the_limits_are_played_and_those_beyond_are_refused() {
             assert!(error.contains(name) && error.contains(&format!("{limit}")), "{error}");
         }
         let mut beyond = scene.clone();
-        beyond.set_robot_column(0, "v_theta", -1.001 * MAX_PLACED_TURN_RATE);
+        beyond.set_robot_column(0, "v_theta", -1.001 * MAX_PLACED_ANGULAR_VELOCITY);
         let error = scene.world().place(&beyond.start, None).expect_err("it turns").to_string();
         assert!(error.contains("blue_0 turns at -200.2") && error.contains("200 rad/s"), "{error}");
     }
@@ -76,20 +76,20 @@ fn a_repositioned_ball_has_the_limits_of_a_placed_one() {
 }
 
 #[test]
-fn absurd_factors_are_refused() {
+fn absurd_parameters_are_refused() {
     let scene = scenes::random_play();
     let size = parameters_size(scene.config.n_robots());
     for nth in 0..size {
         for wrong in [1e30, 1001.0, -1.0, f32::NAN, f32::INFINITY] {
-            let mut factors = vec![1.0; size];
-            factors[nth] = wrong;
-            let error = scene.world().place(&scene.start, Some(&factors)).expect_err("refused");
+            let mut parameters = vec![1.0; size];
+            parameters[nth] = wrong;
+            let error = scene.world().place(&scene.start, Some(&parameters)).expect_err("refused");
             assert!(matches!(error, PlaceError::Parameters(_)), "{nth} {wrong}: {error}");
         }
     }
-    let mut factors = vec![1.0; size];
-    factors[0] = 1e-30;
-    let error = scene.world().place(&scene.start, Some(&factors)).expect_err("refused");
+    let mut parameters = vec![1.0; size];
+    parameters[0] = 1e-30;
+    let error = scene.world().place(&scene.start, Some(&parameters)).expect_err("refused");
     assert!(error.to_string().contains("mass must be a factor from 0.001 to 1000"), "{error}");
 }
 

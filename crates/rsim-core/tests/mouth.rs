@@ -220,12 +220,12 @@ fn another_robot_can_take_the_ball_off_a_running_dribbler_into_its_own() {
     let mut scene = Scene::at("steal", scenes::ssl(1, 1), &poses, Driver::Constant(commands));
     scene.set_ball([front, 0.0], [0.0, 0.0]);
     // A robot with half the grip loses the ball to one that backs off gently.
-    let mut factors = vec![1.0; scene.config.parameters_size()];
+    let mut parameters = vec![1.0; scene.config.parameters_size()];
     let place = |name: &str| ROBOT_PARAMETERS.iter().position(|known| *known == name);
-    factors[BALL_PARAMETERS.len() + place("grip").expect("known")] = 0.5;
+    parameters[BALL_PARAMETERS.len() + place("grip").expect("known")] = 0.5;
     let thief = BALL_PARAMETERS.len() + ROBOT_PARAMETERS.len();
-    factors[thief + place("acceleration").expect("known")] = 0.1;
-    scene.parameters = Some(factors);
+    parameters[thief + place("acceleration").expect("known")] = 0.1;
+    scene.parameters = Some(parameters);
     let row = scene.after(80);
     assert_eq!(robot(&row, 1)[robot_column("infrared")], 1.0, "yellow has it: {row:?}");
     assert_eq!(robot(&row, 0)[robot_column("infrared")], 0.0);
@@ -240,10 +240,10 @@ fn a_robot_that_brakes_hardest_loses_the_dribbled_ball() {
         scene.set_robot_column(0, "v_x", speed);
         scene.set_ball_column("v_x", speed);
         scene.set_ball_column("spin_y", -2.0 / scene.config.ball.radius);
-        let mut factors = vec![1.0; scene.config.parameters_size()];
+        let mut parameters = vec![1.0; scene.config.parameters_size()];
         let place = ROBOT_PARAMETERS.iter().position(|known| *known == "acceleration");
-        factors[BALL_PARAMETERS.len() + place.expect("known")] = share;
-        scene.parameters = Some(factors);
+        parameters[BALL_PARAMETERS.len() + place.expect("known")] = share;
+        scene.parameters = Some(parameters);
         let row = scene.after(32);
         assert_eq!(robot(&row, 0)[robot_column("infrared")], kept, "{share}: {row:?}");
     }

@@ -4,7 +4,7 @@ use rsim_core::columns::{ROBOT_PARAMETERS, parameters_size, robot_column};
 use rsim_core::scenes::{self, Driver, Scene, lone_omni, robots, steps};
 use rsim_core::{BallModel, Drive, Field, RobotModel, SimConfig};
 
-/// Robot 0 after each tick: (time, speed, turn rate).
+/// Robot 0 after each tick: (time, speed, angular velocity).
 fn response(mut scene: Scene, seconds: f32) -> Vec<[f32; 3]> {
     scene.config.time_step = scene.config.tick;
     let steps = steps(seconds, scene.config.tick);
@@ -37,7 +37,7 @@ fn accelerating_braking_and_turning_take_the_times_of_the_limits() {
         assert!((time - 0.51).abs() < 0.01, "3 m/s to 0 at {degrees}: {time} s"); // 3 / 5.9
     }
     let turn = response(lone_omni(&[0.0, 0.0, 20.0]), 1.0);
-    let time = first(&turn, |[_, _, rate]| *rate >= 19.9);
+    let time = first(&turn, |[_, _, angular_velocity]| *angular_velocity >= 19.9);
     assert!((time - 0.39).abs() < 0.01, "0 to 20 rad/s: {time} s"); // 20 / 50.8
 }
 
@@ -84,11 +84,11 @@ fn pushing(push: f32, hold: f32, blue_traction: f32) -> Scene {
     let commands = vec![vec![push, 0.0, 0.0], vec![hold, 0.0, 0.0]];
     let mut scene = Scene::at("pushing", config, &poses, Driver::Constant(commands));
     scene.set_ball([0.0, 3.0], [0.0, 0.0]);
-    let mut factors = vec![1.0; parameters_size(2)];
-    let blue = factors.len() - 2 * ROBOT_PARAMETERS.len();
+    let mut parameters = vec![1.0; parameters_size(2)];
+    let blue = parameters.len() - 2 * ROBOT_PARAMETERS.len();
     let column = ROBOT_PARAMETERS.iter().position(|known| *known == "traction");
-    factors[blue + column.expect("known")] = blue_traction;
-    scene.parameters = Some(factors);
+    parameters[blue + column.expect("known")] = blue_traction;
+    scene.parameters = Some(parameters);
     scene
 }
 

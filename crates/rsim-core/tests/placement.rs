@@ -85,24 +85,24 @@ fn a_ball_on_an_edge_can_be_placed() {
 
 /// Factors of one robot and the ball, all 1 except one.
 fn one_changed(of_ball: bool, name: &str, factor: f32) -> Vec<f32> {
-    let mut factors = vec![1.0; parameters_size(1)];
+    let mut parameters = vec![1.0; parameters_size(1)];
     let place = |names: &[&str]| names.iter().position(|known| *known == name).expect("a name");
     let at = if of_ball {
         place(&BALL_PARAMETERS)
     } else {
         BALL_PARAMETERS.len() + place(&ROBOT_PARAMETERS)
     };
-    factors[at] = factor;
-    factors
+    parameters[at] = factor;
+    parameters
 }
 
-fn with(mut scene: Scene, factors: Vec<f32>) -> Scene {
-    scene.parameters = Some(factors);
+fn with(mut scene: Scene, parameters: Vec<f32>) -> Scene {
+    scene.parameters = Some(parameters);
     scene
 }
 
 #[test]
-fn factors_of_one_are_the_models_bit_for_bit() {
+fn parameters_of_one_are_the_models_bit_for_bit() {
     let scene = ball_in_mouth(&[1.0, 0.5, 2.0, 0.0, 0.0, 1.0]);
     let plain = scene.play(&mut scene.world(), 60).0;
     let scene = with(scene, vec![1.0; parameters_size(1)]);
@@ -212,9 +212,9 @@ fn parameters_are_one_worlds_own_and_end_with_the_match() {
     let (size, commands) = (scene.config.row_size(), scene.commands(&scene.start, 0, 0));
     let mut batch = Batch::new(&scene.config, 2, 1).expect("valid");
     let mut rows = vec![0.0; 2 * size];
-    let factors = [vec![1.0; slow.len()], slow].concat();
+    let parameters = [vec![1.0; slow.len()], slow].concat();
     let starts = scene.start.repeat(2);
-    batch.place(&[true, true], &starts, Some(&factors), &mut rows).expect("valid");
+    batch.place(&[true, true], &starts, Some(&parameters), &mut rows).expect("valid");
     let x = BALL_COLUMNS.len();
     let step = |batch: &mut Batch, rows: &mut [f32]| {
         for _ in 0..4 {
@@ -238,9 +238,10 @@ fn parameters_are_one_worlds_own_and_end_with_the_match() {
 fn impossible_parameters_are_refused_by_name() {
     let scene = lone_ball(scenes::ssl(0, 0), [0.0, 0.0], [0.0, 0.0]);
     for (name, factor) in [("mass", 0.0), ("mass", f32::NAN), ("hop", -0.5)] {
-        let mut factors = vec![1.0; BALL_PARAMETERS.len()];
-        factors[BALL_PARAMETERS.iter().position(|known| *known == name).expect("known")] = factor;
-        let error = scene.world().place(&scene.start, Some(&factors)).expect_err("refused");
+        let mut parameters = vec![1.0; BALL_PARAMETERS.len()];
+        parameters[BALL_PARAMETERS.iter().position(|known| *known == name).expect("known")] =
+            factor;
+        let error = scene.world().place(&scene.start, Some(&parameters)).expect_err("refused");
         assert!(error.to_string().contains(name), "{error}");
     }
 }

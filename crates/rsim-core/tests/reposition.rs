@@ -34,9 +34,9 @@ fn robots_continue_unchanged() {
         scene.set_robot_column(robot, "y", 1.0);
     }
     scene.set_ball([3.0, -2.0], [0.0, 0.0]);
-    let factors = vec![1.1; parameters_size(6)];
+    let parameters = vec![1.1; parameters_size(6)];
     let mut left = scene.world();
-    left.place(&scene.start, Some(&factors)).expect("valid");
+    left.place(&scene.start, Some(&parameters)).expect("valid");
     let mut contacts = 0;
     for step in 0..40 {
         left.step(&scene.commands(&row(&left), step, 0)).expect("finite");
@@ -129,11 +129,11 @@ fn a_ball_that_cannot_be_there_changes_no_world() {
 fn a_worlds_own_height_of_robots_is_used() {
     let scene = scenes::ssl_random(scenes::ssl(1, 0));
     let mut world = scene.world();
-    let mut factors = vec![1.0; parameters_size(1)];
+    let mut parameters = vec![1.0; parameters_size(1)];
     let height = BALL_PARAMETERS.len()
         + ROBOT_PARAMETERS.iter().position(|name| *name == "height").expect("a parameter");
-    factors[height] = 0.5;
-    world.place(&scene.start, Some(&factors)).expect("valid");
+    parameters[height] = 0.5;
+    world.place(&scene.start, Some(&parameters)).expect("valid");
     let robot = robots(&scene.start).next().expect("a robot");
     let mut above = ball(robot[0], robot[1], 0.0);
     above[ball_column("z")] = 0.1;

@@ -10,7 +10,7 @@ fn scene(engine: EngineKind) -> Scene {
     scene
 }
 
-fn factors(scene: &Scene) -> Vec<f32> {
+fn parameters(scene: &Scene) -> Vec<f32> {
     let count = parameters_size(scene.config.n_robots());
     (0..count).map(|nth| 0.8 + 0.4 * (nth as f32 / count as f32)).collect()
 }
@@ -27,9 +27,9 @@ fn play(scene: &Scene, batch: &mut Batch, rows: &mut [f32], steps: u64) {
 fn a_restarted_match_is_a_new_one_with_the_worlds_own_parameters() {
     for engine in EngineKind::ALL {
         let scene = scene(engine);
-        let factors = factors(&scene);
+        let parameters = parameters(&scene);
         let (mut restarted, mut rows) = scene.batch(1, 1);
-        for given in [Some(&factors[..]), None] {
+        for given in [Some(&parameters[..]), None] {
             restarted.place(&[true], &scene.start, given, &mut rows).expect("valid");
             play(&scene, &mut restarted, &mut rows, 60);
             let old = restarted.snapshot();

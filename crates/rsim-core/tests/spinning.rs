@@ -6,23 +6,23 @@ use rsim_core::{Body, Drive, RobotModel, SimConfig};
 
 const DRAWS: u64 = 2000;
 
-/// A robot at the center that turns at its maximum rate.
+/// A robot at the center that turns at its maximum angular velocity.
 fn turning(model: &RobotModel, tick: f32, nth: u64) -> Scene {
     let draw = |part: u64| uniform(nth * 16 + part);
-    let rate = if draw(0) > 0.0 { 1.0 } else { -1.0 } * model.top_turn_rate();
+    let angular_velocity = if draw(0) > 0.0 { 1.0 } else { -1.0 } * model.top_angular_velocity();
     let command = match model.drive {
         Drive::Differential(drive) => {
-            let wheel = drive.max_wheel_speed * rate.signum();
+            let wheel = drive.max_wheel_speed * angular_velocity.signum();
             vec![-wheel, wheel]
         }
-        Drive::Omni(_) | Drive::OmniWheels(_) => vec![0.0, 0.0, rate, 0.0, 0.0, 0.0],
+        Drive::Omni(_) | Drive::OmniWheels(_) => vec![0.0, 0.0, angular_velocity, 0.0, 0.0, 0.0],
     };
     let vss = matches!(model.drive, Drive::Differential(_));
     let config = if vss { scenes::vss(1, 0) } else { scenes::ssl(1, 0) };
     let config = SimConfig { blue: vec![model.clone()], tick, ..config };
     let poses = [[0.0, 0.0, 180.0 * draw(1)]];
     let mut scene = Scene::at("turning", config, &poses, Driver::Constant(vec![command]));
-    scene.set_robot_column(0, "v_theta", rate);
+    scene.set_robot_column(0, "v_theta", angular_velocity);
     scene
 }
 

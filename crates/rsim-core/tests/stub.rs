@@ -41,7 +41,7 @@ fn every_number_of_a_model_has_its_property_in_the_stub() {
 fn derived(class: &str) -> usize {
     match class {
         "Field" => 4,      // half_length, half_width, max_x, max_y
-        "RobotModel" => 3, // bounding_radius, top_speed, top_turn_rate
+        "RobotModel" => 3, // bounding_radius, top_speed, top_angular_velocity
         _ => 0,
     }
 }

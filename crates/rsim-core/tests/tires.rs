@@ -13,7 +13,7 @@ fn drive(model: &RobotModel) -> DifferentialDrive {
 
 /// A single robot on a large field.
 ///
-/// `motion` is its velocity forward and to its left (m/s) and its turn rate (rad/s); `wheels` are
+/// `motion` is its velocity forward and to its left (m/s) and its angular velocity (rad/s); `wheels` are
 /// fractions of the motors' free speed.
 fn moving(model: &RobotModel, tick: f32, motion: [f32; 3], wheels: [f32; 2]) -> Scene {
     let top = drive(model).max_wheel_speed;
@@ -28,7 +28,7 @@ fn moving(model: &RobotModel, tick: f32, motion: [f32; 3], wheels: [f32; 2]) -> 
     scene
 }
 
-/// Velocity forward and to its left, and turn rate, of robot 0.
+/// Velocity forward and to its left, and angular velocity, of robot 0.
 fn motion(row: &[f32]) -> [f32; 3] {
     let robot = robots(row).next().expect("a robot");
     let (cos, sin) = (robot[2], robot[3]);
@@ -53,14 +53,14 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
     } = drive(model);
     let half_track = f64::from(track_width) / 2.0;
     let Some(side) = side(model) else { panic!("{} is not square", model.name) };
-    // Effect of a force at a wheel on the turn rate, by its effect on the speed.
+    // Effect of a force at a wheel on the angular velocity, by its effect on the speed.
     let lever = half_track * 6.0 / (side * side);
     let rims = wheels.map(|share| f64::from(share * max_wheel_speed * wheel_radius));
-    let [mut ahead, mut aside, mut spin] = start.map(f64::from);
+    let [mut ahead, mut aside, mut angular_velocity] = start.map(f64::from);
     let mut left = seconds;
     while left > STEP / 2.0 {
         let pulls = [(-1.0, rims[0]), (1.0, rims[1])].map(|(sign, rim)| {
-            let along = ahead + sign * spin * half_track - rim;
+            let along = ahead + sign * angular_velocity * half_track - rim;
             let slip = along.hypot(aside).max(1e-4);
             let [forward, sideways] =
                 [longitudinal_grip, lateral_grip].map(|grip| f64::from(grip) / 2.0);
@@ -68,13 +68,14 @@ fn by_the_law(model: &RobotModel, start: [f32; 3], wheels: [f32; 2], seconds: f6
         });
         let [(left_pull, a), (right_pull, b)] = pulls;
         // The robot's own frame turns.
-        let (faster, aside_faster) = (left_pull + right_pull + spin * aside, a + b - spin * ahead);
-        spin += (right_pull - left_pull) * lever * STEP;
+        let (faster, aside_faster) =
+            (left_pull + right_pull + angular_velocity * aside, a + b - angular_velocity * ahead);
+        angular_velocity += (right_pull - left_pull) * lever * STEP;
         ahead += faster * STEP;
         aside += aside_faster * STEP;
         left -= STEP;
     }
-    [ahead, aside, spin]
+    [ahead, aside, angular_velocity]
 }
 
 fn side(model: &RobotModel) -> Option<f64> {
@@ -92,31 +93,37 @@ fn random_motion(nth: u64) -> [f32; 3] {
 }
 
 #[test]
-fn a_spin_lasted_through_full_speed_straight_on() {
+fn a_turn_on_the_spot_lasted_through_full_speed_straight_on() {
     for tick in TICKS {
-        for rate in (4..=30).map(|rate| rate as f32) {
+        for initial in (4..=30).map(|initial| initial as f32) {
             for (sign, power) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)] {
-                let start = [0.0, 0.0, sign * rate];
+                let start = [0.0, 0.0, sign * initial];
                 let scene = moving(&RobotModel::VSS_440RPM, tick, start, [power; 2]);
-                let [.., spin] = *motions(&scene, 0.5).last().expect("ticks");
-                assert!(spin.abs() < 0.01, "{rate} rad/s, {tick} s: still {spin} rad/s");
+                let [.., angular_velocity] = *motions(&scene, 0.5).last().expect("ticks");
+                assert!(
+                    angular_velocity.abs() < 0.01,
+                    "{initial} rad/s, {tick} s: still {angular_velocity} rad/s"
+                );
             }
         }
     }
 }
 
 #[test]
-fn the_faster_robots_spin_did_not_fall_at_full_speed() {
+fn the_faster_robots_angular_velocity_did_not_fall_at_full_speed() {
     // Its rims are faster, so that its tires slide nearly straight back for longer.
     for tick in TICKS {
-        for rate in [4.0, 6.0, 11.0, 19.0, 30.0] {
-            let scene = moving(&RobotModel::VSS_650RPM, tick, [0.0, 0.0, rate], [1.0; 2]);
-            let rates: Vec<f32> = motions(&scene, 2.0).iter().map(|[.., spin]| *spin).collect();
-            let falls = rates.windows(2).all(|pair| pair[1] <= pair[0] + 1e-4);
-            assert!(falls, "{rate} rad/s, {tick} s: {rates:?}");
-            let [.., end] = by_the_law(&RobotModel::VSS_650RPM, [0.0, 0.0, rate], [1.0; 2], 2.0);
-            let off = f64::from(rates[rates.len() - 1]) - end;
-            assert!(off.abs() < 0.5, "{rate} rad/s, {tick} s: off by {off}");
+        for initial in [4.0, 6.0, 11.0, 19.0, 30.0] {
+            let scene = moving(&RobotModel::VSS_650RPM, tick, [0.0, 0.0, initial], [1.0; 2]);
+            let angular_velocities: Vec<f32> = motions(&scene, 2.0)
+                .iter()
+                .map(|[.., angular_velocity]| *angular_velocity)
+                .collect();
+            let falls = angular_velocities.windows(2).all(|pair| pair[1] <= pair[0] + 1e-4);
+            assert!(falls, "{initial} rad/s, {tick} s: {angular_velocities:?}");
+            let [.., end] = by_the_law(&RobotModel::VSS_650RPM, [0.0, 0.0, initial], [1.0; 2], 2.0);
+            let off = f64::from(angular_velocities[angular_velocities.len() - 1]) - end;
+            assert!(off.abs() < 0.5, "{initial} rad/s, {tick} s: off by {off}");
         }
     }
 }
@@ -126,9 +133,12 @@ fn full_throttle_switched_off_the_lateral_grip() {
     for tick in TICKS {
         for (speed, power) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0)] {
             let scene = moving(&RobotModel::VSS_440RPM, tick, [0.0, speed, 0.0], [power; 2]);
-            let [ahead, aside, spin] = *motions(&scene, 0.1).last().expect("ticks");
+            let [ahead, aside, angular_velocity] = *motions(&scene, 0.1).last().expect("ticks");
             assert!((aside / speed - 0.42).abs() < 0.05, "{speed}: still {aside} m/s sideways");
-            assert!(ahead * power > 0.3 && spin.abs() < 1e-3, "{ahead} m/s, {spin} rad/s");
+            assert!(
+                ahead * power > 0.3 && angular_velocity.abs() < 1e-3,
+                "{ahead} m/s, {angular_velocity} rad/s"
+            );
         }
     }
 }
@@ -156,12 +166,14 @@ fn locked_wheels_braked_forward_before_they_braked_sideways() {
 fn a_robot_faster_than_its_rims_slows_down_to_them() {
     for model in MODELS {
         for tick in TICKS {
-            for (faster, rate) in [(1.05, 0.0), (1.16, 0.0), (1.4, 5.0), (1.05, 6.0), (1.1, 12.0)] {
+            for (faster, initial) in
+                [(1.05, 0.0), (1.16, 0.0), (1.4, 5.0), (1.05, 6.0), (1.1, 12.0)]
+            {
                 let start = faster * model.top_speed();
-                let scene = moving(&model, tick, [start, 0.0, rate], [1.0; 2]);
+                let scene = moving(&model, tick, [start, 0.0, initial], [1.0; 2]);
                 let speeds = motions(&scene, 0.5).into_iter().map(|[x, y, _]| x.hypot(y));
                 let speeds: Vec<f32> = speeds.collect();
-                let label = format!("{} {faster} {rate} {tick}: {speeds:?}", model.name);
+                let label = format!("{} {faster} {initial} {tick}: {speeds:?}", model.name);
                 assert!(speeds.iter().all(|speed| *speed <= speeds[0] + 1e-5), "{label}");
                 assert!(speeds[speeds.len() - 1] < model.top_speed() * 1.001, "{label}");
             }

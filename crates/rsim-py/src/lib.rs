@@ -63,10 +63,10 @@ mod _core {
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)?;
+        module.add("MAX_PLACED_ANGULAR_VELOCITY", rsim_core::MAX_PLACED_ANGULAR_VELOCITY)?;
         module.add("MAX_PLACED_HEIGHT", rsim_core::MAX_PLACED_HEIGHT)?;
         module.add("MAX_PLACED_SPEED", rsim_core::MAX_PLACED_SPEED)?;
-        module.add("MAX_PLACED_SPIN", rsim_core::MAX_PLACED_SPIN)?;
-        module.add("MAX_PLACED_TURN_RATE", rsim_core::MAX_PLACED_TURN_RATE)
+        module.add("MAX_PLACED_SPIN", rsim_core::MAX_PLACED_SPIN)
     }
 
     /// Return version, profile ("release" or "debug") and physics version of this build.

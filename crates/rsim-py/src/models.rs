@@ -286,8 +286,8 @@ mirror!(RobotModel, "A robot: body, drive, and mouth if it has one. SI units.", 
     }
 
     #[getter]
-    fn top_turn_rate(&self) -> f64 {
-        shortest(self.0.top_turn_rate())
+    fn top_angular_velocity(&self) -> f64 {
+        shortest(self.0.top_angular_velocity())
     }
 
     #[getter]

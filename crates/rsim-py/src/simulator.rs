@@ -49,25 +49,26 @@ impl Simulator {
         self.0.threads()
     }
 
-    #[pyo3(signature = (worlds, rows, out, params = None))]
+    #[pyo3(signature = (worlds, rows, out, parameters = None))]
     fn place(
         &mut self,
         py: Python<'_>,
         worlds: &Bound<'_, PyAny>,
         rows: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
-        params: Option<&Bound<'_, PyAny>>,
+        parameters: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let mask = self.mask(worlds)?;
         let mask = values(&mask);
         let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
         let shape = [chosen(&mask), self.0.config().parameters_size()];
-        let params =
-            params.map(|params| InputRows::new("params", params, &shape, out)).transpose()?;
-        let (rows, params) = (rows.values(), params.as_ref().map(InputRows::values));
+        let parameters = parameters
+            .map(|parameters| InputRows::new("parameters", parameters, &shape, out))
+            .transpose()?;
+        let (rows, parameters) = (rows.values(), parameters.as_ref().map(InputRows::values));
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| self.0.place(&mask, &rows, params.as_deref(), out)).map_err(invalid)
+        py.detach(|| self.0.place(&mask, &rows, parameters.as_deref(), out)).map_err(invalid)
     }
 
     fn restart(

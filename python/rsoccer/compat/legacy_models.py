@@ -30,7 +30,7 @@ SSL_ROBOT: Final = RobotModel(
     max_wheel_speed=163.04868,  # 1557 rpm
     # rSim limits the wheels only, which reach their limit before these: 5.7 m/s, 44.8 rad/s.
     max_speed=6.0,
-    max_turn_rate=50.0,
+    max_angular_velocity=50.0,
     # Measured step responses, forward; sideways rSim reaches 2.41 m/s².
     max_acceleration=3.33,
     max_deceleration=3.80,

@@ -167,8 +167,8 @@ class _Simulation:
         """Poses and velocities (robots, numbers), degrees."""
         robots = self._frame.robots
         turned = np.mod(np.round(degrees(robots.heading[0]), 9), 360.0)  # -1e-20 is 0, not 360
-        turning = np.degrees(robots.angular_velocity[0], dtype=np.float64)
-        parts = [robots.position[0], turned[:, None], robots.velocity[0], turning[:, None]]
+        angular_velocity = np.degrees(robots.angular_velocity[0], dtype=np.float64)
+        parts = [robots.position[0], turned[:, None], robots.velocity[0], angular_velocity[:, None]]
         return np.concatenate(parts, axis=1, dtype=np.float64)
 
     def _commands(self, actions: Doubles) -> Doubles:
@@ -185,7 +185,7 @@ class VSS(_Simulation):
 
     `field_type` 0 is the field for three a side, 1 the one for five. A row of actions is
     `[left, right]`, wheel speeds in rad/s. A robot's state has six numbers: `x, y` (m), heading
-    (degrees), `v_x, v_y` (m/s), turn rate (degrees/s).
+    (degrees), `v_x, v_y` (m/s), angular velocity (degrees/s).
     """
 
     _fields = legacy_models.VSS_FIELDS
@@ -212,7 +212,7 @@ class SSL(_Simulation):
     | 0 | control by wheels | control by the body's velocity |
     | 1 | speed of wheel 0, rad/s | velocity forward, m/s |
     | 2 | speed of wheel 1, rad/s | velocity to the left, m/s |
-    | 3 | speed of wheel 2, rad/s | turn rate, rad/s |
+    | 3 | speed of wheel 2, rad/s | angular velocity, rad/s |
     | 4 | speed of wheel 3, rad/s | unused |
     | 5, 6 | kick forward and upward, m/s | the same |
     | 7 | dribbler, on above 0 | the same |

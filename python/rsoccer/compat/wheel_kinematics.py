@@ -9,7 +9,7 @@ from rsoccer.arrays import Doubles
 class WheelKinematics:
     """Kinematics of an omnidirectional robot with four wheels.
 
-    Body velocities are forward (m/s), left (m/s) and turn rate (rad/s), counterclockwise.
+    Body velocities are forward (m/s), left (m/s) and angular velocity (rad/s), counterclockwise.
     """
 
     def __init__(self, robot: RobotModel) -> None:

@@ -98,9 +98,9 @@ def _closing(
     velocities = []
     for robots in (first, second):
         arm = apart.point - frame.robots.position[:, robots]
-        turn = frame.robots.angular_velocity[:, robots, None]
+        angular_velocity = frame.robots.angular_velocity[:, robots, None]
         across = np.stack([-arm[..., 1], arm[..., 0]], axis=-1)
-        velocities.append(frame.robots.velocity[:, robots] + turn * across)
+        velocities.append(frame.robots.velocity[:, robots] + angular_velocity * across)
     closing = ((velocities[0] - velocities[1]) * apart.normal).sum(axis=-1)
     return np.where(apart.gap <= gap, np.maximum(closing, 0.0), np.float32(0.0))
 

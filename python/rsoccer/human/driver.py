@@ -167,7 +167,7 @@ class Driver:
         return SLOW if self.controls.slow and self.task.action_table is None else 1.0
 
     def _motion(self, heading: Sequence[float]) -> Floats:
-        """Velocity, turn rate, kick and dribbler of an omnidirectional robot."""
+        """Velocity, angular velocity, kick and dribbler of an omnidirectional robot."""
         controls = self.controls
         x, y = self._velocity(heading)
         # A diagonal of two keys is no faster than one key.

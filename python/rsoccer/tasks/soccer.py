@@ -37,7 +37,7 @@ OBSERVATION_LIMITS: Final = {
 
 
 ROBOT_SIGNS: Final = (1, -1, 1, -1, 1, -1, -1)
-"""Signs of a reflected robot: position, heading, velocity, turn rate."""
+"""Signs of a reflected robot: position, heading, velocity, angular velocity."""
 REFLECTIONS: Final = {
     "ball_polar": Reflection.of([1, 1, -1]),
     "goal_polar": Reflection.of([1, 1, -1]),
@@ -69,8 +69,8 @@ class Soccer(Task):
     ball             (4,)       VSSS: position x, y; velocity x, y               L; V    4
     ..               (6,)       SSL: position x, y, z; velocity x, y, z          L; V    4
     ego              (r,)       own position x, y; cosine and sine of the        L; 1;   2
-                                heading; velocity x, y; turn rate; SSL: also     V; W;
-                                1 if the ball is in the break beam, else 0       1
+                                heading; velocity x, y; angular velocity; SSL:   V; W;
+                                also 1 if the ball is in the break beam, else 0  1
     teammates        (t, r)     the same of each teammate                        as ego  2
     opponents        (o, r)     the same of each opponent                        as ego  2
     ball_polar       (3,)       distance of the ball; cosine and sine of its     L; 1    3
@@ -93,12 +93,12 @@ class Soccer(Task):
     action           (a,)       last action of the robot; 0 after a reset        1       1
     ===============  =========  ===============================================  ======  =====
 
-    Units: L is half the length of the field, V and W are the robot's top speed and top turn rate.
-    Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest numbers of
-    teammates and opponents of a robot of `sides`. A slot without a robot is 0; in `body_positions`
-    it shows the center of the field. Numbers of an absent robot are 0, and an absent robot observes
-    nothing but its last action and zeros. Values are clipped to [-limit, limit]. `Task.layout`
-    gives the columns of each block.
+    Units: L is half the length of the field, V and W are the robot's top speed and top angular
+    velocity. Sizes: r is 7 in VSSS and 8 in SSL, a is `action_size`, t and o are the greatest
+    numbers of teammates and opponents of a robot of `sides`. A slot without a robot is 0; in
+    `body_positions` it shows the center of the field. Numbers of an absent robot are 0, and an
+    absent robot observes nothing but its last action and zeros. Values are clipped to
+    [-limit, limit]. `Task.layout` gives the columns of each block.
     """
 
     field: str | Field

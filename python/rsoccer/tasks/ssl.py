@@ -25,8 +25,8 @@ from rsoccer.task import Play
 from rsoccer.tasks import options
 from rsoccer.tasks.soccer import Soccer
 
-MAX_TURN_RATE: Final = 10.0
-"""Turn rate of a full deflection, rad/s: the limit of rsoccer-gym."""
+MAX_ANGULAR_VELOCITY: Final = 10.0
+"""Angular velocity of a full deflection, rad/s: the limit of rsoccer-gym."""
 MAX_LEGAL_KICK_SPEED: Final = 6.5
 """Speed limit of a kick, m/s: SSL rules."""
 CHIP_ANGLE: Final = math.pi / 4
@@ -63,10 +63,10 @@ class Ssl(Soccer):
     =====  ==========================================  ==================================  =======
     Index  Meaning                                     Value of 1                          Range
     =====  ==========================================  ==================================  =======
-    0      velocity toward the attacked goal, or      `config.robot.top_speed`, m/s       -1 to 1
+    0      velocity toward the attacked goal, or       `config.robot.top_speed`, m/s       -1 to 1
            ahead if `velocity_frame` is "robot"
     1      velocity to the left of that                `config.robot.top_speed`, m/s       -1 to 1
-    2      turn rate, counterclockwise                 10 rad/s                            -1 to 1
+    2      angular velocity, counterclockwise          10 rad/s                            -1 to 1
     3      kick speed; no kick up to 0                 6.5 m/s (SSL rules), or the         -1 to 1
                                                        robot's maximum if that is less
     4      dribbler: on above 0, off up to 0           full speed, for any value above 0   -1 to 1
@@ -104,11 +104,11 @@ class Ssl(Soccer):
     """True: actions have a sixth number, above 0 for a chip kick."""
 
     action_size = 5
-    """Velocity x and y, turn rate, kick speed, dribbler."""
+    """Velocity x and y, angular velocity, kick speed, dribbler."""
     DISCRETE_ACTIONS: ClassVar[Floats] = DISCRETE_ACTIONS
     """(12, 5) actions."""
     ACTION_REFLECTION: ClassVar[Reflection] = Reflection.of([1, -1, -1, 1, 1])
-    """(5,) velocity to the left and turn rate change sign."""
+    """(5,) velocity to the left and angular velocity change sign."""
     half_only: ClassVar[bool] = False
     """True: blue_0 must stay in the opponents' half and out of their goal area."""
 
@@ -157,12 +157,12 @@ class Ssl(Soccer):
 
     @property
     def action_reflection(self) -> Reflection:
-        """Reflection of an action: velocity to the left and turn rate change sign."""
+        """Reflection of an action: velocity to the left and angular velocity change sign."""
         flat = self.ACTION_REFLECTION
         return Reflection.join([flat, Reflection.of([1])]) if self.chip_kick else flat
 
     def get_commands(self, play: Play, actions: Floats) -> Floats:
-        """Convert actions to body velocity (m/s), turn rate (rad/s), kick (m/s) and dribbler."""
+        """Convert actions to velocity (m/s), angular velocity (rad/s), kick (m/s) and dribbler."""
         if not self.chip_kick:
             return self._steering.commands(actions, play.sensed.rows, play.threads)
         flat = np.ascontiguousarray(actions[..., :_CHIP_SWITCH])
@@ -210,7 +210,9 @@ class Ssl(Soccer):
         """(5,) values of a full deflection: m/s, m/s, rad/s, m/s of a kick, 1 for the dribbler."""
         robot = self.config.robot
         kick = min(robot.max_kick_speed, MAX_LEGAL_KICK_SPEED)
-        return np.array([robot.top_speed, robot.top_speed, MAX_TURN_RATE, kick, 1.0], np.float32)
+        return np.array(
+            [robot.top_speed, robot.top_speed, MAX_ANGULAR_VELOCITY, kick, 1.0], np.float32
+        )
 
     @cached_property
     def chip_scale(self) -> np.float32:

@@ -48,7 +48,7 @@ class SslAttack(Ssl):
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
     goal          1 for a goal, -1 for one against                                    goals
-    ball_to_goal  progress of the ball toward the attacked goal and away from the    m
+    ball_to_goal  progress of the ball toward the attacked goal and away from the     m
                   own goal
     approach      decrease of the distance between the ball and the mouth             m
     failed        1 if the episode terminates without a goal, else 0                  episodes

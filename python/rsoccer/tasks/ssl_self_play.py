@@ -40,7 +40,7 @@ class SslSelfPlay(Ssl):
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
     goal          1 for a goal of the robot's team, -1 for a goal against it          goals
-    ball_to_goal  progress of the ball toward the attacked goal and away from the    m
+    ball_to_goal  progress of the ball toward the attacked goal and away from the     m
                   own goal, for each team's robot nearest to the ball
     approach      decrease of the distance between the ball and the mouth, for the    m
                   same robots

@@ -53,9 +53,9 @@ class Vss(Soccer):
     Term          Meaning                                                             Unit
     ============  ==================================================================  ========
     goal          1 for a goal of the robot's team, -1 for a goal against it          goals
-    ball_to_goal  progress of the ball toward the attacked goal and away from the    m
+    ball_to_goal  progress of the ball toward the attacked goal and away from the     m
                   own goal, for each team's robot nearest to the ball
-    approach      progress of the robot toward the point just behind the ball        m
+    approach      progress of the robot toward the point just behind the ball         m
     energy        negative mean magnitude of the action                               steps
     ============  ==================================================================  ========
 

@@ -82,8 +82,8 @@ def test_wheel_speed_is_limited() -> None:
     assert np.abs(fast.play.actions).max() == pytest.approx(1.0)
 
 
-def test_spin_turns_on_the_spot() -> None:
-    ego = driven(4, 60, spin=-1.0, x=0.5).frame.blue
+def test_a_turn_is_on_the_spot() -> None:
+    ego = driven(4, 60, turn=-1.0, x=0.5).frame.blue
     assert ego.angular_velocity.max() < -0.8 * ROBOT.top_speed / (ROBOT.track_width / 2)
     assert np.abs(ego.position - [-0.4, -0.2]).max() < 0.02
 

@@ -61,7 +61,7 @@ impl<'a> HeldBall<'a> {
     /// Velocity of the robot at the ball's center, m/s.
     fn robot_velocity(&self) -> Vector {
         let arm = self.robot.heading * self.place.x + self.robot.heading.perp() * self.place.y;
-        self.robot.velocity + arm.perp() * self.robot.spin
+        self.robot.velocity + arm.perp() * self.robot.angular_velocity
     }
 
     /// Velocity of the ball after a kick of `forward` and `upward` m/s relative to the front.

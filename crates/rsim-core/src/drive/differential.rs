@@ -33,7 +33,7 @@ pub(super) struct Wheels {
     /// Maximum friction along the axle of a tire whose friction along the wheel is `motor`, and `drive`, m/s.
     lateral_at_motor: Lanes,
     lateral_at_drive: Lanes,
-    /// Change of the turn rate (rad/s) by friction of 1 m/s at one wheel.
+    /// Change of the angular velocity (rad/s) by friction of 1 m/s at one wheel.
     turn: Lanes,
     /// Speed of the robot at a wheel, and at the other one, by friction of 1 m/s along that wheel; and the
     /// inverse of the former.
@@ -111,7 +111,7 @@ impl Wheels {
     ) -> WheelEffect {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
-        let slip = self.slip(own.velocity, own.spin, rims);
+        let slip = self.slip(own.velocity, own.angular_velocity, rims);
         let (mut slip, (mut holding, mut holds)) = (slip, self.holding(&slip, mask));
         if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
             // Tires that hold also compensate the load of the last tick. Those that slide give their
@@ -129,13 +129,13 @@ impl Wheels {
         let [left, right] = friction.along;
         WheelEffect {
             velocity: VectorLanes { x: left + right, y: friction.across },
-            spin: (right - left) * self.turn,
+            angular_velocity: (right - left) * self.turn,
             change: VectorLanes::ZERO,
         }
     }
 
-    fn slip(&self, velocity: VectorLanes, spin: Lanes, rims: [Lanes; 2]) -> Slip {
-        let turning = spin * self.half_track;
+    fn slip(&self, velocity: VectorLanes, angular_velocity: Lanes, rims: [Lanes; 2]) -> Slip {
+        let turning = angular_velocity * self.half_track;
         let along = [velocity.x - turning - rims[0], velocity.x + turning - rims[1]];
         Slip { along, across: velocity.y }
     }

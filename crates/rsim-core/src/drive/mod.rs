@@ -131,10 +131,10 @@ struct OwnMotion {
     /// m/s.
     velocity: VectorLanes,
     /// rad/s.
-    spin: Lanes,
+    angular_velocity: Lanes,
     /// Change of velocity by other bodies in the last tick, m/s.
     load: VectorLanes,
-    /// Change of the turn rate by other bodies in the last tick, rad/s.
+    /// Change of the angular velocity by other bodies in the last tick, rad/s.
     angular_load: Lanes,
     /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
     last_change: VectorLanes,
@@ -144,21 +144,24 @@ struct OwnMotion {
 struct WheelEffect {
     /// Change of velocity, m/s.
     velocity: VectorLanes,
-    /// Change of the turn rate, rad/s.
-    spin: Lanes,
+    /// Change of the angular velocity, rad/s.
+    angular_velocity: Lanes,
     /// Change of velocity without the compensation of loads, m/s.
     change: VectorLanes,
 }
 
 impl WheelEffect {
-    const NONE: Self =
-        Self { velocity: VectorLanes::ZERO, spin: Lanes::ZERO, change: VectorLanes::ZERO };
+    const NONE: Self = Self {
+        velocity: VectorLanes::ZERO,
+        angular_velocity: Lanes::ZERO,
+        change: VectorLanes::ZERO,
+    };
 
     /// `self` in the lanes of `mask`, `other` in the others.
     fn where_else(&self, mask: Lanes, other: &Self) -> Self {
         Self {
             velocity: self.velocity.where_else(mask, other.velocity),
-            spin: mask.bitselect(self.spin, other.spin),
+            angular_velocity: mask.bitselect(self.angular_velocity, other.angular_velocity),
             change: self.change.where_else(mask, other.change),
         }
     }
@@ -192,14 +195,14 @@ impl BlockAcceleration {
 pub(crate) struct DriveState {
     /// Change of velocity by other bodies in the last tick, m/s.
     load: VectorLanes,
-    /// Change of the turn rate by other bodies in the last tick, rad/s.
+    /// Change of the angular velocity by other bodies in the last tick, rad/s.
     angular_load: Lanes,
     /// Change of velocity by the wheels in the last tick, without the compensation of loads, m/s.
     change: VectorLanes,
     /// Velocity after the tick without contacts, m/s.
     expected_velocity: VectorLanes,
-    /// Turn rate after the tick without contacts, rad/s.
-    expected_spin: Lanes,
+    /// Angular velocity after the tick without contacts, rad/s.
+    expected_angular_velocity: Lanes,
 }
 
 impl DriveState {
@@ -209,16 +212,17 @@ impl DriveState {
         angular_load: Lanes::ZERO,
         change: VectorLanes::ZERO,
         expected_velocity: VectorLanes::ZERO,
-        expected_spin: Lanes::ZERO,
+        expected_angular_velocity: Lanes::ZERO,
     };
 
     /// Gives the robot in `lane` wheels before their first tick.
     pub(crate) fn clear(&mut self, lane: usize) {
-        let Self { load, angular_load, change, expected_velocity, expected_spin } = self;
+        let Self { load, angular_load, change, expected_velocity, expected_angular_velocity } =
+            self;
         for vector in [load, change, expected_velocity] {
             vector.set(lane, Vector::ZERO);
         }
-        for number in [angular_load, expected_spin] {
+        for number in [angular_load, expected_angular_velocity] {
             number.as_mut_array()[lane] = 0.0;
         }
     }
@@ -232,7 +236,7 @@ impl DriveState {
     ) -> BlockAcceleration {
         let own = OwnMotion {
             velocity: motion.velocity.seen_from(motion.heading),
-            spin: motion.spin,
+            angular_velocity: motion.angular_velocity,
             load: self.load.seen_from(motion.heading),
             angular_load: self.angular_load,
             last_change: self.change.seen_from(motion.heading),
@@ -253,9 +257,12 @@ impl DriveState {
         let velocity = effect.velocity.rotated_by(motion.heading);
         self.change = effect.change.rotated_by(motion.heading);
         self.expected_velocity = motion.velocity + velocity;
-        self.expected_spin = motion.spin + effect.spin;
+        self.expected_angular_velocity = motion.angular_velocity + effect.angular_velocity;
         let per_second = Lanes::splat(wheels.ticks_per_second);
-        BlockAcceleration { linear: velocity * per_second, angular: effect.spin * per_second }
+        BlockAcceleration {
+            linear: velocity * per_second,
+            angular: effect.angular_velocity * per_second,
+        }
     }
 
     /// Estimates the loads of the tick from the difference to the expected motion, for robots that are
@@ -266,7 +273,7 @@ impl DriveState {
             let mask = mask_of(|lane| in_contact >> lane & 1 == 1);
             let load = motion.velocity - self.expected_velocity;
             self.load = load.where_else(mask, VectorLanes::ZERO);
-            self.angular_load = mask & (motion.spin - self.expected_spin);
+            self.angular_load = mask & (motion.angular_velocity - self.expected_angular_velocity);
         }
     }
 }

@@ -8,31 +8,31 @@ use crate::columns::MAX_COMMAND;
 use crate::math::Rotation;
 use crate::models::robot::OmniDrive;
 
-/// Target velocities (m/s) and turn rates (rad/s) of the robots of a block, in their own frames.
+/// Target velocities (m/s) and angular velocities (rad/s) of the robots of a block, in their own frames.
 pub(super) struct TargetVelocity {
     velocity: VectorLanes,
-    spin: Lanes,
+    angular_velocity: Lanes,
 }
 
 /// Limits of one tick, and the kinematics between body velocity and wheel speeds.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Wheels {
-    /// Wheel speeds (rad/s) from forward, left and turning speed, one row per wheel.
+    /// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
     from_body: [[Lanes; 3]; 4],
     /// Least-squares inverse of `from_body`, for wheel speeds that do not fit together.
     to_body: [[Lanes; 4]; 3],
     max_wheel_speed: Lanes,
     max_speed: Lanes,
-    max_turn_rate: Lanes,
+    max_angular_velocity: Lanes,
     /// Maximum changes of velocity in one tick, m/s.
     speed_gain: Lanes,
     speed_loss: Lanes,
-    /// Maximum changes of the turn rate in one tick, rad/s.
-    spin_gain: Lanes,
-    spin_loss: Lanes,
+    /// Maximum changes of the angular velocity in one tick, rad/s.
+    angular_gain: Lanes,
+    angular_loss: Lanes,
     /// Maximum change of velocity by friction, m/s.
     traction: Lanes,
-    /// Maximum change of the turn rate by friction, rad/s.
+    /// Maximum change of the angular velocity by friction, rad/s.
     angular_traction: Lanes,
     /// Maximum difference to the last tick's change of velocity, m/s; infinite without a limit.
     jerk: Lanes,
@@ -53,11 +53,11 @@ impl Wheels {
             }),
             max_wheel_speed: lanes(&|robot| robot.drive.max_wheel_speed),
             max_speed: lanes(&|robot| robot.drive.max_speed),
-            max_turn_rate: lanes(&|robot| robot.drive.max_turn_rate),
+            max_angular_velocity: lanes(&|robot| robot.drive.max_angular_velocity),
             speed_gain: lanes(&|robot| robot.drive.max_acceleration * tick),
             speed_loss: lanes(&|robot| robot.drive.max_deceleration * tick),
-            spin_gain: lanes(&|robot| robot.drive.max_angular_acceleration * tick),
-            spin_loss: lanes(&|robot| robot.drive.max_angular_deceleration * tick),
+            angular_gain: lanes(&|robot| robot.drive.max_angular_acceleration * tick),
+            angular_loss: lanes(&|robot| robot.drive.max_angular_deceleration * tick),
             traction: lanes(&|robot| robot.drive.max_traction * tick),
             // The wheels' forces act at their distance; at least what free turning takes.
             angular_traction: lanes(&|Driven { drive, mass, inertia }| {
@@ -72,7 +72,7 @@ impl Wheels {
         }
     }
 
-    /// Target of the commands `[forward, left, turn, ..]`.
+    /// Target of the commands `[forward, left, angular velocity, ..]`.
     pub(super) fn target_of_velocity(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
         let limit = Lanes::splat(MAX_COMMAND);
         let [x, y] = [command[0], command[1]].map(|speed| limited(speed, limit));
@@ -83,22 +83,20 @@ impl Wheels {
     pub(super) fn target_of_wheel_speeds(&self, command: &[Lanes; MAX_COLUMNS]) -> TargetVelocity {
         let factor = self.saturation_factor(&command.map(Lanes::abs));
         let speeds = command.map(|speed| speed * factor);
-        let [x, y, turn] = self.to_body.map(|row| {
+        let [x, y, angular_velocity] = self.to_body.map(|row| {
             row[0] * speeds[0] + row[1] * speeds[1] + row[2] * speeds[2] + row[3] * speeds[3]
         });
-        self.saturated(VectorLanes { x, y }, turn)
+        self.saturated(VectorLanes { x, y }, angular_velocity)
     }
 
     /// The target within the maximum speeds, without a change of direction.
-    fn saturated(&self, velocity: VectorLanes, spin: Lanes) -> TargetVelocity {
+    fn saturated(&self, velocity: VectorLanes, angular_velocity: Lanes) -> TargetVelocity {
         let velocity = velocity.of_length_at_most(self.max_speed);
-        let spin = limited(spin, self.max_turn_rate);
-        let factor = self.saturation_factor(
-            &self
-                .from_body
-                .map(|row| (row[0] * velocity.x + row[1] * velocity.y + row[2] * spin).abs()),
-        );
-        TargetVelocity { velocity: velocity * factor, spin: spin * factor }
+        let angular_velocity = limited(angular_velocity, self.max_angular_velocity);
+        let factor = self.saturation_factor(&self.from_body.map(|row| {
+            (row[0] * velocity.x + row[1] * velocity.y + row[2] * angular_velocity).abs()
+        }));
+        TargetVelocity { velocity: velocity * factor, angular_velocity: angular_velocity * factor }
     }
 
     /// Factor on all wheel speeds if the wheels would turn at `speeds`, rad/s, none negative.
@@ -116,18 +114,18 @@ impl Wheels {
         let limit = slower.bitselect(self.speed_loss, self.speed_gain);
         let change = error.of_length_at_most(self.jerk_limited_change(error, limit));
         let change = self.jerk_limited(change, own);
-        let spin_error = target.spin - own.spin;
-        let slower = (spin_error * own.spin).simd_lt(Lanes::ZERO);
-        let limit = slower.bitselect(self.spin_loss, self.spin_gain);
-        let spin_change = limited(spin_error, limit);
+        let angular_error = target.angular_velocity - own.angular_velocity;
+        let slower = (angular_error * own.angular_velocity).simd_lt(Lanes::ZERO);
+        let limit = slower.bitselect(self.angular_loss, self.angular_gain);
+        let angular_change = limited(angular_error, limit);
         let load = compensated_load(own.load, error, change);
-        let compensates =
-            spin_error.abs().simd_le(limit) | (spin_change * own.angular_load).simd_lt(Lanes::ZERO);
+        let compensates = angular_error.abs().simd_le(limit)
+            | (angular_change * own.angular_load).simd_lt(Lanes::ZERO);
         let angular_load = compensates & own.angular_load;
         WheelEffect {
             change,
             velocity: (change - load).of_length_at_most(self.traction),
-            spin: limited(spin_change - angular_load, self.angular_traction),
+            angular_velocity: limited(angular_change - angular_load, self.angular_traction),
         }
     }
 
@@ -170,7 +168,7 @@ fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) 
     load - change * (moves & exceeds & along)
 }
 
-/// Wheel speeds (rad/s) from forward, left and turning speed, one row per wheel.
+/// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
 fn from_body(drive: &OmniDrive) -> [[f32; 3]; 4] {
     drive.wheel_angles.map(|degrees| {
         let Rotation { re: cos, im: sin } = Rotation::new(degrees.to_radians());
@@ -215,10 +213,10 @@ mod tests {
         numbers.map(Lanes::splat)
     }
 
-    /// Forward, left and turning speed in one lane.
+    /// Velocity forward and to the left, and angular velocity, in one lane.
     fn speeds(target: &TargetVelocity, lane: usize) -> [f32; 3] {
         let velocity = target.velocity.get(lane);
-        [velocity.x, velocity.y, target.spin.as_array()[lane]]
+        [velocity.x, velocity.y, target.angular_velocity.as_array()[lane]]
     }
 
     #[test]

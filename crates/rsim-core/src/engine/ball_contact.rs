@@ -1,7 +1,7 @@
 //! Rules for contacts of the ball: it may fly, it is fast for its size, and robots have a flat front.
 
 use super::contacts::Partner;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::arena::Wall;
 use crate::geometry::motion::{rotated, rotation};
 use crate::geometry::outline::{NearestPoint, PlacedOutline};
@@ -19,7 +19,7 @@ const MAX_ITERATIONS: usize = 32;
 
 /// Contact rules of the ball in one tick, or in a part of it.
 pub(crate) struct BallRules<'a> {
-    pub(crate) params: &'a BodyParams,
+    pub(crate) parameters: &'a BodyParameters,
     pub(crate) walls: &'a [Wall],
     pub(crate) phase: BallPhase,
     /// Set for a squeezed ball, which stays in contact with all bodies around it.
@@ -56,8 +56,8 @@ pub(super) struct Approached {
     pub(super) place: PlacedOutline,
     /// Velocity of the ball relative to the center of the approached body, m/s.
     pub(super) velocity: Vector,
-    /// Turn rate of the approached body, rad/s.
-    pub(super) spin: f32,
+    /// Angular velocity of the approached body, rad/s.
+    pub(super) angular_velocity: f32,
 }
 
 /// A predicted contact: normal, distance to it now, and the ball's center at that instant.
@@ -75,7 +75,7 @@ impl BallRules<'_> {
             BallPhase::Floor => true,
             BallPhase::Air => false,
             BallPhase::JammedInAir { height } => match with {
-                Partner::Robot(index) => height < self.params.robots[index].model.height,
+                Partner::Robot(index) => height < self.parameters.robots[index].model.height,
                 Partner::Wall(index) => height < self.walls[index].top,
             },
         }
@@ -102,7 +102,7 @@ impl Approached {
         if nearest.distance - radius <= TOUCHING {
             return Some(Touch::of(&nearest, center, radius));
         }
-        let corner_speed = self.spin.abs() * self.place.outline.turning_radius();
+        let corner_speed = self.angular_velocity.abs() * self.place.outline.turning_radius();
         let (mut place, mut after) = (self.place, 0.0);
         for _ in 0..MAX_ITERATIONS {
             let gap = nearest.distance - radius;
@@ -118,12 +118,12 @@ impl Approached {
                 return None;
             }
             let Rotation { re, im } = self.place.heading;
-            place.heading = rotation(rotated(Vector::new(re, im), self.spin * after));
+            place.heading = rotation(rotated(Vector::new(re, im), self.angular_velocity * after));
             nearest = place.nearest(center + self.velocity * after);
         }
         let center = center + self.velocity * after;
         let arm = center - nearest.normal * radius - place.position;
-        let closing = (arm.perp() * self.spin - self.velocity).dot(nearest.normal);
+        let closing = (arm.perp() * self.angular_velocity - self.velocity).dot(nearest.normal);
         let distance = (closing * after).max(0.0);
         Some(Touch { normal: nearest.normal, distance, center })
     }

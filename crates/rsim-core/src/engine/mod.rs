@@ -17,7 +17,7 @@ mod shapes;
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::{Bodies, SubSteps, Undisturbed};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::arena::Wall;
 use crate::geometry::free_space::FreeSpace;
 use crate::models::config::{EngineKind, SimConfig};
@@ -90,11 +90,11 @@ impl Scratch {
 pub(crate) struct NonFinite;
 
 impl Engine {
-    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+    pub(crate) fn new(config: &SimConfig, parameters: &BodyParameters, walls: &[Wall]) -> Self {
         Self {
             solver: match config.engine {
                 EngineKind::Rapier => {
-                    Solver::Rapier(Box::new(RapierSolver::new(config, params, walls)))
+                    Solver::Rapier(Box::new(RapierSolver::new(config, parameters, walls)))
                 }
                 EngineKind::Compact => Solver::Compact(CompactSolver::default()),
             },
@@ -108,9 +108,9 @@ impl Engine {
     }
 
     /// Gives the solver other parameters of the bodies.
-    pub(crate) fn set_params(&mut self, params: &BodyParams) {
+    pub(crate) fn set_parameters(&mut self, parameters: &BodyParameters) {
         if let Solver::Rapier(solver) = &mut self.solver {
-            solver.set_params(params);
+            solver.set_parameters(parameters);
         }
     }
 
@@ -140,8 +140,9 @@ impl Engine {
         let may_be_free = self.contact_free_enabled
             && self.is_contact_free
             && rules.squeezed.is_none()
-            && !bodies.ball_was_jammed(rules.params);
-        bodies.ball_mass = rules.squeezed.map_or(rules.params.ball.mass, |squeezed| squeezed.mass);
+            && !bodies.ball_was_jammed(rules.parameters);
+        bodies.ball_mass =
+            rules.squeezed.map_or(rules.parameters.ball.mass, |squeezed| squeezed.mass);
         let sub_steps = self.sub_steps(rules.time);
         let Scratch { rapier, compact, near, contact_free, contacts, undisturbed } = scratch;
         let is_free = match &mut self.solver {

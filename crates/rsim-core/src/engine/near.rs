@@ -3,7 +3,7 @@
 use super::{BallPhase, BallRules};
 use crate::blocks::{BALL, LANES, Lanes, VectorLanes, place_of, robot, set_bits};
 use crate::bodies::{Bodies, BodyBlock, SubSteps};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::free_space::FreeSpace;
 use crate::geometry::motion_block::MotionBlock;
 use crate::geometry::outline::{Outline, PlacedOutline};
@@ -63,11 +63,11 @@ pub(super) struct Solid {
 
 impl Solid {
     /// A body as robots and walls meet it.
-    fn of(body: usize, params: &BodyParams) -> Self {
+    fn of(body: usize, parameters: &BodyParameters) -> Self {
         if body == BALL {
-            return Self { body, outline: Outline::Disc { radius: params.ball.radius } };
+            return Self { body, outline: Outline::Disc { radius: parameters.ball.radius } };
         }
-        let outline = match params.robots[body - 1].outline {
+        let outline = match parameters.robots[body - 1].outline {
             Outline::CutDisc { radius, .. } => Outline::Disc { radius },
             whole => whole,
         };
@@ -75,8 +75,8 @@ impl Solid {
     }
 
     /// A robot as the ball meets it.
-    fn as_met_by_ball(self, params: &BodyParams) -> Self {
-        Self { outline: params.robots[self.body - 1].outline, ..self }
+    fn as_met_by_ball(self, parameters: &BodyParameters) -> Self {
+        Self { outline: parameters.robots[self.body - 1].outline, ..self }
     }
 
     fn placed(&self, motions: &[MotionBlock]) -> PlacedOutline {
@@ -141,9 +141,9 @@ impl NearPairs {
         free_space: &FreeSpace,
         search: &Search,
     ) {
-        let params = rules.params;
+        let parameters = rules.parameters;
         self.pairs.clear();
-        let at_walls = self.find_reaches(bodies, params, free_space, search);
+        let at_walls = self.find_reaches(bodies, parameters, free_space, search);
         let first = if search.ball_flies { robot(0) } else { BALL };
         for body in first..bodies.len() {
             let (block, lane) = place_of(body);
@@ -154,21 +154,21 @@ impl NearPairs {
             if met == 0 && !is_at_wall {
                 continue;
             }
-            let solid = Solid::of(body, params);
+            let solid = Solid::of(body, parameters);
             for other in set_bits(met) {
                 let (one, margin) = if other == BALL {
                     let (_, ball_speed) = self.reaches[0].get(BALL);
-                    let margin = margin_of_ball(ball_speed + speed, params, search.between);
-                    (solid.as_met_by_ball(params), margin)
+                    let margin = margin_of_ball(ball_speed + speed, parameters, search.between);
+                    (solid.as_met_by_ball(parameters), margin)
                 } else {
                     (solid, MARGIN)
                 };
-                let other = Other::Body(Solid::of(other, params));
+                let other = Other::Body(Solid::of(other, parameters));
                 self.pairs.push(Pair { one, other, margin });
             }
             if is_at_wall {
                 let margin = if body == BALL {
-                    margin_of_ball(speed, params, search.between)
+                    margin_of_ball(speed, parameters, search.between)
                 } else {
                     MARGIN
                 };
@@ -186,14 +186,14 @@ impl NearPairs {
     fn find_reaches(
         &mut self,
         bodies: &Bodies,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         free_space: &FreeSpace,
         search: &Search,
     ) -> u64 {
         self.reaches.clear();
         let time = Lanes::splat(search.time);
         let mut at_walls = 0;
-        let blocks = bodies.blocks.iter().zip(&params.inertia);
+        let blocks = bodies.blocks.iter().zip(&parameters.inertia);
         for (block, (body, inertia)) in blocks.enumerate() {
             let BodyBlock { motion, acceleration, .. } = body;
             let mut speed = if let Some(speed) = search.speed {
@@ -206,7 +206,7 @@ impl NearPairs {
             if block == 0 {
                 let ball = &mut speed.as_mut_array()[BALL];
                 *ball = ball.max(motion.velocity.get(BALL).length());
-                margin.as_mut_array()[BALL] += margin_of_ball(*ball, params, search.between);
+                margin.as_mut_array()[BALL] += margin_of_ball(*ball, parameters, search.between);
             }
             let radius = inertia.bounding_radius + speed * time + margin;
             at_walls |= free_space.left_by(motion.position, radius) << (block * LANES);
@@ -242,7 +242,7 @@ impl NearPairs {
 
 /// Separation at which a ball of this speed touches nothing, m. A fast ball that passes a corner can
 /// be nearer to it between two tests than at both, by the height of its arc over half a sub-step.
-fn margin_of_ball(speed: f32, params: &BodyParams, sub_step: f32) -> f32 {
+fn margin_of_ball(speed: f32, parameters: &BodyParameters, sub_step: f32) -> f32 {
     let half_way = 0.5 * speed * sub_step;
-    MARGIN + half_way * half_way / (2.0 * params.ball.radius)
+    MARGIN + half_way * half_way / (2.0 * parameters.ball.radius)
 }

@@ -21,10 +21,10 @@ pub struct EgoFeatures {
     n_slots: usize,
     /// Middle of the attacked goal, m.
     goal: Vector,
-    /// Scales of positions (1/m), velocities (s/m) and turn rates (s/rad).
+    /// Scales of positions (1/m), velocities (s/m) and angular velocities (s/rad).
     position_scale: f32,
     velocity_scale: f32,
-    turn_rate_scale: f32,
+    angular_velocity_scale: f32,
     /// Whether robots have a mouth, so that break beams and the ball's height matter.
     have_mouths: bool,
     /// Whether the block `presence` is written.
@@ -85,7 +85,7 @@ impl EgoFeatures {
             goal: Vector::new(field.half_length(), 0.0),
             position_scale: 1.0 / field.half_length(),
             velocity_scale: 1.0 / robot.top_speed(),
-            turn_rate_scale: 1.0 / robot.top_turn_rate(),
+            angular_velocity_scale: 1.0 / robot.top_angular_velocity(),
             have_mouths: robot.mouth.is_some(),
             presence,
         }
@@ -101,7 +101,7 @@ impl EgoFeatures {
     /// | block | numbers |
     /// | --- | --- |
     /// | `ball` | position and velocity, in the plane, or in space for robots with a mouth |
-    /// | `ego`, `teammates`, `opponents` | x, y, cos, sin, velocity, turn rate, and the break beam of robots with a mouth |
+    /// | `ego`, `teammates`, `opponents` | x, y, cos, sin, velocity, angular velocity, and the break beam of robots with a mouth |
     /// | `ball_polar`, `goal_polar` | distance, cosine and sine of the bearing |
     /// | `shot` | cosine and sine of the bearing from the ball to the goal; nearness of the ball, falling from 1 to 0; nearness times the cosine of the angle between ball and goal |
     /// | `own_goal_polar` | as `goal_polar`, of the goal that the robot's team defends; only for robots without a mouth |
@@ -183,7 +183,11 @@ impl EgoFeatures {
         let (position, heading) = (robot.position * self.position_scale, robot.heading);
         let velocity = robot.velocity * self.velocity_scale;
         writer.write([position.x, position.y, heading.x, heading.y]);
-        writer.write([velocity.x, velocity.y, robot.turn_rate * self.turn_rate_scale]);
+        writer.write([
+            velocity.x,
+            velocity.y,
+            robot.angular_velocity * self.angular_velocity_scale,
+        ]);
         if self.have_mouths {
             writer.write([robot.beam]);
         }

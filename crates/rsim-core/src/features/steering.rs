@@ -3,7 +3,7 @@
 use crate::columns::OMNI_COLUMNS;
 use crate::math::{Rotation, Vector};
 
-/// Size of an action: velocity along two axes, turn rate, kick (none up to 0), dribbler (off up to 0).
+/// Size of an action: velocity along two axes, angular velocity, kick (none up to 0), dribbler (off up to 0).
 pub const ACTION_SIZE: usize = 5;
 
 /// Mapping from actions to commands.

@@ -128,14 +128,14 @@ impl Observer {
             if is_absent(columns) {
                 return ViewedRobot { presence: Presence::Absent, ..ViewedRobot::default() };
             }
-            let &[x, y, cos, sin, v_x, v_y, turn_rate, beam, ..] = columns else {
+            let &[x, y, cos, sin, v_x, v_y, angular_velocity, beam, ..] = columns else {
                 unreachable!("{ROBOT_COLUMNS:?}")
             };
             ViewedRobot {
                 position: Vector::new(x, y) * flip,
                 heading: Vector::new(cos, sin) * flip,
                 velocity: Vector::new(v_x, v_y) * flip,
-                turn_rate,
+                angular_velocity,
                 beam,
                 presence: Presence::Present,
             }
@@ -159,7 +159,7 @@ pub(super) struct ViewedRobot {
     pub(super) position: Vector,
     pub(super) heading: Vector,
     pub(super) velocity: Vector,
-    pub(super) turn_rate: f32,
+    pub(super) angular_velocity: f32,
     pub(super) beam: f32,
     pub(super) presence: Presence,
 }

@@ -13,14 +13,14 @@ pub(crate) struct Motion {
     pub(crate) heading: Vector,
     /// m/s.
     pub(crate) velocity: Vector,
-    /// Turn rate, rad/s, counterclockwise.
-    pub(crate) spin: f32,
+    /// Angular velocity, rad/s, counterclockwise.
+    pub(crate) angular_velocity: f32,
 }
 
 impl Motion {
     /// A body at rest.
     pub(crate) fn at_rest(position: Vector, heading: Vector) -> Self {
-        Self { position, heading, velocity: Vector::ZERO, spin: 0.0 }
+        Self { position, heading, velocity: Vector::ZERO, angular_velocity: 0.0 }
     }
 
     /// Heading as a rotation.
@@ -33,7 +33,7 @@ impl Motion {
         self.position.is_finite()
             && self.heading.is_finite()
             && self.velocity.is_finite()
-            && self.spin.is_finite()
+            && self.angular_velocity.is_finite()
     }
 }
 

@@ -14,8 +14,8 @@ pub(crate) struct MotionBlock {
     pub(crate) heading: VectorLanes,
     /// m/s.
     pub(crate) velocity: VectorLanes,
-    /// Turn rates, rad/s, counterclockwise.
-    pub(crate) spin: Lanes,
+    /// Angular velocities, rad/s, counterclockwise.
+    pub(crate) angular_velocity: Lanes,
 }
 
 impl MotionBlock {
@@ -24,7 +24,7 @@ impl MotionBlock {
         position: VectorLanes::ZERO,
         heading: VectorLanes { x: Lanes::ONE, y: Lanes::ZERO },
         velocity: VectorLanes::ZERO,
-        spin: Lanes::ZERO,
+        angular_velocity: Lanes::ZERO,
     };
 
     /// Motion of the body in `lane`.
@@ -33,7 +33,7 @@ impl MotionBlock {
             position: self.position.get(lane),
             heading: self.heading.get(lane),
             velocity: self.velocity.get(lane),
-            spin: self.spin.as_array()[lane],
+            angular_velocity: self.angular_velocity.as_array()[lane],
         }
     }
 
@@ -42,15 +42,15 @@ impl MotionBlock {
         self.position.set(lane, motion.position);
         self.heading.set(lane, motion.heading);
         self.velocity.set(lane, motion.velocity);
-        self.spin.as_mut_array()[lane] = motion.spin;
+        self.angular_velocity.as_mut_array()[lane] = motion.angular_velocity;
     }
 
     /// Moves the bodies by `count` steps of `time` (s), each with the given changes of velocity (m/s) and
-    /// turn rate (rad/s).
+    /// angular velocity (rad/s).
     pub(crate) fn advance(
         &mut self,
         velocity_change: VectorLanes,
-        spin_change: Lanes,
+        angular_change: Lanes,
         time: f32,
         count: usize,
     ) {
@@ -58,10 +58,10 @@ impl MotionBlock {
         let mut heading = self.heading;
         for _ in 0..count {
             self.velocity += velocity_change;
-            self.spin += spin_change;
+            self.angular_velocity += angular_change;
             self.position += self.velocity * time;
             // To first order, as `rotated`; the product of all rotations is normalized once.
-            heading += heading.perp() * (self.spin * time);
+            heading += heading.perp() * (self.angular_velocity * time);
         }
         self.heading = heading * (Lanes::ONE / heading.length_squared().sqrt());
     }
@@ -79,7 +79,7 @@ mod tests {
             position: Vector::new(0.3, -0.2),
             heading: Vector::from_angle(2.0),
             velocity: Vector::new(1.5, 0.4),
-            spin: 30.0,
+            angular_velocity: 30.0,
         };
         let mut block = MotionBlock::AT_REST;
         block.set(2, &motion);
@@ -89,13 +89,16 @@ mod tests {
         let mut alone = motion;
         for _ in 0..4 {
             alone.velocity += gain;
-            alone.spin += turn;
+            alone.angular_velocity += turn;
             alone.position += alone.velocity * 1.25e-3;
-            alone.heading = rotated(alone.heading, alone.spin * 1.25e-3);
+            alone.heading = rotated(alone.heading, alone.angular_velocity * 1.25e-3);
         }
         let moved = block.get(2);
         assert!((moved.position - alone.position).length() < 1e-7);
         assert!((moved.heading - alone.heading).length() < 1e-6);
-        assert_eq!((moved.velocity, moved.spin), (alone.velocity, alone.spin));
+        assert_eq!(
+            (moved.velocity, moved.angular_velocity),
+            (alone.velocity, alone.angular_velocity)
+        );
     }
 }

@@ -138,8 +138,8 @@ numbers! {
         wheel_distance: Positive, "m";
         /// Maximum speed in every direction.
         max_speed: Positive, "m/s";
-        /// Maximum turn rate.
-        max_turn_rate: Positive, "rad/s";
+        /// Maximum angular velocity.
+        max_angular_velocity: Positive, "rad/s";
         /// Maximum acceleration when the robot gets faster or turns aside.
         max_acceleration: Positive, "m/s²";
         /// Maximum deceleration when the robot gets slower.
@@ -208,13 +208,13 @@ impl RobotModel {
         }
     }
 
-    /// Maximum turn rate on the spot, rad/s.
-    pub fn top_turn_rate(&self) -> f32 {
+    /// Maximum angular velocity on the spot, rad/s.
+    pub fn top_angular_velocity(&self) -> f32 {
         match self.drive {
             Drive::Differential(drive) => 2.0 * self.top_speed() / drive.track_width,
             Drive::Omni(drive) | Drive::OmniWheels(drive) => {
                 let by_wheels = drive.wheel_radius * drive.max_wheel_speed / drive.wheel_distance;
-                drive.max_turn_rate.min(by_wheels)
+                drive.max_angular_velocity.min(by_wheels)
             }
         }
     }

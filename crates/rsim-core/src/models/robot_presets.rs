@@ -75,7 +75,7 @@ impl RobotModel {
         FALLBACK_MOUTH,
         Drive::Omni(OmniDrive {
             max_speed: 2.0,
-            max_turn_rate: 5.0,
+            max_angular_velocity: 5.0,
             max_acceleration: 2.0,
             max_deceleration: 2.0,
             max_angular_acceleration: 20.0,
@@ -171,7 +171,7 @@ const OMNI: OmniDrive = OmniDrive {
     wheel_angles: [60.0, 135.0, 225.0, 300.0],
     max_wheel_speed: rpm(1557.0),
     max_speed: 3.7,
-    max_turn_rate: 26.2,
+    max_angular_velocity: 26.2,
     max_acceleration: 4.7,
     max_deceleration: 5.9,
     max_angular_acceleration: 50.8,

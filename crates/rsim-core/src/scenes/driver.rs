@@ -58,7 +58,7 @@ fn random_command(model: &RobotModel, key: u64) -> Vec<f32> {
             let body = [
                 draw(0) * drive.max_speed,
                 draw(1) * drive.max_speed,
-                draw(2) * drive.max_turn_rate / 2.0,
+                draw(2) * drive.max_angular_velocity / 2.0,
             ];
             let wheels = [draw(0), draw(1), draw(2), draw(6)].map(|s| s * drive.max_wheel_speed);
             let mut command = match model.drive {

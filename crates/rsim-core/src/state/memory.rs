@@ -19,9 +19,9 @@ impl State<Vec<BodyBlock>> {
     }
 
     fn in_array<const N: usize>(self) -> State<[BodyBlock; N]> {
-        let Self { engine, ball, touches, crossing, absent, own_params, broken, bodies } = self;
+        let Self { engine, ball, touches, crossing, absent, own_parameters, broken, bodies } = self;
         let bodies = bodies.map_blocks(|blocks| blocks.try_into().expect("N blocks"));
-        State { engine, ball, touches, crossing, absent, own_params, broken, bodies }
+        State { engine, ball, touches, crossing, absent, own_parameters, broken, bodies }
     }
 }
 
@@ -29,13 +29,14 @@ impl State {
     /// Takes the state of another match of the same configuration, without an allocation where neither
     /// has parameters of its own nor rapier.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        let Self { engine, ball, touches, crossing, absent, own_params, broken, bodies } = other;
+        let Self { engine, ball, touches, crossing, absent, own_parameters, broken, bodies } =
+            other;
         self.engine.clone_from(engine);
         self.ball = *ball;
         self.touches = *touches;
         self.crossing = *crossing;
         self.absent = *absent;
-        self.own_params.clone_from(own_params);
+        self.own_parameters.clone_from(own_parameters);
         self.broken = *broken;
         self.bodies.copy_from(bodies);
     }
@@ -43,14 +44,15 @@ impl State {
 
 impl Clone for Box<State> {
     fn clone(&self) -> Self {
-        let State { engine, ball, touches, crossing, absent, own_params, broken, bodies } = &**self;
+        let State { engine, ball, touches, crossing, absent, own_parameters, broken, bodies } =
+            &**self;
         let copy = State {
             engine: engine.clone(),
             ball: *ball,
             touches: *touches,
             crossing: *crossing,
             absent: *absent,
-            own_params: own_params.clone(),
+            own_parameters: own_parameters.clone(),
             broken: *broken,
             bodies: bodies.to_vec(),
         };
@@ -63,12 +65,12 @@ mod tests {
     use std::mem::size_of_val;
 
     use super::*;
-    use crate::body_params::BodyParams;
+    use crate::body_parameters::BodyParameters;
     use crate::geometry::arena::walls;
     use crate::models::config::{EngineKind, SimConfig};
 
     fn state(config: &SimConfig) -> Box<State> {
-        State::new(config, &BodyParams::of(config), &walls(&config.field)).boxed()
+        State::new(config, &BodyParameters::of(config), &walls(&config.field)).boxed()
     }
 
     fn bytes(state: &State) -> Vec<u8> {
@@ -88,7 +90,7 @@ mod tests {
             let config = SimConfig { engine, ..SimConfig::ssl(3, 2) };
             let (mut changed, pristine) = (state(&config), state(&config));
             let mut motion = changed.bodies.motion(4);
-            motion.spin = 2.0;
+            motion.angular_velocity = 2.0;
             changed.place(4, &motion);
             changed.bodies.set_dribbling(1, 0.5);
             changed.bodies.add_collision(2, 0.25);
@@ -96,7 +98,7 @@ mod tests {
             changed.ball.z = 0.1;
             changed.absent = 1 << 3;
             changed.broken = true;
-            changed.own_params = Some(Box::new(BodyParams::of(&config)));
+            changed.own_parameters = Some(Box::new(BodyParameters::of(&config)));
             let clone = changed.clone();
             assert_eq!(bytes(&clone), bytes(&changed));
             assert_ne!(bytes(&clone), bytes(&pristine));

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::ball::state::BallState;
 use crate::blocks::robot;
 use crate::bodies::{Bodies, BodyBlock};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::engine::{Engine, NonFinite};
 use crate::geometry::arena::Wall;
 use crate::geometry::free_space::FreeSpace;
@@ -23,7 +23,7 @@ pub(crate) struct Setup {
     pub(crate) config: SimConfig,
     pub(crate) walls: Vec<Wall>,
     pub(crate) free_space: FreeSpace,
-    pub(crate) params: BodyParams,
+    pub(crate) parameters: BodyParameters,
     /// Number of columns of one robot's command.
     pub(crate) command_columns: usize,
 }
@@ -41,7 +41,7 @@ pub(crate) struct State<B: ?Sized = [BodyBlock]> {
     /// Robots that are not on the field, one bit each. They rest where nothing meets them.
     pub(crate) absent: u64,
     /// Body parameters of a world that differs from the models.
-    pub(crate) own_params: Option<Box<BodyParams>>,
+    pub(crate) own_parameters: Option<Box<BodyParameters>>,
     /// Whether a number became non-finite; only placing the world again repairs it.
     pub(crate) broken: bool,
     pub(crate) bodies: Bodies<B>,
@@ -49,16 +49,16 @@ pub(crate) struct State<B: ?Sized = [BodyBlock]> {
 
 impl State<Vec<BodyBlock>> {
     /// State before any match.
-    pub(crate) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+    pub(crate) fn new(config: &SimConfig, parameters: &BodyParameters, walls: &[Wall]) -> Self {
         Self {
-            engine: Engine::new(config, params, walls),
+            engine: Engine::new(config, parameters, walls),
             ball: BallState::default(),
             touches: TouchRecord::default(),
             crossing: Crossing::default(),
             absent: 0,
-            own_params: None,
+            own_parameters: None,
             broken: false,
-            bodies: Bodies::new(params),
+            bodies: Bodies::new(parameters),
         }
     }
 }

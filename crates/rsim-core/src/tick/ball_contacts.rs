@@ -5,7 +5,7 @@ use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, robot};
 use crate::bodies::Undisturbed;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::engine::{BallContact, Partner, Scratch};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -24,7 +24,7 @@ const MAX_CONTACTS: usize = 4;
 pub(super) fn resolve(
     state: &mut State,
     setup: &Setup,
-    params: &BodyParams,
+    parameters: &BodyParameters,
     mean: Vector,
     now: &mut GroundMotion,
     scratch: &Scratch,
@@ -35,7 +35,7 @@ pub(super) fn resolve(
     if contacts[0].is_none() {
         return false;
     }
-    let model = &params.ball;
+    let model = &parameters.ball;
     let mut sphere = Sphere {
         velocity: now.velocity.extend(0.0),
         spin: now.spin,
@@ -45,7 +45,8 @@ pub(super) fn resolve(
     let mut bounced = false;
     for contact in contacts.into_iter().flatten() {
         let normal = contact.normal.extend(0.0);
-        let (before, other) = contact_body(state, setup, params, &contact, &scratch.undisturbed);
+        let (before, other) =
+            contact_body(state, setup, parameters, &contact, &scratch.undisturbed);
         let closing = (before - mean).dot(contact.normal);
         let rebound = sphere.rebound(&other, normal, closing);
         let friction = sphere.friction(&other, normal, contact.impulse + rebound);
@@ -54,7 +55,7 @@ pub(super) fn resolve(
         bounced |= rebound > 0.0;
         if let Partner::Robot(index) = contact.with {
             let body = robot(index);
-            state.bodies.apply_impulse(params, body, -impulse.truncate(), other.arm);
+            state.bodies.apply_impulse(parameters, body, -impulse.truncate(), other.arm);
             state.touches.add_ball(index);
         }
     }
@@ -67,11 +68,11 @@ pub(super) fn resolve(
 fn contact_body(
     state: &State,
     setup: &Setup,
-    params: &BodyParams,
+    parameters: &BodyParameters,
     contact: &BallContact,
     undisturbed: &[Undisturbed],
 ) -> (Vector, ContactBody) {
-    let model = &params.ball;
+    let model = &parameters.ball;
     match contact.with {
         Partner::Wall(index) => {
             (Vector::ZERO, ContactBody::fixed(setup.walls[index].surface(model)))
@@ -79,15 +80,16 @@ fn contact_body(
         Partner::Robot(index) => {
             let motion = state.bodies.motion(robot(index));
             let ball = state.bodies.motion(BALL).position;
-            let body = &params.robots[index];
+            let body = &parameters.robots[index];
             let point = motion.position + contact.arm;
             let mut other = body.contact_body(&motion, point, model.robot_surface());
-            if let Some((surface, down)) = running_dribbler(state, params, index, &motion, ball) {
+            if let Some((surface, down)) = running_dribbler(state, parameters, index, &motion, ball)
+            {
                 other.surface = surface;
                 other.velocity.z = -down;
             }
             let before = &undisturbed[index];
-            (before.velocity + other.arm.perp() * before.spin, other)
+            (before.velocity + other.arm.perp() * before.angular_velocity, other)
         }
     }
 }
@@ -95,7 +97,7 @@ fn contact_body(
 /// Surface and downward speed (m/s) of a dribbler bar, if it runs and the ball is at it.
 fn running_dribbler(
     state: &State,
-    params: &BodyParams,
+    parameters: &BodyParameters,
     index: usize,
     motion: &Motion,
     ball: Vector,
@@ -104,8 +106,8 @@ fn running_dribbler(
     if speed == 0.0 {
         return None;
     }
-    let model = &params.robots[index].model;
-    HeldBall::find(model, motion, &params.ball, ball, state.ball.z)?;
+    let model = &parameters.robots[index].model;
+    HeldBall::find(model, motion, &parameters.ball, ball, state.ball.z)?;
     let mouth = model.mouth?;
     let surface =
         Surface { restitution: mouth.dribbler_restitution, friction: mouth.dribbler_friction };

@@ -1,7 +1,7 @@
 //! Commands of a control step, read once for all of its ticks.
 
 use crate::blocks::{LANES, mask_of, robot};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
 use crate::drive::BlockCommands;
 use crate::models::robot::Drive;
@@ -35,18 +35,18 @@ impl StepCommands {
     pub(crate) fn read(
         &mut self,
         state: &mut State,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         commands: &[f32],
         columns: usize,
     ) {
-        let blocks = 0..params.wheels.len();
+        let blocks = 0..parameters.wheels.len();
         self.wheels.clear();
         self.wheels.extend(blocks.map(|block| BlockCommands::read(commands, columns, block)));
         if state.absent != 0 {
             self.halt(state.absent << robot(0));
         }
         self.handling.clear();
-        for (index, body) in params.robots.iter().enumerate() {
+        for (index, body) in parameters.robots.iter().enumerate() {
             let row = commands.get(index * columns..(index + 1) * columns).unwrap_or_default();
             let Some(command) = HandlingCommand::read(index, &body.model.drive, row) else {
                 continue;

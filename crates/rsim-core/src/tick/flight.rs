@@ -7,7 +7,7 @@ use crate::ball::rolling::GroundMotion;
 use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot};
 use crate::bodies::Bodies;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::{Clearance, Obstacle};
 use crate::math::{Vec3, Vector};
@@ -43,7 +43,7 @@ pub(super) fn min_takeoff_speed() -> f32 {
 
 /// Motion of the ball through one tick.
 pub(super) struct Flight<'a> {
-    pub(super) params: &'a BodyParams,
+    pub(super) parameters: &'a BodyParameters,
     pub(super) walls: &'a [Wall],
     pub(super) bodies: &'a mut Bodies,
     pub(super) touches: &'a mut TouchRecord,
@@ -71,7 +71,7 @@ impl Flight<'_> {
         velocity: Vector,
         time: f32,
     ) {
-        let model = &self.params.ball;
+        let model = &self.parameters.ball;
         let mut flying = self.flying_ball(ball, position, velocity);
         self.push_out(&mut flying);
         let mut left = time;
@@ -103,15 +103,15 @@ impl Flight<'_> {
         let mut flying = self.flying_ball(ball, motion.position, motion.velocity);
         flying.center.z += (ball.v_z - GRAVITY * time / 2.0) * time;
         flying.sphere.velocity.z -= GRAVITY * time;
-        if flying.center.z < self.params.ball.radius {
-            land(&self.params.ball, &mut flying);
-            flying.center.z = self.params.ball.radius;
+        if flying.center.z < self.parameters.ball.radius {
+            land(&self.parameters.ball, &mut flying);
+            flying.center.z = self.parameters.ball.radius;
         }
         self.write_back(ball, &flying);
     }
 
     fn flying_ball(&self, ball: &BallState, position: Vector, velocity: Vector) -> FlyingBall {
-        let model = &self.params.ball;
+        let model = &self.parameters.ball;
         FlyingBall {
             center: position.extend(ball.z + model.radius),
             sphere: Sphere {
@@ -141,7 +141,7 @@ impl Flight<'_> {
     /// and it moves out of them. If a wall leaves no space, the ball slips up over an edge, or is jammed
     /// in the next tick.
     fn push_out(&mut self, flying: &mut FlyingBall) {
-        for index in 0..self.params.robots.len() {
+        for index in 0..self.parameters.robots.len() {
             let clearance = self.clearance(Obstacle::Robot(index), flying.center);
             if clearance.distance < 0.0 {
                 self.bounce(flying, Obstacle::Robot(index), clearance.normal);
@@ -163,7 +163,7 @@ impl Flight<'_> {
         ignored: Option<Obstacle>,
     ) -> Option<Contact> {
         let walls = (0..self.walls.len()).map(Obstacle::Wall);
-        let robots = (0..self.params.robots.len()).map(Obstacle::Robot);
+        let robots = (0..self.parameters.robots.len()).map(Obstacle::Robot);
         let floor = (!flying.down).then_some(Obstacle::Floor);
         let mut first: Option<Contact> = None;
         let all = floor.into_iter().chain(walls).chain(robots);
@@ -205,7 +205,7 @@ impl Flight<'_> {
 
     /// Clearance of a ball with its center at `center` from an obstacle.
     fn clearance(&self, obstacle: Obstacle, center: Vec3) -> Clearance {
-        let radius = self.params.ball.radius;
+        let radius = self.parameters.ball.radius;
         let point = center.truncate();
         match obstacle {
             Obstacle::Floor => Clearance { distance: center.z - radius, normal: Vec3::Z },
@@ -215,7 +215,7 @@ impl Flight<'_> {
                 Clearance::of_upright(&nearest, [wall.bottom, wall.top], center.z, radius)
             }
             Obstacle::Robot(index) => {
-                let body = &self.params.robots[index];
+                let body = &self.parameters.robots[index];
                 let motion = self.bodies.motion(robot(index));
                 let nearest = body.outline.nearest_at(motion.position, motion.rotation(), point);
                 Clearance::of_upright(&nearest, [0.0, body.model.height], center.z, radius)
@@ -225,7 +225,7 @@ impl Flight<'_> {
 
     /// Bounces the ball off a wall or a robot. Returns whether the ball now lies on it.
     fn bounce(&mut self, flying: &mut FlyingBall, obstacle: Obstacle, normal: Vec3) -> bool {
-        let ball = &self.params.ball;
+        let ball = &self.parameters.ball;
         let other = match obstacle {
             Obstacle::Floor => unreachable!("the floor is no upright body"),
             Obstacle::Wall(index) => ContactBody::fixed(self.walls[index].surface(ball)),
@@ -233,7 +233,7 @@ impl Flight<'_> {
                 self.touches.add_ball(index);
                 let point = (flying.center - normal * ball.radius).truncate();
                 let motion = self.bodies.motion(robot(index));
-                self.params.robots[index].contact_body(&motion, point, ball.robot_surface())
+                self.parameters.robots[index].contact_body(&motion, point, ball.robot_surface())
             }
         };
         let closing = flying.sphere.closing(&other, normal);
@@ -245,7 +245,12 @@ impl Flight<'_> {
         }
         flying.sphere.apply_impulse(impulse, normal);
         if let Obstacle::Robot(index) = obstacle {
-            self.bodies.apply_impulse(self.params, robot(index), -impulse.truncate(), other.arm);
+            self.bodies.apply_impulse(
+                self.parameters,
+                robot(index),
+                -impulse.truncate(),
+                other.arm,
+            );
         }
         carried
     }
@@ -276,7 +281,7 @@ impl Flight<'_> {
             match obstacle {
                 Obstacle::Floor => return Vector::ZERO,
                 Obstacle::Wall(index) => self.walls[index].top,
-                Obstacle::Robot(index) => self.params.robots[index].model.height,
+                Obstacle::Robot(index) => self.parameters.robots[index].model.height,
             },
         );
         self.clearance(obstacle, level).normal.truncate()

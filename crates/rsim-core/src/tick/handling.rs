@@ -4,7 +4,7 @@ use crate::ball::kicks::Kicks;
 use crate::ball::mouth::HeldBall;
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, Lanes, larger, robot};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::math::{Vec3, Vector};
 use crate::state::State;
 use crate::tick::commands::HandlingCommand;
@@ -27,7 +27,7 @@ struct Effect {
 /// All act on the same state of the ball, so that their order does not matter.
 pub(super) fn handle_ball(
     state: &mut State,
-    params: &BodyParams,
+    parameters: &BodyParameters,
     commands: &[HandlingCommand],
     tick: f32,
 ) {
@@ -53,10 +53,11 @@ pub(super) fn handle_ball(
         if !kicks && (command.dribbler == 0.0 || !state.ball.is_down()) {
             continue;
         }
-        let body = &params.robots[index];
+        let body = &parameters.robots[index];
         let Some(mouth) = &body.model.mouth else { continue };
         let motion = state.bodies.motion(robot(index));
-        let held = HeldBall::find(&body.model, &motion, &params.ball, ball.position, state.ball.z);
+        let held =
+            HeldBall::find(&body.model, &motion, &parameters.ball, ball.position, state.ball.z);
         let Some(held) = held else { continue };
         handled = true;
         state.touches.add_ball(index);
@@ -65,24 +66,29 @@ pub(super) fn handle_ball(
             let after = held.kicked(ball.velocity, command.kick, command.chip, body.kick_gain);
             all.kicked = true;
             all.v_z = all.v_z.max(after.z);
-            let change = (after.truncate() - ball.velocity) * params.ball.mass;
+            let change = (after.truncate() - ball.velocity) * parameters.ball.mass;
             all.kicks.add(index, motion.heading, change);
             continue;
         }
         all.spin += held.spun(ground, command.dribbler, tick).spin - ground.spin;
         let impulse = held.dribbler_impulse(ball.velocity, command.dribbler, tick);
         all.impulse += impulse;
-        state.bodies.apply_impulse(params, robot(index), -impulse, ball.position - motion.position);
+        state.bodies.apply_impulse(
+            parameters,
+            robot(index),
+            -impulse,
+            ball.position - motion.position,
+        );
     }
     if !handled {
         return;
     }
     for (index, impulse) in all.kicks.shared() {
         let arm = ball.position - state.bodies.motion(robot(index)).position;
-        state.bodies.apply_impulse(params, robot(index), -impulse, arm);
+        state.bodies.apply_impulse(parameters, robot(index), -impulse, arm);
         all.impulse += impulse;
     }
-    state.bodies.apply_impulse(params, BALL, all.impulse, Vector::ZERO);
+    state.bodies.apply_impulse(parameters, BALL, all.impulse, Vector::ZERO);
     if all.kicked {
         // A chip too weak to leave the floor stays on it.
         state.ball.v_z = if all.v_z < min_takeoff_speed() { 0.0 } else { all.v_z };

@@ -10,7 +10,7 @@ mod squeeze;
 
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, LANES};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::engine::{BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall};
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -25,7 +25,7 @@ pub const PHYSICS_VERSION: u32 = 7;
 /// Inputs of a tick.
 pub(crate) struct Tick<'a> {
     pub(crate) setup: &'a Setup,
-    pub(crate) params: &'a BodyParams,
+    pub(crate) parameters: &'a BodyParameters,
     pub(crate) commands: &'a StepCommands,
 }
 
@@ -43,7 +43,7 @@ impl Tick<'_> {
         scratch: &mut Scratch,
     ) -> Result<(), NonFinite> {
         let length = self.setup.config.tick;
-        handling::handle_ball(state, self.params, &self.commands.handling, length);
+        handling::handle_ball(state, self.parameters, &self.commands.handling, length);
         self.drive_robots(state);
         let before = state.bodies.motion(BALL).position.extend(state.ball.z);
         let squeeze = self.squeeze(state, state.bodies.motion(BALL).velocity, length);
@@ -75,7 +75,7 @@ impl Tick<'_> {
         }
         robot_contacts::resolve(
             state,
-            self.params,
+            self.parameters,
             self.setup.config.blue.len(),
             &scratch.contacts.robots,
             &scratch.undisturbed,
@@ -97,7 +97,7 @@ impl Tick<'_> {
         length: f32,
         may_squeeze: bool,
     ) -> Result<(), NonFinite> {
-        let ball = &self.params.ball;
+        let ball = &self.parameters.ball;
         let start = GroundMotion { velocity: before.velocity, spin: state.ball.spin };
         let (displacement, end) = start.after(ball, length);
         let mean = displacement / length;
@@ -112,7 +112,14 @@ impl Tick<'_> {
         let mut now = GroundMotion { velocity: state.bodies.motion(BALL).velocity, spin: end.spin };
         if squeezed.is_some_and(|squeezed| squeezed.jammed) {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
-        } else if ball_contacts::resolve(state, self.setup, self.params, mean, &mut now, scratch) {
+        } else if ball_contacts::resolve(
+            state,
+            self.setup,
+            self.parameters,
+            mean,
+            &mut now,
+            scratch,
+        ) {
             now = now.after(ball, length / 2.0).1;
         } else {
             now.velocity += end.velocity - mean;
@@ -135,7 +142,7 @@ impl Tick<'_> {
         let squeeze = squeeze.filter(|squeeze| squeeze.solver.jammed);
         let phase = if let Some(squeeze) = &squeeze {
             state.bodies.set_velocity(BALL, squeeze.velocity);
-            BallPhase::JammedInAir { height: state.ball.z + self.params.ball.radius }
+            BallPhase::JammedInAir { height: state.ball.z + self.parameters.ball.radius }
         } else {
             BallPhase::Air
         };
@@ -145,7 +152,7 @@ impl Tick<'_> {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
         }
         let flight = Flight {
-            params: self.params,
+            parameters: self.parameters,
             walls: &self.setup.walls,
             bodies: &mut state.bodies,
             touches: &mut state.touches,
@@ -160,9 +167,9 @@ impl Tick<'_> {
 
     /// The squeeze of a ball that moves with `velocity` within `time`, if any.
     fn squeeze(&self, state: &State, velocity: Vector, time: f32) -> Option<Squeeze> {
-        let height = state.ball.z + self.params.ball.radius;
+        let height = state.ball.z + self.parameters.ball.radius;
         let free_space = &self.setup.free_space;
-        Squeeze::find(&state.bodies, self.params, free_space, velocity, height, time)
+        Squeeze::find(&state.bodies, self.parameters, free_space, velocity, height, time)
     }
 
     fn ball_rules(
@@ -171,11 +178,11 @@ impl Tick<'_> {
         squeezed: Option<SqueezedBall>,
         time: f32,
     ) -> BallRules<'_> {
-        BallRules { params: self.params, walls: &self.setup.walls, phase, squeezed, time }
+        BallRules { parameters: self.parameters, walls: &self.setup.walls, phase, squeezed, time }
     }
 
     fn drive_robots(&self, state: &mut State) {
-        let wheels = self.params.wheels.iter().zip(&self.commands.wheels);
+        let wheels = self.parameters.wheels.iter().zip(&self.commands.wheels);
         for (block, (wheels, commands)) in state.bodies.blocks.iter_mut().zip(wheels) {
             block.acceleration = block.drive.accelerate(wheels, commands, &block.motion);
         }

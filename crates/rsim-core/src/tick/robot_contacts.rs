@@ -2,7 +2,7 @@
 
 use crate::blocks::robot;
 use crate::bodies::Undisturbed;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::engine::{Partner, RobotContact};
 use crate::math::Vector;
 use crate::state::State;
@@ -21,7 +21,7 @@ const SEPARATING: f32 = 0.05;
 /// Gives robots the bounce of their contacts, and records collisions with their closing speeds.
 pub(super) fn resolve(
     state: &mut State,
-    params: &BodyParams,
+    parameters: &BodyParameters,
     n_blue: usize,
     contacts: &[RobotContact],
     undisturbed: &[Undisturbed],
@@ -29,7 +29,7 @@ pub(super) fn resolve(
     for contact in contacts {
         let closing = -separation_speed(state, contact, |_, index| {
             let before = &undisturbed[index];
-            (before.velocity, before.spin)
+            (before.velocity, before.angular_velocity)
         });
         if let Partner::Robot(other) = contact.with {
             let pair = [contact.robot, other];
@@ -41,7 +41,7 @@ pub(super) fn resolve(
             }
         }
         if closing > MIN_BOUNCE_SPEED {
-            bounce(state, params, contact, closing);
+            bounce(state, parameters, contact, closing);
         }
     }
 }
@@ -58,34 +58,34 @@ pub(super) fn sustained(state: &State, contacts: &[RobotContact]) -> u64 {
     })
 }
 
-/// Velocity (m/s) and turn rate (rad/s) of a robot now.
+/// Velocity (m/s) and angular velocity (rad/s) of a robot now.
 fn current_motion(state: &State, index: usize) -> (Vector, f32) {
     let motion = state.bodies.motion(robot(index));
-    (motion.velocity, motion.spin)
+    (motion.velocity, motion.angular_velocity)
 }
 
-/// Separation speed at a contact, m/s, with the velocities and turn rates that `motion_of` returns.
+/// Separation speed at a contact, m/s, with the velocities and angular velocities that `motion_of` returns.
 fn separation_speed(
     state: &State,
     contact: &RobotContact,
     motion_of: impl Fn(&State, usize) -> (Vector, f32),
 ) -> f32 {
     let at = |index: usize| {
-        let (velocity, spin) = motion_of(state, index);
+        let (velocity, angular_velocity) = motion_of(state, index);
         let arm = contact.point - state.bodies.motion(robot(index)).position;
-        velocity + arm.perp() * spin
+        velocity + arm.perp() * angular_velocity
     };
     let with = if let Partner::Robot(other) = contact.with { at(other) } else { Vector::ZERO };
     (with - at(contact.robot)).dot(contact.normal)
 }
 
 /// Applies the impulse after which a pair separates at its restitution times the closing speed, m/s.
-fn bounce(state: &mut State, params: &BodyParams, contact: &RobotContact, closing: f32) {
+fn bounce(state: &mut State, parameters: &BodyParameters, contact: &RobotContact, closing: f32) {
     let RobotContact { robot: first, with, normal, point } = *contact;
-    let restitution = |index: usize| params.robots[index].model.restitution;
+    let restitution = |index: usize| parameters.robots[index].model.restitution;
     let arm = |index: usize| point - state.bodies.motion(robot(index)).position;
     let inverse_mass =
-        |index: usize| params.robots[index].inverse_effective_mass(arm(index), normal);
+        |index: usize| parameters.robots[index].inverse_effective_mass(arm(index), normal);
     let (mean, inverse_mass) = match with {
         Partner::Robot(other) => (
             restitution(first).midpoint(restitution(other)),
@@ -98,7 +98,7 @@ fn bounce(state: &mut State, params: &BodyParams, contact: &RobotContact, closin
     let own_arm = arm(first);
     if let Partner::Robot(other) = with {
         let arm = arm(other);
-        state.bodies.apply_impulse(params, robot(other), impulse, arm);
+        state.bodies.apply_impulse(parameters, robot(other), impulse, arm);
     }
-    state.bodies.apply_impulse(params, robot(first), -impulse, own_arm);
+    state.bodies.apply_impulse(parameters, robot(first), -impulse, own_arm);
 }

@@ -7,7 +7,7 @@
 
 use crate::blocks::{BALL, robot};
 use crate::bodies::Bodies;
-use crate::body_params::{BodyParams, RobotParams};
+use crate::body_parameters::{BodyParameters, RobotParameters};
 use crate::engine::SqueezedBall;
 use crate::geometry::free_space::FreeSpace;
 use crate::math::Vector;
@@ -50,7 +50,7 @@ impl Side {
     fn of_robot(
         bodies: &Bodies,
         index: usize,
-        body: &RobotParams,
+        body: &RobotParameters,
         center: Vector,
         radius: f32,
         tick: f32,
@@ -60,7 +60,7 @@ impl Side {
         let normal = nearest.normal;
         let arm = center - motion.position - normal * nearest.distance;
         let velocity = motion.velocity + bodies.acceleration(robot(index)).linear * tick;
-        let speed = (velocity + arm.perp() * motion.spin).dot(normal);
+        let speed = (velocity + arm.perp() * motion.angular_velocity).dot(normal);
         let mass = 1.0 / body.inverse_effective_mass(arm, normal);
         Self { normal, gap: nearest.distance - radius, speed, mass }
     }
@@ -88,20 +88,20 @@ impl Squeeze {
     /// at `height`, if any.
     pub(super) fn find(
         bodies: &Bodies,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         free_space: &FreeSpace,
         velocity: Vector,
         height: f32,
         tick: f32,
     ) -> Option<Self> {
-        let sides = Sides::find(bodies, params, free_space, height, tick);
+        let sides = Sides::find(bodies, parameters, free_space, height, tick);
         if sides.count < 2 {
             return None;
         }
-        let slack = if bodies.ball_was_jammed(params) { JAMMED_SLACK } else { SLACK };
+        let slack = if bodies.ball_was_jammed(parameters) { JAMMED_SLACK } else { SLACK };
         let closes = |gap: f32, speed: f32| gap < NEAR + tick * (speed + slack);
-        let own = params.ball.mass;
-        let close = sides.iter().filter(|side| side.gap < params.ball.radius);
+        let own = parameters.ball.mass;
+        let close = sides.iter().filter(|side| side.gap < parameters.ball.radius);
         let speeds = close.map(|side| side.speed.abs());
         let speed = speeds.fold(velocity.length(), f32::max);
         if let Some(velocity) = sides.jam(velocity, own, closes) {
@@ -116,17 +116,17 @@ impl Squeeze {
 impl Sides {
     fn find(
         bodies: &Bodies,
-        params: &BodyParams,
+        parameters: &BodyParameters,
         free_space: &FreeSpace,
         height: f32,
         tick: f32,
     ) -> Self {
         let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
-        let (center, radius) = (bodies.motion(BALL).position, params.ball.radius);
+        let (center, radius) = (bodies.motion(BALL).position, parameters.ball.radius);
         // A body from one side may press the ball against one at rest on the other.
         let reach = NEAR + (2.0 * bodies.fastest_robot(0.0) + JAMMED_SLACK) * tick;
-        for index in bodies.robots_near_ball(params, reach) {
-            let body = &params.robots[index];
+        for index in bodies.robots_near_ball(parameters, reach) {
+            let body = &parameters.robots[index];
             if height < body.model.height {
                 sides.add(Side::of_robot(bodies, index, body, center, radius, tick));
             }

@@ -23,6 +23,6 @@ impl World {
     /// The valid state that is nearest to a row.
     pub(super) fn nearest(&self, row: &[f32]) -> Result<Nearest, PlaceError> {
         debug_assert_eq!(row.len(), self.config().row_size());
-        self.shared.placement.nearest(row, self.params())
+        self.shared.placement.nearest(row, self.parameters())
     }
 }

@@ -14,7 +14,7 @@ use std::cell::RefCell;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::engine::{NonFinite, Scratch};
 use crate::error::{ConfigError, PlaceError, StepError};
 use crate::geometry::arena::walls;
@@ -67,22 +67,22 @@ impl World {
     /// As [`SimConfig::validate`]; teams that do not fit on the field.
     pub fn new(config: &SimConfig) -> Result<Self, ConfigError> {
         config.validate()?;
-        let (params, walls) = (BodyParams::of(config), walls(&config.field));
-        let mut pristine = State::new(config, &params, &walls).boxed();
+        let (parameters, walls) = (BodyParameters::of(config), walls(&config.field));
+        let mut pristine = State::new(config, &parameters, &walls).boxed();
         for (body, motion) in line_up(config).iter().enumerate() {
             pristine.place(body, motion);
         }
         let placement = Placement::new(config, &walls);
         let mut row = vec![0.0; config.row_size()];
-        row::write(&params, &pristine, &mut row);
-        placement.read(&row, &params).map_err(|error| {
+        row::write(&parameters, &pristine, &mut row);
+        placement.read(&row, &parameters).map_err(|error| {
             ConfigError::Inconsistent(format!("the teams do not fit on the field: {error}"))
         })?;
         let setup = Setup {
             config: config.clone(),
             free_space: FreeSpace::of(&config.field, &walls),
             walls,
-            params,
+            parameters,
             command_columns: config.command_columns(),
         };
         let shared = Arc::new(Shared { setup, placement, pristine: pristine.clone() });
@@ -111,21 +111,21 @@ impl World {
     /// Reads and checks a start.
     fn check(&self, row: &[f32], parameters: Option<&[f32]>) -> Result<CheckedStart, PlaceError> {
         debug_assert_eq!(row.len(), self.config().row_size());
-        let own = parameters.map(|factors| BodyParams::varied(self.config(), factors));
-        let own_params = own.transpose().map_err(PlaceError::Parameters)?.map(Box::new);
-        let params = own_params.as_deref().unwrap_or(&self.shared.setup.params);
-        Ok(CheckedStart { start: self.shared.placement.read(row, params)?, own_params })
+        let own = parameters.map(|parameters| BodyParameters::varied(self.config(), parameters));
+        let own_parameters = own.transpose().map_err(PlaceError::Parameters)?.map(Box::new);
+        let of_bodies = own_parameters.as_deref().unwrap_or(&self.shared.setup.parameters);
+        Ok(CheckedStart { start: self.shared.placement.read(row, of_bodies)?, own_parameters })
     }
 
     /// Starts a new match from a checked start.
     fn start(&mut self, checked: CheckedStart) {
-        let CheckedStart { start, own_params } = checked;
+        let CheckedStart { start, own_parameters } = checked;
         self.state.copy_from(&self.shared.pristine);
         self.state.engine.enable_contact_free_ticks(self.contact_free_enabled);
-        self.state.own_params = own_params;
-        if let Some(params) = &self.state.own_params {
-            self.state.engine.set_params(params);
-            self.state.bodies.ball_mass = params.ball.mass;
+        self.state.own_parameters = own_parameters;
+        if let Some(parameters) = &self.state.own_parameters {
+            self.state.engine.set_parameters(parameters);
+            self.state.bodies.ball_mass = parameters.ball.mass;
         }
         for (body, motion) in start.motions.iter().enumerate() {
             self.state.place(body, motion);
@@ -150,15 +150,15 @@ impl World {
         self.state.bodies.clear_collisions();
         let setup = &self.shared.setup;
         let state = &mut self.state;
-        let own_params = state.own_params.take();
-        let params = own_params.as_deref().unwrap_or(&setup.params);
+        let own_parameters = state.own_parameters.take();
+        let parameters = own_parameters.as_deref().unwrap_or(&setup.parameters);
         let stepped = MEMORY.with_borrow_mut(|memory| {
             let WorkingMemory { engine, commands: read } = memory;
-            read.read(state, params, commands, setup.command_columns.max(1));
-            let tick = Tick { setup, params, commands: read };
+            read.read(state, parameters, commands, setup.command_columns.max(1));
+            let tick = Tick { setup, parameters, commands: read };
             (0..setup.config.ticks_per_step()).try_for_each(|_| tick.advance(state, engine))
         });
-        state.own_params = own_params;
+        state.own_parameters = own_parameters;
         stepped.and_then(|()| self.state.check_finite()).map_err(|NonFinite| {
             self.state.broken = true;
             StepError { worlds: vec![0] }
@@ -186,7 +186,7 @@ impl World {
 
     /// Writes the state row.
     pub fn write_row(&self, out: &mut [f32]) {
-        row::write(self.params(), &self.state, out);
+        row::write(self.parameters(), &self.state, out);
     }
 
     /// Number of pairs of bodies, or of a body and a wall, with an impulse between them in the last tick.
@@ -194,15 +194,15 @@ impl World {
         self.state.engine.contacts()
     }
 
-    fn params(&self) -> &BodyParams {
-        self.state.own_params.as_deref().unwrap_or(&self.shared.setup.params)
+    fn parameters(&self) -> &BodyParameters {
+        self.state.own_parameters.as_deref().unwrap_or(&self.shared.setup.parameters)
     }
 }
 
 /// A start that passed all checks.
 struct CheckedStart {
     start: Start,
-    own_params: Option<Box<BodyParams>>,
+    own_parameters: Option<Box<BodyParameters>>,
 }
 
 #[cfg(test)]

@@ -5,8 +5,10 @@
 //! settle, in a crowd without space, bodies are placed one after the other at the nearest free spots.
 
 use crate::blocks::{BALL, robot};
-use crate::body_params::BodyParams;
-use crate::columns::{MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN, MAX_PLACED_TURN_RATE};
+use crate::body_parameters::BodyParameters;
+use crate::columns::{
+    MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
+};
 use crate::error::PlaceError;
 use crate::geometry::arena::Wall;
 use crate::geometry::clearance::Clearance;
@@ -36,21 +38,26 @@ pub(super) struct Nearest {
 
 impl Placement {
     /// The valid state nearest to a row of finite numbers: the row itself if it is valid.
-    pub(super) fn nearest(&self, row: &[f32], params: &BodyParams) -> Result<Nearest, PlaceError> {
+    pub(super) fn nearest(
+        &self,
+        row: &[f32],
+        parameters: &BodyParameters,
+    ) -> Result<Nearest, PlaceError> {
         let given = self.parse(row)?;
         let mut start = given.clone();
-        if self.check(&mut start, params).is_err() {
+        if self.check(&mut start, parameters).is_err() {
             start = given.clone();
             tidy(&mut start);
-            if !self.separate(&mut start, params) || self.check(&mut start, params).is_err() {
-                self.find_spots(&mut start, params);
+            if !self.separate(&mut start, parameters) || self.check(&mut start, parameters).is_err()
+            {
+                self.find_spots(&mut start, parameters);
             }
         }
         Ok(Nearest { moved: distances(&given, &start), start })
     }
 
     /// Moves bodies apart, and returns whether that settled.
-    fn separate(&self, start: &mut Start, params: &BodyParams) -> bool {
+    fn separate(&self, start: &mut Start, parameters: &BodyParameters) -> bool {
         for who in start.present().chain([BALL]) {
             if self.is_behind_a_face(who, start) {
                 self.find_spot(who, start, |_| true);
@@ -66,7 +73,7 @@ impl Placement {
                 before.push(who);
             }
             for who in before {
-                settled &= self.part_from_ball(who, start, params);
+                settled &= self.part_from_ball(who, start, parameters);
                 settled &= self.leave_walls(who, start);
             }
             settled &= self.move_ball_out(start);
@@ -111,8 +118,8 @@ impl Placement {
     }
 
     /// Moves the ball and a robot apart, and returns whether they already were.
-    fn part_from_ball(&self, who: usize, start: &mut Start, params: &BodyParams) -> bool {
-        let clearance = self.ball_and_robot(who, &start.motions, start.ball.z, params);
+    fn part_from_ball(&self, who: usize, start: &mut Start, parameters: &BodyParameters) -> bool {
+        let clearance = self.ball_and_robot(who, &start.motions, start.ball.z, parameters);
         let Some(way) = way_out(&clearance) else { return true };
         if way.z == 0.0 {
             start.motions[who].position -= way.truncate() / 2.0;
@@ -160,7 +167,7 @@ impl Placement {
 
     /// Places the robots and then the ball one after the other, each at the free spot that is nearest to
     /// where it is. If there is none, all bodies go to their default line-up.
-    fn find_spots(&self, start: &mut Start, params: &BodyParams) {
+    fn find_spots(&self, start: &mut Start, parameters: &BodyParameters) {
         let present: Vec<usize> = start.present().collect();
         let found = present.iter().enumerate().all(|(placed, &who)| {
             self.find_spot(who, start, |start| {
@@ -171,7 +178,9 @@ impl Placement {
         let found = found
             && self.find_spot(BALL, start, |start| {
                 let mut robots = present.iter();
-                robots.all(|&who| self.check_ball(who, &start.motions, &start.ball, params).is_ok())
+                robots.all(|&who| {
+                    self.check_ball(who, &start.motions, &start.ball, parameters).is_ok()
+                })
             });
         if !found {
             for who in present.into_iter().chain([BALL]) {
@@ -219,7 +228,9 @@ fn tidy(start: &mut Start) {
     ball.spin = at_most(ball.spin, MAX_PLACED_SPIN);
     for motion in &mut start.motions[robot(0)..] {
         motion.velocity = at_most(motion.velocity.extend(0.0), MAX_PLACED_SPEED).truncate();
-        motion.spin = motion.spin.clamp(-MAX_PLACED_TURN_RATE, MAX_PLACED_TURN_RATE);
+        motion.angular_velocity = motion
+            .angular_velocity
+            .clamp(-MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_ANGULAR_VELOCITY);
         // A heading of no length has no direction.
         motion.heading = direction(motion.heading).unwrap_or(Vector::X);
     }

@@ -2,10 +2,10 @@
 
 use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot, set_bits};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::columns::{
-    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
-    MAX_PLACED_TURN_RATE, ROBOT_COLUMNS,
+    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED,
+    MAX_PLACED_SPIN, ROBOT_COLUMNS,
 };
 use crate::engine::Shape;
 use crate::error::PlaceError;
@@ -93,10 +93,14 @@ impl Placement {
         }
     }
 
-    /// Reads and checks a start row. `params` has the heights of robots in that world.
-    pub(super) fn read(&self, row: &[f32], params: &BodyParams) -> Result<Start, PlaceError> {
+    /// Reads and checks a start row. `parameters` has the heights of robots in that world.
+    pub(super) fn read(
+        &self,
+        row: &[f32],
+        parameters: &BodyParameters,
+    ) -> Result<Start, PlaceError> {
         let mut start = self.parse(row)?;
-        self.check(&mut start, params)?;
+        self.check(&mut start, parameters)?;
         Ok(start)
     }
 
@@ -114,12 +118,16 @@ impl Placement {
     }
 
     /// Checks a start against the field and the models, and normalizes headings.
-    pub(super) fn check(&self, start: &mut Start, params: &BodyParams) -> Result<(), PlaceError> {
+    pub(super) fn check(
+        &self,
+        start: &mut Start,
+        parameters: &BodyParameters,
+    ) -> Result<(), PlaceError> {
         self.check_ball_alone(&mut start.motions[BALL], &start.ball)?;
         for who in start.present() {
             self.check_robot_alone(who, &mut start.motions[who])?;
         }
-        start.present().try_for_each(|who| self.check_among_first(who, start, params))
+        start.present().try_for_each(|who| self.check_among_first(who, start, parameters))
     }
 
     /// Checks a robot against the ball and the robots before it.
@@ -127,9 +135,9 @@ impl Placement {
         &self,
         who: usize,
         start: &Start,
-        params: &BodyParams,
+        parameters: &BodyParameters,
     ) -> Result<(), PlaceError> {
-        self.check_ball(who, &start.motions, &start.ball, params)?;
+        self.check_ball(who, &start.motions, &start.ball, parameters)?;
         let mut before = start.present().take_while(|first| *first < who);
         before.try_for_each(|first| {
             self.check_overlap([first, who], self.overlap([first, who], &start.motions))
@@ -143,7 +151,7 @@ impl Placement {
         row: &[f32],
         mask: u64,
         mut start: Start,
-        params: &BodyParams,
+        parameters: &BodyParameters,
     ) -> Result<Start, PlaceError> {
         let robots = &row[BALL_COLUMNS.len()..];
         for index in set_bits(mask) {
@@ -155,7 +163,7 @@ impl Placement {
         for index in set_bits(mask & !start.absent) {
             let who = robot(index);
             self.check_robot_alone(who, &mut start.motions[who])?;
-            self.check_ball(who, &start.motions, &start.ball, params)?;
+            self.check_ball(who, &start.motions, &start.ball, parameters)?;
             for other in start.present().filter(|other| *other != who) {
                 let pair = [who.min(other), who.max(other)];
                 self.check_overlap(pair, self.overlap(pair, &start.motions))?;
@@ -170,13 +178,13 @@ impl Placement {
         &self,
         columns: &[f32],
         mut motions: Vec<Motion>,
-        params: &BodyParams,
+        parameters: &BodyParameters,
     ) -> Result<BallStart, PlaceError> {
         let mut start = self.parse_ball(columns)?;
         self.check_ball_alone(&mut start.motion, &start.ball)?;
         motions[BALL] = start.motion;
         (1..motions.len())
-            .try_for_each(|who| self.check_ball(who, &motions, &start.ball, params))?;
+            .try_for_each(|who| self.check_ball(who, &motions, &start.ball, parameters))?;
         Ok(start)
     }
 
@@ -218,9 +226,10 @@ impl Placement {
     /// Checks a robot against the limits of a start and the field.
     fn check_robot_alone(&self, who: usize, motion: &mut Motion) -> Result<(), PlaceError> {
         self.check_speed(who, "v_x, v_y", motion.velocity.extend(0.0))?;
-        let rate = motion.spin;
-        if rate.abs() > MAX_PLACED_TURN_RATE * ROUNDED {
-            return Err(PlaceError::TurnsTooFast { who: self.names[who].clone(), rate });
+        let angular_velocity = motion.angular_velocity;
+        if angular_velocity.abs() > MAX_PLACED_ANGULAR_VELOCITY * ROUNDED {
+            let who = self.names[who].clone();
+            return Err(PlaceError::TurnsTooFast { who, angular_velocity });
         }
         self.check_alone(who, motion, 0.0)
     }
@@ -289,9 +298,9 @@ impl Placement {
         who: usize,
         motions: &[Motion],
         ball: &BallState,
-        params: &BodyParams,
+        parameters: &BodyParameters,
     ) -> Result<(), PlaceError> {
-        let clearance = self.ball_and_robot(who, motions, ball.z, params);
+        let clearance = self.ball_and_robot(who, motions, ball.z, parameters);
         self.check_overlap([BALL, who], -clearance.distance)
     }
 
@@ -301,9 +310,9 @@ impl Placement {
         who: usize,
         motions: &[Motion],
         z: f32,
-        params: &BodyParams,
+        parameters: &BodyParameters,
     ) -> Clearance {
-        let (robot, motion) = (&params.robots[who - 1], &motions[who]);
+        let (robot, motion) = (&parameters.robots[who - 1], &motions[who]);
         let center = motions[BALL].position;
         let nearest = robot.outline.nearest_at(motion.position, motion.rotation(), center);
         let (heights, radius) = ([0.0, robot.model.height], self.ball_radius);
@@ -385,6 +394,6 @@ fn read_robot(columns: &[f32]) -> Motion {
         position: Vector::new(*x, *y),
         heading: Vector::new(*cos, *sin),
         velocity: Vector::new(*v_x, *v_y),
-        spin: *v_theta,
+        angular_velocity: *v_theta,
     }
 }

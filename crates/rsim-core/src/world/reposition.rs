@@ -38,7 +38,7 @@ impl World {
         }
         let bodies = &self.state.bodies;
         let motions = (0..bodies.len()).map(|body| bodies.motion(body)).collect();
-        self.shared.placement.read_ball(ball, motions, self.params())
+        self.shared.placement.read_ball(ball, motions, self.parameters())
     }
 
     /// Moves the robots of `mask` to their states in a row, or takes them off the field; everything else of
@@ -70,7 +70,7 @@ impl World {
         let State { bodies, ball, absent, .. } = &*self.state;
         let motions = (0..bodies.len()).map(|body| bodies.motion(body)).collect();
         let now = Start { motions, ball: *ball, absent: *absent };
-        let start = self.shared.placement.read_robots(row, mask, now, self.params())?;
+        let start = self.shared.placement.read_robots(row, mask, now, self.parameters())?;
         Ok(RobotsStart { start, mask })
     }
 

@@ -21,12 +21,12 @@ impl World {
     /// Reads and checks a start of the world with its own parameters.
     pub(super) fn check_restart(&self, row: &[f32]) -> Result<Start, PlaceError> {
         debug_assert_eq!(row.len(), self.config().row_size());
-        self.shared.placement.read(row, self.params())
+        self.shared.placement.read(row, self.parameters())
     }
 
     /// Restarts play from a checked start.
     pub(super) fn restart_from(&mut self, start: Start) {
-        let own_params = self.state.own_params.take();
-        self.start(CheckedStart { start, own_params });
+        let own_parameters = self.state.own_parameters.take();
+        self.start(CheckedStart { start, own_parameters });
     }
 }

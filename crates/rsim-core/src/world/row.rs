@@ -2,17 +2,17 @@
 
 use crate::ball::mouth::beam_is_cut;
 use crate::blocks::{BALL, robot};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::state::State;
 
 /// Writes the row of `state`.
-pub(super) fn write(params: &BodyParams, state: &State, out: &mut [f32]) {
+pub(super) fn write(parameters: &BodyParameters, state: &State, out: &mut [f32]) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
     write_ball(state, ball);
     for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
-        write_robot(params, state, index, columns);
+        write_robot(parameters, state, index, columns);
     }
 }
 
@@ -37,10 +37,11 @@ fn write_ball(state: &State, columns: &mut [f32]) {
     ]);
 }
 
-fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [f32]) {
+fn write_robot(parameters: &BodyParameters, state: &State, index: usize, columns: &mut [f32]) {
     let motion = state.bodies.motion(robot(index));
     let ball = state.bodies.motion(BALL).position;
-    let cut = beam_is_cut(&params.robots[index].model, &motion, &params.ball, ball, &state.ball);
+    let cut =
+        beam_is_cut(&parameters.robots[index].model, &motion, &parameters.ball, ball, &state.ball);
     columns.copy_from_slice(&[
         motion.position.x,
         motion.position.y,
@@ -48,7 +49,7 @@ fn write_robot(params: &BodyParams, state: &State, index: usize, columns: &mut [
         motion.heading.y,
         motion.velocity.x,
         motion.velocity.y,
-        motion.spin,
+        motion.angular_velocity,
         f32::from(u8::from(cut)),
         f32::from(u8::from(state.touches.touched_ball(index))),
         f32::from(u8::from(state.touches.touched_opponent(index))),

@@ -131,7 +131,7 @@ fn parameters_at_the_ends_of_their_ranges_stay_sound() {
             let names = BALL_PARAMETERS.iter().chain(
                 ROBOT_PARAMETERS.iter().cycle().take(ROBOT_PARAMETERS.len() * config.n_robots()),
             );
-            let factors = names.enumerate().map(|(nth, name)| {
+            let parameters = names.enumerate().map(|(nth, name)| {
                 let low = draw(episode, 100 + nth as u64) < 0.0;
                 match (*name, low) {
                     ("speed" | "acceleration", false) => 1.25,
@@ -141,7 +141,7 @@ fn parameters_at_the_ends_of_their_ranges_stay_sound() {
                     (_, false) => 2.0,
                 }
             });
-            scene.parameters = Some(factors.collect());
+            scene.parameters = Some(parameters.collect());
             scene
         });
     }

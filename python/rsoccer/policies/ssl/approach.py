@@ -12,7 +12,7 @@ from rsoccer.policies.ssl.region import Region
 from rsoccer.policies.ssl.robot_control import RobotControl
 from rsoccer.vectors import XY, norm, reciprocal, rotate_into
 
-MAX_TURN_RATE: Final = 10.0  # rad/s, without the ball
+MAX_ANGULAR_VELOCITY: Final = 10.0  # rad/s, without the ball
 STANDOFF: Final = np.float32(0.1)  # m between mouth and ball where the final approach starts
 FREE_STANDOFF: Final = np.float32(0.05)  # m between mouth and ball where a robot must have space
 PRESS_DEPTH: Final = np.float32(0.03)  # m beyond contact that the final approach aims at
@@ -85,7 +85,7 @@ def approach_ball(
         direction: unit vectors of the approach; None: `approach_direction` chooses.
 
     Returns:
-        Velocity along x and y (m/s) and turn rate (rad/s), (n, robots) each.
+        Velocity along x and y (m/s) and angular velocity (rad/s), (n, robots) each.
     """
     position, (ball_at, ball_velocity) = ego.position, ball
     clearance = control.robot_diameter + np.float32(0.05)
@@ -115,7 +115,7 @@ def approach_ball(
     v_x, v_y = motion.limit_speed_near_robots(
         position, (v_x, v_y), robots, control.robot_diameter, max_speed
     )
-    return v_x, v_y, motion.turn_rate_to(ego, to_x, to_y, MAX_TURN_RATE)
+    return v_x, v_y, motion.angular_velocity_to(ego, to_x, to_y, MAX_ANGULAR_VELOCITY)
 
 
 def _obstacles(control: RobotControl, robots: XY, ball: Floats, clearance: np.float32) -> Obstacles:

@@ -35,7 +35,7 @@ class Fetch(Policy):
         view = inputs.required_view("fetch")
         ball = view.ball.position, view.ball.velocity
         robots = other_robots(view)
-        v_x, v_y, spin = approach_ball(
+        v_x, v_y, angular_velocity = approach_ball(
             self._control, view.ego, ball, robots, self._region, MAX_SPEED
         )
-        return self._control.actions(view.ego, v_x, v_y, spin)
+        return self._control.actions(view.ego, v_x, v_y, angular_velocity)

@@ -42,7 +42,7 @@ class Receive(Hold):
     observes: Observes = "view"
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
-        """Return actions (n, robots, 5); the turn rate follows the sine of the heading error."""
+        """Return actions (n, robots, 5); the robots turn by the sine of the heading error."""
         actions = super().act(inputs, rng, memory)
         view = inputs.required_view("receive")
         to_ball = view.ball.position - view.ego.position

@@ -1,4 +1,4 @@
-"""Motion of omnidirectional robots: velocities toward positions, turn rates to directions."""
+"""Motion of omnidirectional robots: velocities to positions, angular velocities to directions."""
 
 from typing import Final
 
@@ -28,21 +28,25 @@ def heading_error(ego: RobotColumns, x: Floats, y: Floats) -> XY:
     return ahead * scale, left * scale
 
 
-def turn_rate_to(ego: RobotColumns, x: Floats, y: Floats, max_rate: float) -> Floats:
-    """Return turn rates (rad/s) that turn the robots to directions.
+def angular_velocity_to(
+    ego: RobotColumns, x: Floats, y: Floats, max_angular_velocity: float
+) -> Floats:
+    """Return angular velocities (rad/s) that turn the robots to directions.
 
     Args:
         ego: state of the robots, (n, robots, ...).
         x: (n, robots) x of the directions, any length.
         y: (n, robots) y of the directions.
-        max_rate: upper bound, rad/s.
+        max_angular_velocity: upper bound, rad/s.
     """
     cos, sin = heading_error(ego, x, y)
     sin = np.copysign(np.maximum(np.abs(sin), TINY), sin)
     # Twice the tangent of half the angle: about the angle if small, growing up to 180 degrees.
     angle = np.float32(2.0) * sin / np.maximum(np.float32(1.0) + cos, TINY)
-    rate: Floats = np.minimum(np.maximum(angle * TURN_GAIN, -max_rate), max_rate)
-    return rate
+    limited: Floats = np.minimum(
+        np.maximum(angle * TURN_GAIN, -max_angular_velocity), max_angular_velocity
+    )
+    return limited
 
 
 def velocity_to(

@@ -18,9 +18,9 @@ from rsoccer.view import View
 ARRIVAL_SPEED: Final = np.float32(1.8)  # m/s of a pass on arrival: the dribbler stops it
 LONG_PASS: Final = np.float32(3.0)  # m from which a pass is faster, to arrive in time
 LONG_PASS_GAIN: Final = np.float32(0.3)  # m/s faster on arrival, per m beyond LONG_PASS
-MAX_TURN_RATE: Final = 5.0  # rad/s, with the ball on the dribbler
+MAX_ANGULAR_VELOCITY: Final = 5.0  # rad/s, with the ball on the dribbler
 MAX_AIM_SINE: Final = np.float32(0.008)  # sine of the heading error for a kick
-MAX_KICK_SPIN: Final = np.float32(0.15)  # rad/s, turn rate of the robot for a kick
+MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.15)  # rad/s of the robot for a kick
 MAX_RECEIVER_SPEED: Final = np.float32(0.1)  # m/s of a teammate for a pass
 MIN_BALL_SPEED: Final = np.float32(0.3)  # m/s of a ball that is on its way
 MIN_DISTANCE: Final = np.float32(2.0)  # m to the teammate
@@ -64,11 +64,11 @@ class Passer(Policy):
         pass_x, pass_y = other_x - ego.position[..., 0], other_y - ego.position[..., 1]
         v_x, v_y = self._receiving_velocity(view)
         face_x, face_y = np.where(has_ball, pass_x, to_x), np.where(has_ball, pass_y, to_y)
-        spin = motion.turn_rate_to(ego, face_x, face_y, MAX_TURN_RATE)
+        angular_velocity = motion.angular_velocity_to(ego, face_x, face_y, MAX_ANGULAR_VELOCITY)
         zero = np.float32(0.0)
         kick = np.where(has_ball, self._kick_speed(view), zero)
         v_x, v_y = np.where(has_ball, zero, v_x), np.where(has_ball, zero, v_y)
-        return self._control.actions(ego, v_x, v_y, spin, kick)
+        return self._control.actions(ego, v_x, v_y, angular_velocity, kick)
 
     def _kick_speed(self, view: View) -> Floats:
         """Kick speed (m/s) of a robot that is ready to pass; 0 for others."""
@@ -79,7 +79,7 @@ class Passer(Policy):
         ready = (
             (cos > 0.0)
             & (np.abs(sin) < MAX_AIM_SINE)
-            & (np.abs(ego.angular_velocity) < MAX_KICK_SPIN)
+            & (np.abs(ego.angular_velocity) < MAX_KICK_ANGULAR_VELOCITY)
         )
         # A ball that still moves has not been received yet.
         ball_speed = norm(ball.velocity[..., 0], ball.velocity[..., 1])

@@ -14,7 +14,7 @@ from rsoccer.view import View
 TURN, KICK, DRIBBLER = 2, 3, 4  # indices in an SSL robot's action
 
 DRIBBLE_ACCELERATION: Final = np.float32(1.5)  # m/s², with the ball on the dribbler
-DRIBBLE_TURN_ACCELERATION: Final = np.float32(15.0)  # rad/s², with the ball on the dribbler
+DRIBBLE_ANGULAR_ACCELERATION: Final = np.float32(15.0)  # rad/s², with the ball on the dribbler
 BALL_AHEAD_TOLERANCE: Final = np.float32(0.02)  # m from the ball's position in the mouth, ahead
 BALL_SIDE_TOLERANCE: Final = np.float32(0.04)  # m from the ball's position in the mouth, sideways
 
@@ -74,12 +74,17 @@ class RobotControl:
         self.max_kick_speed = np.float32(task.action_scales[KICK])
         """Speed of the hardest kick, m/s."""
         self._max_change = DRIBBLE_ACCELERATION * np.float32(task.config.time_step)
-        self._max_turn_change = DRIBBLE_TURN_ACCELERATION * np.float32(task.config.time_step)
+        self._max_angular_change = DRIBBLE_ANGULAR_ACCELERATION * np.float32(task.config.time_step)
         self._action_per_unit = np.float32(1.0) / task.action_scales
         self._in_robot_frame = task.velocity_frame == "robot"
 
     def actions(
-        self, ego: RobotColumns, v_x: Floats, v_y: Floats, spin: Floats, kick: Floats | None = None
+        self,
+        ego: RobotColumns,
+        v_x: Floats,
+        v_y: Floats,
+        angular_velocity: Floats,
+        kick: Floats | None = None,
     ) -> Floats:
         """Encode velocities as actions; the dribbler is on.
 
@@ -87,7 +92,7 @@ class RobotControl:
             ego: state of the robots, (n, robots, ...).
             v_x: (n, robots) velocity along the field's x axis, m/s.
             v_y: (n, robots) velocity along the field's y axis, m/s.
-            spin: (n, robots) turn rate, rad/s.
+            angular_velocity: (n, robots) angular velocity, rad/s.
             kick: (n, robots) kick speed, m/s; 0 or None: no kick.
 
         Returns:
@@ -97,14 +102,14 @@ class RobotControl:
         actions = np.empty((*v_x.shape, 5), np.float32)
         if self._in_robot_frame:
             v_x, v_y = rotate_into(v_x, v_y, ego.heading[..., 0], ego.heading[..., 1])
-        actions[..., 0], actions[..., 1], actions[..., TURN] = v_x, v_y, spin
+        actions[..., 0], actions[..., 1], actions[..., TURN] = v_x, v_y, angular_velocity
         actions[..., KICK], actions[..., DRIBBLER] = kick, 1.0
         actions *= self._action_per_unit
         actions[..., KICK] = np.where(kick > 0.0, actions[..., KICK], np.float32(-1.0))
         return np.minimum(np.maximum(actions, -1.0), 1.0)
 
     def limit_acceleration(
-        self, ego: RobotColumns, v_x: Floats, v_y: Floats, spin: Floats
+        self, ego: RobotColumns, v_x: Floats, v_y: Floats, angular_velocity: Floats
     ) -> tuple[Floats, Floats, Floats]:
         """Limit the change of velocities, so that the ball stays on the dribbler.
 
@@ -114,21 +119,22 @@ class RobotControl:
             ego: state of the robots, (n, robots, ...).
             v_x: (n, robots) wanted velocity along x, m/s.
             v_y: (n, robots) wanted velocity along y, m/s.
-            spin: (n, robots) wanted turn rate, rad/s.
+            angular_velocity: (n, robots) wanted angular velocity, rad/s.
 
         Returns:
-            Velocity (x, y) and turn rate close to the present ones.
+            Velocity (x, y) and angular velocity close to the present ones.
         """
         change_x, change_y = v_x - ego.velocity[..., 0], v_y - ego.velocity[..., 1]
         change = np.maximum(norm(change_x, change_y), TINY)
         scale = np.minimum(self._max_change / change, np.float32(1.0))
-        turn_change = np.minimum(
-            np.maximum(spin - ego.angular_velocity, -self._max_turn_change), self._max_turn_change
+        angular_change = np.minimum(
+            np.maximum(angular_velocity - ego.angular_velocity, -self._max_angular_change),
+            self._max_angular_change,
         )
         return (
             ego.velocity[..., 0] + change_x * scale,
             ego.velocity[..., 1] + change_y * scale,
-            ego.angular_velocity + turn_change,
+            ego.angular_velocity + angular_change,
         )
 
     def has_ball(self, view: View) -> Mask:

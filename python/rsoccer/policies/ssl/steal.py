@@ -22,7 +22,7 @@ SLIDE_SPEED: Final = np.float32(0.4)  # m/s along the opponent's front; a crash 
 PRESS_SPEED: Final = np.float32(0.1)  # m/s toward the opponent in the slide, to keep contact
 SIDE_THRESHOLD: Final = np.float32(-0.23)  # m inwards from which it slides to the opponent's left
 FACING_COSINE: Final = np.float32(-0.8)  # cosine between the headings of robots face to face
-MAX_TURN_RATE: Final = 4.0  # rad/s in the slide
+MAX_ANGULAR_VELOCITY: Final = 4.0  # rad/s in the slide
 
 _COS: Final = np.cos(APPROACH_ANGLE)
 _SIN: Final = np.sin(APPROACH_ANGLE)
@@ -51,7 +51,7 @@ def steal_ball(
         max_speed: upper bound of the approach, m/s.
 
     Returns:
-        Velocity along x and y (m/s) and turn rate (rad/s), (n, robots) each.
+        Velocity along x and y (m/s) and angular velocity (rad/s), (n, robots) each.
     """
     ego, ball = view.ego, view.ball
     holder, (heading_x, heading_y) = _ball_holder(view)
@@ -64,14 +64,16 @@ def steal_ball(
     u_x = left_x * side * _SIN - heading_x * _COS
     u_y = left_y * side * _SIN - heading_y * _COS
     still_ball = ball.position, ball.velocity * np.float32(0.0)
-    v_x, v_y, spin = approach_ball(control, ego, still_ball, robots, region, max_speed, (u_x, u_y))
+    v_x, v_y, angular_velocity = approach_ball(
+        control, ego, still_ball, robots, region, max_speed, (u_x, u_y)
+    )
     slides = control.has_ball(view)
     slides &= ego.heading[..., 0] * heading_x + ego.heading[..., 1] * heading_y < FACING_COSINE
     slide_x = left_x * side * SLIDE_SPEED - heading_x * PRESS_SPEED
     slide_y = left_y * side * SLIDE_SPEED - heading_y * PRESS_SPEED
     v_x, v_y = np.where(slides, slide_x, v_x), np.where(slides, slide_y, v_y)
-    slide_spin = motion.turn_rate_to(ego, u_x, u_y, MAX_TURN_RATE)
-    return v_x, v_y, np.where(slides, slide_spin, spin)
+    slide_angular_velocity = motion.angular_velocity_to(ego, u_x, u_y, MAX_ANGULAR_VELOCITY)
+    return v_x, v_y, np.where(slides, slide_angular_velocity, angular_velocity)
 
 
 def _ball_holder(view: View) -> tuple[XY, XY]:

@@ -26,9 +26,9 @@ from rsoccer.view import View
 
 MAX_SPEED: Final = 1.5  # m/s
 DRIBBLE_SPEED: Final = 0.8  # m/s, with the ball on the dribbler
-MAX_TURN_RATE: Final = 4.0  # rad/s, with the ball on the dribbler
+MAX_ANGULAR_VELOCITY: Final = 4.0  # rad/s, with the ball on the dribbler
 MAX_AIM_SINE: Final = np.float32(0.01)  # sine of the heading error for a kick
-MAX_KICK_SPIN: Final = np.float32(0.2)  # rad/s, turn rate of the robot for a kick
+MAX_KICK_ANGULAR_VELOCITY: Final = np.float32(0.2)  # rad/s of the robot for a kick
 MAX_KICK_SPEED: Final = np.float32(0.1)  # m/s, speed of the robot for a kick
 DRIBBLE_MARGIN: Final = 0.1  # m to the field's lines with the ball, so that the ball stays inside
 LINE_MARGIN: Final = 0.02  # m to the field's lines where it steals the ball or waits
@@ -123,8 +123,8 @@ class Strike(Policy):
         scale = np.maximum(WAITING_DISTANCE * reciprocal(norm(x, y)), np.float32(1.0))
         target = self._outer_region.clamp(ball[..., 0] + x * scale, ball[..., 1] + y * scale)
         v_x, v_y = motion.velocity_to(ego.position, *target, MAX_SPEED)
-        spin = motion.turn_rate_to(ego, -x, -y, MAX_TURN_RATE)
-        return self._control.actions(ego, v_x, v_y, spin)
+        angular_velocity = motion.angular_velocity_to(ego, -x, -y, MAX_ANGULAR_VELOCITY)
+        return self._control.actions(ego, v_x, v_y, angular_velocity)
 
     def _shoot(self, view: View) -> Floats:
         """Turn and kick where a shot is free, else dribble to a position with a free shot."""
@@ -135,15 +135,17 @@ class Strike(Policy):
         aims = (free > SHOT_CLEARANCE) & (gaps > TURNING_CLEARANCE)
         aims &= self._dribble_region.distance_outside(x, y) < np.float32(AREA_MARGIN)
         goal_x, goal_y = self._goal_x - x, aim_y - y
-        spin = motion.turn_rate_to(ego, goal_x, goal_y, MAX_TURN_RATE)
+        angular_velocity = motion.angular_velocity_to(ego, goal_x, goal_y, MAX_ANGULAR_VELOCITY)
         cos, sin = motion.heading_error(ego, goal_x, goal_y)
         kicks = aims & (cos > 0.0) & (np.abs(sin) < MAX_AIM_SINE)
-        kicks &= np.abs(ego.angular_velocity) < MAX_KICK_SPIN
+        kicks &= np.abs(ego.angular_velocity) < MAX_KICK_ANGULAR_VELOCITY
         kicks &= norm(ego.velocity[..., 0], ego.velocity[..., 1]) < MAX_KICK_SPEED
         zero = np.float32(0.0)
         v_x, v_y = (np.where(aims, zero, v) for v in self._dribble(ego.position, robots))
         kick = np.where(kicks, self._control.max_kick_speed, zero)
-        velocity = self._control.limit_acceleration(ego, v_x, v_y, np.where(aims, spin, zero))
+        velocity = self._control.limit_acceleration(
+            ego, v_x, v_y, np.where(aims, angular_velocity, zero)
+        )
         return self._control.actions(ego, *velocity, kick)
 
     def _best_aim(self, x: Floats, y: Floats, robots: XY) -> tuple[Floats, Floats]:

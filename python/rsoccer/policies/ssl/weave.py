@@ -18,7 +18,7 @@ from rsoccer.tasks.ssl_dribbling import SslDribbling
 from rsoccer.vectors import TINY, XY, norm, rotate_into_body
 
 DRIBBLE_SPEED: Final = 0.8  # m/s, with the ball on the dribbler
-MAX_TURN_RATE: Final = 2.0  # rad/s, with the ball on the dribbler
+MAX_ANGULAR_VELOCITY: Final = 2.0  # rad/s, with the ball on the dribbler
 MAX_ACCELERATION: Final = np.float32(2.5)  # m/s², with the ball; more could pull the ball off
 WAYPOINT_OFFSET: Final = np.float32(0.35)  # m between the line of gates and the waypoints
 ARRIVAL_DISTANCE: Final = np.float32(0.06)  # m from a waypoint at which the next one follows
@@ -95,8 +95,8 @@ class Weave(Policy):
         v_x, v_y = motion.velocity_to(ego.position, next_x, next_y, DRIBBLE_SPEED, path)
         v_x, v_y = self._limit_acceleration(v_x, v_y, has_ball, memory["velocity"])
         cos, sin = (np.broadcast_to(part, target[0].shape) for part in self._heading)
-        spin = motion.turn_rate_to(ego, cos, sin, MAX_TURN_RATE)
-        return self._control.actions(ego, v_x, v_y, spin)
+        angular_velocity = motion.angular_velocity_to(ego, cos, sin, MAX_ANGULAR_VELOCITY)
+        return self._control.actions(ego, v_x, v_y, angular_velocity)
 
     def _next_waypoint(self, position: Floats, ball: Floats, has_ball: Mask, memory: Memory) -> XY:
         """Next waypoint of the course, m; counts crossed gates in `memory`."""

@@ -34,7 +34,7 @@ class DriveTarget(NamedTuple):
     """y of the target position, m."""
     through: Floats
     """1 to drive through the position at full speed, 0 to stop there."""
-    spin: Floats
+    turn: Floats
     """Turn on the spot in place of driving: wheel speed in [-1, 1], positive counterclockwise.
 
     0 to drive."""
@@ -93,9 +93,9 @@ class DriveController:
         # The larger the heading error, the slower the robot drives: it turns first.
         # Backwards is as good as forwards.
         forward, turn = speed * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
-        spins = target.spin != 0.0
-        forward = np.where(spins, np.float32(0.0), forward)
-        return forward, np.where(spins, target.spin, turn - ego.angular_velocity * self._damping)
+        turns = target.turn != 0.0
+        forward = np.where(turns, np.float32(0.0), forward)
+        return forward, np.where(turns, target.turn, turn - ego.angular_velocity * self._damping)
 
 
 def require_differential_drive(policy: str, task: Task) -> None:
@@ -125,7 +125,7 @@ def turning_clearance(robot: RobotModel) -> float:
 
 
 def turn_damping(robot: RobotModel) -> np.float32:
-    """Return the reduction of a turn's wheel speed per turn rate, s/rad.
+    """Return the reduction of a turn's wheel speed per angular velocity, s/rad.
 
     Args:
         robot: a robot with a differential drive.

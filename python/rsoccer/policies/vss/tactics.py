@@ -46,7 +46,7 @@ def role_targets(field: FieldGeometry, view: View, roles: Array) -> DriveTarget:
     """
     position, ball = view.ego.position, view.ball.position
     keeping, attacking = roles == KEEPER, roles == ATTACKER
-    x, y, through, spin = (
+    x, y, through, turn = (
         np.where(keeping, keeper, np.where(attacking, attacker, support))
         for keeper, attacker, support in zip(
             _keeper_target(field, view),
@@ -60,11 +60,11 @@ def role_targets(field: FieldGeometry, view: View, roles: Array) -> DriveTarget:
     ball_xy = ball[..., 0], ball[..., 1]
     waypoint = avoid_obstacle(position, (x, y), ball_xy, YIELD_RADIUS, yielding)
     x, y = avoid_robots(view, waypoint, attacking)
-    return DriveTarget(x, y, through, spin)
+    return DriveTarget(x, y, through, turn)
 
 
 def _attacker_target(field: FieldGeometry, view: View) -> DriveTarget:
-    """Get behind the ball, then run at it in the push direction; at walls flick it with a spin."""
+    """Get behind the ball, then run at it in the push direction; at walls flick it with a turn."""
     position = view.ego.position
     x, y = _interception(field, view)
     push = field.push_direction(x, y)
@@ -76,10 +76,10 @@ def _attacker_target(field: FieldGeometry, view: View) -> DriveTarget:
     start = field.clamp(x - RUN_UP * u_x, y - RUN_UP * u_y)
     ahead = FOLLOW_THROUGH - behind
     start_x, start_y = avoid_obstacle(position, start, (x, y), BALL_CLEARANCE, ~runs)
-    spin = _flick_spin(field, view, push, runs, trapped)
+    turn = _flick_turn(field, view, push, runs, trapped)
     target_x = np.where(runs, x + ahead * u_x, start_x)
     target_y = np.where(runs, y + ahead * u_y, start_y)
-    return DriveTarget(target_x, target_y, np.ones_like(x), spin)
+    return DriveTarget(target_x, target_y, np.ones_like(x), turn)
 
 
 def _interception(field: FieldGeometry, view: View) -> XY:
@@ -107,7 +107,7 @@ def _run_direction(field: FieldGeometry, ball: XY, push: XY) -> tuple[Floats, Fl
     return np.where(trapped, wall_x, push[0]), np.where(trapped, wall_y, push[1]), trapped
 
 
-def _flick_spin(field: FieldGeometry, view: View, push: XY, runs: Mask, trapped: Mask) -> Floats:
+def _flick_turn(field: FieldGeometry, view: View, push: XY, runs: Mask, trapped: Mask) -> Floats:
     """Turn that flicks a ball at a wall in the push direction: 1, -1, or 0 without a flick."""
     position, ball = view.ego.position, view.ball.position
     to_x, to_y = ball[..., 0] - position[..., 0], ball[..., 1] - position[..., 1]

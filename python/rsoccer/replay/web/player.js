@@ -234,7 +234,7 @@ class Player {
       ["y", `${fixed(value("y"), 2)} m`],
       ["heading", `${degrees}\u00b0`],
       ["speed", `${speed.toFixed(2)} m/s`],
-      ["turn rate", `${fixed(value("v_theta"), 1)} rad/s`],
+      ["turning", `${fixed(value("v_theta"), 1)} rad/s`],
       ["ball", flags.join(", ") || "\u2013"],
     ];
     replay.commandColumns.forEach((name, column) => {

@@ -1,7 +1,7 @@
 //! Bodies in the solver.
 
 use crate::bodies::Acceleration;
-use crate::body_params::InverseInertia;
+use crate::body_parameters::InverseInertia;
 use crate::geometry::motion::{Motion, rotated};
 use crate::geometry::outline::{Outline, PlacedOutline};
 use crate::math::{Rotation, Vector};
@@ -16,7 +16,7 @@ pub(in crate::engine) struct SolverBody {
     /// m/s.
     pub(in crate::engine) velocity: Vector,
     /// rad/s.
-    pub(in crate::engine) spin: f32,
+    pub(in crate::engine) angular_velocity: f32,
     /// 1/kg, and 1/(kg m²); 0 for a wall.
     pub(in crate::engine) inverse_mass: f32,
     pub(in crate::engine) inverse_inertia: f32,
@@ -28,7 +28,7 @@ impl SolverBody {
             position: motion.position,
             heading: motion.heading,
             velocity: motion.velocity,
-            spin: motion.spin,
+            angular_velocity: motion.angular_velocity,
             inverse_mass: inverse.mass,
             inverse_inertia: inverse.inertia,
         }
@@ -39,15 +39,15 @@ impl SolverBody {
             position: place.position,
             heading: Vector::new(place.heading.re, place.heading.im),
             velocity: Vector::ZERO,
-            spin: 0.0,
+            angular_velocity: 0.0,
             inverse_mass: 0.0,
             inverse_inertia: 0.0,
         }
     }
 
     pub(in crate::engine) fn motion(&self) -> Motion {
-        let Self { position, heading, velocity, spin, .. } = *self;
-        Motion { position, heading, velocity, spin }
+        let Self { position, heading, velocity, angular_velocity, .. } = *self;
+        Motion { position, heading, velocity, angular_velocity }
     }
 
     /// Outline of the body where it is.
@@ -59,12 +59,12 @@ impl SolverBody {
     /// Accelerates the body for `time` (s).
     pub(in crate::engine) fn accelerate(&mut self, acceleration: Acceleration, time: f32) {
         self.velocity += acceleration.linear * time;
-        self.spin += acceleration.angular * time;
+        self.angular_velocity += acceleration.angular * time;
     }
 
     /// Moves the body for `time` (s).
     pub(in crate::engine) fn advance(&mut self, time: f32) {
         self.position += self.velocity * time;
-        self.heading = rotated(self.heading, self.spin * time);
+        self.heading = rotated(self.heading, self.angular_velocity * time);
     }
 }

@@ -16,7 +16,7 @@ pub(in crate::engine) fn boxes(a: Rectangle, b: Rectangle, window: Window) -> Op
     let apart = b.body.position - a.body.position;
     let velocity = b.body.velocity - a.body.velocity;
     // Bound of the speed by rotation at which the gap shrinks.
-    let rim = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
+    let rim = a.body.angular_velocity.abs() * a.radius + b.body.angular_velocity.abs() * b.radius;
     let cos = heading_a.dot(heading_b).abs();
     let sin = heading_a.perp_dot(heading_b).abs();
     // Half the width of the other rectangle along this one's axes.

@@ -61,13 +61,13 @@ struct Relative {
     along: f32,
     aside: f32,
     /// rad/s.
-    spins: [f32; 2],
+    angular_velocities: [f32; 2],
 }
 
 impl Relative {
     /// Speed of a point along the normal, m/s.
     fn closing(&self, levers: [f32; 2]) -> f32 {
-        self.along + self.spins[1] * levers[1] - self.spins[0] * levers[0]
+        self.along + self.angular_velocities[1] * levers[1] - self.angular_velocities[0] * levers[0]
     }
 }
 
@@ -183,11 +183,12 @@ impl Constraint {
         if coefficient > 0.0 {
             // The impulses along the normal change the slip only by turning the bodies.
             let (a, b) = (&bodies[self.first], &bodies[self.second]);
-            let spins = [
-                relative.spins[0] - turns[0] * a.inverse_inertia,
-                relative.spins[1] + turns[1] * b.inverse_inertia,
+            let angular_velocities = [
+                relative.angular_velocities[0] - turns[0] * a.inverse_inertia,
+                relative.angular_velocities[1] + turns[1] * b.inverse_inertia,
             ];
-            let slip = relative.aside + spins[1] * levers[1] - spins[0] * levers[0];
+            let slip = relative.aside + angular_velocities[1] * levers[1]
+                - angular_velocities[0] * levers[0];
             let limit = coefficient * (new[0] + new[1]);
             let total = (impulse - mass * slip).clamp(-limit, limit);
             self.friction.impulse = total;
@@ -204,7 +205,7 @@ impl Constraint {
         Relative {
             along: velocity.dot(self.normal),
             aside: self.normal.perp_dot(velocity),
-            spins: [a.spin, b.spin],
+            angular_velocities: [a.angular_velocity, b.angular_velocity],
         }
     }
 
@@ -219,9 +220,9 @@ impl Constraint {
         let impulse = self.normal * normal + self.normal.perp() * tangent;
         let first = &mut bodies[self.first];
         first.velocity -= impulse * first.inverse_mass;
-        first.spin -= turns[0] * first.inverse_inertia;
+        first.angular_velocity -= turns[0] * first.inverse_inertia;
         let second = &mut bodies[self.second];
         second.velocity += impulse * second.inverse_mass;
-        second.spin += turns[1] * second.inverse_inertia;
+        second.angular_velocity += turns[1] * second.inverse_inertia;
     }
 }

@@ -39,7 +39,7 @@ fn approached(met: &SolverBody, outline: Outline, disc: &SolverBody) -> Approach
     Approached {
         place: met.placed(outline),
         velocity: disc.velocity - met.velocity,
-        spin: met.spin,
+        angular_velocity: met.angular_velocity,
     }
 }
 
@@ -110,7 +110,7 @@ mod tests {
             position: Vector::new(x, y),
             heading: Vector::X,
             velocity: velocity.into(),
-            spin: 0.0,
+            angular_velocity: 0.0,
             inverse_mass: 1.0,
             inverse_inertia: 1.0,
         }

@@ -56,7 +56,7 @@ impl Link {
     /// end of `bodies`.
     pub(super) fn of(pair: &Pair, rules: &BallRules, bodies: &mut Vec<SolverBody>) -> Option<Self> {
         let one = pair.one;
-        let of = |body: usize| rules.params.robots[body - 1].model.friction;
+        let of = |body: usize| rules.parameters.robots[body - 1].model.friction;
         let (first, second, outlines, with, met_friction) = match pair.other {
             Other::Wall(index, place) => {
                 let outlines = [place.outline, one.outline];
@@ -92,7 +92,8 @@ impl Link {
             return false;
         }
         let (a, b) = (&bodies[self.first], &bodies[self.second]);
-        let rims = a.spin.abs() * self.radii[0] + b.spin.abs() * self.radii[1];
+        let rims =
+            a.angular_velocity.abs() * self.radii[0] + b.angular_velocity.abs() * self.radii[1];
         rims < STEADY && (b.velocity - a.velocity).length_squared() < STEADY * STEADY
     }
 

@@ -30,7 +30,7 @@ use super::contacts::Contacts;
 use super::near::Pair;
 use crate::blocks::{BALL, set_bits};
 use crate::bodies::{Acceleration, Bodies, SubSteps, WarmStart};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 pub(super) use body::SolverBody;
 pub(super) use boxes::boxes;
 use constraint::Constraint;
@@ -80,7 +80,7 @@ impl CompactSolver {
         SubSteps { time, count }: SubSteps,
         contacts: &mut Contacts,
     ) -> bool {
-        scratch.read(bodies, rules.params, near.pairs);
+        scratch.read(bodies, rules.parameters, near.pairs);
         self.link(bodies, near.pairs, rules, time, scratch);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
         let min_passes = if jammed { MIN_PASSES_JAMMED } else { MIN_PASSES };
@@ -132,13 +132,13 @@ struct SubStep {
 
 impl CompactScratch {
     /// Reads the bodies of `pairs`.
-    fn read(&mut self, bodies: &Bodies, params: &BodyParams, pairs: &[Pair]) {
+    fn read(&mut self, bodies: &Bodies, parameters: &BodyParameters, pairs: &[Pair]) {
         let met = pairs.iter().fold(0_u64, |met, pair| met | pair.bodies());
         self.bodies.clear();
         self.bodies.resize(bodies.len(), SolverBody::default());
         self.met.clear();
         for body in set_bits(met) {
-            self.bodies[body] = SolverBody::of(&bodies.motion(body), params.inverse(body));
+            self.bodies[body] = SolverBody::of(&bodies.motion(body), parameters.inverse(body));
             self.met.push(Met { body, acceleration: bodies.acceleration(body) });
         }
         self.bodies[BALL].inverse_mass = 1.0 / bodies.ball_mass;

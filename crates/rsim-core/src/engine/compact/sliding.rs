@@ -64,5 +64,7 @@ fn velocity_at_corner(boxes: [&Rectangle; 2], met: &Met) -> Vector {
         let arm = b.corner(-normal);
         [arm + apart, arm]
     };
-    b.body.velocity + arms[1].perp() * b.body.spin - a.body.velocity - arms[0].perp() * a.body.spin
+    b.body.velocity + arms[1].perp() * b.body.angular_velocity
+        - a.body.velocity
+        - arms[0].perp() * a.body.angular_velocity
 }

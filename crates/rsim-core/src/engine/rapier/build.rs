@@ -11,7 +11,7 @@ use rapier2d::prelude::SpringCoefficients;
 
 use super::RapierSolver;
 use super::report::{BALL_LABEL, label};
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::columns::MAX_PLACED_SPEED;
 use crate::engine::contacts::Partner;
 use crate::engine::{SUB_STEPS, Shape, WALL_FRICTION};
@@ -20,9 +20,13 @@ use crate::models::config::SimConfig;
 use crate::models::robot::Body;
 
 impl RapierSolver {
-    pub(in crate::engine) fn new(config: &SimConfig, params: &BodyParams, walls: &[Wall]) -> Self {
+    pub(in crate::engine) fn new(
+        config: &SimConfig,
+        parameters: &BodyParameters,
+        walls: &[Wall],
+    ) -> Self {
         let mut solver = Self {
-            parameters: parameters(config.tick),
+            integration: integration_parameters(config.tick),
             islands: IslandManager::new(),
             broad_phase: BroadPhaseBvh::with_optimization_strategy(BvhOptimizationStrategy::None),
             narrow_phase: NarrowPhase::new(),
@@ -30,11 +34,11 @@ impl RapierSolver {
             colliders: ColliderSet::new(),
             handles: Vec::new(),
             moved: 0,
-            ball_mass: params.ball.mass,
+            ball_mass: parameters.ball.mass,
         };
-        solver.insert_ball(params, config.tick);
-        for index in 0..params.robots.len() {
-            solver.insert_robot(params, index);
+        solver.insert_ball(parameters, config.tick);
+        for index in 0..parameters.robots.len() {
+            solver.insert_robot(parameters, index);
         }
         for (index, wall) in walls.iter().enumerate().filter(|(_, wall)| wall.stands_on_floor()) {
             let collider = ColliderBuilder::new(Shape::of_wall(wall).0)
@@ -43,12 +47,12 @@ impl RapierSolver {
                 .friction(WALL_FRICTION);
             solver.colliders.insert(collider.user_data(label(Partner::Wall(index))));
         }
-        solver.set_params(params);
+        solver.set_parameters(parameters);
         solver
     }
 
-    fn insert_ball(&mut self, params: &BodyParams, tick: f32) {
-        let ball = &params.ball;
+    fn insert_ball(&mut self, parameters: &BodyParameters, tick: f32) {
+        let ball = &parameters.ball;
         // Bounce and friction of the ball are solved in closed form, and its spin has three axes: the
         // engine only keeps the ball out of other bodies.
         let collider = ColliderBuilder::new(SharedShape::ball(ball.radius))
@@ -64,8 +68,8 @@ impl RapierSolver {
         self.insert(body, collider);
     }
 
-    fn insert_robot(&mut self, params: &BodyParams, index: usize) {
-        let model = &params.robots[index].model;
+    fn insert_robot(&mut self, parameters: &BodyParameters, index: usize) {
+        let model = &parameters.robots[index].model;
         // The engine would bounce one point of a contact after the other, which turns two squares that
         // meet face to face. So nothing bounces in the solver.
         let collider = ColliderBuilder::new(Shape::of_robot(model.body).0)
@@ -115,7 +119,7 @@ const MAX_BALL_SPEED_FACTOR: f32 = 3.0;
 pub(super) const LENGTH_UNIT: f32 = 0.1;
 
 /// Settings for bodies of a few centimeters; the engine's defaults suit bodies of a meter.
-fn parameters(tick: f32) -> IntegrationParameters {
+fn integration_parameters(tick: f32) -> IntegrationParameters {
     IntegrationParameters {
         dt: tick,
         num_solver_iterations: SUB_STEPS,

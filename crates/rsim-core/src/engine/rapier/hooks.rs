@@ -24,7 +24,7 @@ const PRESSING: f32 = 0.1;
 
 /// Speed of corners by rotation, m/s, above which boxes keep that contact: the search takes headings to be
 /// constant for a tick.
-const SPINNING: f32 = 0.5;
+const TURNING: f32 = 0.5;
 
 /// Cosine of the angle between two normals up to which they are of one face. Of two corners that pass each
 /// other the engine finds a normal between those of their faces.
@@ -57,7 +57,7 @@ impl PhysicsHooks for BallRules<'_> {
         };
         let (ball_velocity, _) = motion(ball);
         let approached = |other: &Collider, outline: Outline| {
-            let (pose, (velocity, spin)) = (other.position(), motion(other));
+            let (pose, (velocity, angular_velocity)) = (other.position(), motion(other));
             Approached {
                 place: PlacedOutline {
                     outline,
@@ -65,11 +65,11 @@ impl PhysicsHooks for BallRules<'_> {
                     heading: pose.rotation,
                 },
                 velocity: ball_velocity - velocity,
-                spin,
+                angular_velocity,
             }
         };
         let met = approached(other, outline);
-        let radius = self.params.ball.radius;
+        let radius = self.parameters.ball.radius;
         let touch = if self.squeezed.is_some() {
             Some(Touch::of(&met.place.nearest(center), center, radius))
         } else {
@@ -121,7 +121,7 @@ impl BallRules<'_> {
                 position: pose.translation,
                 heading: Vector::new(pose.rotation.re, pose.rotation.im),
                 velocity: body.map_or(Vector::ZERO, RigidBody::linvel),
-                spin: body.map_or(0.0, RigidBody::angvel),
+                angular_velocity: body.map_or(0.0, RigidBody::angvel),
                 ..SolverBody::default()
             }
         });
@@ -130,9 +130,10 @@ impl BallRules<'_> {
             half,
             radius: half.length(),
         });
-        let rims = a.body.spin.abs() * a.radius + b.body.spin.abs() * b.radius;
+        let rims =
+            a.body.angular_velocity.abs() * a.radius + b.body.angular_velocity.abs() * b.radius;
         let speed = (b.body.velocity - a.body.velocity).length();
-        if speed + rims < PRESSING || rims > SPINNING {
+        if speed + rims < PRESSING || rims > TURNING {
             return;
         }
         let window = Window { time: self.time, reach: distance.max(0.0) + REACH };
@@ -157,7 +158,7 @@ impl BallRules<'_> {
     /// Outline of a robot or wall as the ball meets it.
     fn outline_of(&self, partner: Partner) -> Outline {
         match partner {
-            Partner::Robot(index) => self.params.robots[index].outline,
+            Partner::Robot(index) => self.parameters.robots[index].outline,
             Partner::Wall(index) => self.walls[index].outline(),
         }
     }

@@ -18,7 +18,7 @@ use super::ball_contact::BallRules;
 use super::contacts::Contacts;
 use crate::blocks::{BALL, robot};
 use crate::bodies::Bodies;
-use crate::body_params::BodyParams;
+use crate::body_parameters::BodyParameters;
 use crate::geometry::motion::Motion;
 use crate::math::{Pose, Vector};
 use build::{LENGTH_UNIT, MIN_PREDICTION, PREDICTION_FACTOR, SOLVER_PASSES, SOLVER_PASSES_JAMMED};
@@ -26,7 +26,7 @@ use build::{LENGTH_UNIT, MIN_PREDICTION, PREDICTION_FACTOR, SOLVER_PASSES, SOLVE
 /// rapier's copy of the bodies, its contacts and its settings.
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct RapierSolver {
-    parameters: IntegrationParameters,
+    integration: IntegrationParameters,
     islands: IslandManager,
     broad_phase: BroadPhaseBvh,
     narrow_phase: NarrowPhase,
@@ -63,22 +63,22 @@ impl RapierScratch {
 
 impl RapierSolver {
     /// Gives the bodies other parameters: masses, and the prediction distance that depends on speeds.
-    pub(super) fn set_params(&mut self, params: &BodyParams) {
+    pub(super) fn set_parameters(&mut self, parameters: &BodyParameters) {
         // The ball does not rotate in the plane: its spin has three axes and is kept elsewhere.
-        self.set_mass(BALL, params.ball.mass, 1.0);
-        self.ball_mass = params.ball.mass;
-        for (index, body) in params.robots.iter().enumerate() {
+        self.set_mass(BALL, parameters.ball.mass, 1.0);
+        self.ball_mass = parameters.ball.mass;
+        for (index, body) in parameters.robots.iter().enumerate() {
             self.set_mass(robot(index), body.model.mass, body.model.inertia());
         }
-        let speeds = params.robots.iter().map(|body| body.model.top_speed());
-        let distance = speeds.fold(0.0, f32::max) * self.parameters.dt;
+        let speeds = parameters.robots.iter().map(|body| body.model.top_speed());
+        let distance = speeds.fold(0.0, f32::max) * self.integration.dt;
         let prediction = (PREDICTION_FACTOR * distance).max(MIN_PREDICTION);
-        self.parameters.normalized_prediction_distance = prediction / LENGTH_UNIT;
+        self.integration.normalized_prediction_distance = prediction / LENGTH_UNIT;
         // The ball's collider is larger by the distance that a robot drives in a tick: for a body with
         // soft continuous detection the engine ignores the motion of all others. The hook of the ball
         // computes true distances.
         let ball = self.bodies[self.handles[BALL]].colliders()[0];
-        self.colliders[ball].set_shape(SharedShape::ball(params.ball.radius + distance));
+        self.colliders[ball].set_shape(SharedShape::ball(parameters.ball.radius + distance));
     }
 
     fn set_mass(&mut self, body: usize, mass: f32, inertia: f32) {
@@ -95,7 +95,7 @@ impl RapierSolver {
             return;
         }
         // Impulses on a heavy ball must not start the solution for a light one.
-        self.parameters.warmstart_coefficient = if mass < self.ball_mass { 0.0 } else { 1.0 };
+        self.integration.warmstart_coefficient = if mass < self.ball_mass { 0.0 } else { 1.0 };
         self.ball_mass = mass;
         self.set_mass(BALL, mass, 1.0);
     }
@@ -109,15 +109,15 @@ impl RapierSolver {
         sub_steps: usize,
         contacts: &mut Contacts,
     ) -> Result<(), NonFinite> {
-        self.parameters.dt = rules.time;
-        self.parameters.num_solver_iterations = sub_steps;
+        self.integration.dt = rules.time;
+        self.integration.num_solver_iterations = sub_steps;
         self.set_ball_mass(bodies.ball_mass);
         let jammed = rules.squeezed.is_some_and(|squeezed| squeezed.jammed);
-        self.parameters.num_internal_pgs_iterations =
+        self.integration.num_internal_pgs_iterations =
             if jammed { SOLVER_PASSES_JAMMED } else { SOLVER_PASSES };
-        self.read_bodies(bodies, rules.params);
+        self.read_bodies(bodies, rules.parameters);
         let solved = self.step(scratch, rules);
-        self.parameters.warmstart_coefficient = 1.0;
+        self.integration.warmstart_coefficient = 1.0;
         self.write_bodies(bodies);
         self.report(contacts);
         solved
@@ -126,7 +126,7 @@ impl RapierSolver {
     fn step(&mut self, scratch: &mut RapierScratch, rules: &BallRules) -> Result<(), NonFinite> {
         scratch.pipeline.step(
             Vector::ZERO,
-            &self.parameters,
+            &self.integration,
             &mut self.islands,
             &mut self.broad_phase,
             &mut self.narrow_phase,
@@ -147,7 +147,7 @@ impl RapierSolver {
         self.moved |= bodies;
     }
 
-    fn read_bodies(&mut self, bodies: &Bodies, params: &BodyParams) {
+    fn read_bodies(&mut self, bodies: &Bodies, parameters: &BodyParameters) {
         let moved = std::mem::take(&mut self.moved);
         for (index, handle) in self.handles.iter().enumerate() {
             let (body, motion) = (&mut self.bodies[*handle], bodies.motion(index));
@@ -156,11 +156,11 @@ impl RapierSolver {
                 body.set_position(Pose::from_parts(motion.position, motion.rotation()), true);
             }
             body.set_linvel(motion.velocity, true);
-            body.set_angvel(motion.spin, true);
+            body.set_angvel(motion.angular_velocity, true);
             body.reset_forces(false);
             body.reset_torques(false);
             if index != BALL {
-                let (gain, inverse) = (bodies.acceleration(index), params.inverse(index));
+                let (gain, inverse) = (bodies.acceleration(index), parameters.inverse(index));
                 body.add_force(gain.linear / inverse.mass, true);
                 body.add_torque(gain.angular / inverse.inertia, true);
             }
@@ -175,7 +175,7 @@ impl RapierSolver {
                 position: body.translation(),
                 heading: Vector::new(rotation.re, rotation.im),
                 velocity: body.linvel(),
-                spin: body.angvel(),
+                angular_velocity: body.angvel(),
             };
             bodies.set_motion(index, &motion);
         }

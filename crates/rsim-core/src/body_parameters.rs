@@ -17,9 +17,9 @@ use crate::models::robot::{Drive, RobotModel};
 
 /// Parameters of all bodies of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct BodyParams {
+pub(crate) struct BodyParameters {
     pub(crate) ball: BallModel,
-    pub(crate) robots: Vec<RobotParams>,
+    pub(crate) robots: Vec<RobotParameters>,
     /// Wheels of the robots, by block.
     pub(crate) wheels: Vec<BlockWheels>,
     /// Inertia and size of all bodies, by block.
@@ -54,7 +54,7 @@ impl BlockInertia {
 
 /// Parameters of a robot, prepared for stepping.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct RobotParams {
+pub(crate) struct RobotParameters {
     pub(crate) model: RobotModel,
     pub(crate) outline: Outline,
     /// m.
@@ -67,7 +67,7 @@ pub(crate) struct RobotParams {
     pub(crate) kick_gain: f32,
 }
 
-impl RobotParams {
+impl RobotParameters {
     fn of(model: RobotModel, kick_gain: f32) -> Self {
         Self {
             outline: Outline::of(model.body),
@@ -95,7 +95,7 @@ impl RobotParams {
     ) -> ContactBody {
         let arm = point - motion.position;
         ContactBody {
-            velocity: (motion.velocity + arm.perp() * motion.spin).extend(0.0),
+            velocity: (motion.velocity + arm.perp() * motion.angular_velocity).extend(0.0),
             arm,
             inverse_mass: self.inverse_mass,
             inverse_inertia: self.inverse_inertia,
@@ -104,14 +104,14 @@ impl RobotParams {
     }
 }
 
-impl BodyParams {
+impl BodyParameters {
     /// Parameters of the models.
     pub(crate) fn of(config: &SimConfig) -> Self {
-        let robots = config.robots().map(|model| RobotParams::of(model.clone(), 1.0));
+        let robots = config.robots().map(|model| RobotParameters::of(model.clone(), 1.0));
         Self::new(config.ball.clone(), robots.collect(), config.tick)
     }
 
-    fn new(ball: BallModel, robots: Vec<RobotParams>, tick: f32) -> Self {
+    fn new(ball: BallModel, robots: Vec<RobotParameters>, tick: f32) -> Self {
         let wheels = wheels_of(robots.iter().map(|body| &body.model), tick);
         let mut inertia = vec![BlockInertia::default(); wheels.len()];
         // The ball does not rotate in the plane: its spin has three axes and is kept elsewhere.
@@ -138,9 +138,9 @@ impl BodyParams {
 
     /// Parameters of the models times a world's own factors: [`BALL_PARAMETERS`], then
     /// [`ROBOT_PARAMETERS`] of each robot.
-    pub(crate) fn varied(config: &SimConfig, factors: &[f32]) -> Result<Self, ConfigError> {
-        debug_assert_eq!(factors.len(), config.parameters_size());
-        for (index, factor) in factors.iter().enumerate() {
+    pub(crate) fn varied(config: &SimConfig, parameters: &[f32]) -> Result<Self, ConfigError> {
+        debug_assert_eq!(parameters.len(), config.parameters_size());
+        for (index, factor) in parameters.iter().enumerate() {
             let of_robot = index >= BALL_PARAMETERS.len();
             let may_be_0 = !of_robot && name_of(index) != "mass";
             let least = if may_be_0 { 0.0 } else { 1.0 / MAX_FACTOR };
@@ -150,12 +150,12 @@ impl BodyParams {
                 return Err(ConfigError::Number { name: name_of(index), expected, got: *factor });
             }
         }
-        let (ball, robots) = factors.split_at(BALL_PARAMETERS.len());
+        let (ball, robots) = parameters.split_at(BALL_PARAMETERS.len());
         let ball = varied_ball(&config.ball, ball);
         ball.validate()?;
         let robots = config.robots().zip(robots.chunks_exact(ROBOT_PARAMETERS.len()));
-        let robots = robots.map(|(model, factors)| {
-            let body = varied_robot(model, factors);
+        let robots = robots.map(|(model, parameters)| {
+            let body = varied_robot(model, parameters);
             body.model.validate().map(|()| body)
         });
         Ok(Self::new(ball, robots.collect::<Result<_, _>>()?, config.tick))
@@ -172,9 +172,9 @@ fn name_of(index: usize) -> &'static str {
     }
 }
 
-fn varied_ball(model: &BallModel, factors: &[f32]) -> BallModel {
+fn varied_ball(model: &BallModel, parameters: &[f32]) -> BallModel {
     let [mass, slide, roll, hop, robot_bounce, robot_friction, wall_bounce, wall_friction] =
-        *factors
+        *parameters
     else {
         unreachable!("a ball has {BALL_PARAMETERS:?}")
     };
@@ -197,8 +197,8 @@ fn varied_ball(model: &BallModel, factors: &[f32]) -> BallModel {
     ball
 }
 
-fn varied_robot(model: &RobotModel, factors: &[f32]) -> RobotParams {
-    let [mass, height, acceleration, speed, traction, kick, grip] = *factors else {
+fn varied_robot(model: &RobotModel, parameters: &[f32]) -> RobotParameters {
+    let [mass, height, acceleration, speed, traction, kick, grip] = *parameters else {
         unreachable!("a robot has {ROBOT_PARAMETERS:?}")
     };
     let mut robot = model.clone();
@@ -221,7 +221,7 @@ fn varied_robot(model: &RobotModel, factors: &[f32]) -> RobotParams {
                 *limit *= acceleration;
             }
             for limit in
-                [&mut drive.max_speed, &mut drive.max_turn_rate, &mut drive.max_wheel_speed]
+                [&mut drive.max_speed, &mut drive.max_angular_velocity, &mut drive.max_wheel_speed]
             {
                 *limit *= speed;
             }
@@ -231,5 +231,5 @@ fn varied_robot(model: &RobotModel, factors: &[f32]) -> RobotParams {
     if let Some(mouth) = &mut robot.mouth {
         mouth.dribbler_grip *= grip;
     }
-    RobotParams::of(robot, kick)
+    RobotParameters::of(robot, kick)
 }
