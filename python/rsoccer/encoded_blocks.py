@@ -1,6 +1,5 @@
 """Observation blocks that the core computes at once, when they are needed."""
 
-import math
 from collections import UserDict
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -86,13 +85,18 @@ class EncodedBlocks(UserDict[str, Floats]):
         """
         if "data" in self.__dict__:
             return False
-        size = self._size + sum(math.prod(block.shape[2:]) for block in self._added.values())
-        if out.shape[-1] != size:
+        if self._added:
+            return self._write_with_added(out, bounds)
+        if out.shape[-1] != self._size:
             return False
-        if not self._added:
-            self._encode(self._play, out, bounds)
-            return True
-        added = (block.reshape(*out.shape[:2], -1) for block in self._added.values())
+        self._encode(self._play, out, bounds)
+        return True
+
+    def _write_with_added(self, out: Floats, bounds: Floats) -> bool:
+        """Write the blocks of the layout and the added ones, unless `out` has another size."""
+        added = [block.reshape(*out.shape[:2], -1) for block in self._added.values()]
+        if out.shape[-1] != self._size + sum(block.shape[-1] for block in added):
+            return False
         np.concatenate([self._flat(), *added], axis=-1, out=out, casting="same_kind")
         clip_in_place(out, bounds)
         return True
@@ -100,7 +104,8 @@ class EncodedBlocks(UserDict[str, Floats]):
     @property
     def _size(self) -> int:
         """Numbers in the blocks of the layout."""
-        return self._layout[-1][1].stop
+        last: int = self._layout[-1][1].stop
+        return last
 
     def _flat(self) -> Floats:
         """The blocks of the layout as (n, observers, columns), a new array."""

@@ -4,7 +4,7 @@ Both are arrays (n, ...) by name. Copying worlds, saving and resuming work throu
 rule that adds a column has nothing else to do.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import ItemsView, Iterator, Mapping
 from enum import IntEnum
 from typing import Final, NamedTuple, Self
 
@@ -77,6 +77,10 @@ class NamedArrays(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self.__dict__)
+
+    def items(self) -> ItemsView[str, Array]:
+        """Return the names and arrays."""
+        return self.__dict__.items()  # `Mapping`'s own looks each name up
 
     def take(self, worlds: NDArray[np.intp]) -> Self:
         """Return a copy of some worlds.

@@ -453,13 +453,13 @@ class Matches:
         terms: dict[str, Floats] = {}
         rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
         for name, term in named.items():
-            result_checks.term(name, term, shape)
-            if term.shape != shape:  # one column for all observers
-                term = np.broadcast_to(term, shape)
+            if term.shape != shape:
+                result_checks.term(name, term, shape)
+                term = np.broadcast_to(term, shape)  # one column for all observers
             if not self._all_learn:
                 term = term[:, self._learner_indices]
-            terms[name] = term.astype(np.float32, order="C")  # copies
-            rewards = rewards + terms[name]  # `+=` is ten times slower on a single element
+            terms[name] = copied = term.astype(np.float32)
+            rewards = rewards + copied  # `+=` is three times slower on a single element
         return terms, rewards
 
     def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
@@ -494,7 +494,7 @@ class Matches:
         self, worlds: Indices, rows: Floats | None = None, seeds: Seeds | None = None
     ) -> None:
         """Begin episodes in k worlds, from `rows` (k, row) or from the task's initial states."""
-        streams = next_streams(self._state().streams, worlds, seeds)
+        streams = next_streams(self._streams(), worlds, seeds)
         if rows is None and self._starts.can_place:
             rows = self.task.get_initial_positions_frame(streams["start"]).rows
         part = self._new_play(len(worlds), streams["task"], streams.get("senses"))
@@ -544,7 +544,15 @@ class Matches:
             "done": self._done,
             "begun": self._begun,
         }
-        return MatchState.of(self._simulator, self.play, self.assignment.groups, self._start, own)
+        groups = self.assignment.groups
+        return MatchState.of(self._simulator, self.play, groups, self._streams(), own)
+
+    def _streams(self) -> dict[str, WorldRng]:
+        """All random streams by name."""
+        streams = {"start": self._start, "task": self.play.rng}
+        if self.play.senses is not None:
+            streams["senses"] = self.play.senses.rng
+        return streams | {group.name: group.rng for group in self.assignment.groups}
 
     def _observed(self) -> Floats:
         """Copy (n, agents, o) of the learners' observations."""

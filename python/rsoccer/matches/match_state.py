@@ -30,7 +30,7 @@ class MatchState:
         simulator: Stepper,
         play: Play,
         groups: Sequence[PolicyGroup],
-        start: WorldRng,
+        streams: dict[str, WorldRng],
         others: dict[str, Array],
     ) -> "MatchState":
         """Collect the state of some matches.
@@ -38,8 +38,8 @@ class MatchState:
         Args:
             simulator: moves the robots.
             play: frames, actions and the task's memory.
-            groups: policies with their memory and random streams.
-            start: random streams of initial positions.
+            groups: policies with their memory.
+            streams: all random streams by name.
             others: further arrays by name.
 
         Returns:
@@ -48,10 +48,6 @@ class MatchState:
         arrays = play.arrays() | others
         for group in groups:
             arrays |= group.arrays()
-        streams = {"start": start, "task": play.rng}
-        if play.senses is not None:
-            streams["senses"] = play.senses.rng
-        streams |= {group.name: group.rng for group in groups}
         return cls(simulator, arrays, streams)
 
     def read(self) -> dict[str, Array]:
