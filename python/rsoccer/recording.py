@@ -17,6 +17,7 @@ from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import MIN_WIDTH, write_video
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 
@@ -29,6 +30,8 @@ def record_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Path:
     """Play a match, episode after episode, and write it to a video file.
 
@@ -46,14 +49,26 @@ def record_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the video, 64 to 4096 pixels; by default 720, or more on a large field.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         The path of the file: a .gif where ffmpeg is missing, see `write_video`.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    images, fps = film_match(task, controllers, seed, seconds, names=names, width=width)
+    images, fps = film_match(
+        task,
+        controllers,
+        seed,
+        seconds,
+        names=names,
+        width=width,
+        simulator=simulator,
+        sensing=sensing,
+    )
     return write_video(path, images, fps)
 
 
@@ -65,6 +80,8 @@ def film_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> tuple[Iterator[Image], float]:
     """Return the images of a match; the match is played while they are drawn.
 
@@ -76,14 +93,17 @@ def film_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         An iterator over images (height, width, 3), and their rate in images per second.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    matches = policy_match(task, controllers, seed, seconds)
+    matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
     config = matches.task.config
     width = default_width(config, MIN_WIDTH) if width is None else width
     return _images(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step

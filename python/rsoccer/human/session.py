@@ -22,6 +22,7 @@ from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Shape
 from rsoccer.render.video import MIN_WIDTH
 from rsoccer.render.window import Window
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
 
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -56,6 +57,8 @@ class Session:
         width: int | None = None,
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         devices: Devices | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> None:
         """Begin the first episode; the window opens with the first image.
 
@@ -70,8 +73,11 @@ class Session:
                 field.
             names: names of blue and of yellow on the score board.
             devices: keyboard and gamepad; by default those of this machine.
+            simulator: moves the robots, as for `Matches`.
+            sensing: what robots know of the true state, as for `Matches`.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             ValueError: a speed that is not positive, an unknown robot, a robot without a policy,
                 or a task of neither league.
         """
@@ -84,6 +90,8 @@ class Session:
             seed=seed,
             controllers=human_controllers(self.driver, controllers),
             autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
         )
         self.score = (0, 0)
         self.clock = 0.0

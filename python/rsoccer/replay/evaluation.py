@@ -10,6 +10,7 @@ from rsoccer.policies import PolicyLike, make_policy, name_of
 from rsoccer.registry import as_task
 from rsoccer.replay.recorder import Recorder
 from rsoccer.replay.replay import Replay
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
@@ -22,6 +23,8 @@ def record_last_match(
     *,
     task: str | Task | None = None,
     names: tuple[str, str] | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Replay:
     """Record the last match of `rsoccer.evaluate` with these arguments.
 
@@ -35,11 +38,14 @@ def record_last_match(
         seed: seed of the evaluation.
         task: a task or its name, as for `rsoccer.evaluate`.
         names: names of policy and opponent on the score board; by default those of the policies.
+        simulator: moves the robots, as for `rsoccer.evaluate`.
+        sensing: what robots know of the true state, as for `rsoccer.evaluate`.
 
     Returns:
         The replay of one episode.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: an argument that `rsoccer.evaluate` refuses.
         TypeError: an argument of the wrong type.
     """
@@ -51,7 +57,15 @@ def record_last_match(
     if names is None:
         opponents = opponents_of(task) if opponent is None else [name_of(opponent)]
         names = (name_of(policy).upper(), " ".join(opponents).upper())
-    world = Matches(task, 1, match_seed, controllers=controllers, autoreset="disabled")
+    world = Matches(
+        task,
+        1,
+        match_seed,
+        controllers=controllers,
+        autoreset="disabled",
+        simulator=simulator,
+        sensing=sensing,
+    )
     recorder = Recorder(world, names=names[::-1] if side else names, controllers=controllers)
     observations = world.reset()
     recorder.begin()

@@ -23,6 +23,7 @@ from rsoccer.view import SIDES
 if TYPE_CHECKING:
     from rsoccer.controllers import Controllers
     from rsoccer.matches import Matches
+    from rsoccer.sources import SensingSource, SimulatorSource
     from rsoccer.task import Task
 
 SUFFIX = ".rsr"
@@ -226,6 +227,8 @@ class Replay:
         *,
         task: Task | None = None,
         controllers: Controllers | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> Matches:
         """Continue the match from a frame with a snapshot, exactly as it went on.
 
@@ -233,17 +236,19 @@ class Replay:
             frame: a key of `snapshots`.
             task: the task; by default made from its name and options.
             controllers: controllers of the robots; by default those of the recording.
+            simulator: moves the robots, as for `Matches`; the one that the match was recorded with.
+            sensing: what robots know of the true state, as for `Matches`; as it was recorded with.
 
         Returns:
             Matches of one world at that frame. `autoreset` is "disabled".
 
         Raises:
-            ReplayError: no snapshot at that frame, another version of the physics, or a task or
-                controllers that do not fit or have to be given.
+            ReplayError: no snapshot at that frame, another version of the physics, or a task,
+                controllers, a simulator or senses that do not fit or have to be given.
         """
         from rsoccer.replay.resume import resume
 
-        return resume(self, frame, task, controllers)
+        return resume(self, frame, task, controllers, simulator=simulator, sensing=sensing)
 
     def to_html(self) -> str:
         """Return a page that plays the replay in a browser, complete in itself."""

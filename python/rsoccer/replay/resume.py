@@ -12,6 +12,7 @@ from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.replay.container import ReplayError
+from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Learn, Task
 
 if TYPE_CHECKING:
@@ -26,7 +27,13 @@ LEARNER: Final = "LEARN"
 
 
 def resume(
-    replay: Replay, frame: int, task: Task | None, controllers: Controllers | None
+    replay: Replay,
+    frame: int,
+    task: Task | None,
+    controllers: Controllers | None,
+    *,
+    simulator: SimulatorSource | None,
+    sensing: SensingSource | None,
 ) -> Matches:
     """Continue a match from a frame with a snapshot.
 
@@ -35,6 +42,8 @@ def resume(
         frame: index of the frame.
         task: the task; None to make it from the replay.
         controllers: controllers; None for those of the replay.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         Matches of one world at that frame.
@@ -57,7 +66,9 @@ def resume(
         if task.config != replay.config:
             raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
         given = _named(replay.controllers) if controllers is None else controllers
-        matches = Matches(task, controllers=given, autoreset="disabled")
+        matches = Matches(
+            task, controllers=given, autoreset="disabled", simulator=simulator, sensing=sensing
+        )
         matches.load_state_dict(replay.snapshots[frame])
     except ReplayError:
         raise

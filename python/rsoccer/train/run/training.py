@@ -71,7 +71,15 @@ def _write_match(trainer: Trainer) -> None:
     assert task is not None, "the network names its task"
     names = ("TRAINED", " ".join(opponents_of(task)).upper())
     controllers = lineup(task, network)
-    replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
+    replay = record_replay(
+        task,
+        controllers,
+        args.seed,
+        MATCH_SECONDS,
+        names=names,
+        simulator=args.simulator,
+        sensing=args.sensing,
+    )
     replay_name, page_name = MATCH_FILES
     replay.save(args.out / replay_name)
     replay.save_html(args.out / page_name)
