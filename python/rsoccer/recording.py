@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import MIN_WIDTH, write_video
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 
@@ -69,7 +70,8 @@ def record_match(
         simulator=simulator,
         sensing=sensing,
     )
-    return write_video(path, images, fps)
+    with closing(images):
+        return write_video(path, images, fps)
 
 
 def film_match(
@@ -82,8 +84,10 @@ def film_match(
     width: int | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
-) -> tuple[Iterator[Image], float]:
+) -> tuple[Generator[Image, None, None], float]:
     """Return the images of a match; the match is played while they are drawn.
+
+    The simulator is closed after the last image, after an error, or by `close` of the iterator.
 
     Args:
         task: the task or its id; by default the task of the first trained policy among
@@ -104,9 +108,24 @@ def film_match(
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
     matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
-    config = matches.task.config
-    width = default_width(config, MIN_WIDTH) if width is None else width
-    return _images(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step
+    images = _film(matches, simulator, seconds, names, width)
+    next(images)  # from now on it closes the simulator, whatever ends it
+    return images, 1.0 / matches.task.config.time_step
+
+
+def _film(
+    matches: Matches,
+    simulator: SimulatorSource | None,
+    seconds: float,
+    names: tuple[str, str],
+    width: int | None,
+) -> Generator[Image, None, None]:
+    """An empty image, and those of the match, at whose end its simulator is closed."""
+    with closed_after(matches, simulator):
+        config = matches.task.config
+        renderer = Renderer(config, default_width(config, MIN_WIDTH) if width is None else width)
+        yield np.empty((0, 0, 3), np.uint8)
+        yield from _images(matches, renderer, seconds, names)
 
 
 def _images(

@@ -70,7 +70,7 @@ class Play(Sources, Imports):
         task = task_with_options(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)
-        session = Session(
+        with Session(
             task,
             controllers,
             robot,
@@ -80,8 +80,8 @@ class Play(Sources, Imports):
             names=self._names(task, robot, controllers),
             simulator=self.simulator,
             sensing=self.sensing,
-        )
-        session.run(self.seconds)
+        ) as session:
+            session.run(self.seconds)
 
     def _controllers(self, task: Task, robot: str) -> dict[str, Controller]:
         """Policies of all robots: the task's own, then the options, the most specific last."""

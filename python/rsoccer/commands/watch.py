@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
@@ -144,7 +145,8 @@ class Watch(Sources, Imports):
             simulator=self.simulator,
             sensing=self.sensing,
         )
-        self._show(task.name, images, fps)
+        with closing(images):
+            self._show(task.name, images, fps)
 
     def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
         """The task, the controllers, and the names of the teams."""

@@ -307,8 +307,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
         Args:
             **kwargs: ignored.
         """
-        if not self._viewer.closed:
-            self._matches.close()
+        self._matches.close()
         self._viewer.close()
 
     def _infos(self, outcome: Outcome) -> Infos:

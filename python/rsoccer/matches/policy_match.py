@@ -6,7 +6,7 @@ from rsoccer import checks
 from rsoccer.controllers import Controllers, given_by_name
 from rsoccer.lineup import task_for
 from rsoccer.matches.loop import Matches
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 
@@ -48,7 +48,9 @@ def policy_match(
         sensing=sensing,
     )
     if matches.agents:
-        raise ValueError(
-            f"controllers: expected a policy for every robot, got none for {list(matches.agents)}"
-        )
+        with closed_after(matches, simulator):
+            raise ValueError(
+                "controllers: expected a policy for every robot, got none for "
+                f"{list(matches.agents)}"
+            )
     return matches

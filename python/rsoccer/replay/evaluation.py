@@ -10,7 +10,7 @@ from rsoccer.policies import PolicyLike, make_policy, name_of
 from rsoccer.registry import as_task
 from rsoccer.replay.recorder import Recorder
 from rsoccer.replay.replay import Replay
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import LEARN, Task
 from rsoccer.view import SIDES
 
@@ -52,6 +52,7 @@ def record_last_match(
     task = task_for(policy) if task is None else as_task(task)
     side = len(SIDES) - 1 if task.two_sided else 0
     match_seed = first_seed(seed, side) + matches_per_side(task, matches) - 1
+    own_policy = make_policy(policy, task)
     opponent_policy = None if opponent is None else make_policy(opponent, task)
     controllers = lineup(task, LEARN, opponent_policy, SIDES[side] if task.two_sided else None)
     if names is None:
@@ -66,12 +67,13 @@ def record_last_match(
         simulator=simulator,
         sensing=sensing,
     )
-    recorder = Recorder(world, names=names[::-1] if side else names, controllers=controllers)
-    observations = world.reset()
-    recorder.begin()
-    learners = LearnerPolicy(make_policy(policy, task), world, match_seed)
-    while not world.done[0]:
-        outcome = world.step(learners.act(observations))
-        recorder.add(outcome)
-        observations = outcome.observations
-    return recorder.replay()
+    with closed_after(world, simulator):
+        recorder = Recorder(world, names=names[::-1] if side else names, controllers=controllers)
+        observations = world.reset()
+        recorder.begin()
+        learners = LearnerPolicy(own_policy, world, match_seed)
+        while not world.done[0]:
+            outcome = world.step(learners.act(observations))
+            recorder.add(outcome)
+            observations = outcome.observations
+        return recorder.replay()

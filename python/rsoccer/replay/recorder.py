@@ -17,7 +17,7 @@ from rsoccer.registry import options_of
 from rsoccer.replay.events import Event, ball_events, game_events
 from rsoccer.replay.replay import Episode, Replay
 from rsoccer.replay.resume import described_controllers
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 
@@ -233,15 +233,16 @@ def record_replay(
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
     matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
-    recorder = Recorder(
-        matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval
-    )
-    actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
-    matches.reset()
-    recorder.begin()
-    for _ in range(max(1, round(seconds / matches.task.config.time_step))):
-        if matches.done[0]:
-            matches.reset()
-            recorder.begin()
-        recorder.add(matches.step(actions))
-    return recorder.replay()
+    with closed_after(matches, simulator):
+        recorder = Recorder(
+            matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval
+        )
+        actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
+        matches.reset()
+        recorder.begin()
+        for _ in range(max(1, round(seconds / matches.task.config.time_step))):
+            if matches.done[0]:
+                matches.reset()
+                recorder.begin()
+            recorder.add(matches.step(actions))
+        return recorder.replay()

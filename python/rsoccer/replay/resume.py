@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Final
 
 from rsoccer import registry
@@ -12,7 +13,7 @@ from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.replay.container import ReplayError
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import LEARN, Learn, Task
 
 if TYPE_CHECKING:
@@ -69,7 +70,10 @@ def resume(
         matches = Matches(
             task, controllers=given, autoreset="disabled", simulator=simulator, sensing=sensing
         )
-        matches.load_state_dict(replay.snapshots[frame])
+        with ExitStack() as on_error:
+            on_error.enter_context(closed_after(matches, simulator))
+            matches.load_state_dict(replay.snapshots[frame])
+            on_error.pop_all()
     except ReplayError:
         raise
     except _REFUSALS as error:

@@ -263,8 +263,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
 
     def close(self) -> None:
         """Refuse later calls: `reset`, `step` and images raise `ClosedEnvironmentError`."""
-        if not self._viewer.closed:
-            self._matches.close()
+        self._matches.close()
         self._viewer.close()
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:
