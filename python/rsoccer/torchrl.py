@@ -109,11 +109,9 @@ class SoccerEnv(EnvBase):
                 learners if `learner` is given.
             learner: the only robot that learns, such as "blue_0"; None for all robots that the
                 task and `controllers` let learn.
-            simulator: moves the robots in place of `rsoccer.Simulator`: a function
-                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-                simulator, with which the environment cannot be copied.
-            sensing: model of what robots know of the true state, or its text "module:name"; None if
-                they know it exactly.
+            simulator: moves the robots, as for `Matches`. With a simulator itself the environment
+                cannot be copied.
+            sensing: what robots know of the true state, as for `Matches`.
             group_map: names of the learners by group, or one of TorchRL's `MarlGroupMapType`;
                 None for teams. `MarlGroupMapType.ALL_IN_ONE_GROUP` is one group "agents".
             state: True for the global state under "state".
