@@ -172,6 +172,7 @@ GROUPS: Final = (
     Group(
         "Replays",
         (
+            "rsoccer.replay.recorded",
             "rsoccer.replay.replay",
             "rsoccer.replay.recorder",
             "rsoccer.replay.evaluation",

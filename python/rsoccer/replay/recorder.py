@@ -15,7 +15,8 @@ from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
 from rsoccer.registry import options_of
 from rsoccer.replay.events import Event, ball_events, game_events
-from rsoccer.replay.replay import Episode, Replay
+from rsoccer.replay.recorded import Episode
+from rsoccer.replay.replay import Replay
 from rsoccer.replay.resume import described_controllers
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import ExitStack
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from rsoccer import registry
 from rsoccer._core import build_info
@@ -13,11 +13,9 @@ from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.replay.container import ReplayError
+from rsoccer.replay.recorded import Recorded
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import LEARN, Learn, Task
-
-if TYPE_CHECKING:
-    from rsoccer.replay.replay import Replay
 
 # A task's own checks of its options may meet values of any type.
 _REFUSALS: Final = (
@@ -28,7 +26,7 @@ LEARNER: Final = "LEARN"
 
 
 def resume(
-    replay: Replay,
+    replay: Recorded,
     frame: int,
     task: Task | None,
     controllers: Controllers | None,
@@ -81,7 +79,7 @@ def resume(
     return matches
 
 
-def _task(replay: Replay) -> Task:
+def _task(replay: Recorded) -> Task:
     """The task of a replay, made from its name and options."""
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
