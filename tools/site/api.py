@@ -69,6 +69,8 @@ GROUPS: Final = (
             "rsoccer.senses",
             "rsoccer.markers",
             "rsoccer.registry",
+            "rsoccer.registry.names",
+            "rsoccer.registry.arguments",
             "rsoccer.option_values",
             "rsoccer.plugins",
             "rsoccer.testing.task_check",
