@@ -1,4 +1,4 @@
-"""Whatever plays matches closes each simulator that it makes, once, after an error too.
+"""Each simulator is closed once by the interface or function that makes it, after an error too.
 
 Those of other libraries are in `tests/wrappers`.
 """

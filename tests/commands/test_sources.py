@@ -65,7 +65,7 @@ def test_a_recorded_match_shows_what_the_simulator_did(command: str, tmp_path: P
     assert len(replay) > 10
     moved = replay.frame.robots.position - replay.frame.robots.position[0]
     assert np.abs(moved[:200]).max() < 0.02  # a restart of play moves robots later
-    assert np.abs(replay.commands).max() > 1.0, "the robots were told to move"
+    assert np.abs(replay.commands).max() > 1.0, "the robots were commanded to move"
 
 
 @pytest.mark.parametrize("command", WORDS)

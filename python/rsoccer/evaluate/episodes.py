@@ -61,7 +61,7 @@ class EpisodeRunner:
     simulator: SimulatorSource | None = None
     """moves the robots, as for `Matches`"""
     sensing: SensingSource | None = None
-    """what robots know of the true state, as for `Matches`"""
+    """sensor model of the robots, as for `Matches`"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
