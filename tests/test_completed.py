@@ -224,7 +224,7 @@ def test_wrong_arguments_are_named() -> None:
     with pytest.raises(
         TypeError, match="stepper: expected one that can place bodies, got NoReader"
     ):
-        CompletedSimulator(NoReader(), config)  # type: ignore[arg-type]
+        CompletedSimulator(NoReader(), config)
     matches = Matches("VSS-v0", simulator=CompletedStepper(NoReader(), config))
     with pytest.raises(TypeError, match="NoReader has no read"):
         matches.reset()

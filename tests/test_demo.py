@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from rsoccer import registry
+from rsoccer.registry import names as registry_names
 from tests.train.short_task import NAME, register_all
 
 
@@ -17,7 +17,7 @@ def test_the_demo_writes_policies_metrics_and_pictures(
     for package in ("torch", "pygame", "imageio_ffmpeg", "matplotlib"):
         pytest.importorskip(package)
     demo: Any = importlib.import_module("rsoccer.demo")
-    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    monkeypatch.setattr(registry_names, "_TASKS", dict(registry_names._TASKS))
     register_all()
     record_replay = demo.record_replay
 

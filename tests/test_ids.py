@@ -15,11 +15,11 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from pettingzoo import AECEnv
 
 import rsoccer
-from rsoccer import registry
 from rsoccer.envs.parallel import SoccerParallelEnv
 from rsoccer.envs.robots_vector import RobotsVectorEnv
 from rsoccer.envs.single import SoccerEnv
 from rsoccer.envs.vector import SoccerVectorEnv
+from rsoccer.registry import names as registry_names
 from rsoccer.task import LEARN, Learn
 from rsoccer.tasks import VssSelfPlay, VssSingle
 from tests.helpers import comparable
@@ -34,7 +34,7 @@ needs_zoo_registry = pytest.mark.skipif(
 @pytest.fixture(autouse=True)
 def restored_registries(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Remove the names and ids that a test registers."""
-    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    monkeypatch.setattr(registry_names, "_TASKS", dict(registry_names._TASKS))
     names = [name for name in ("parallel_registry", "aec_registry") if hasattr(pettingzoo, name)]
     kept: list[dict[str, Any]] = [getattr(pettingzoo, name) for name in names]
     kept.append(gymnasium.registry)

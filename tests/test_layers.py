@@ -1,9 +1,10 @@
 """Layers of the package: a module imports only from earlier layers."""
 
 import ast
+import graphlib
 import subprocess
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import rsoccer
@@ -75,16 +76,20 @@ def rank(module: str) -> int:
     return next(i for i, layer in enumerate(LAYERS) if module in layer)
 
 
-def imported(node: ast.AST) -> list[str]:
-    """Return the modules of the package that a statement imports."""
+def full_names(node: ast.AST) -> list[str]:
+    """Return the names that a statement imports from the package, with their modules."""
     if isinstance(node, ast.Import):
         names = [alias.name for alias in node.names]
     elif isinstance(node, ast.ImportFrom) and node.module:
         names = [f"{node.module}.{alias.name}" for alias in node.names]
     else:
         return []
-    parts = [name.split(".") for name in names]
-    return [entry_of(name[1:]) for name in parts if name[0] == "rsoccer"]
+    return [name for name in names if name.split(".")[0] == "rsoccer"]
+
+
+def imported(node: ast.AST) -> list[str]:
+    """Return the modules of the package that a statement imports."""
+    return [entry_of(name.split(".")[1:]) for name in full_names(node)]
 
 
 def imports() -> Iterator[tuple[str, str]]:
@@ -117,3 +122,30 @@ def test_importing_the_package_loads_no_heavy_library() -> None:
     program = f"import sys, rsoccer; sys.exit(str([m for m in {heavy} if m in sys.modules] or ''))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stderr.strip() == ""
+
+
+def files() -> dict[str, Path]:
+    """Return all modules of the package but its root, which exports their names."""
+    paths = {path.relative_to(ROOT).with_suffix("").parts: path for path in ROOT.rglob("*.py")}
+    names = {".".join(p[:-1] if p[-1] == "__init__" else p): path for p, path in paths.items()}
+    return {name: path for name, path in names.items() if name}
+
+
+def used(path: Path, modules: Collection[str]) -> set[str]:
+    """Return the modules that a file imports from."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        for name in full_names(node):
+            parts = name.split(".")[1:]
+            prefixes = [".".join(parts[:end]) for end in range(len(parts), 0, -1)]
+            names |= set([prefix for prefix in prefixes if prefix in modules][:1])
+    return names
+
+
+def test_modules_do_not_import_each_other_in_cycles() -> None:
+    """Formerly a replay imported the page that it became, whose module imported the replay."""
+    modules = files()
+    graph = {name: used(path, modules) - {name} for name, path in modules.items()}
+    assert sum(map(len, graph.values())) > 500, "imports are found"
+    order = [*graphlib.TopologicalSorter(graph).static_order()]  # raises for a cycle
+    assert order.index("replay.recorded") < order.index("replay.page") < order.index("replay")

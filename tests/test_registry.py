@@ -5,6 +5,7 @@ import pytest
 
 import rsoccer
 from rsoccer import registry
+from rsoccer.registry import names as registry_names
 from rsoccer.task import Task
 from rsoccer.tasks import VssMulti, VssSelfPlay
 
@@ -12,8 +13,8 @@ from rsoccer.tasks import VssMulti, VssSelfPlay
 @pytest.fixture(autouse=True)
 def restored_registry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Remove the names that a test registers."""
-    for names in ("_TASKS", "_ALIASES", "_REMOVED"):
-        monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
+    for table in ("_TASKS", "_ALIASES", "_REMOVED"):
+        monkeypatch.setattr(registry_names, table, dict(getattr(registry_names, table)))
 
 
 def test_every_task_of_the_package_is_registered() -> None:

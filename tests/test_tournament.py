@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import registry
 from rsoccer.cli import main
 from rsoccer.evaluate.tournament import summarize
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.policies.noise import Zero
 from rsoccer.policies.policy_file import FORMAT
+from rsoccer.registry import names as registry_names
 from tests.train.short_task import NAME, ShortSelfPlay, register_all
 
 TASK = ShortSelfPlay()
@@ -200,7 +200,7 @@ def test_teams_of_nearly_equal_skill_have_no_cycle_after_two_matches(seed: int) 
 def test_the_command_prints_and_writes_the_result(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    monkeypatch.setattr(registry_names, "_TASKS", dict(registry_names._TASKS))
     register_all()
     paths = [tmp_path / "result.json", tmp_path / "result.png"]
     words = ["tournament", "chase", "ou", "--matches", "2", "--task", NAME, "--threads", "1"]

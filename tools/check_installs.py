@@ -27,7 +27,7 @@ COMMAND: Final = "import sys, rsoccer.cli; sys.exit(rsoccer.cli.main(['list']))"
 
 
 class Install(NamedTuple):
-    """What a line is for."""
+    """Program that needs a line, and the environment that it begins from."""
 
     program: str
     """Code that needs the line, or the name of a library whose blocks in docs/libraries.md do."""

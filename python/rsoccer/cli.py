@@ -63,16 +63,18 @@ def _run(arguments: Sequence[str] | None) -> None:
 
     from rsoccer.commands import command_type
     from rsoccer.commands.numbers import whole_numbers
+    from rsoccer.commands.sources import refusals_as_wrong_input
 
-    command = tyro.cli(
-        command_type(words),
-        prog="rsoccer",
-        description="Robot soccer for reinforcement learning. `rsoccer --version` prints the "
-        "versions of the package and of its physics.",
-        args=words,
-        registry=whole_numbers(),
-    )
-    command.run()
+    with refusals_as_wrong_input():
+        command = tyro.cli(
+            command_type(words),
+            prog="rsoccer",
+            description="Robot soccer for reinforcement learning. `rsoccer --version` prints the "
+            "versions of the package and of its physics.",
+            args=words,
+            registry=whole_numbers(),
+        )
+        command.run()
 
 
 def version() -> str:

@@ -5,7 +5,7 @@ a row follow from consecutive frames, see `rsoccer.derived`. With them every tas
 plays as on `rsoccer.Simulator`; which columns agree, and how well, is in the tests of this module.
 """
 
-from typing import Final, Protocol
+from typing import ClassVar, Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,8 @@ class CompletedStepper:
     their velocities.
     """
 
+    _needs_placer: ClassVar[bool] = False
+
     def __init__(
         self,
         stepper: Stepper,
@@ -55,9 +57,15 @@ class CompletedStepper:
             gap: gap up to which bodies touch, m, at least 0: with noisy poses about their noise.
 
         Raises:
-            TypeError: a number of the wrong type.
+            TypeError: a number of the wrong type, or for a `CompletedSimulator` a stepper that
+                cannot place bodies.
             ValueError: a number out of range.
         """
+        if self._needs_placer and placer_of(stepper) is None:
+            raise TypeError(
+                f"stepper: expected one that can place bodies, got {type(stepper).__name__}; "
+                "CompletedStepper takes others"
+            )
         worlds = checks.integer("worlds", worlds, 1)
         self._stepper, self._config = stepper, config
         self._differentiates = checks.boolean("velocities", velocities)
@@ -169,36 +177,7 @@ class CompletedSimulator(CompletedStepper):
     """A simulator with complete rows, over one that places bodies and reports only poses."""
 
     _stepper: PlacingStepper
-
-    def __init__(
-        self,
-        stepper: PlacingStepper,
-        config: SimConfig,
-        worlds: int = 1,
-        *,
-        velocities: bool = True,
-        gap: float = CONTACT_GAP,
-    ) -> None:
-        """Put the completion over a simulator.
-
-        Args:
-            stepper: the simulator of n worlds.
-            config: field, ball and robots.
-            worlds: number of worlds n, at least 1.
-            velocities: True: velocities are differences of poses; False: the simulator fills them
-                in.
-            gap: gap up to which bodies touch, m, at least 0: with noisy poses about their noise.
-
-        Raises:
-            TypeError: a number of the wrong type, or a stepper that cannot place bodies.
-            ValueError: a number out of range.
-        """
-        if placer_of(stepper) is None:
-            raise TypeError(
-                f"stepper: expected one that can place bodies, got {type(stepper).__name__}; "
-                "CompletedStepper takes others"
-            )
-        super().__init__(stepper, config, worlds, velocities=velocities, gap=gap)
+    _needs_placer = True
 
     def place(
         self, worlds: Mask, rows: Floats, out: Floats, parameters: Floats | None = None

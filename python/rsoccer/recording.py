@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import MIN_WIDTH, write_video
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 
@@ -29,6 +31,8 @@ def record_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Path:
     """Play a match, episode after episode, and write it to a video file.
 
@@ -46,15 +50,28 @@ def record_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the video, 64 to 4096 pixels; by default 720, or more on a large field.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         The path of the file: a .gif where ffmpeg is missing, see `write_video`.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    images, fps = film_match(task, controllers, seed, seconds, names=names, width=width)
-    return write_video(path, images, fps)
+    images, fps = film_match(
+        task,
+        controllers,
+        seed,
+        seconds,
+        names=names,
+        width=width,
+        simulator=simulator,
+        sensing=sensing,
+    )
+    with closing(images):
+        return write_video(path, images, fps)
 
 
 def film_match(
@@ -65,8 +82,12 @@ def film_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
-) -> tuple[Iterator[Image], float]:
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
+) -> tuple[Generator[Image, None, None], float]:
     """Return the images of a match; the match is played while they are drawn.
+
+    The simulator is closed after the last image, after an error, or by `close` of the iterator.
 
     Args:
         task: the task or its id; by default the task of the first trained policy among
@@ -76,17 +97,35 @@ def film_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         An iterator over images (height, width, 3), and their rate in images per second.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    matches = policy_match(task, controllers, seed, seconds)
-    config = matches.task.config
-    width = default_width(config, MIN_WIDTH) if width is None else width
-    return _images(matches, Renderer(config, width), seconds, names), 1.0 / config.time_step
+    matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
+    images = _film(matches, simulator, seconds, names, width)
+    next(images)  # from now on it closes the simulator, whatever ends it
+    return images, 1.0 / matches.task.config.time_step
+
+
+def _film(
+    matches: Matches,
+    simulator: SimulatorSource | None,
+    seconds: float,
+    names: tuple[str, str],
+    width: int | None,
+) -> Generator[Image, None, None]:
+    """An empty image, and those of the match, at whose end its simulator is closed."""
+    with closed_after(matches, simulator):
+        config = matches.task.config
+        renderer = Renderer(config, default_width(config, MIN_WIDTH) if width is None else width)
+        yield np.empty((0, 0, 3), np.uint8)
+        yield from _images(matches, renderer, seconds, names)
 
 
 def _images(

@@ -8,12 +8,13 @@ processes: the module is imported where the matches are made.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from contextlib import AbstractContextManager, closing, nullcontext
+from typing import Any, TypeAlias, TypeVar
 
 from rsoccer import plugins
 from rsoccer._core import SimConfig, Simulator, Threads
 from rsoccer.senses import SensorModel
-from rsoccer.simulator_interface import Stepper
+from rsoccer.simulator_interface import Closer, Stepper
 
 SimulatorFactory: TypeAlias = Callable[[SimConfig, int, Threads], Stepper]
 """Makes a simulator from robots, ball and field, the number of worlds, and the threads of the
@@ -23,6 +24,7 @@ SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
 environment with it cannot be copied."""
 SensingSource: TypeAlias = SensorModel | str
 """A sensor model, or "module:name" of one or of a function without arguments that makes it."""
+_Closer = TypeVar("_Closer", bound=Closer)
 
 
 def make_simulator(
@@ -59,6 +61,20 @@ def is_shared(source: object) -> bool:
         source: a `SimulatorSource` or None.
     """
     return not (source is None or isinstance(source, str) or callable(source))
+
+
+def closed_after(
+    matches: _Closer, source: SimulatorSource | None
+) -> AbstractContextManager[_Closer]:
+    """Return a context manager that closes matches at its end, also after an error.
+
+    A simulator that was given itself stays open: its owner closes it.
+
+    Args:
+        matches: what `Matches` is.
+        source: what their simulator was made from.
+    """
+    return nullcontext(matches) if is_shared(source) else closing(matches)
 
 
 def make_sensing(source: SensingSource | None) -> SensorModel | None:

@@ -11,6 +11,7 @@ It needs TorchRL: `pip install "torchrl>=0.14"`.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from typing import Any
 
 import numpy as np
@@ -108,11 +109,9 @@ class SoccerEnv(EnvBase):
                 learners if `learner` is given.
             learner: the only robot that learns, such as "blue_0"; None for all robots that the
                 task and `controllers` let learn.
-            simulator: moves the robots in place of `rsoccer.Simulator`: a function
-                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-                simulator, with which the environment cannot be copied.
-            sensing: model of what robots know of the true state, or its text "module:name"; None if
-                they know it exactly.
+            simulator: moves the robots, as for `Matches`. With a simulator itself the environment
+                cannot be copied.
+            sensing: what robots know of the true state, as for `Matches`.
             group_map: names of the learners by group, or one of TorchRL's `MarlGroupMapType`;
                 None for teams. `MarlGroupMapType.ALL_IN_ONE_GROUP` is one group "agents".
             state: True for the global state under "state".
@@ -137,6 +136,18 @@ class SoccerEnv(EnvBase):
             simulator=simulator,
             sensing=sensing,
         )
+        with ExitStack() as on_error:
+            on_error.callback(self.matches.close)
+            self._prepare(group_map, state, device)
+            on_error.pop_all()
+
+    def _prepare(
+        self,
+        group_map: GroupMap | MarlGroupMapType | None,
+        state: bool,
+        device: Any,  # noqa: ANN401
+    ) -> None:
+        """Set everything but the matches."""
         super().__init__(device=device, batch_size=(self.matches.worlds,))
         self.group_map = _groups(group_map, self.matches.agents)
         names = self.matches.agents
@@ -149,6 +160,15 @@ class SoccerEnv(EnvBase):
         self._ends = np.zeros((2, self.matches.worlds), np.bool_)  # terminated, truncated
         self._pending_seed: int | None = None
         self._make_specs()
+
+    def close(self, *, raise_if_closed: bool = True) -> None:
+        """Close the simulator; may be repeated.
+
+        Args:
+            raise_if_closed: ignored, as by TorchRL's own environments.
+        """
+        super().close(raise_if_closed=raise_if_closed)
+        self.matches.close()
 
     def _make_specs(self) -> None:
         """Describe all keys, for TorchRL's checks and buffers."""

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 import rsoccer
+from rsoccer.arrays import Array
 
 
 @pytest.fixture
@@ -16,7 +17,8 @@ def filmed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Any]:
 
     def film(task: rsoccer.Task, controllers: Any, *_: Any, names: Any, **__: Any) -> Any:  # noqa: ANN401
         filmed.append((task.name, controllers, names))
-        return iter([]), 40.0
+        images: list[Array] = []
+        return (image for image in images), 40.0
 
     monkeypatch.setattr(record, "film_match", film)
     monkeypatch.setattr("rsoccer.render.video.write_video", lambda *_: video)

@@ -6,8 +6,9 @@ import sys
 import pytest
 
 import rsoccer
-from rsoccer import cli, registry
+from rsoccer import cli
 from rsoccer.policies import trained
+from rsoccer.registry import names as registry_names
 from rsoccer.tasks import VssSelfPlay
 
 
@@ -39,7 +40,7 @@ def test_a_task_whose_options_have_no_defaults_is_listed(
         def __init__(self, robots: int) -> None:
             super().__init__(n_blue=robots, n_yellow=robots)
 
-    monkeypatch.setattr(registry, "_TASKS", dict(registry._TASKS))
+    monkeypatch.setattr(registry_names, "_TASKS", dict(registry_names._TASKS))
     rsoccer.register("Sized-v0", Sized)
     assert cli.main(["list"]) == 0
     shown = "Sized-v0: A match of as many robots as are asked for.\n    robots\n"

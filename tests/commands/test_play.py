@@ -2,7 +2,7 @@
 
 import subprocess
 import sys
-from typing import Any
+from typing import Any, Self
 
 import pytest
 
@@ -20,6 +20,12 @@ def played(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     class Recorded:
         def __init__(self, task: rsoccer.Task, *teams: Any, names: Any, **_: Any) -> None:  # noqa: ANN401
             played.append((task.name, *teams, names))
+
+        def __enter__(self) -> Self:
+            return self
+
+        def __exit__(self, *_: object) -> None:
+            played.append("closed")
 
         def run(self, seconds: float) -> None:
             played.append(seconds)
@@ -58,8 +64,8 @@ def test_play_gives_the_policies_to_the_other_robots(played: list[Any]) -> None:
     arguments = ["play", "VSSSelfPlay-v0", "--robot", "yellow_1", "--policy", "chase"]
     arguments += ["--opponents", "ou", "--controllers", "blue_2=zero", "--seconds", "3"]
     assert cli.main(arguments) == 0
-    (name, controllers, robot, names), seconds = played
-    assert (name, robot, seconds) == ("VSSSelfPlay-v0", "yellow_1", 3.0)
+    (name, controllers, robot, names), seconds, end = played
+    assert (name, robot, seconds, end) == ("VSSSelfPlay-v0", "yellow_1", 3.0, "closed")
     assert names == ("OU ZERO", "YOU")
     assert controllers == {
         **{f"yellow_{i}": "chase" for i in range(3)},
@@ -70,7 +76,7 @@ def test_play_gives_the_policies_to_the_other_robots(played: list[Any]) -> None:
 
 def test_play_begins_with_the_first_learner(played: list[Any]) -> None:
     assert cli.main(["play", "SSLContestedPossession-v0", "--controllers", "yellow=zero"]) == 0
-    (_, controllers, robot, names), _ = played
+    (_, controllers, robot, names), *_ = played
     assert robot == "blue_0"
     assert names == ("YOU", "ZERO")
     assert controllers == {"blue_0": "strike", "yellow_0": "zero"}

@@ -1,4 +1,5 @@
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -78,6 +79,25 @@ def test_options_of_the_task_are_kept(task: Task) -> None:
     resumed = Replay.from_bytes(replay.to_bytes()).resume(0)
     assert resumed.task == task
     assert resumed.task.config == task.config
+
+
+def test_a_match_goes_on_with_the_simulator_and_the_senses_that_are_given() -> None:
+    named: dict[str, Any] = {
+        "simulator": "tests.simulators:Still",
+        "sensing": "tests.simulators:Blind",
+    }
+    teams: dict[str, Controller] = {"blue": "chase", "yellow": "ou"}
+    replay = record_replay("VSSSelfPlay-v0", teams, seconds=0.5, snapshot_interval=0.25, **named)
+    resumed = replay.resume(10, **named)
+    actions = np.zeros((1, 0, resumed.action_size), np.float32)
+    for _ in range(5):
+        resumed.step(actions)
+    assert same(resumed.frame.rows[0], replay.rows[15])
+    assert np.abs(replay.commands).max() > 1.0
+    assert np.abs(replay.frame.robots.position - replay.frame.robots.position[0]).max() < 0.02
+    assert not resumed.play.sensed.ball.position.any()
+    with pytest.raises(ReplayError, match=r"resume: sensing: the module .* has no 'missing'"):
+        replay.resume(10, sensing="tests.simulators:missing")
 
 
 def test_default_options_are_not_written() -> None:

@@ -10,6 +10,7 @@ from rsoccer import Matches, registry
 from rsoccer._core import CROSSINGS
 from rsoccer.evaluate import evaluate
 from rsoccer.policies.network import Network
+from rsoccer.registry import names as registry_names
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.testing import check_task
 from rsoccer.testing.pressure import Pressing
@@ -76,8 +77,8 @@ def test_goals_are_at_the_lines_of_the_field() -> None:
 def test_a_policy_can_be_trained_on_the_5v5_field(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for names in ("_TASKS", "_ALIASES"):
-        monkeypatch.setattr(registry, names, dict(getattr(registry, names)))
+    for table in ("_TASKS", "_ALIASES"):
+        monkeypatch.setattr(registry_names, table, dict(getattr(registry_names, table)))
     registry.alias("FiveASide-v0", "VSSSelfPlay-v0", field="vss_5v5", n_blue=5, n_yellow=5)
     policy = Network.load(train(one_update("FiveASide-v0", tmp_path)))
     policy.check_fits(FIVE, FIVE.layout.size)

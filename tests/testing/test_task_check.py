@@ -307,7 +307,7 @@ class RewardsAllWorldsAlike(Correct):
 
 
 class DrawsForNeighbors(Correct):
-    """Where one world is lucky, all draw again."""
+    """All worlds draw again where one of them is lucky."""
 
     def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
         outcome = super().calculate_reward_and_done(play)

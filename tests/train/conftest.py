@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from rsoccer import registry
+from rsoccer.registry import names as registry_names
 from rsoccer.train import train
 from rsoccer.train.opponents import opponent_pool
 from tests.train.short_task import register_all, tiny
@@ -14,7 +14,7 @@ from tests.train.short_task import register_all, tiny
 @pytest.fixture(autouse=True, scope="module")
 def short_tasks() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(registry, "_TASKS", dict(registry._TASKS))
+        patch.setattr(registry_names, "_TASKS", dict(registry_names._TASKS))
         register_all()
         # A run of six updates fills the pool, and evicts past policies from it.
         patch.setattr(opponent_pool, "POOL_SIZE", 2)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer.replay import Replay
 from rsoccer.train import Args, train
 from rsoccer.train.clock import Clock, TimedSimulator
 from rsoccer.train.run.ladder import Ladder
@@ -37,6 +38,15 @@ def test_the_ladder_is_measured_with_both(tmp_path: Path, monkeypatch: pytest.Mo
     ladder = Ladder(args.run, trainer.task, 1, simulator=args.simulator, sensing=args.sensing)
     ladder.measure(trainer.network())
     assert used == [NAMED["simulator"]]
+
+
+def test_the_match_of_the_policy_is_played_with_both(tmp_path: Path) -> None:
+    train(tiny(tmp_path, samples=1, match_page=True, **NAMED))
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert np.abs(replay.commands).max() > 1.0
+    first = replay.frame.robots.position[: replay.episodes[0].stop]
+    assert len(first) > 5
+    assert np.abs(first - first[0]).max() < 0.02
 
 
 def _noted(used: list[Any], given: Any) -> Still:  # noqa: ANN401

@@ -69,6 +69,8 @@ GROUPS: Final = (
             "rsoccer.senses",
             "rsoccer.markers",
             "rsoccer.registry",
+            "rsoccer.registry.names",
+            "rsoccer.registry.arguments",
             "rsoccer.option_values",
             "rsoccer.plugins",
             "rsoccer.testing.task_check",
@@ -172,6 +174,7 @@ GROUPS: Final = (
     Group(
         "Replays",
         (
+            "rsoccer.replay.recorded",
             "rsoccer.replay.replay",
             "rsoccer.replay.recorder",
             "rsoccer.replay.evaluation",

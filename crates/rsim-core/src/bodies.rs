@@ -3,6 +3,9 @@
 //! Numbers of a body are in the block of four that its index names, next to those of its neighbors. A
 //! block is plain data of fixed size, so the blocks of a match are copied at once.
 
+mod robots;
+mod warm_starts;
+
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{
@@ -168,17 +171,6 @@ impl Bodies {
         self.blocks[block].motion.velocity.set(lane, velocity);
     }
 
-    /// Gives a robot a charged kicker, and wheels and a dribbler that have done nothing yet.
-    pub(crate) fn reset_robot(&mut self, index: usize) {
-        let (block, lane) = place_of(robot(index));
-        let block = &mut self.blocks[block];
-        block.acceleration.clear(lane);
-        block.drive.clear(lane);
-        for number in [&mut block.recharging, &mut block.dribbling, &mut block.collision_speed] {
-            number.as_mut_array()[lane] = 0.0;
-        }
-    }
-
     /// Applies an impulse (N s) to a body, at `arm` (m) from its center of mass.
     pub(crate) fn apply_impulse(
         &mut self,
@@ -257,77 +249,6 @@ impl Bodies {
         // From bodies to robots.
         set_bits((near & self.all()) >> robot(0))
     }
-
-    /// Time until the kicker of a robot is charged, s.
-    pub(crate) fn recharging(&self, index: usize) -> f32 {
-        let (block, lane) = place_of(robot(index));
-        self.blocks[block].recharging.as_array()[lane]
-    }
-
-    pub(crate) fn set_recharging(&mut self, index: usize, time: f32) {
-        let (block, lane) = place_of(robot(index));
-        self.blocks[block].recharging.as_mut_array()[lane] = time;
-    }
-
-    /// Speed of a robot's dribbler by its maximum, 0 to 1.
-    pub(crate) fn dribbling(&self, index: usize) -> f32 {
-        let (block, lane) = place_of(robot(index));
-        self.blocks[block].dribbling.as_array()[lane]
-    }
-
-    pub(crate) fn set_dribbling(&mut self, index: usize, speed: f32) {
-        let (block, lane) = place_of(robot(index));
-        self.blocks[block].dribbling.as_mut_array()[lane] = speed;
-    }
-
-    /// Closing speed of a robot's hardest contact with another robot since the control step began, m/s.
-    pub(crate) fn collision_speed(&self, index: usize) -> f32 {
-        let (block, lane) = place_of(robot(index));
-        self.blocks[block].collision_speed.as_array()[lane]
-    }
-
-    /// Records that a robot touched another one at a closing speed, m/s.
-    pub(crate) fn add_collision(&mut self, index: usize, closing: f32) {
-        let (block, lane) = place_of(robot(index));
-        let speed = &mut self.blocks[block].collision_speed.as_mut_array()[lane];
-        *speed = speed.max(closing);
-    }
-
-    /// Clears the collision speeds for a new control step.
-    pub(crate) fn clear_collisions(&mut self) {
-        for block in &mut self.blocks {
-            block.collision_speed = Lanes::ZERO;
-        }
-    }
-
-    /// Writes the first `count` warm starts into `all`.
-    pub(crate) fn list_warm_starts(&self, count: usize, all: &mut Vec<WarmStart>) {
-        all.clear();
-        for block in &self.blocks[..count.div_ceil(WARM_STARTS)] {
-            let left = (count - all.len()).min(WARM_STARTS);
-            all.extend_from_slice(&block.warm_starts[..left]);
-        }
-    }
-
-    /// Drops those of the first `count` warm starts whose keys fulfill a condition.
-    pub(crate) fn drop_warm_starts(&mut self, count: usize, dropped: impl Fn(u16) -> bool) {
-        let stored = self.blocks.iter_mut().flat_map(|block| &mut block.warm_starts);
-        for warm_start in stored.take(count).filter(|stored| dropped(stored.key)) {
-            *warm_start = WarmStart::NONE;
-        }
-    }
-
-    /// Stores warm starts, and returns their number. Those beyond the capacity are dropped: their pairs
-    /// start from no impulse.
-    pub(crate) fn store_warm_starts(&mut self, all: impl Iterator<Item = WarmStart>) -> usize {
-        let mut count = 0;
-        let slots = self.blocks.iter_mut().flat_map(|block| &mut block.warm_starts);
-        for (slot, warm_start) in slots.zip(all) {
-            *slot = warm_start;
-            count += 1;
-        }
-        count
-    }
 }
 
 /// Moves the bodies of a block by sub-steps without contacts.
@@ -339,29 +260,4 @@ pub(crate) fn advance(motion: &mut MotionBlock, gain: &BlockAcceleration, steps:
 /// The numbers of the first block with 0 for the ball.
 fn without_ball(numbers: Lanes) -> Lanes {
     mask_of(|lane| lane != BALL) & numbers
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::models::config::SimConfig;
-    use crate::state::State;
-
-    fn warm_starts(count: u16) -> impl Iterator<Item = WarmStart> {
-        (1..=count).map(|key| WarmStart { key, ..WarmStart::NONE })
-    }
-
-    #[test]
-    fn warm_starts_fill_the_blocks_in_order_and_those_beyond_are_dropped() {
-        let config = SimConfig::vss(3, 3);
-        let mut state = State::new(&config, &BodyParameters::of(&config), &[]).boxed();
-        let bodies = &mut state.bodies;
-        for (given, kept) in [(0, 0), (1, 1), (16, 16), (17, 17), (32, 32), (40, 32)] {
-            let count = bodies.store_warm_starts(warm_starts(given));
-            assert_eq!(count, kept);
-            let mut listed = Vec::new();
-            bodies.list_warm_starts(count, &mut listed);
-            assert!(listed.iter().map(|one| one.key).eq(1..=given.min(32)), "{given}");
-        }
-    }
 }

@@ -6,7 +6,7 @@ use rsim_core::columns::ball_column;
 use rsim_core::scenes::{self, Scene, lone_ball, rolling_ball, steps};
 use rsim_core::{BallModel, SimConfig};
 
-/// What F 3.4 tabulates of a straight kick without spin: slide end (m, s), speeds at 3 and 6 m
+/// A row of table F 3.4 for a straight kick without spin: slide end (m, s), speeds at 3 and 6 m
 /// (m/s, `None` where it does not get so far), stop (m).
 struct RollOut {
     slide_way: f32,

@@ -37,7 +37,7 @@ fn pushed(model: &RobotModel, degrees: f32, pushes: &[[f32; 2]]) -> Scene {
     scene
 }
 
-/// How far the robot at the center is, and by how many degrees it has turned, after 10 s.
+/// Distance of the robot from the center, and degrees by which it has turned, after 10 s.
 fn displaced(scene: &Scene, degrees: f32) -> [f32; 2] {
     let row = scene.after(steps(10.0, scene.config.time_step));
     let robot = robots(&row).next().expect("a robot");

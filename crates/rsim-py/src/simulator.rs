@@ -4,8 +4,8 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use rsim_core::Batch;
 use rsim_core::columns::BALL_COLUMNS;
+use rsim_core::{Batch, PlaceError};
 
 use crate::arrays::{
     Commands, InputRows, Mask, RobotsMask, RowsOut, finite, readable, values, writeable,
@@ -58,17 +58,15 @@ impl Simulator {
         out: &Bound<'_, PyAny>,
         parameters: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
-        let mask = self.mask(worlds)?;
-        let mask = values(&mask);
-        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
-        let shape = [chosen(&mask), self.0.config().parameters_size()];
+        let change = self.change(worlds, ("rows", rows), self.row_size(), out)?;
+        let shape = [change.chosen, self.0.config().parameters_size()];
         let parameters = parameters
             .map(|parameters| InputRows::new("parameters", parameters, &shape, out))
             .transpose()?;
-        let (rows, parameters) = (rows.values(), parameters.as_ref().map(InputRows::values));
-        let mut out = self.rows_out(out)?;
-        let out = out.as_slice_mut()?;
-        py.detach(|| self.0.place(&mask, &rows, parameters.as_deref(), out)).map_err(invalid)
+        let parameters = parameters.as_ref().map(InputRows::values);
+        change.make(py, self, |batch, mask, rows, out| {
+            batch.place(mask, rows, parameters.as_deref(), out)
+        })
     }
 
     fn restart(
@@ -78,13 +76,8 @@ impl Simulator {
         rows: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mask = self.mask(worlds)?;
-        let mask = values(&mask);
-        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
-        let rows = rows.values();
-        let mut out = self.rows_out(out)?;
-        let out = out.as_slice_mut()?;
-        py.detach(|| self.0.restart(&mask, &rows, out)).map_err(invalid)
+        let change = self.change(worlds, ("rows", rows), self.row_size(), out)?;
+        change.make(py, self, Batch::restart)
     }
 
     fn reposition_balls(
@@ -94,13 +87,8 @@ impl Simulator {
         balls: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mask = self.mask(worlds)?;
-        let mask = values(&mask);
-        let balls = InputRows::new("balls", balls, &[chosen(&mask), BALL_COLUMNS.len()], out)?;
-        let balls = balls.values();
-        let mut out = self.rows_out(out)?;
-        let out = out.as_slice_mut()?;
-        py.detach(|| self.0.reposition_balls(&mask, &balls, out)).map_err(invalid)
+        let change = self.change(worlds, ("balls", balls), BALL_COLUMNS.len(), out)?;
+        change.make(py, self, Batch::reposition_balls)
     }
 
     fn reposition_robots(
@@ -111,16 +99,13 @@ impl Simulator {
         rows: &Bound<'_, PyAny>,
         out: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mask = self.mask(worlds)?;
-        let mask = values(&mask);
-        let shape = [chosen(&mask), self.0.config().n_robots()];
+        let change = self.change(worlds, ("rows", rows), self.row_size(), out)?;
+        let shape = [change.chosen, self.0.config().n_robots()];
         let robots: RobotsMask = readable("robots", robots, &shape)?;
         let robots = values(&robots);
-        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
-        let rows = rows.values();
-        let mut out = self.rows_out(out)?;
-        let out = out.as_slice_mut()?;
-        py.detach(|| self.0.reposition_robots(&mask, &robots, &rows, out)).map_err(invalid)
+        change.make(py, self, |batch, mask, rows, out| {
+            batch.reposition_robots(mask, &robots, rows, out)
+        })
     }
 
     fn place_estimates<'py>(
@@ -130,16 +115,13 @@ impl Simulator {
         rows: &Bound<'py, PyAny>,
         out: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let mask = self.mask(worlds)?;
-        let mask = values(&mask);
-        let rows = InputRows::new("rows", rows, &[chosen(&mask), self.row_size()], out)?;
-        let rows = rows.values();
-        let mut out = self.rows_out(out)?;
-        let out = out.as_slice_mut()?;
+        let change = self.change(worlds, ("rows", rows), self.row_size(), out)?;
         let bodies = 1 + self.0.config().n_robots();
-        let mut moved = vec![0.0; chosen(&mask) * bodies];
-        py.detach(|| self.0.place_estimates(&mask, &rows, out, &mut moved)).map_err(invalid)?;
-        PyArray1::from_vec(py, moved).reshape([chosen(&mask), bodies])
+        let mut moved = vec![0.0; change.chosen * bodies];
+        change.make(py, self, |batch, mask, rows, out| {
+            batch.place_estimates(mask, rows, out, &mut moved)
+        })?;
+        PyArray1::from_vec(py, moved).reshape([change.chosen, bodies])
     }
 
     #[pyo3(signature = (commands, out, active = None))]
@@ -202,9 +184,18 @@ impl Simulator {
         self.0.config().row_size()
     }
 
-    /// The mask of the worlds that a method changes.
-    fn mask<'py>(&self, worlds: &Bound<'py, PyAny>) -> PyResult<Mask<'py>> {
-        readable("worlds", worlds, &[self.0.worlds()])
+    /// Reads the worlds that a method changes, and the numbers of each of them.
+    fn change<'a, 'py>(
+        &self,
+        worlds: &Bound<'py, PyAny>,
+        (name, numbers): (&str, &Bound<'py, PyAny>),
+        columns: usize,
+        out: &'a Bound<'py, PyAny>,
+    ) -> PyResult<Change<'a, 'py>> {
+        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let chosen = values(&mask).iter().filter(|&&chosen| chosen).count();
+        let numbers = InputRows::new(name, numbers, &[chosen, columns], out)?;
+        Ok(Change { mask, chosen, numbers, out })
     }
 
     fn rows_out<'py>(&self, out: &Bound<'py, PyAny>) -> PyResult<RowsOut<'py>> {
@@ -212,7 +203,28 @@ impl Simulator {
     }
 }
 
-/// Number of worlds of a mask.
-fn chosen(mask: &[bool]) -> usize {
-    mask.iter().filter(|&&chosen| chosen).count()
+/// Input of a method that changes some worlds.
+struct Change<'a, 'py> {
+    mask: Mask<'py>,
+    /// Number of worlds of the mask.
+    chosen: usize,
+    /// A row for each of them.
+    numbers: InputRows<'py>,
+    out: &'a Bound<'py, PyAny>,
+}
+
+impl Change<'_, '_> {
+    /// Makes the change by a method of the batch, which takes mask, numbers and output.
+    fn make(
+        &self,
+        py: Python<'_>,
+        simulator: &mut Simulator,
+        method: impl FnOnce(&mut Batch, &[bool], &[f32], &mut [f32]) -> Result<(), PlaceError> + Send,
+    ) -> PyResult<()> {
+        let (mask, numbers) = (values(&self.mask), self.numbers.values());
+        // The output is borrowed last: an input that shares its memory was copied before.
+        let mut out = simulator.rows_out(self.out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| method(&mut simulator.0, &mask, &numbers, out)).map_err(invalid)
+    }
 }

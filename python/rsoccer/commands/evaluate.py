@@ -12,6 +12,7 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
+from rsoccer.commands.sources import Sources
 from rsoccer.commands.subject import (
     DEFAULT_OPPONENT_HINT,
     DEFAULT_TASK_HINT,
@@ -31,7 +32,7 @@ from rsoccer.task import Task
 
 
 @dataclass(frozen=True)
-class Evaluate(Imports):
+class Evaluate(Sources, Imports):
     """Play matches with a policy and print its scores, half for each team in two-sided tasks."""
 
     subject: Annotated[str | None, Positional, SUBJECT] = None
@@ -83,6 +84,8 @@ class Evaluate(Imports):
                 task=task,
                 worlds=self.worlds,
                 threads=self.threads,
+                simulator=self.simulator,
+                sensing=self.sensing,
             )
             for opponent in self.opponents or (None,)
         ]
@@ -104,6 +107,8 @@ class Evaluate(Imports):
             self.seed,
             task=task,
             names=(team_name(policy), " ".join(map(team_name, opponents))),
+            simulator=self.simulator,
+            sensing=self.sensing,
         )
         if self.html is not None:
             write(f"page: {replay.save_html(self.html)}")

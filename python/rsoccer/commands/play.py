@@ -11,6 +11,7 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import Imports
+from rsoccer.commands.sources import Sources
 from rsoccer.commands.subject import check_policy_names, team_name
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
@@ -26,7 +27,7 @@ _FIRST_ROBOT = "(default: the first learner)"
 
 
 @dataclass(frozen=True)
-class Play(Imports):
+class Play(Sources, Imports):
     """Drive a robot by keyboard or gamepad, against policies and with them."""
 
     task: Annotated[str, Positional, arg(metavar="TASK")] = DEFAULT_TASK
@@ -69,7 +70,7 @@ class Play(Imports):
         task = task_with_options(self.task, self.task_options)
         robot = self.robot or next(iter(task.agents or task.robots))
         controllers = self._controllers(task, robot)
-        session = Session(
+        with Session(
             task,
             controllers,
             robot,
@@ -77,8 +78,10 @@ class Play(Imports):
             speed=self.speed,
             width=self.width,
             names=self._names(task, robot, controllers),
-        )
-        session.run(self.seconds)
+            simulator=self.simulator,
+            sensing=self.sensing,
+        ) as session:
+            session.run(self.seconds)
 
     def _controllers(self, task: Task, robot: str) -> dict[str, Controller]:
         """Policies of all robots: the task's own, then the options, the most specific last."""

@@ -13,6 +13,7 @@ from tyro.conf import Positional, arg
 
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
+from rsoccer.commands.sources import Sources
 from rsoccer.commands.subject import DEFAULT_TASK_HINT, check_policy_names
 from rsoccer.commands.task_options import TASK_OPTIONS, named_task
 from rsoccer.evaluate import tournament
@@ -26,7 +27,7 @@ _POLICIES = arg(
 
 
 @dataclass(frozen=True)
-class Tournament(Imports):
+class Tournament(Sources, Imports):
     """Play every policy against every other one, from both sides, and print their ratings."""
 
     policies: Annotated[tuple[str, ...], Positional, _POLICIES]
@@ -67,6 +68,8 @@ class Tournament(Imports):
             worlds=self.worlds,
             threads=self.threads,
             on_pair=_show_pairs,
+            simulator=self.simulator,
+            sensing=self.sensing,
         )
         write(str(result))
         if self.json is not None:

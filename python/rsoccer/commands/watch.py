@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from tyro.conf import Positional, arg
 
 from rsoccer.commands.imports import Imports
 from rsoccer.commands.output import check_output, write
+from rsoccer.commands.sources import Sources
 from rsoccer.commands.subject import (
     DEFAULT_OPPONENT_HINT,
     DEFAULT_TASK_HINT,
@@ -33,8 +35,14 @@ if TYPE_CHECKING:
     from rsoccer.render.image import Image
 
 
+_OF_MATCHES: Final = (
+    *("policy", "opponents", "task", "task_options", "simulator", "sensing", "snapshots"),
+)
+"""Options that a replay does not take."""
+
+
 @dataclass(frozen=True)
-class Watch(Imports):
+class Watch(Sources, Imports):
     """Show a match or a replay in a window, or write it to files: video, page, replay."""
 
     subject: Annotated[str | None, Positional, SUBJECT_OR_REPLAY] = None
@@ -91,7 +99,7 @@ class Watch(Imports):
 
     def _load(self, path: str) -> Replay:
         """The replay that is named in the place of a policy."""
-        for name in ("policy", "opponents", "task", "task_options", "snapshots"):
+        for name in _OF_MATCHES:
             if getattr(self, name) not in (None, {}):
                 raise ValueError(f"{name}: expected none for a replay, got {getattr(self, name)}")
         return Replay.load(path)
@@ -106,6 +114,8 @@ class Watch(Imports):
             self.seconds,
             names=names,
             snapshot_interval=self.snapshots,
+            simulator=self.simulator,
+            sensing=self.sensing,
         )
 
     def _play_replay(self, replay: Replay) -> None:
@@ -126,9 +136,17 @@ class Watch(Imports):
 
         task, controllers, names = self._match()
         images, fps = film_match(
-            task, controllers, self.seed, self.seconds, names=names, width=self.width
+            task,
+            controllers,
+            self.seed,
+            self.seconds,
+            names=names,
+            width=self.width,
+            simulator=self.simulator,
+            sensing=self.sensing,
         )
-        self._show(task.name, images, fps)
+        with closing(images):
+            self._show(task.name, images, fps)
 
     def _match(self) -> tuple[Task, dict[str, Controller], tuple[str, str]]:
         """The task, the controllers, and the names of the teams."""

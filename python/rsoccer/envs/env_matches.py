@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Mapping
+from contextlib import closing
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,13 @@ class EnvMatches(Matches):
         seed = secrets.randbits(63) if seed is None else seed
         super().__init__(task, worlds, seed, **settings)
         self._settings = settings
+        self._closed = False
+
+    def close(self) -> None:
+        """Close the simulator; later calls do nothing, as environments may be closed again."""
+        if not self._closed:
+            self._closed = True
+            super().close()
 
     @property
     def begun(self) -> bool:
@@ -112,7 +120,8 @@ class SeededCopies:
         self.__dict__.update(state)
         if self._matches.fresh:
             self.__dict__.update(_np_random=None, _np_random_seed=None)
-            self._matches = self._matches.with_seed(random_seed(self))
+            with closing(self._matches) as replaced:
+                self._matches = replaced.with_seed(random_seed(self))
 
 
 class SingleLearner:

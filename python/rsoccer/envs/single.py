@@ -62,11 +62,9 @@ def single_env(
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
             policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
             further learners if `learner` is given.
-        simulator: moves the robots in place of `rsoccer.Simulator`: a function
-            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-            simulator, with which the environment cannot be copied.
-        sensing: model of what robots know of the true state, or its text "module:name"; None if
-            they know it exactly.
+        simulator: moves the robots, as for `Matches`. With a simulator itself the environment
+            cannot be copied.
+        sensing: what robots know of the true state, as for `Matches`.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         **options: options of a registered task, the fields of its class.
 

@@ -52,11 +52,9 @@ def vector_env(
         controllers: policies of the other robots, by robot ("blue_1"), team ("blue") or "all": a
             policy, its name or its file. The task's defaults apply elsewhere, and "ou" in place of
             further learners if `learner` is given.
-        simulator: moves the robots in place of `rsoccer.Simulator`: a function
-            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-            simulator, with which the environment cannot be copied.
-        sensing: model of what robots know of the true state, or its text "module:name"; None if
-            they know it exactly.
+        simulator: moves the robots, as for `Matches`. With a simulator itself the environment
+            cannot be copied.
+        sensing: what robots know of the true state, as for `Matches`.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its action and pays no reward), "same_step" (within

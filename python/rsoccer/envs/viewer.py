@@ -177,8 +177,7 @@ class ViewedMatch:
 
         `reset`, `step` and `render` raise `ClosedEnvironmentError` from then on.
         """
-        if not self._viewer.closed:
-            self._matches.close()
+        self._matches.close()
         self._viewer.close()
 
     def _repr_png_(self) -> bytes | None:

@@ -63,11 +63,9 @@ def evaluate(
         worlds: matches played at once, at least 1. The starts do not depend on it, but a network's
             actions may differ in their last bits.
         threads: threads of the simulator, at least 1; by default one per available processor.
-        simulator: moves the robots in place of `rsoccer.Simulator`: a function
-            `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-            simulator, which has to fit the number of matches at once.
-        sensing: model of what robots know of the true state, or its text "module:name"; None if
-            they know it exactly.
+        simulator: moves the robots, as for `Matches`. A simulator itself has to fit the number of
+            matches at once, and stays open.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         Counts, the mean score, the mean return and the mean duration with their intervals.

@@ -15,7 +15,7 @@ from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
 from rsoccer.policies.base import Policy, PolicyInput, require_actions
 from rsoccer.rng import WorldRng
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 RETURN = "return"
@@ -61,7 +61,7 @@ class EpisodeRunner:
     simulator: SimulatorSource | None = None
     """moves the robots, as for `Matches`"""
     sensing: SensingSource | None = None
-    """what robots know of the true state, as for `Matches`"""
+    """sensor model of the robots, as for `Matches`"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
@@ -107,6 +107,12 @@ class EpisodeRunner:
             simulator=self.simulator,
             sensing=self.sensing,
         )
+        with closed_after(matches, self.simulator):
+            return self._play(matches, seed)
+
+    def _play(self, matches: Matches, seed: int) -> _Batch:
+        """Results of matches that have not begun."""
+        n = matches.worlds
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)
         results = _Batch(np.zeros(n), np.zeros(n), np.zeros(n), {})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Final, Self
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Shape
 from rsoccer.render.video import MIN_WIDTH
 from rsoccer.render.window import Window
+from rsoccer.sources import SensingSource, SimulatorSource, is_shared
 from rsoccer.task import Task
 
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0)
@@ -31,7 +32,7 @@ DIGIT_PAUSE: Final = 0.8
 
 
 class Session:
-    """A match with a person; `run` plays it in a window.
+    """A match with a person; `run` plays it in a window, and a `with` statement closes it.
 
     Attributes:
         driver: the person's robot and controls.
@@ -56,6 +57,8 @@ class Session:
         width: int | None = None,
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         devices: Devices | None = None,
+        simulator: SimulatorSource | None = None,
+        sensing: SensingSource | None = None,
     ) -> None:
         """Begin the first episode; the window opens with the first image.
 
@@ -70,8 +73,11 @@ class Session:
                 field.
             names: names of blue and of yellow on the score board.
             devices: keyboard and gamepad; by default those of this machine.
+            simulator: moves the robots, as for `Matches`.
+            sensing: what robots know of the true state, as for `Matches`.
 
         Raises:
+            ImportError: a text "module:name" whose module or name does not exist.
             ValueError: a speed that is not positive, an unknown robot, a robot without a policy,
                 or a task of neither league.
         """
@@ -79,12 +85,6 @@ class Session:
             raise ValueError(f"speed: expected a positive number, got {speed}")
         self.driver = Driver(task, robot)
         self.devices = Devices() if devices is None else devices
-        self.matches = Matches(
-            task,
-            seed=seed,
-            controllers=human_controllers(self.driver, controllers),
-            autoreset="disabled",
-        )
         self.score = (0, 0)
         self.clock = 0.0
         self.speed = speed
@@ -96,6 +96,15 @@ class Session:
             config, default_width(config, MIN_WIDTH) if width is None else width
         )
         self._effects = Effects(config)
+        self.matches = Matches(
+            task,
+            seed=seed,
+            controllers=human_controllers(self.driver, controllers),
+            autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
+        )
+        self._closes_matches = not is_shared(simulator)
         self._events: tuple[Shape, ...] = ()
         self._names = names
         self._caption = ""
@@ -104,6 +113,19 @@ class Session:
         self._digit = 0  # the last one that was pressed
         self._digit_left = 0.0  # seconds in which a second one may follow
         self.reset()
+
+    def __enter__(self) -> Self:
+        """Return the session, which is closed at the end of the `with` statement."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the window, and the simulator unless it was given itself."""
+        self.window.close()
+        if self._closes_matches:
+            self.matches.close()
 
     def run(self, seconds: float = math.inf) -> None:
         """Play until the window is closed.

@@ -189,7 +189,7 @@ def _load(text: str) -> Network:
 
 
 def _expected(path: str) -> str:
-    """What a policy is named by; for a folder with a policy file, that file."""
+    """Words that name a policy; for a folder with a policy file, that file."""
     inside = Path(path) / f"policy{SUFFIX}"  # of a training run
     if inside.is_file():
         return f"it is a folder; the policy file in it is {inside}"

@@ -9,7 +9,8 @@ snapshot.
 """
 
 from rsoccer.replay.container import ReplayError
+from rsoccer.replay.recorded import Episode
 from rsoccer.replay.recorder import Recorder, record_replay
-from rsoccer.replay.replay import Episode, Replay
+from rsoccer.replay.replay import Replay
 
 __all__ = ["Episode", "Recorder", "Replay", "ReplayError", "record_replay"]

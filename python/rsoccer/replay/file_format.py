@@ -34,12 +34,12 @@ from rsoccer.frame import robot_names
 from rsoccer.replay import container, header_values, marker_sets, quantized, snapshot_arrays
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.header_values import get
-from rsoccer.replay.replay import Replay
+from rsoccer.replay.recorded import Recorded
 
 # -- Writing -----------------------------------------------------------------------------------
 
 
-def to_bytes(replay: Replay, snapshots: bool = True) -> bytes:
+def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     """Return the content of a replay's file.
 
     Args:
@@ -95,7 +95,7 @@ def _columns(config: SimConfig) -> dict[str, list[str]]:
 # -- Reading -----------------------------------------------------------------------------------
 
 
-def from_bytes(content: bytes) -> Replay:
+def from_bytes(content: bytes) -> Recorded:
     """Return the replay with this content.
 
     Args:
@@ -126,7 +126,7 @@ def from_bytes(content: bytes) -> Replay:
         snapshot_arrays.restore_row(rows, frame, arrays)
     robots = robot_names(config.n_blue, config.n_yellow)
     events = get(header, "events", list)
-    return Replay(
+    return Recorded(
         task=get(header, "task", str),
         options=header_values.options(header.get("options")),
         controllers=header_values.controllers(get(header, "controllers", dict)),

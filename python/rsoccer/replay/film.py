@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import marker_shapes
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import MIN_WIDTH
-
-if TYPE_CHECKING:
-    from rsoccer.replay.replay import Replay
+from rsoccer.replay.recorded import Recorded
 
 
-def film_replay(replay: Replay, width: int | None = None) -> tuple[Iterator[Image], float]:
+def film_replay(replay: Recorded, width: int | None = None) -> tuple[Iterator[Image], float]:
     """Return the images of a replay, those that `film_match` drew for the same match.
 
     Args:
@@ -32,7 +29,7 @@ def film_replay(replay: Replay, width: int | None = None) -> tuple[Iterator[Imag
     return _images(replay, Renderer(replay.config, width)), 1.0 / replay.config.time_step
 
 
-def _images(replay: Replay, renderer: Renderer) -> Iterator[Image]:
+def _images(replay: Recorded, renderer: Renderer) -> Iterator[Image]:
     """An image for the first state and each control step, and a pause at each goal."""
     goals = {event.frame for event in replay.events if event.kind == "goal"}
     pause = math.ceil(GOAL_PAUSE / replay.config.time_step)

@@ -11,7 +11,7 @@ from rsoccer._core import SimConfig
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.events import KINDS, Event
 from rsoccer.replay.quantized import MAX_STEP
-from rsoccer.replay.replay import Episode
+from rsoccer.replay.recorded import Episode
 from rsoccer.view import SIDES
 
 ENDS: Final = ("terminated", "truncated", "")

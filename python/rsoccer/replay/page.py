@@ -13,18 +13,17 @@ import re
 from collections.abc import Iterable
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
+from rsoccer._core import RobotModel, SimConfig
 from rsoccer.render import palette
 from rsoccer.render.ball import GROWTH, MAX_GROWTH, SHADOW_OFFSET
 from rsoccer.render.pitch import arena_bounds, pitch_shapes
 from rsoccer.render.robot import robot_outlines
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Shape
-
-if TYPE_CHECKING:
-    from rsoccer._core import RobotModel, SimConfig
-    from rsoccer.replay.replay import Replay
+from rsoccer.replay import file_format
+from rsoccer.replay.recorded import Recorded
 
 SCRIPTS: Final = ("reader.js", "field.js", "charts.js", "player.js")
 """Scripts of the page, in their order."""
@@ -39,7 +38,7 @@ _PART: Final = re.compile(r"\{\{(\w+)\}\}")
 _DIGITS: Final = 5  # of coordinates, hundredths of a millimeter
 
 
-def to_html(replay: Replay) -> str:
+def to_html(replay: Recorded) -> str:
     """Return the page of a replay.
 
     Args:
@@ -51,7 +50,7 @@ def to_html(replay: Replay) -> str:
     Raises:
         ReplayError: the replay has numbers that are not finite.
     """
-    content = base64.b64encode(replay.to_bytes(snapshots=False)).decode()
+    content = base64.b64encode(file_format.to_bytes(replay, snapshots=False)).decode()
     parts = {
         "title": html.escape(f"{replay.task}: {' - '.join(filter(None, replay.names))}"),
         "colors": "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS),
@@ -63,7 +62,7 @@ def to_html(replay: Replay) -> str:
     return _PART.sub(lambda match: parts[match[1]], _web("page.html"))
 
 
-def to_frame(replay: Replay) -> str:
+def to_frame(replay: Recorded) -> str:
     """Return the page of a replay in an `iframe`, for notebooks.
 
     Args:

@@ -15,8 +15,10 @@ from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
 from rsoccer.registry import options_of
 from rsoccer.replay.events import Event, ball_events, game_events
-from rsoccer.replay.replay import Episode, Replay
+from rsoccer.replay.recorded import Episode
+from rsoccer.replay.replay import Replay
 from rsoccer.replay.resume import described_controllers
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
 
@@ -206,6 +208,8 @@ def record_replay(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     snapshot_interval: float | None = None,
+    simulator: SimulatorSource | None = None,
+    sensing: SensingSource | None = None,
 ) -> Replay:
     """Play a match between policies, episode after episode, and record it.
 
@@ -219,23 +223,27 @@ def record_replay(
         seconds: duration of play, above 0.
         names: names of blue and of yellow on the score board.
         snapshot_interval: seconds between snapshots, above 0; None for no snapshots.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         The replay.
 
     Raises:
+        ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    matches = policy_match(task, controllers, seed, seconds)
-    recorder = Recorder(
-        matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval
-    )
-    actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
-    matches.reset()
-    recorder.begin()
-    for _ in range(max(1, round(seconds / matches.task.config.time_step))):
-        if matches.done[0]:
-            matches.reset()
-            recorder.begin()
-        recorder.add(matches.step(actions))
-    return recorder.replay()
+    matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
+    with closed_after(matches, simulator):
+        recorder = Recorder(
+            matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval
+        )
+        actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
+        matches.reset()
+        recorder.begin()
+        for _ in range(max(1, round(seconds / matches.task.config.time_step))):
+            if matches.done[0]:
+                matches.reset()
+                recorder.begin()
+            recorder.add(matches.step(actions))
+        return recorder.replay()

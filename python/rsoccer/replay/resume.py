@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Final
+from contextlib import ExitStack
+from typing import Final
 
 from rsoccer import registry
 from rsoccer._core import build_info
@@ -12,10 +13,9 @@ from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.replay.container import ReplayError
+from rsoccer.replay.recorded import Recorded
+from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import LEARN, Learn, Task
-
-if TYPE_CHECKING:
-    from rsoccer.replay.replay import Replay
 
 # A task's own checks of its options may meet values of any type.
 _REFUSALS: Final = (
@@ -26,7 +26,13 @@ LEARNER: Final = "LEARN"
 
 
 def resume(
-    replay: Replay, frame: int, task: Task | None, controllers: Controllers | None
+    replay: Recorded,
+    frame: int,
+    task: Task | None,
+    controllers: Controllers | None,
+    *,
+    simulator: SimulatorSource | None,
+    sensing: SensingSource | None,
 ) -> Matches:
     """Continue a match from a frame with a snapshot.
 
@@ -35,6 +41,8 @@ def resume(
         frame: index of the frame.
         task: the task; None to make it from the replay.
         controllers: controllers; None for those of the replay.
+        simulator: moves the robots, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`.
 
     Returns:
         Matches of one world at that frame.
@@ -57,8 +65,13 @@ def resume(
         if task.config != replay.config:
             raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
         given = _named(replay.controllers) if controllers is None else controllers
-        matches = Matches(task, controllers=given, autoreset="disabled")
-        matches.load_state_dict(replay.snapshots[frame])
+        matches = Matches(
+            task, controllers=given, autoreset="disabled", simulator=simulator, sensing=sensing
+        )
+        with ExitStack() as on_error:
+            on_error.enter_context(closed_after(matches, simulator))
+            matches.load_state_dict(replay.snapshots[frame])
+            on_error.pop_all()
     except ReplayError:
         raise
     except _REFUSALS as error:
@@ -66,7 +79,7 @@ def resume(
     return matches
 
 
-def _task(replay: Replay) -> Task:
+def _task(replay: Recorded) -> Task:
     """The task of a replay, made from its name and options."""
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")

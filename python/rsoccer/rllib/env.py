@@ -119,6 +119,11 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
             infos,
         )
 
+    def close(self) -> None:
+        """Close the simulator; may be repeated."""
+        super().close()
+        self.matches.close()
+
     def _by_agent(self, observations: Floats) -> ByAgent:
         """Observations of the match by agent."""
         return dict(zip(self.agents, observations[0], strict=True))

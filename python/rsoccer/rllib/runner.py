@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter, defaultdict
 from collections.abc import Mapping
+from contextlib import ExitStack
 from typing import Any, Final
 
 import numpy as np
@@ -73,15 +74,20 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
         for name in ("env_to_module_connector", "module_to_env_connector"):
             if getattr(config, f"_{name}") is not None:
                 raise ValueError(f"{name}: MatchesEnvRunner runs no connectors; leave it None")
-        super().__init__(config=config, **kwargs)
-        self._check_callbacks()
+        self.env: Any = None  # what `stop` closes
+        with ExitStack() as on_error:
+            on_error.callback(self.stop)
+            super().__init__(config=config, **kwargs)
+            self._check_callbacks()
+            on_error.pop_all()
         self._observations: Floats = np.empty(0, np.float32)
         self._running: list[Running] = []
         self._ended: list[tuple[Any, ...]] = []
         self._earlier_parts: dict[str, list[Any]] = defaultdict(list)
 
     def make_env(self) -> None:
-        """Create new matches from `config.env_config`."""
+        """Create new matches from `config.env_config`, and close those before them."""
+        self.stop()
         settings: Mapping[str, Any] = self.config.env_config
         self._frozen = frozenset(settings.get("frozen", ()))
         self.num_envs = self.config.num_envs_per_env_runner
@@ -337,11 +343,20 @@ class MatchesEnvRunner(MultiAgentEnvRunner):
 
 
 class _MatchesEnvs(VectorMultiAgentEnv):
-    """The spaces of some matches, for RLlib, which asks its environments for them."""
+    """The spaces of some matches, which RLlib asks its environments for, and their closing."""
 
     def __init__(self, matches: Matches) -> None:
+        self._matches = matches
         self.num_envs = matches.worlds
         self.possible_agents = list(matches.agents)
         self.observation_spaces, self.action_spaces = spaces_by_agent(matches)
         self.observation_space = self.single_observation_space = Dict(self.observation_spaces)
         self.action_space = self.single_action_space = Dict(self.action_spaces)
+
+    def close_extras(self, **kwargs: Any) -> None:  # noqa: ANN401  (RLlib's own)
+        """Close the simulator.
+
+        Args:
+            **kwargs: ignored.
+        """
+        self._matches.close()

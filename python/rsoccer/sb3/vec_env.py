@@ -100,11 +100,9 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
                 apply elsewhere, and "ou" in place of further learners if `learner` is given.
             learner: the only robot that learns, such as "blue_0"; None for all robots that the
                 task and `controllers` let learn.
-            simulator: moves the robots in place of `rsoccer.Simulator`: a function
-                `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
-                simulator, with which the environment cannot be copied.
-            sensing: model of what robots know of the true state, or its text "module:name"; None if
-                they know it exactly.
+            simulator: moves the robots, as for `Matches`. With a simulator itself the environment
+                cannot be copied.
+            sensing: what robots know of the true state, as for `Matches`.
             render_mode: "rgb_array" for images from `render` and `get_images`, or None.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
@@ -263,8 +261,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
 
     def close(self) -> None:
         """Refuse later calls: `reset`, `step` and images raise `ClosedEnvironmentError`."""
-        if not self._viewer.closed:
-            self._matches.close()
+        self._matches.close()
         self._viewer.close()
 
     def get_attr(self, attr_name: str, indices: Indices = None) -> list[Any]:

@@ -1,17 +1,19 @@
 //! Checks of the rows that matches start from.
 
+mod overlaps;
+mod reading;
+
 use crate::ball::state::BallState;
 use crate::blocks::{BALL, robot, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{
-    ABSENT_COLUMN, BALL_COLUMNS, MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED,
+    BALL_COLUMNS, MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED,
     MAX_PLACED_SPIN, ROBOT_COLUMNS,
 };
 use crate::engine::Shape;
 use crate::error::PlaceError;
 use crate::geometry::arena::{Wall, position_limit};
 use crate::geometry::bench::bench_place;
-use crate::geometry::clearance::Clearance;
 use crate::geometry::motion::Motion;
 use crate::math::{Pose, Vec3, Vector};
 use crate::models::config::SimConfig;
@@ -29,10 +31,6 @@ const HEADING_TOLERANCE: f32 = 1e-3;
 /// Error of the squared length of a heading by rounding, up to which it is unchanged, so that a state
 /// that was read can be placed again exactly.
 const HEADING_ERROR: f32 = 1e-5;
-
-/// Number of columns of the ball, and of a robot, that a match starts from.
-const PLACED_OF_BALL: usize = 9;
-const PLACED_OF_ROBOT: usize = 7;
 
 /// A vector that was drawn up to a maximum may be a rounding error above it.
 const ROUNDED: f32 = 1.0 + 1e-6;
@@ -101,19 +99,6 @@ impl Placement {
     ) -> Result<Start, PlaceError> {
         let mut start = self.parse(row)?;
         self.check(&mut start, parameters)?;
-        Ok(start)
-    }
-
-    /// Reads a start row of finite numbers. Of an absent robot only that it is absent is read.
-    pub(super) fn parse(&self, row: &[f32]) -> Result<Start, PlaceError> {
-        let (columns, robots) = row.split_at(BALL_COLUMNS.len());
-        let BallStart { motion, ball } = self.parse_ball(columns)?;
-        let mut start = Start { motions: vec![motion], ball, absent: 0 };
-        for (index, columns) in robots.chunks_exact(ROBOT_COLUMNS.len()).enumerate() {
-            let (motion, is_absent) = self.parse_robot(index, columns)?;
-            start.motions.push(motion);
-            start.absent |= u64::from(is_absent) << index;
-        }
         Ok(start)
     }
 
@@ -188,25 +173,6 @@ impl Placement {
         Ok(start)
     }
 
-    /// Reads a ball of finite numbers.
-    fn parse_ball(&self, columns: &[f32]) -> Result<BallStart, PlaceError> {
-        self.check_finite(BALL, &BALL_COLUMNS[..PLACED_OF_BALL], columns)?;
-        let (motion, ball) = read_ball(columns);
-        Ok(BallStart { motion, ball })
-    }
-
-    /// Reads a robot of finite numbers, and whether it is absent. Then only that is read.
-    fn parse_robot(&self, index: usize, columns: &[f32]) -> Result<(Motion, bool), PlaceError> {
-        let who = robot(index);
-        match columns[ABSENT_COLUMN] {
-            1.0 => return Ok((self.benches[index], true)),
-            0.0 => {}
-            got => return Err(PlaceError::Absent { who: self.names[who].clone(), got }),
-        }
-        self.check_finite(who, &ROBOT_COLUMNS[..PLACED_OF_ROBOT], columns)?;
-        Ok((read_robot(columns), false))
-    }
-
     /// Checks the ball against the limits of a start and the field.
     fn check_ball_alone(&self, motion: &mut Motion, ball: &BallState) -> Result<(), PlaceError> {
         if ball.z < 0.0 {
@@ -232,19 +198,6 @@ impl Placement {
             return Err(PlaceError::TurnsTooFast { who, angular_velocity });
         }
         self.check_alone(who, motion, 0.0)
-    }
-
-    /// Checks that the values of these columns are finite.
-    fn check_finite(
-        &self,
-        who: usize,
-        names: &[&'static str],
-        columns: &[f32],
-    ) -> Result<(), PlaceError> {
-        let mut wrong = names.iter().zip(columns).filter(|(_, value)| !value.is_finite());
-        wrong.next().map_or(Ok(()), |(column, got)| {
-            Err(PlaceError::NotFinite { who: self.names[who].clone(), column, got: *got })
-        })
     }
 
     fn check_speed(
@@ -292,57 +245,6 @@ impl Placement {
         position_limit(&self.field, if who == BALL { z + self.ball_radius } else { 0.0 })
     }
 
-    /// Checks the overlap of the ball with a robot, which it may fly over.
-    pub(super) fn check_ball(
-        &self,
-        who: usize,
-        motions: &[Motion],
-        ball: &BallState,
-        parameters: &BodyParameters,
-    ) -> Result<(), PlaceError> {
-        let clearance = self.ball_and_robot(who, motions, ball.z, parameters);
-        self.check_overlap([BALL, who], -clearance.distance)
-    }
-
-    /// Clearance of a ball at height `z` from a robot.
-    pub(super) fn ball_and_robot(
-        &self,
-        who: usize,
-        motions: &[Motion],
-        z: f32,
-        parameters: &BodyParameters,
-    ) -> Clearance {
-        let (robot, motion) = (&parameters.robots[who - 1], &motions[who]);
-        let center = motions[BALL].position;
-        let nearest = robot.outline.nearest_at(motion.position, motion.rotation(), center);
-        let (heights, radius) = ([0.0, robot.model.height], self.ball_radius);
-        Clearance::of_upright(&nearest, heights, z + radius, radius)
-    }
-
-    /// Clearance of a ball at height `z` from a wall.
-    pub(super) fn ball_and_wall(&self, wall: &Wall, center: Vector, z: f32) -> Clearance {
-        let nearest = wall.placed().nearest(center);
-        let radius = self.ball_radius;
-        Clearance::of_upright(&nearest, [wall.bottom, wall.top], z + radius, radius)
-    }
-
-    /// Depth by which two robots overlap, m; 0 when they are apart.
-    fn overlap(&self, pair: [usize; 2], motions: &[Motion]) -> f32 {
-        let [a, b] = pair.map(|who| (pose(&motions[who]), self.shape(who)));
-        a.1.overlap(&a.0, b.1, &b.0)
-    }
-
-    fn check_overlap(&self, [first, second]: [usize; 2], depth: f32) -> Result<(), PlaceError> {
-        if depth > TOLERANCE {
-            return Err(PlaceError::Overlap {
-                first: self.names[first].clone(),
-                second: self.names[second].clone(),
-                depth_mm: depth * 1000.0,
-            });
-        }
-        Ok(())
-    }
-
     /// Radius of a circle around a body, m.
     pub(super) fn bounding_radius(&self, body: usize) -> f32 {
         self.bounding_radii[body]
@@ -374,26 +276,4 @@ pub(super) fn length(vector: Vec3) -> f32 {
 
 pub(super) fn pose(motion: &Motion) -> Pose {
     Pose::from_parts(motion.position, motion.rotation())
-}
-
-fn read_ball(columns: &[f32]) -> (Motion, BallState) {
-    let [x, y, z, v_x, v_y, v_z, spin_x, spin_y, spin_z, ..] = columns else {
-        unreachable!("a ball has {BALL_COLUMNS:?}")
-    };
-    let at_rest = Motion::at_rest(Vector::new(*x, *y), Vector::X);
-    let motion = Motion { velocity: Vector::new(*v_x, *v_y), ..at_rest };
-    let spin = Vec3::new(*spin_x, *spin_y, *spin_z);
-    (motion, BallState { z: *z, v_z: *v_z, spin, hops: 0 })
-}
-
-fn read_robot(columns: &[f32]) -> Motion {
-    let [x, y, cos, sin, v_x, v_y, v_theta, ..] = columns else {
-        unreachable!("a robot has {ROBOT_COLUMNS:?}")
-    };
-    Motion {
-        position: Vector::new(*x, *y),
-        heading: Vector::new(*cos, *sin),
-        velocity: Vector::new(*v_x, *v_y),
-        angular_velocity: *v_theta,
-    }
 }

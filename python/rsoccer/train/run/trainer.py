@@ -7,11 +7,14 @@ updates the networks. `loop` runs one update after the other, `state` captures a
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import ExitStack
 
 import numpy as np
 import torch
 
+from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
+from rsoccer.sources import closed_after
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
 from rsoccer.train.network.build import build_networks
@@ -81,6 +84,14 @@ class Trainer:
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.team
         matches = create(first_seed)
+        with ExitStack() as on_error:
+            on_error.enter_context(closed_after(matches, args.simulator))
+            self._begin(matches)
+            on_error.pop_all()
+
+    def _begin(self, matches: Matches) -> None:
+        """Create the networks and what updates them, and enter the matches."""
+        args = self.args
         self.model, sharing = build_networks(
             args.network, self.task, matches.state_size, self.generator
         )
@@ -93,6 +104,10 @@ class Trainer:
         self.samples, self.updates, self.elapsed = 0, 0, 0.0
         self.show_policy()
 
+    def close(self) -> None:
+        """Close the simulator of the matches."""
+        self.collector.matches.close()
+
     def show_policy(self) -> None:
         """Make the current policy the latest one of the pool."""
         if self.pool is not None:
@@ -101,7 +116,9 @@ class Trainer:
     def start_team(self) -> None:
         """Begin the second part of the run, in which all learners play."""
         self.is_solo = False
-        self.collector.enter(self.curriculum.team(self._team_seed), self.curriculum.opponents)
+        matches = self.curriculum.team(self._team_seed)
+        self.collector.matches.close()
+        self.collector.enter(matches, self.curriculum.opponents)
 
     @property
     def progress(self) -> float:

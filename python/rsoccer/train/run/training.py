@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import closing
 from pathlib import Path
 
 from rsoccer.lineup import lineup, opponents_of
@@ -37,11 +38,12 @@ def run_training(args: Args) -> Path:
         Interrupted: a signal ended the run after it was saved.
     """
     trainer = Trainer(args)  # refuses the task or its options before a file changes
-    policy_files = folder.policy_digests(args)
-    with folder.opened(args, policy_files) as saved:
-        _train(Loop(trainer, policy_files), saved)
-        if args.run.match_page:
-            _write_match(trainer)
+    with closing(trainer):
+        policy_files = folder.policy_digests(args)
+        with folder.opened(args, policy_files) as saved:
+            _train(Loop(trainer, policy_files), saved)
+            if args.run.match_page:
+                _write_match(trainer)
     return args.out / POLICY_FILE
 
 
@@ -71,7 +73,15 @@ def _write_match(trainer: Trainer) -> None:
     assert task is not None, "the network names its task"
     names = ("TRAINED", " ".join(opponents_of(task)).upper())
     controllers = lineup(task, network)
-    replay = record_replay(task, controllers, args.seed, MATCH_SECONDS, names=names)
+    replay = record_replay(
+        task,
+        controllers,
+        args.seed,
+        MATCH_SECONDS,
+        names=names,
+        simulator=args.simulator,
+        sensing=args.sensing,
+    )
     replay_name, page_name = MATCH_FILES
     replay.save(args.out / replay_name)
     replay.save_html(args.out / page_name)

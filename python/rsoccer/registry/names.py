@@ -1,12 +1,11 @@
-"""Registry of tasks by name, with aliases and removed names."""
+"""Names of tasks: their registration, aliases and removed names, and creation by name."""
 
-import copy
 import inspect
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final, NamedTuple
 
-from rsoccer import checks, ids, option_values, plugins
+from rsoccer import ids, option_values, plugins
 from rsoccer.task import Task
 
 
@@ -153,15 +152,26 @@ def make_task(name: str, **options: Any) -> Task:  # noqa: ANN401  (each task ha
         >>> rsoccer.make_task("VSSMulti-v0", n_blue=2, opponent="chase").agents
         ('blue_0', 'blue_1')
     """
-    return _make(name, options, ())
+    return make_named(name, options, ())
 
 
-def _make(name: str, options: Mapping[str, Any], arguments: Sequence[str]) -> Task:
-    """Make a task; an unknown option may also be meant as one of the caller's arguments."""
+def make_named(name: str, options: Mapping[str, Any], arguments: Sequence[str]) -> Task:
+    """Return a new task, for a caller that got its options beside arguments of its own.
+
+    Args:
+        name: a registered name or an alias.
+        options: options of the task, by name.
+        arguments: names of those arguments, which the error for an unknown option lists, too.
+
+    Raises:
+        ImportError: a package that offers the task cannot be loaded.
+        TypeError: an unknown option, or an option's value of the wrong type.
+        ValueError: an unknown name, or an option's value that the task refuses.
+    """
     _find(name)
     if name in _ALIASES:
         task, preset = _ALIASES[name]
-        return _make(task, {**preset, **options}, arguments)
+        return make_named(task, {**preset, **options}, arguments)
     task_class = _TASKS[name]
     valid = list_options(task_class)
     unknown = sorted(set(options) - set(valid))
@@ -203,121 +213,6 @@ def _register_entry_point(name: str) -> None:
         raise ImportError(
             f"{name!r}: the entry point in {plugins.TASKS!r} names no task: {error}"
         ) from error
-
-
-def options_of(task: Task) -> dict[str, Any] | None:
-    """Return the options of a task that differ from its defaults, as JSON values for `make_task`.
-
-    Args:
-        task: the task.
-
-    Returns:
-        Options by name; None if the task is not registered or an option is another object.
-    """
-    if _TASKS.get(task.name) is not type(task):
-        return None
-    try:
-        default = make_task(task.name)
-        names = list_options(type(task))
-        values = {name: (getattr(task, name), getattr(default, name)) for name in names}
-        return {
-            name: option_values.encoded(name, value)
-            for name, (value, usual) in values.items()
-            if value != usual
-        }
-    except (AttributeError, OSError, TypeError, ValueError):
-        return None
-
-
-def task_with_options(name: str, options: Mapping[str, Any]) -> Task:
-    """Create a task by name, with options that a user gave as one mapping `task_options`.
-
-    Args:
-        name: a registered name or an alias.
-        options: options of the task, by name.
-
-    Returns:
-        The task.
-
-    Raises:
-        ValueError: an unknown name, or options that the task refuses.
-    """
-    try:
-        return make_task(name, **options)
-    except TypeError as error:
-        notes = getattr(error, "__notes__", ())  # of the core, which name the argument
-        raise ValueError(f"task_options: {' '.join([str(error), *notes])}") from error
-
-
-def as_task(task: object) -> Task:
-    """Return a task given as an instance or by name.
-
-    Args:
-        task: a task, a registered name or an alias.
-
-    Raises:
-        TypeError: anything else.
-        ValueError: an unknown name.
-    """
-    if isinstance(task, str):
-        return make_task(task)
-    if not isinstance(task, Task):
-        raise TypeError(f"task: expected a task or its name, got {task!r}")
-    return task
-
-
-def resolve_task(
-    task: Task | str,
-    max_steps: int | None,
-    options: Mapping[str, Any],
-    caller: Callable[..., object],
-) -> Task:
-    """Return the task that matches or an environment play.
-
-    Args:
-        task: a task, or the name of a registered one.
-        max_steps: time limit of an episode in control steps; None for the task's own.
-        options: options of a registered task, by name.
-        caller: function or class that got the options beside its own arguments, which errors list.
-
-    Raises:
-        TypeError: not a task, an unknown option, or options for a Task object.
-        ValueError: an unknown task, or a value out of range.
-    """
-    if isinstance(task, str):
-        time_limit = {} if max_steps is None else {"max_steps": max_steps}
-        return _make(task, {**options, **time_limit}, _arguments(caller))
-    if options:
-        raise TypeError(
-            f"options: a Task object has its own options, got {sorted(options)} in addition; "
-            f"valid are the arguments {_arguments(caller)}"
-        )
-    task = as_task(task)
-    return task if max_steps is None else with_max_steps(task, max_steps, "max_steps")
-
-
-def _arguments(caller: Callable[..., object]) -> list[str]:
-    """Names of the arguments of a function or class beside the task and its options."""
-    parameters = inspect.signature(caller).parameters.values()
-    names = [each.name for each in parameters if each.kind is not each.VAR_KEYWORD]
-    return [name for name in names if name != "task"]
-
-
-def with_max_steps(task: Task, max_steps: int, name: str) -> Task:
-    """Return a copy of a task with another time limit; the caller's task does not change.
-
-    Args:
-        task: the task.
-        max_steps: time limit of an episode in control steps, at least 1.
-        name: name of the caller's argument, for the error message.
-
-    Raises:
-        TypeError: not an integer.
-        ValueError: less than 1.
-    """
-    task = copy.copy(task)
-    object.__setattr__(task, "max_steps", checks.integer(name, max_steps, 1))
-    return task
 
 
 def list_options(task_class: type[Task]) -> list[str]:

@@ -1,0 +1,40 @@
+"""`--simulator` and `--sensing`: what moves the robots of a command, and what they know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
+from typing import Annotated
+
+from tyro.conf import arg
+
+_SIMULATOR = arg(metavar="MODULE:NAME", help_behavior_hint="(default: the package's own)")
+_SENSING = arg(metavar="MODULE:NAME", help_behavior_hint="(default: they know it exactly)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sources:
+    """Options of all commands that play matches, in the words of `rsoccer train`."""
+
+    simulator: Annotated[str | None, _SIMULATOR] = None
+    """function (config, worlds, threads) that makes the simulator"""
+    sensing: Annotated[str | None, _SENSING] = None
+    """sensor model, of what robots know of the true state"""
+
+
+@contextmanager
+def refusals_as_wrong_input() -> Iterator[None]:
+    """Return a context manager that reports what is no simulator and no sensor model as a value.
+
+    In Python an object of another type is a TypeError. On the command line it is a wrong word.
+
+    Raises:
+        ValueError: in place of a TypeError that names one of these options.
+    """
+    try:
+        yield
+    except TypeError as error:
+        if str(error).partition(":")[0] in {each.name for each in fields(Sources)}:
+            raise ValueError(str(error)) from error
+        raise

@@ -1,0 +1,25 @@
+"""Registry of tasks by name, and tasks as functions take them: by name or as objects."""
+
+from rsoccer.registry.arguments import (
+    as_task,
+    options_of,
+    resolve_task,
+    task_with_options,
+    with_max_steps,
+)
+from rsoccer.registry.names import (
+    Alias,
+    alias,
+    is_task_name,
+    list_aliases,
+    list_options,
+    list_tasks,
+    make_task,
+    register,
+    register_removed,
+    task_class,
+)
+
+__all__ = ["Alias", "alias", "is_task_name", "list_aliases", "list_options", "list_tasks"]
+__all__ += ["make_task", "register", "register_removed", "task_class"]
+__all__ += ["as_task", "options_of", "resolve_task", "task_with_options", "with_max_steps"]
