@@ -40,6 +40,10 @@ pub(super) struct Wheels {
     own: Lanes,
     other: Lanes,
     per_own: Lanes,
+    /// Difference of the squares of `own` and `other`.
+    own_and_other: Lanes,
+    /// Maximum slip of a tire that friction of both tires at their limits stops, m/s.
+    max_held: Lanes,
     /// Friction (m/s) that stops a slip of 1 m/s of one tire against the other.
     stop_turning: Lanes,
 }
@@ -72,7 +76,7 @@ impl Wheels {
         let mass_by_inertia = lanes(|robot| robot.mass / robot.inertia);
         let turn = half_track * mass_by_inertia;
         let turning = half_track * turn;
-        let own = Lanes::ONE + turning;
+        let (own, other) = (Lanes::ONE + turning, Lanes::ONE - turning);
         let motor =
             lanes(|robot| robot.drive.motor_torque / (robot.drive.wheel_radius * robot.mass))
                 * tick;
@@ -93,8 +97,10 @@ impl Wheels {
             per_lateral: Lanes::ONE / lateral,
             turn,
             own,
-            other: Lanes::ONE - turning,
+            other,
             per_own: Lanes::ONE / own,
+            own_and_other: own * own - other * other,
+            max_held: (own + other.abs()) * drive,
             stop_turning: Lanes::splat(0.25) / turning,
         }
     }
@@ -111,20 +117,22 @@ impl Wheels {
     ) -> WheelEffect {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
-        let slip = self.slip(own.velocity, own.angular_velocity, rims);
-        let (mut slip, (mut holding, mut holds)) = (slip, self.holding(&slip, mask));
-        if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
+        let mut slip = self.slip(own.velocity, own.angular_velocity, rims);
+        let mut load = own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO;
+        let friction = loop {
+            let (holding, holds) = self.holding(&slip, mask);
+            if !load {
+                if (holds | !mask).all() {
+                    break holding;
+                }
+                break holding.where_else(holds, &self.sliding(&slip));
+            }
             // Tires that hold also compensate the load of the last tick. Those that slide give their
             // maximum whatever the load.
             let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
             slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
             slip.across += holds & added.across;
-            (holding, holds) = self.holding(&slip, mask);
-        }
-        let friction = if (holds | !mask).all() {
-            holding
-        } else {
-            holding.where_else(holds, &self.sliding(&slip))
+            load = false;
         };
         let [left, right] = friction.along;
         WheelEffect {
@@ -161,7 +169,7 @@ impl Wheels {
     /// [`Self::holding`].
     fn can_be_held(&self, slip: &Slip) -> Lanes {
         let [left, right] = slip.along.map(Lanes::abs);
-        smaller(left, right).simd_le((self.own + self.other.abs()) * self.drive)
+        smaller(left, right).simd_le(self.max_held)
             & slip.across.abs().simd_le(self.lateral + self.lateral)
     }
 

@@ -4,7 +4,7 @@
 //! back and forth gains nothing.
 
 use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS, is_absent};
-use crate::features::viewpoint::{Observer, ViewedRobot};
+use crate::features::viewpoint::{Observer, Presence, ViewedRobot};
 use crate::math::Vector;
 use crate::models::ball::BallModel;
 use crate::models::field::Field;
@@ -56,14 +56,11 @@ impl Potential {
     /// Increase from `last_row` to `row` for an observer, in its view, which attacks +x; 0 for a robot that
     /// is absent in one of them.
     pub fn difference(&self, observer: &Observer, last_row: &[f32], row: &[f32]) -> f32 {
-        if [last_row, row].iter().any(|row| observer.is_absent(row)) {
-            return 0.0;
-        }
         let of = |row| {
             let own = observer.robots(row).next().unwrap_or_default();
-            self.of(observer.ball(row).position, &own)
+            (own.presence != Presence::Absent).then(|| self.of(observer.ball(row).position, &own))
         };
-        of(row) - of(last_row)
+        of(last_row).zip(of(row)).map_or(0.0, |(before, now)| now - before)
     }
 
     /// Value for a robot and the position of the ball in its view.

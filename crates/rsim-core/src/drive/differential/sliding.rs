@@ -62,7 +62,7 @@ impl Wheels {
     fn sliding_end(&self, slip: &Slip, speeds: [Lanes; 2]) -> SlidingEnd {
         let per_speed = speeds.map(|speed| Lanes::ONE / speed);
         let [left, right] = per_speed.map(|per_speed| per_speed * self.longitudinal);
-        let both = self.own * self.own - self.other * self.other;
+        let both = self.own_and_other;
         let inverse = Lanes::ONE / (Lanes::ONE + self.own * (left + right) + both * (left * right));
         let [first, second] = slip.along;
         let lateral = Lanes::ONE / (Lanes::ONE + self.lateral * (per_speed[0] + per_speed[1]));
