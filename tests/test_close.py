@@ -17,6 +17,7 @@ import pytest
 import rsoccer
 from rsoccer import cli
 from rsoccer._core import Threads
+from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.human.teams import team_controllers
 from rsoccer.recording import film_match, record_match
@@ -237,3 +238,33 @@ def test_a_simulator_that_is_given_itself_is_its_owners() -> None:
     assert own.closed == 0
     rsoccer.Matches(task, simulator=own).close()
     assert own.closed == 1
+
+
+class StepOnly:
+    """A simulator that neither places bodies nor reads their state."""
+
+    closed = 0
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+        raise AssertionError("it is refused")
+
+    def close(self) -> None:
+        self.closed += 1
+
+
+def test_matches_that_refuse_their_simulator_close_it_if_they_made_it() -> None:
+    made = StepOnly()
+    with pytest.raises(TypeError, match="StepOnly with neither"):
+        rsoccer.Matches(NAME, simulator=lambda config, worlds, threads: made)
+    assert made.closed == 1
+    given = StepOnly()
+    with pytest.raises(TypeError, match="StepOnly with neither"):
+        rsoccer.Matches(NAME, simulator=given)
+    assert given.closed == 0
+
+
+def test_matches_that_refuse_other_arguments_make_no_simulator() -> None:
+    PLANTED.clear()
+    with pytest.raises(TypeError, match="sensing"):
+        rsoccer.Matches(NAME, simulator=PLANTED, sensing=3)  # type: ignore[arg-type]  # wrong
+    assert not PLANTED.made

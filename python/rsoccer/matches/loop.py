@@ -35,7 +35,13 @@ from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, judge, select
 from rsoccer.senses import Senses
 from rsoccer.simulator_interface import close
-from rsoccer.sources import SensingSource, SimulatorSource, make_sensing, make_simulator
+from rsoccer.sources import (
+    SensingSource,
+    SimulatorSource,
+    is_shared,
+    make_sensing,
+    make_simulator,
+)
 from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
@@ -137,8 +143,6 @@ class Matches:
         self.observation_low = self.task.layout.low
         self.observation_high = self.task.layout.high
         self._threads = Threads(checks.integer("threads", threads, 1))
-        self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
-        self._starts = Starts(self._simulator)
         self._sensing = make_sensing(sensing)
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
@@ -158,6 +162,14 @@ class Matches:
         self._observer_terms: Mapping[str, Floats] = {}
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
+        # Last, so that what fails before leaves no simulator open.
+        self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
+        try:
+            self._starts = Starts(self._simulator)
+        except BaseException:
+            if not is_shared(simulator):
+                close(self._simulator)
+            raise
 
     @property
     def observer_terms(self) -> dict[str, Floats]:
