@@ -9,7 +9,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import gymnasium
 import numpy as np
 import pettingzoo
 import pytest
@@ -24,23 +23,10 @@ from rsoccer.recording import film_match, record_match
 from rsoccer.replay import ReplayError, record_replay
 from rsoccer.replay.evaluation import record_last_match
 from tests.closing import PLANTED, TEXT, Closing, LostError
+from tests.environments import MAKERS, NAME
 from tests.train.short_task import tiny
 
-NAME = "VSSSelfPlay-v0"
 TEAMS: Controllers = {"blue": "chase", "yellow": "ou"}
-ENVIRONMENTS: dict[str, Callable[..., Any]] = {
-    "parallel": lambda **given: rsoccer.parallel_env(NAME, **given),
-    "aec": lambda **given: rsoccer.env(NAME, **given),
-    "single": lambda **given: rsoccer.single_env("VSS-v0", **given),
-    "vector": lambda **given: rsoccer.vector_env("VSS-v0", 2, **given),
-    "robots": lambda **given: rsoccer.robots_vector_env(NAME, worlds=2, **given),
-    "gymnasium.make": lambda **given: gymnasium.make("rsoccer/VSS-v0", **given),
-    "gymnasium.make_vec": lambda **given: gymnasium.make_vec(f"rsoccer/{NAME}", 12, **given),
-}
-if hasattr(pettingzoo, "register"):  # since 1.27
-    ENVIRONMENTS["pettingzoo.make"] = lambda **given: pettingzoo.make(
-        "parallel", f"rsoccer/{NAME}", **given
-    )
 
 
 def play(env: Any) -> None:  # noqa: ANN401
@@ -57,7 +43,7 @@ def play(env: Any) -> None:  # noqa: ANN401
 
 
 @pytest.mark.parametrize("fails_after", [None, 3])
-@pytest.mark.parametrize("make", ENVIRONMENTS.values(), ids=ENVIRONMENTS)
+@pytest.mark.parametrize("make", MAKERS.values(), ids=MAKERS)
 def test_an_environment_closes_its_simulator_once(
     make: Callable[..., Any], fails_after: int | None
 ) -> None:
@@ -80,7 +66,7 @@ def test_an_environment_closes_its_simulator_once(
 @pytest.mark.parametrize("name", ["single", "vector", "robots"])
 def test_copies_of_an_environment_close_their_own(name: str, begun: bool) -> None:
     PLANTED.clear()
-    env = ENVIRONMENTS[name](simulator=TEXT)
+    env = MAKERS[name](simulator=TEXT)
     if begun:
         env.reset(seed=0)
     for twin in (copy.deepcopy(env), pickle.loads(pickle.dumps(env))):
