@@ -33,7 +33,7 @@ LAYERS = [
     {"policies"},
     {"controllers"},
     {"lineup"},
-    {"matches.match_state", "matches.paused", "matches.starts"},
+    {"matches.learners", "matches.match_state", "matches.paused", "matches.starts"},
     {"matches.loop"},
     {"matches", "matches.policy_match"},
     {"envs"},

@@ -23,6 +23,7 @@ from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
 from rsoccer.matches import result_checks
 from rsoccer.matches.consistency import Consistency
+from rsoccer.matches.learners import Learners
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
@@ -136,8 +137,7 @@ class Matches:
         self.autoreset = autoreset
         self.assignment = assign(self.task, controllers, worlds)
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
-        self._learner_indices = self.assignment.learner_indices
-        self._all_learn = len(self.agents) == len(self.assignment.observers)
+        self._learners = Learners(self.assignment)
         self.action_size = self.task.action_size
         self.observation_size = self.task.layout.size
         self.observation_low = self.task.layout.low
@@ -428,7 +428,7 @@ class Matches:
         named, terminated = task.calculate_reward_and_done(play)
         terminated = result_checks.done(terminated, self.worlds)
         self._observer_terms = named
-        terms, rewards = self._sum_terms(named)
+        terms, rewards = self._learners.sum_terms(named, self.worlds)
         truncated = np.greater(play.steps >= task.max_steps, terminated)  # late, not terminated
         metrics = {name: np.array(value, np.float32) for name, value in task.metrics(play).items()}
         none = self._observations[:0]
@@ -458,21 +458,6 @@ class Matches:
     def _observe(self) -> None:
         """Compute the observations of all observers."""
         self.task.layout.observe(self.play, out=self._observations)
-
-    def _sum_terms(self, named: Mapping[str, Floats]) -> tuple[dict[str, Floats], Floats]:
-        """Copies (n, agents) of the learners' reward terms by name, and their sum (n, agents)."""
-        shape = (self.worlds, len(self.play.observers))
-        terms: dict[str, Floats] = {}
-        rewards = np.zeros((self.worlds, len(self.agents)), np.float32)
-        for name, term in named.items():
-            if term.shape != shape:
-                result_checks.term(name, term, shape)
-                term = np.broadcast_to(term, shape)  # one column for all observers
-            if not self._all_learn:
-                term = term[:, self._learner_indices]
-            terms[name] = copied = term.astype(np.float32)
-            rewards = rewards + copied  # `+=` is three times slower on a single element
-        return terms, rewards
 
     def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
         """Reset matches as `autoreset` demands, and fill in the outcome's observations."""
@@ -568,8 +553,4 @@ class Matches:
 
     def _observed(self) -> Floats:
         """Copy (n, agents, o) of the learners' observations."""
-        if not self._all_learn:
-            return np.array(self._observations[:, self._learner_indices])
-        copied = np.empty_like(self._observations)
-        self._threads.copy(self._observations, copied)
-        return copied
+        return self._learners.copy(self._observations, self._threads)
