@@ -183,6 +183,21 @@ def test_rules_may_not_share_the_name_of_a_column() -> None:
         Matches(Doubled())
 
 
+def test_no_rule_may_replace_the_score() -> None:
+    class Scorer(Listed):
+        def columns(self, n: int) -> dict[str, Any]:
+            return {"score": np.zeros((n, 2), np.int64)}
+
+    @dataclass(frozen=True)
+    class Scored(VssSelfPlay):
+        @property
+        def rules(self) -> Sequence[Rule]:
+            return (Scorer([]),)
+
+    with pytest.raises(ValueError, match="Scorer: the name 'score' is taken"):
+        Matches(Scored())
+
+
 def test_a_column_has_a_row_for_each_world() -> None:
     class Single(Listed):
         def columns(self, n: int) -> dict[str, Any]:
@@ -198,11 +213,14 @@ def test_a_column_has_a_row_for_each_world() -> None:
         Matches(Wrong(), 3)
 
 
-BALL, ROW = balls(CORNERS[0]), line_ups(0.0)
+BALL, BALLS, ROW = balls(CORNERS[0]), balls(*CORNERS[:2]), line_ups(0.0)
 INVALID: list[tuple[object, str]] = [
     (Restart(np.array([4]), rows=ROW), r"Listed.judge: expected worlds 0 to 3, got \[4\]"),
     (Restart(np.array([-1]), balls=BALL), r"expected worlds 0 to 3, got \[-1\]"),
+    (Restart(np.array([0, 4]), balls=BALLS), r"expected worlds 0 to 3, got \[0, 4\]"),
+    (Restart(np.array([2, -1]), balls=BALLS), r"expected worlds 0 to 3, got \[2, -1\]"),
     (Restart(np.array([1, 1]), rows=line_ups(0.0, 0.0)), r"expected each world once, got \[1, 1\]"),
+    (Restart(np.array([2, 0, 2]), balls=balls(*CORNERS[:3])), r"once, got \[0, 2, 2\]"),
     (Restart(np.array([0.0]), rows=ROW), "expected whole numbers"),
     (Restart(np.array([True]), balls=BALL), "expected whole numbers"),
     (Restart(np.array([[0]]), balls=BALL), r"expected whole numbers \(k,\)"),
