@@ -53,6 +53,23 @@ def test_the_picture_is_the_rendered_image() -> None:
     assert env._repr_png_() == Picture(image).to_png()
 
 
+def test_the_picture_of_matches_is_the_image_of_the_first() -> None:
+    """With its clock and the markers of its task, as a single environment draws them."""
+    env = rsoccer.single_env("SSLDribbling-v0", render_mode="rgb_array")
+    matches = rsoccer.Matches("SSLDribbling-v0", 2, seed=3)
+    env.reset(seed=3)
+    matches.reset()
+    action = np.array([0.0, 0.0, 0.5, 0.0, 0.0], np.float32)[: matches.action_size]
+    for step in range(50):
+        env.step(action)
+        matches.step(np.tile(action, (2, 1, 1)))
+        if step == 45:
+            matches.reset(mask=np.array([False, True]))
+    image = env.render()
+    assert type(image) is np.ndarray
+    assert matches._repr_png_() == Picture(image).to_png()
+
+
 def test_an_image_of_a_wrapped_match_is_shown_by_picture() -> None:
     env = rsoccer.env("VSSSelfPlay-v0", render_mode="rgb_array")
     env.reset(seed=1)

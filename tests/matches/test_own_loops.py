@@ -124,6 +124,16 @@ def test_final_states_differ_from_states_only_where_an_episode_ended() -> None:
     assert same(matches.final_states(), matches.states())
 
 
+def test_final_states_of_restored_matches_are_their_states() -> None:
+    matches = Matches("VSSSelfPlay-v0", 2, max_steps=3)
+    matches.reset()
+    saved = matches.state_dict()
+    assert played(matches, 3)[-1].ended.all()
+    assert not same(matches.final_states(), matches.states())
+    matches.load_state_dict(saved)
+    assert same(matches.final_states(), matches.states())
+
+
 # -- Episodes ---------------------------------------------------------------------------------
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from rsoccer import Matches, Simulator
 from rsoccer.arrays import Floats, Mask
+from rsoccer.play import Play
 from rsoccer.rules import Restart, Rule
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import begun, same, zeros
@@ -71,6 +72,28 @@ def test_last_frame_and_views_equal_the_new_ones_only_in_these_worlds(kind: str)
     matches._viewpoint.fill(play.frame, fresh)
     assert same(fresh.ball.data, play.view.ball.data)
     assert same(fresh.robots.data, play.view.robots.data)
+
+
+@dataclass(frozen=True)
+class Looking(ListedVss):
+    """A task whose reward is computed from the views of the robots."""
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        terms, done = super().calculate_reward_and_done(play)
+        moved = play.view.ball.position - play.last_view.ball.position
+        return terms | {"moved": np.linalg.norm(moved, axis=-1)}, done
+
+
+def test_views_that_a_reward_has_read_show_the_state_after_the_restart() -> None:
+    task = Looking()
+    matches = begun(task, 2)
+    task.rule.results.append(Restart(np.array([1]), rows=line_ups(0.3)))
+    outcome = matches.step(zeros(matches) + 0.5)
+    play = matches.play
+    assert play.view.ball.position[1, 0] == pytest.approx((-0.5, 0.3))
+    assert same(play.view.ball.data[1], play.last_view.ball.data[1])
+    ball = matches.task.layout.blocks["ball"].columns
+    assert outcome.observations[1, 0, ball][1] == pytest.approx(0.3 / 0.75)
 
 
 def test_observations_show_the_state_after_the_restart() -> None:
