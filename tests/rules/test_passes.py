@@ -1,6 +1,6 @@
 """Passes that `SSLSelfPlay-v0` counts, in scenes with one kick or a rolling ball."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -151,30 +151,54 @@ def test_a_ball_that_left_the_field_is_no_pass() -> None:
     assert outcome.metrics["blue_passes"][0] == 0.0
 
 
-RESTART = (0.0, 0.0, NOBODY, NOBODY)
+Step = tuple[float, float, int, int]
+"""A made-up step: x of the ball, its speed, the robot that touched it last, the broken beam."""
+RESTART: Step = (0.0, 0.0, NOBODY, NOBODY)
 """In place of a step: a restart puts the ball at x = 0."""
 
 
-def passes_of(*states: tuple[float, float, int, int]) -> list[int]:
-    """Passes of both teams over made-up steps: x of the ball, its speed, last touch, beam.
+def passes_in(worlds: Sequence[Sequence[Step]]) -> list[list[int]]:
+    """Passes of both teams in worlds with as many made-up steps.
 
     The robots stand 0.6 m apart on the x axis, blue ones from x = 0 on.
     """
-    play = new_play(TASK, 1, new_viewpoint(TASK, [0]), WorldRng.seeded(0, 1))
-    frame = Frame.empty(1, 3, 3)
-    frame.robots.position[0, :, 0] = 0.6 * np.arange(6)
+    n = len(worlds)
+    play = new_play(TASK, n, new_viewpoint(TASK, [0]), WorldRng.seeded(0, n))
+    frame = Frame.empty(n, 3, 3)
+    frame.robots.position[..., 0] = 0.6 * np.arange(6)
     play.start(frame.rows)
     rule, ball = Passes(min_length=0.5), play.frame.ball
-    rule.begin(play, np.arange(1))
-    for x, speed, touched, beam in states:
-        ball.position[0, 0], ball.velocity[0, 0], ball.last_touch[0] = x, speed, touched
-        play.frame.robots.infrared[:] = np.arange(6) == beam
-        if (x, speed, touched, beam) == RESTART:
-            rule.begin(play, np.arange(1))
+    rule.begin(play, np.arange(n))
+    for steps in zip(*worlds, strict=True):
+        play.events.forget()
+        ball.position[:, 0], ball.velocity[:, 0], ball.last_touch[:], beams = np.transpose(steps)
+        play.frame.robots.infrared[:] = np.arange(6) == beams[:, None]
+        if steps[0] == RESTART:
+            rule.begin(play, np.arange(n))
         else:
             assert rule.judge(play) is None
-    passes: list[int] = play.game.passes[0].tolist()
+    passes: list[list[int]] = play.game.passes.tolist()
     return passes
+
+
+def passes_of(*steps: Step) -> list[int]:
+    """Passes of both teams in one world."""
+    return passes_in([steps])[0]
+
+
+def test_passes_of_many_worlds_are_those_of_each_alone() -> None:
+    rng, n = np.random.default_rng(0), 40
+    worlds: list[list[Step]] = []
+    for _ in range(n):
+        x, touched = rng.uniform(0.0, 3.0, 60), np.repeat(rng.integers(0, 6, 15), 4)
+        speed, beams = rng.choice([0.0, 3.0], 60, p=[0.1, 0.9]), rng.integers(-6, 6, 60)
+        beams = np.maximum(beams, NOBODY)
+        worlds.append(
+            list(zip(x.tolist(), speed.tolist(), touched.tolist(), beams.tolist(), strict=True))
+        )
+    found = passes_in(worlds)
+    assert found == [passes_of(*steps) for steps in worlds]
+    assert sum(max(passes) > 1 for passes in found) > n / 2, "several passes in most worlds"
 
 
 def test_a_pass_may_be_as_short_as_the_least_length() -> None:

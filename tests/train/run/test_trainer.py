@@ -40,6 +40,28 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert list((finished / "tensorboard").iterdir())
 
 
+def test_the_log_has_the_share_of_each_part_of_the_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The time of matches is that of physics, opponents and tasks."""
+    trainer = Trainer(tiny(tmp_path))
+    shares = {"acting": 0.05, "learning": 0.25, "matches": 0.625, "physics": 0.25}
+    monkeypatch.setattr(trainer.clock, "take", lambda: (2.0, {**shares, "opponents": 0.125}))
+    Loop(trainer, {}).run(StopSignal(), 0)
+    log = read_progress(tmp_path)
+    times = {name: values[-1] for name, values in log.items() if name.startswith("time_")}
+    assert times == {
+        "time_acting": 0.05,
+        "time_ladder": 0.0,
+        "time_learning": 0.25,
+        "time_opponents": 0.125,
+        "time_physics": 0.25,
+        "time_tasks": 0.25,
+    }
+    assert log["seconds"].tolist() == [2.0, 4.0, 6.0, 8.0, 10.0, 12.0]
+    assert set(log["samples_per_second"]) == {72.0}
+
+
 def test_the_same_seed_gives_the_same_run(finished: Path, tmp_path: Path) -> None:
     torch.manual_seed(123)  # global generators must not matter
     np.random.seed(5)  # noqa: NPY002
