@@ -38,6 +38,14 @@ def test_a_notebook_shows_the_match(make: Callable[[], Any]) -> None:
     assert shown._repr_png_() != first
 
 
+def test_matches_show_nothing_before_the_first_has_begun() -> None:
+    matches = rsoccer.Matches("VSSSelfPlay-v0", 2)
+    matches.reset(mask=np.array([False, True]))
+    assert matches._repr_png_() is None
+    matches.reset(mask=np.array([True, False]))
+    assert matches._repr_png_() is not None
+
+
 def test_a_closed_environment_shows_nothing() -> None:
     env = rsoccer.single_env("VSS-v0")
     env.reset()

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -140,6 +141,31 @@ def test_a_run_starts_solo_and_continues_with_self_play(tmp_path: Path) -> None:
     assert set(scores[:3]) == {"nan"}, "solo learners meet the ou policy only"
 
 
+def test_whole_teams_follow_once_after_the_solo_part(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path))
+    collect, seen = trainer.collect_rollout, []
+
+    def noting(check_stop: Callable[[], None]) -> Batch:
+        seen.append((len(trainer.collector.matches.agents), trainer.collector.matches))
+        return collect(check_stop)
+
+    trainer.collect_rollout = noting  # type: ignore[method-assign]
+    Loop(trainer, {}).run(StopSignal(), 0)
+    assert [learners for learners, _ in seen] == [1, 1, 1, 3, 3, 3], "34% of six updates"
+    assert len({id(matches) for _, matches in seen}) == 2
+
+
+def test_actions_spread_as_much_as_the_settings_say(tmp_path: Path) -> None:
+    args = tiny(tmp_path, action_std=0.8, final_action_std=0.2)
+    trainer = Trainer(args)
+    stds = [trainer.network().action_std]
+    while trainer.samples < args.samples:
+        trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
+        stds.append(trainer.network().action_std)
+    expected = 0.8 * 0.25 ** (np.arange(7) / 6)
+    assert np.array(stds) == pytest.approx(np.repeat(expected[:, None], 2, axis=1), rel=1e-5)
+
+
 def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, initial_action=(0.5, -0.25)))
     observations = trainer.collector.observations
@@ -181,6 +207,20 @@ def test_a_run_that_diverges_keeps_its_last_checkpoint(tmp_path: Path) -> None:
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["updates"] == 2
     assert all(np.isfinite(part).all() for part in saved.arrays.values() if part.dtype.kind == "f")
+
+
+def test_a_single_weight_that_is_not_finite_is_a_divergence(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path))
+    run = trainer.ppo.update
+
+    def spoil(*given: Any) -> dict[str, float]:  # noqa: ANN401
+        stats = run(*given)
+        next(trainer.model.actor.parameters()).data[0, 0] = torch.inf
+        return stats
+
+    trainer.ppo.update = spoil  # type: ignore[method-assign]
+    with pytest.raises(ValueError, match="training diverged after 144 samples"):
+        trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
 
 
 def test_training_raises_the_reward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
