@@ -231,6 +231,10 @@ def test_all_bodies_are_placed_as_the_rule_says(
     offset = after.robots.position - after.ball.position[:, None]
     wanted = np.stack([np.broadcast_to(side * distance, (n, robots)), np.zeros((n, robots))], -1)
     assert offset[takers] == pytest.approx(wanted[takers], abs=1e-6)
+    facing = np.stack([np.broadcast_to(-side, (n, robots)), np.zeros((n, robots))], axis=-1)
+    assert after.robots.heading[takers].tolist() == facing[takers].tolist(), "they face the ball"
+    assert same(after.robots.heading[~takers], before.robots.heading[~takers])
+    assert not same(after.robots.heading[takers], before.robots.heading[takers])
     was_inside = (before.robots.position * quarter[:, None] > 0.0).all(axis=-1)
     is_inside = (after.robots.position * quarter[:, None] > 0.0).all(axis=-1)
     assert not (is_inside & ~takers).any()
@@ -250,7 +254,7 @@ def test_robots_leave_the_quarter_for_the_nearest_free_place_those_near_the_ball
     field, spacing = task.config.field, free_ball.GRID_SPACING
     before, rng = Frame.empty(150, 3, 3), np.random.default_rng(6)
     before.ball.position[:] = rng.uniform(0.05, 0.5, (150, 2))
-    before.robots.position[:] = rng.uniform((-0.2, -0.2), (0.65, 0.55), (150, 6, 2))
+    before.robots.position[:] = rng.uniform((-0.2, -0.2), (0.69, 0.55), (150, 6, 2))
     after = free_balls(task, before)
     reach = np.array([field.half_length, field.half_width]) - radius
     grid = np.stack(np.meshgrid(*[spacing * np.arange(-20, 21)] * 2), axis=-1)
@@ -269,7 +273,7 @@ def test_robots_leave_the_quarter_for_the_nearest_free_place_those_near_the_ball
             between = np.linalg.norm(places[:, None] - now[settled], axis=-1)
             free = places[(between > 2.0 * radius).all(axis=1)]
             shortest = np.linalg.norm(free - was[robot], axis=1).min()
-            assert np.linalg.norm(now[robot] - was[robot]) < shortest + 1e-4
+            assert np.linalg.norm(now[robot] - was[robot]) == pytest.approx(shortest, abs=1e-4)
             settled.append(robot)
         left += len(leaving) > 1
     assert left > 75, "worlds in which robots compete for places"
