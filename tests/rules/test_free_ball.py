@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Field, Matches, SimConfig, Simulator
+from rsoccer import Field, Matches, RobotModel, SimConfig, Simulator
 from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.frame import Frame
@@ -392,6 +392,18 @@ def test_the_option_can_be_off_and_is_checked() -> None:
 def test_fields_without_room_around_the_mark_have_no_free_balls(numbers: dict[str, float]) -> None:
     with pytest.raises(ValueError, match="free_ball: expected False for robots of radius"):
         FreeBalls(SimConfig(Field("vss_3v3", **numbers)))
+
+
+def test_free_balls_need_room_for_the_largest_robot() -> None:
+    usual, field = SimConfig().robot, Field("vss_3v3", free_ball_y=0.065)
+    large = RobotModel(usual.name, side_length=0.1)
+    assert usual.bounding_radius < 0.065 < large.bounding_radius
+    FreeBalls(SimConfig(field, 3, 3, robot=[usual] * 6))
+    for models in ([large, *[usual] * 5], [*[usual] * 5, large]):
+        with pytest.raises(
+            ValueError, match=r"free_ball: expected False for robots of radius 0\.07"
+        ):
+            FreeBalls(SimConfig(field, 3, 3, robot=models))
 
 
 def test_a_replay_shows_free_balls_and_keeps_the_option() -> None:

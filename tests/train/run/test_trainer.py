@@ -3,7 +3,6 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -213,8 +212,10 @@ def test_a_single_weight_that_is_not_finite_is_a_divergence(tmp_path: Path) -> N
     trainer = Trainer(tiny(tmp_path))
     run = trainer.ppo.update
 
-    def spoil(*given: Any) -> dict[str, float]:  # noqa: ANN401
-        stats = run(*given)
+    def spoil(
+        batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+    ) -> dict[str, float]:
+        stats = run(batch, learning_rate, check_stop)
         next(trainer.model.actor.parameters()).data[0, 0] = torch.inf
         return stats
 
