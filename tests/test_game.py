@@ -45,6 +45,20 @@ def test_events_of_some_worlds_can_be_forgotten() -> None:
     assert [event.kind for event in events.of_world(3)] == [EventKind.PASS]
 
 
+def test_empty_slots_are_of_no_kind_and_of_nobody() -> None:
+    events = Events.empty(2)
+    assert (events.kind == EventKind.NONE).all() and not events.position.any()
+    assert (events.team == NOBODY).all() and (events.robot == NOBODY).all()
+    types = {name: array.dtype.name for name, array in events.items()}
+    assert types == {
+        "count": "int64",
+        "kind": "int16",
+        "team": "int8",
+        "robot": "int16",
+        "position": "float32",
+    }
+
+
 def test_more_events_than_slots_are_refused() -> None:
     events = Events.empty(2)
     for _ in range(Events.SLOTS):

@@ -114,7 +114,8 @@ def test_time_stamps_reach_the_state_and_are_saved() -> None:
 
 def test_waiting_worlds_keep_their_time() -> None:
     task = VssSelfPlay(max_steps=2)
-    matches = Matches(task, 2, simulator=robots_of(task, 2), autoreset="disabled")
+    robots = robots_of(task, 2)
+    matches = Matches(task, 2, simulator=robots, autoreset="disabled")
     matches.reset()
     matches.step(zeros(matches))
     matches.reset(mask=np.array([False, True]))
@@ -122,6 +123,7 @@ def test_waiting_worlds_keep_their_time() -> None:
     matches.step(zeros(matches))
     assert matches.done.tolist() == [True, True]
     assert matches.play.times == pytest.approx([7.06, 7.09])
+    assert robots.clock == pytest.approx([7.06, 7.09]), "the simulator does not move them"
 
 
 @pytest.mark.parametrize("times", [np.zeros(3), np.zeros(2, np.float32), np.full(2, np.nan)])

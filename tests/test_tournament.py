@@ -215,6 +215,9 @@ def test_the_command_prints_and_writes_the_result(
     assert ".png" in capsys.readouterr().err
 
 
-def test_matches_have_the_simulator_that_is_named() -> None:
-    result = rsoccer.tournament(["chase", "zero"], matches=4, simulator="tests.simulators:Still")
-    assert not any(standing.wins or standing.losses for standing in result.standings)
+def test_matches_have_the_simulator_and_the_senses_that_are_named() -> None:
+    policies, blind = ["chase", "zero"], "tests.simulators:Blind"
+    still = rsoccer.tournament(policies, matches=4, simulator="tests.simulators:Still")
+    assert not any(standing.wins or standing.losses for standing in still.standings)
+    usual, sensing = (rsoccer.tournament(policies, 4, sensing=given) for given in (None, blind))
+    assert usual.standings[0].wins > sensing.standings[0].wins

@@ -38,6 +38,14 @@ def test_a_notebook_shows_the_match(make: Callable[[], Any]) -> None:
     assert shown._repr_png_() != first
 
 
+def test_matches_show_nothing_before_the_first_has_begun() -> None:
+    matches = rsoccer.Matches("VSSSelfPlay-v0", 2)
+    matches.reset(mask=np.array([False, True]))
+    assert matches._repr_png_() is None
+    matches.reset(mask=np.array([True, False]))
+    assert matches._repr_png_() is not None
+
+
 def test_a_closed_environment_shows_nothing() -> None:
     env = rsoccer.single_env("VSS-v0")
     env.reset()
@@ -51,6 +59,23 @@ def test_the_picture_is_the_rendered_image() -> None:
     image = env.render()
     assert type(image) is np.ndarray
     assert env._repr_png_() == Picture(image).to_png()
+
+
+def test_the_picture_of_matches_is_the_image_of_the_first() -> None:
+    """With its clock and the markers of its task, as a single environment draws them."""
+    env = rsoccer.single_env("SSLDribbling-v0", render_mode="rgb_array")
+    matches = rsoccer.Matches("SSLDribbling-v0", 2, seed=3)
+    env.reset(seed=3)
+    matches.reset()
+    action = np.array([0.0, 0.0, 0.5, 0.0, 0.0], np.float32)[: matches.action_size]
+    for step in range(50):
+        env.step(action)
+        matches.step(np.tile(action, (2, 1, 1)))
+        if step == 45:
+            matches.reset(mask=np.array([False, True]))
+    image = env.render()
+    assert type(image) is np.ndarray
+    assert matches._repr_png_() == Picture(image).to_png()
 
 
 def test_an_image_of_a_wrapped_match_is_shown_by_picture() -> None:

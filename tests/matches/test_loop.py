@@ -1,6 +1,7 @@
 """The step loop: autoreset modes, outcomes, resets and pickling."""
 
 import pickle
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +10,8 @@ import pytest
 
 from rsoccer import Matches
 from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.game import EventKind
+from rsoccer.rules import Restart, Rule
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import Crowd, begun, pushing, same, zeros
@@ -105,6 +108,39 @@ def test_waiting_worlds_draw_no_random_numbers() -> None:
         assert same(after[name][0], held[name][0]), name
     for name in ("rng.yellow_0", "yellow_0.walk", "frame", "steps"):
         assert not same(after[name][4], held[name][4]), name
+
+
+class Whistle(Rule):
+    """An event in every world after every step."""
+
+    def judge(self, play: Play) -> Restart | None:
+        play.events.add(np.arange(len(play.frame)), EventKind.PASS)
+        return None
+
+
+class Whistled(Counting):
+    @property
+    def rules(self) -> Sequence[Rule]:
+        return (Whistle(),)
+
+
+@pytest.mark.parametrize("autoreset", ["disabled", "next_step"])
+def test_nothing_happens_in_a_world_that_waits(autoreset: str) -> None:
+    matches = begun(Whistled(), autoreset=autoreset)
+    for _ in range(2):
+        matches.step(zeros(matches))
+    assert matches.play.events.count.tolist() == [1, 1, 1, 1, 1], "the last step of world 0 too"
+    matches.step(zeros(matches))
+    assert matches.play.events.count.tolist() == [0, 1, 1, 1, 1]
+
+
+def test_a_reset_forgets_the_events_of_its_worlds() -> None:
+    matches = begun(Whistled())
+    matches.step(zeros(matches))
+    matches.reset(mask=np.array([False, True, False, False, True]))
+    assert matches.play.events.count.tolist() == [1, 0, 1, 1, 0]
+    matches.reset()
+    assert not matches.play.events.count.any()
 
 
 def test_rewards_are_the_sum_of_terms() -> None:

@@ -124,6 +124,35 @@ def test_final_states_differ_from_states_only_where_an_episode_ended() -> None:
     assert same(matches.final_states(), matches.states())
 
 
+def test_final_states_of_restored_matches_are_their_states() -> None:
+    matches = Matches("VSSSelfPlay-v0", 2, max_steps=3)
+    matches.reset()
+    saved = matches.state_dict()
+    assert played(matches, 3)[-1].ended.all()
+    assert not same(matches.final_states(), matches.states())
+    matches.load_state_dict(saved)
+    assert same(matches.final_states(), matches.states())
+
+
+def test_views_of_restored_matches_are_of_their_state() -> None:
+    matches = Matches("VSSSelfPlay-v0", 2)
+    matches.reset()
+    saved, ball = matches.state_dict(), matches.play.view.ball.data.copy()
+    played(matches, 3)
+    assert not same(matches.play.view.ball.data, ball)
+    matches.load_state_dict(saved)
+    assert same(matches.play.view.ball.data, ball)
+
+
+def test_restored_matches_that_have_not_begun_refuse_a_step() -> None:
+    begun, restored = (Matches("VSSSelfPlay-v0", 2) for _ in range(2))
+    begun.reset(mask=np.array([True, False]))
+    restored.reset()
+    restored.load_state_dict(begun.state_dict())
+    with pytest.raises(RuntimeError, match="step before reset: some worlds have begun no episode"):
+        restored.step(zeros(restored))
+
+
 # -- Episodes ---------------------------------------------------------------------------------
 
 

@@ -65,10 +65,12 @@ def test_a_simulator_that_neither_places_nor_reads_is_refused() -> None:
         Matches("VSSSelfPlay-v0", simulator=OnlySteps())
 
 
-def test_a_state_that_is_not_finite_begins_no_episode() -> None:
+@pytest.mark.parametrize("lost", [slice(None), 0, -1])
+def test_a_state_that_is_not_finite_begins_no_episode(lost: int | slice) -> None:
     class Lost(Robots):
         def read(self, out: Floats) -> Doubles | None:
-            out[:] = np.nan
+            super().read(out)
+            out[:, lost] = np.nan
             return None
 
     matches = Matches("VSSSelfPlay-v0", simulator=Lost(SimConfig()))

@@ -9,6 +9,7 @@ import pytest
 
 from rsoccer import Matches, Simulator
 from rsoccer.arrays import Floats, Mask
+from rsoccer.play import Play
 from rsoccer.rules import Restart, Rule
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import begun, same, zeros
@@ -71,6 +72,28 @@ def test_last_frame_and_views_equal_the_new_ones_only_in_these_worlds(kind: str)
     matches._viewpoint.fill(play.frame, fresh)
     assert same(fresh.ball.data, play.view.ball.data)
     assert same(fresh.robots.data, play.view.robots.data)
+
+
+@dataclass(frozen=True)
+class Looking(ListedVss):
+    """A task whose reward is computed from the views of the robots."""
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        terms, done = super().calculate_reward_and_done(play)
+        moved = play.view.ball.position - play.last_view.ball.position
+        return terms | {"moved": np.linalg.norm(moved, axis=-1)}, done
+
+
+def test_views_that_a_reward_has_read_show_the_state_after_the_restart() -> None:
+    task = Looking()
+    matches = begun(task, 2)
+    task.rule.results.append(Restart(np.array([1]), rows=line_ups(0.3)))
+    outcome = matches.step(zeros(matches) + 0.5)
+    play = matches.play
+    assert play.view.ball.position[1, 0] == pytest.approx((-0.5, 0.3))
+    assert same(play.view.ball.data[1], play.last_view.ball.data[1])
+    ball = matches.task.layout.blocks["ball"].columns
+    assert outcome.observations[1, 0, ball][1] == pytest.approx(0.3 / 0.75)
 
 
 def test_observations_show_the_state_after_the_restart() -> None:
@@ -183,6 +206,21 @@ def test_rules_may_not_share_the_name_of_a_column() -> None:
         Matches(Doubled())
 
 
+def test_no_rule_may_replace_the_score() -> None:
+    class Scorer(Listed):
+        def columns(self, n: int) -> dict[str, Any]:
+            return {"score": np.zeros((n, 2), np.int64)}
+
+    @dataclass(frozen=True)
+    class Scored(VssSelfPlay):
+        @property
+        def rules(self) -> Sequence[Rule]:
+            return (Scorer([]),)
+
+    with pytest.raises(ValueError, match="Scorer: the name 'score' is taken"):
+        Matches(Scored())
+
+
 def test_a_column_has_a_row_for_each_world() -> None:
     class Single(Listed):
         def columns(self, n: int) -> dict[str, Any]:
@@ -198,11 +236,14 @@ def test_a_column_has_a_row_for_each_world() -> None:
         Matches(Wrong(), 3)
 
 
-BALL, ROW = balls(CORNERS[0]), line_ups(0.0)
+BALL, BALLS, ROW = balls(CORNERS[0]), balls(*CORNERS[:2]), line_ups(0.0)
 INVALID: list[tuple[object, str]] = [
     (Restart(np.array([4]), rows=ROW), r"Listed.judge: expected worlds 0 to 3, got \[4\]"),
     (Restart(np.array([-1]), balls=BALL), r"expected worlds 0 to 3, got \[-1\]"),
+    (Restart(np.array([0, 4]), balls=BALLS), r"expected worlds 0 to 3, got \[0, 4\]"),
+    (Restart(np.array([2, -1]), balls=BALLS), r"expected worlds 0 to 3, got \[2, -1\]"),
     (Restart(np.array([1, 1]), rows=line_ups(0.0, 0.0)), r"expected each world once, got \[1, 1\]"),
+    (Restart(np.array([2, 0, 2]), balls=balls(*CORNERS[:3])), r"once, got \[0, 2, 2\]"),
     (Restart(np.array([0.0]), rows=ROW), "expected whole numbers"),
     (Restart(np.array([True]), balls=BALL), "expected whole numbers"),
     (Restart(np.array([[0]]), balls=BALL), r"expected whole numbers \(k,\)"),

@@ -41,7 +41,7 @@ def crossed(*crossings: str, last_touch: int = NOBODY) -> Play:
 
 def test_every_crossing_has_its_event() -> None:
     assert set(EXPECTED) == set(CROSSINGS) - {"none"}
-    for robot, team in ((NOBODY, NOBODY), (1, BLUE), (5, YELLOW)):
+    for robot, team in ((NOBODY, NOBODY), (0, BLUE), (2, BLUE), (3, YELLOW), (5, YELLOW)):
         play = crossed("none", *EXPECTED, last_touch=robot)
         assert play.events.of_world(0) == []
         for world, (kind, scorer) in enumerate(EXPECTED.values(), start=1):

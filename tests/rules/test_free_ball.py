@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import Field, Matches, SimConfig, Simulator
+from rsoccer import Field, Matches, RobotModel, SimConfig, Simulator
 from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.frame import Frame
+from rsoccer.game import NOBODY, EventKind
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.replay import Recorder, Replay
@@ -149,6 +150,8 @@ def test_a_ball_that_moves_is_never_stuck() -> None:
     assert steps_to_free_ball(lambda step: (0.001 * step - 0.6, 0.1), 1300) == []
     jumps = steps_to_free_ball(lambda step: (just_outside * (step // (STEPS - 1) % 2), 0.1), 1300)
     assert jumps == []
+    across = steps_to_free_ball(lambda step: (0.3, just_outside * (step // (STEPS - 1) % 2)), 1300)
+    assert across == []
 
 
 def test_a_ball_that_moves_a_little_is_stuck() -> None:
@@ -163,6 +166,19 @@ def test_the_time_begins_again_after_a_free_ball_and_after_a_move() -> None:
     assert resting == [STEPS, 2 * STEPS, 3 * STEPS]
     moved = steps_to_free_ball(lambda step: (0.1 if step < 300 else 0.4, 0.1), 750)
     assert moved == [300 + STEPS]
+
+
+def test_each_free_ball_of_an_episode_counts_and_is_an_event_where_the_ball_was_stuck() -> None:
+    task = VssSelfPlay(free_ball=True)
+    play = in_play(task, wedge(0.2, -0.3))
+    for count in (1, 2, 3):
+        play.game.stuck_steps[:] = STEPS
+        play.events.forget()
+        assert rule_of(task).judge(play) is not None
+        assert play.game.free_balls.tolist() == [count]
+        [event] = play.events.of_world(0)
+        assert event[:3] == (EventKind.NO_PROGRESS_IN_GAME, NOBODY, NOBODY)
+        assert event.position == pytest.approx((0.2, -0.3))
 
 
 def test_a_ball_that_crosses_a_goal_line_is_not_moved() -> None:
@@ -219,6 +235,10 @@ def test_all_bodies_are_placed_as_the_rule_says(
     offset = after.robots.position - after.ball.position[:, None]
     wanted = np.stack([np.broadcast_to(side * distance, (n, robots)), np.zeros((n, robots))], -1)
     assert offset[takers] == pytest.approx(wanted[takers], abs=1e-6)
+    facing = np.stack([np.broadcast_to(-side, (n, robots)), np.zeros((n, robots))], axis=-1)
+    assert after.robots.heading[takers].tolist() == facing[takers].tolist(), "they face the ball"
+    assert same(after.robots.heading[~takers], before.robots.heading[~takers])
+    assert not same(after.robots.heading[takers], before.robots.heading[takers])
     was_inside = (before.robots.position * quarter[:, None] > 0.0).all(axis=-1)
     is_inside = (after.robots.position * quarter[:, None] > 0.0).all(axis=-1)
     assert not (is_inside & ~takers).any()
@@ -230,6 +250,37 @@ def test_all_bodies_are_placed_as_the_rule_says(
     between = np.linalg.norm(bodies[:, :, None] - bodies[:, None], axis=-1) + np.eye(robots + 1)
     assert between.min() > 0.09, "no robot touches another body"
     Matches(task, n, controllers=EVERYONE).reset(rows=after.rows)  # raises where bodies overlap
+
+
+def test_robots_leave_the_quarter_for_the_nearest_free_place_those_near_the_ball_first() -> None:
+    task = VssSelfPlay(free_ball=True)
+    radius = task.config.robot.bounding_radius + free_ball.MARGIN
+    field, spacing = task.config.field, free_ball.GRID_SPACING
+    before, rng = Frame.empty(150, 3, 3), np.random.default_rng(6)
+    before.ball.position[:] = rng.uniform(0.05, 0.5, (150, 2))
+    before.robots.position[:] = rng.uniform((-0.2, -0.2), (0.69, 0.55), (150, 6, 2))
+    after = free_balls(task, before)
+    reach = np.array([field.half_length, field.half_width]) - radius
+    grid = np.stack(np.meshgrid(*[spacing * np.arange(-20, 21)] * 2), axis=-1)
+    outside = (grid < -radius).any(axis=-1) & (np.abs(grid) < reach).all(axis=-1)
+    blocks = field.half_length + field.half_width - field.corner_leg - np.sqrt(2.0) * radius
+    places = grid[outside & (np.abs(grid).sum(axis=-1) < blocks)]
+    left = 0
+    for was, now, ball in zip(
+        before.robots.position, after.robots.position, before.ball.position, strict=True
+    ):
+        gaps = np.linalg.norm(was - ball, axis=1)
+        takers = {int(gaps[:3].argmin()), 3 + int(gaps[3:].argmin())}
+        leaving = set(np.flatnonzero((was != now).any(axis=1)).tolist()) - takers
+        settled = [robot for robot in range(6) if robot not in leaving]
+        for robot in sorted(leaving, key=lambda robot: gaps[robot]):
+            between = np.linalg.norm(places[:, None] - now[settled], axis=-1)
+            free = places[(between > 2.0 * radius).all(axis=1)]
+            shortest = np.linalg.norm(free - was[robot], axis=1).min()
+            assert np.linalg.norm(now[robot] - was[robot]) == pytest.approx(shortest, abs=1e-4)
+            settled.append(robot)
+        left += len(leaving) > 1
+    assert left > 75, "worlds in which robots compete for places"
 
 
 def test_free_balls_are_symmetric_between_the_teams_and_between_left_and_right() -> None:
@@ -330,6 +381,33 @@ def test_the_option_can_be_off_and_is_checked() -> None:
     rsoccer.make_task("VSS-v0", field=narrow)
     with pytest.raises(ValueError, match=r"free_ball: expected False.*1.5 x 0.6 m, got True"):
         rsoccer.make_task("VSS-v0", field=narrow, free_ball=True)
+
+
+@pytest.mark.parametrize(
+    "numbers",
+    [
+        {"length": 1.0},  # no room behind the yellow robot
+        {"length": 1.22},
+        {"free_ball_x": 0.2},  # the blue robot would stand on the middle line
+        {"free_ball_y": 0.03},
+        {"free_ball_y": 0.62},
+    ],
+)
+def test_fields_without_room_around_the_mark_have_no_free_balls(numbers: dict[str, float]) -> None:
+    with pytest.raises(ValueError, match="free_ball: expected False for robots of radius"):
+        FreeBalls(SimConfig(Field("vss_3v3", **numbers)))
+
+
+def test_free_balls_need_room_for_the_largest_robot() -> None:
+    usual, field = SimConfig().robot, Field("vss_3v3", free_ball_y=0.065)
+    large = RobotModel(usual.name, side_length=0.1)
+    assert usual.bounding_radius < 0.065 < large.bounding_radius
+    FreeBalls(SimConfig(field, 3, 3, robot=[usual] * 6))
+    for models in ([large, *[usual] * 5], [*[usual] * 5, large]):
+        with pytest.raises(
+            ValueError, match=r"free_ball: expected False for robots of radius 0\.07"
+        ):
+            FreeBalls(SimConfig(field, 3, 3, robot=models))
 
 
 def test_a_replay_shows_free_balls_and_keeps_the_option() -> None:

@@ -1,6 +1,6 @@
 """Passes that `SSLSelfPlay-v0` counts, in scenes with one kick or a rolling ball."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,6 +8,11 @@ import pytest
 
 from rsoccer import Matches
 from rsoccer.arrays import Array
+from rsoccer.frame import Frame
+from rsoccer.game import NOBODY
+from rsoccer.new_play import new_play, new_viewpoint
+from rsoccer.rng import WorldRng
+from rsoccer.rules import Passes
 from rsoccer.tasks import SslSelfPlay
 from tests.tasks.ssl_scenes import DRIBBLE, KICK, STAND, scene
 
@@ -144,6 +149,75 @@ def test_a_ball_that_left_the_field_is_no_pass() -> None:
     assert 1 in beams, "blue_1 collected the ball"
     assert matches.frame.ball.position[0, 1] - (0.9 + MOUTH) > 0.5
     assert outcome.metrics["blue_passes"][0] == 0.0
+
+
+Step = tuple[float, float, int, int]
+"""A made-up step: x of the ball, its speed, the robot that touched it last, the broken beam."""
+RESTART: Step = (0.0, 0.0, NOBODY, NOBODY)
+"""In place of a step: a restart puts the ball at x = 0."""
+
+
+def passes_in(worlds: Sequence[Sequence[Step]]) -> list[list[int]]:
+    """Passes of both teams in worlds with as many made-up steps.
+
+    The robots stand 0.6 m apart on the x axis, blue ones from x = 0 on.
+    """
+    n = len(worlds)
+    play = new_play(TASK, n, new_viewpoint(TASK, [0]), WorldRng.seeded(0, n))
+    frame = Frame.empty(n, 3, 3)
+    frame.robots.position[..., 0] = 0.6 * np.arange(6)
+    play.start(frame.rows)
+    rule, ball = Passes(min_length=0.5), play.frame.ball
+    rule.begin(play, np.arange(n))
+    for steps in zip(*worlds, strict=True):
+        play.events.forget()
+        ball.position[:, 0], ball.velocity[:, 0], ball.last_touch[:], beams = np.transpose(steps)
+        play.frame.robots.infrared[:] = np.arange(6) == beams[:, None]
+        if steps[0] == RESTART:
+            rule.begin(play, np.arange(n))
+        else:
+            assert rule.judge(play) is None
+    passes: list[list[int]] = play.game.passes.tolist()
+    return passes
+
+
+def passes_of(*steps: Step) -> list[int]:
+    """Passes of both teams in one world."""
+    return passes_in([steps])[0]
+
+
+def test_passes_of_many_worlds_are_those_of_each_alone() -> None:
+    rng, n = np.random.default_rng(0), 40
+    worlds: list[list[Step]] = []
+    for _ in range(n):
+        x, touched = rng.uniform(0.0, 3.0, 60), np.repeat(rng.integers(0, 6, 15), 4)
+        speed, beams = rng.choice([0.0, 3.0], 60, p=[0.1, 0.9]), rng.integers(-6, 6, 60)
+        beams = np.maximum(beams, NOBODY)
+        worlds.append(
+            list(zip(x.tolist(), speed.tolist(), touched.tolist(), beams.tolist(), strict=True))
+        )
+    found = passes_in(worlds)
+    assert found == [passes_of(*steps) for steps in worlds]
+    assert sum(max(passes) > 1 for passes in found) > n / 2, "several passes in most worlds"
+
+
+def test_a_pass_may_be_as_short_as_the_least_length() -> None:
+    kicked = (0.0, 3.0, 0, NOBODY)
+    assert passes_of(kicked, (0.5, 3.0, 0, 1)) == [1, 0]
+    assert passes_of(kicked, (0.49, 3.0, 0, 1)) == [0, 0]
+
+
+def test_a_pass_begins_at_its_passer_even_if_the_ball_is_out_of_reach_at_once() -> None:
+    """The hardest kick takes the ball out of reach within the step of the touch."""
+    first, kicked = (0.0, 3.0, 0, NOBODY), (0.9, 6.5, 1, NOBODY)
+    assert passes_of(first, kicked, (1.2, 6.5, 1, 2)) == [0, 0], "0.3 m from blue_1"
+    assert passes_of(first, kicked, (1.45, 6.5, 1, 2)) == [1, 0]
+
+
+def test_a_ball_that_a_restart_has_placed_arrives_from_nobody() -> None:
+    kicked, arrived = (0.0, 3.0, 0, NOBODY), (0.55, 3.0, NOBODY, 1)
+    assert passes_of(kicked, RESTART, arrived) == [0, 0]
+    assert passes_of(kicked, arrived) == [1, 0], "without the restart it is a pass"
 
 
 def test_a_derived_task_with_memory_of_its_own_counts_passes() -> None:

@@ -9,7 +9,7 @@ import pytest
 from rsoccer.replay import Replay
 from rsoccer.train import Args, train
 from rsoccer.train.clock import Clock, TimedSimulator
-from rsoccer.train.run.ladder import Ladder
+from rsoccer.train.run.loop import Loop
 from rsoccer.train.run.trainer import Trainer
 from tests.simulators import BLIND, Blind, Still, still
 from tests.test_simulator_interface import Frozen
@@ -32,12 +32,13 @@ def test_the_matches_of_a_run_have_the_simulator_and_the_senses(tmp_path: Path) 
 def test_the_ladder_is_measured_with_both(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     used: list[Any] = []
     monkeypatch.setattr("rsoccer.matches.loop.make_simulator", lambda *given: _noted(used, given))
-    args = tiny(tmp_path, **NAMED)
-    trainer = Trainer(args)
+    monkeypatch.setattr(
+        "rsoccer.matches.loop.make_sensing", lambda given: _noted_blind(used, given)
+    )
+    trainer = Trainer(tiny(tmp_path, **NAMED))
     used.clear()
-    ladder = Ladder(args.run, trainer.task, 1, simulator=args.simulator, sensing=args.sensing)
-    ladder.measure(trainer.network())
-    assert used == [NAMED["simulator"]]
+    Loop(trainer, {}).ladder.measure(trainer.network())
+    assert used == [NAMED["simulator"], NAMED["sensing"]]
 
 
 def test_the_match_of_the_policy_is_played_with_both(tmp_path: Path) -> None:
@@ -52,6 +53,11 @@ def test_the_match_of_the_policy_is_played_with_both(tmp_path: Path) -> None:
 def _noted(used: list[Any], given: Any) -> Still:  # noqa: ANN401
     used.append(given[0])
     return Still(*given[1:])
+
+
+def _noted_blind(used: list[Any], given: Any) -> Blind:  # noqa: ANN401
+    used.append(given)
+    return Blind()
 
 
 def test_a_run_resumes_with_the_same_texts_only(tmp_path: Path) -> None:

@@ -79,6 +79,12 @@ def test_foreign_files_are_refused(tmp_path: Path) -> None:
         checkpoint.load(path)
 
 
+def test_a_folder_is_made_with_its_parents(tmp_path: Path) -> None:
+    for _ in range(2):
+        checkpoint.prepare_folder(tmp_path / "runs" / "first")
+        assert not list((tmp_path / "runs" / "first").iterdir())
+
+
 def test_a_folder_that_cannot_be_written_is_refused_first(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -70,6 +70,14 @@ def test_another_policy_at_the_same_path_is_refused(tmp_path: Path) -> None:
         train(tiny(folder, resume=True, **args))
 
 
+def test_a_checkpoint_that_names_no_policies_can_be_resumed(finished: Path, tmp_path: Path) -> None:
+    saved = checkpoint.load(finished / checkpoint.FILE_NAME)
+    del saved.info["policy_files"]
+    checkpoint.save(tmp_path / checkpoint.FILE_NAME, saved)
+    with opened(tiny(tmp_path, resume=True), {"opponent.safetensors": "a digest"}) as found:
+        assert found is not None
+
+
 @pytest.mark.parametrize("option", ["opponent", "teammates"])
 def test_a_policy_in_an_option_of_the_task_counts(option: str, tmp_path: Path) -> None:
     path = tmp_path / "policy.safetensors"

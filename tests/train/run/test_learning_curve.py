@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from rsoccer.registry import make_task
 from rsoccer.train import Args
 from rsoccer.train.args import SETTINGS_FILE
 from rsoccer.train.run.learning_curve import plot_learning_curve
@@ -89,6 +90,22 @@ def test_tasks_for_one_team_show_their_metric(ladder: bool, tmp_path: Path) -> N
     assert np.array(line.get_ydata()).tolist() == [3.0 if ladder else 2.0] * 2
     assert axes.get_ylabel() == ("passes" if ladder else "passes while exploring")
     assert axes.get_legend() is None
+
+
+@pytest.mark.parametrize(
+    ("task", "limits"),
+    [
+        ("VSSSelfPlay-v0", (-1.05, 1.05)),
+        ("SSLDribbling-v0", (0.0, 1.05 * 7.0)),  # seven gates
+        ("SSLGoToBall-v0", (0.0, 1.05)),
+    ],
+)
+def test_scores_are_shown_on_their_whole_scale(
+    task: str, limits: tuple[float, float], tmp_path: Path
+) -> None:
+    metric = make_task(task).success
+    axes = plotted(tmp_path, [{f"ladder_{metric}": 0.5}] * 2, task)
+    assert axes.get_ylim() == pytest.approx(limits)
 
 
 def test_a_log_without_rows_is_refused(tmp_path: Path) -> None:

@@ -37,6 +37,15 @@ def test_the_mean_without_episodes_is_nan() -> None:
     assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["goals_for"] == 0
 
 
+def test_a_log_of_one_row_is_read(tmp_path: Path) -> None:
+    write_rows(new_logger(tmp_path), 0, 1)
+    assert {name: values.tolist() for name, values in read_progress(tmp_path).items()} == {
+        "samples": [0.0],
+        "reward": [1.0],
+        "episode_ou/goal_score": [0.0],
+    }
+
+
 def test_a_log_shorter_than_its_checkpoint_says_stays_readable(tmp_path: Path) -> None:
     size = write_rows(new_logger(tmp_path), 0, 2)
     write_rows(new_logger(tmp_path, 200, size + 100), 2, 3)
@@ -59,7 +68,8 @@ def test_the_bar_shows_goals_and_wins(tmp_path: Path, capsys: pytest.CaptureFixt
         "goals_for": 3,
         "goals_against": 1,
     }
-    logger.write(400, row)
+    logger.write(300, row)
     logger.close()
     shown = capsys.readouterr().err
+    assert "75%" in shown and "300/400" in shown
     assert "goals 3:1, won 75%" in shown and "samples/s" in shown

@@ -40,6 +40,28 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert list((finished / "tensorboard").iterdir())
 
 
+def test_the_log_has_the_share_of_each_part_of_the_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The time of matches is that of physics, opponents and tasks."""
+    trainer = Trainer(tiny(tmp_path))
+    shares = {"acting": 0.05, "learning": 0.25, "matches": 0.625, "physics": 0.25}
+    monkeypatch.setattr(trainer.clock, "take", lambda: (2.0, {**shares, "opponents": 0.125}))
+    Loop(trainer, {}).run(StopSignal(), 0)
+    log = read_progress(tmp_path)
+    times = {name: values[-1] for name, values in log.items() if name.startswith("time_")}
+    assert times == {
+        "time_acting": 0.05,
+        "time_ladder": 0.0,
+        "time_learning": 0.25,
+        "time_opponents": 0.125,
+        "time_physics": 0.25,
+        "time_tasks": 0.25,
+    }
+    assert log["seconds"].tolist() == [2.0, 4.0, 6.0, 8.0, 10.0, 12.0]
+    assert set(log["samples_per_second"]) == {72.0}
+
+
 def test_the_same_seed_gives_the_same_run(finished: Path, tmp_path: Path) -> None:
     torch.manual_seed(123)  # global generators must not matter
     np.random.seed(5)  # noqa: NPY002
@@ -118,6 +140,31 @@ def test_a_run_starts_solo_and_continues_with_self_play(tmp_path: Path) -> None:
     assert set(scores[:3]) == {"nan"}, "solo learners meet the ou policy only"
 
 
+def test_whole_teams_follow_once_after_the_solo_part(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path))
+    collect, seen = trainer.collect_rollout, []
+
+    def noting(check_stop: Callable[[], None]) -> Batch:
+        seen.append((len(trainer.collector.matches.agents), trainer.collector.matches))
+        return collect(check_stop)
+
+    trainer.collect_rollout = noting  # type: ignore[method-assign]
+    Loop(trainer, {}).run(StopSignal(), 0)
+    assert [learners for learners, _ in seen] == [1, 1, 1, 3, 3, 3], "34% of six updates"
+    assert len({id(matches) for _, matches in seen}) == 2
+
+
+def test_actions_spread_as_much_as_the_settings_say(tmp_path: Path) -> None:
+    args = tiny(tmp_path, action_std=0.8, final_action_std=0.2)
+    trainer = Trainer(args)
+    stds = [trainer.network().action_std]
+    while trainer.samples < args.samples:
+        trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
+        stds.append(trainer.network().action_std)
+    expected = 0.8 * 0.25 ** (np.arange(7) / 6)
+    assert np.array(stds) == pytest.approx(np.repeat(expected[:, None], 2, axis=1), rel=1e-5)
+
+
 def test_the_first_policy_plays_the_initial_action(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, initial_action=(0.5, -0.25)))
     observations = trainer.collector.observations
@@ -159,6 +206,22 @@ def test_a_run_that_diverges_keeps_its_last_checkpoint(tmp_path: Path) -> None:
     saved = checkpoint.load(tmp_path / checkpoint.FILE_NAME)
     assert saved.info["updates"] == 2
     assert all(np.isfinite(part).all() for part in saved.arrays.values() if part.dtype.kind == "f")
+
+
+def test_a_single_weight_that_is_not_finite_is_a_divergence(tmp_path: Path) -> None:
+    trainer = Trainer(tiny(tmp_path))
+    run = trainer.ppo.update
+
+    def spoil(
+        batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+    ) -> dict[str, float]:
+        stats = run(batch, learning_rate, check_stop)
+        next(trainer.model.actor.parameters()).data[0, 0] = torch.inf
+        return stats
+
+    trainer.ppo.update = spoil  # type: ignore[method-assign]
+    with pytest.raises(ValueError, match="training diverged after 144 samples"):
+        trainer.update(trainer.collect_rollout(lambda: None), lambda: None)
 
 
 def test_training_raises_the_reward(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -46,7 +46,8 @@ def test_a_folder_with_a_run_is_not_overwritten_by_default(finished: Path) -> No
 
 def test_resuming_needs_a_checkpoint(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="does not exist"):
-        train(tiny(tmp_path, resume=True))
+        train(tiny(tmp_path / "run", resume=True))
+    assert not (tmp_path / "run").exists()
 
 
 def test_resuming_with_other_settings_is_refused(finished: Path) -> None:
