@@ -1,5 +1,6 @@
 """Blocks that are computed when they are read behave like a dict of arrays."""
 
+import copy
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,8 @@ def test_unread_blocks_are_written_where_they_are_wanted() -> None:
         lambda blocks, more: blocks | more,
         lambda blocks, more: blocks.copy() | more,
         lambda blocks, more: dict(blocks) | more,
+        lambda blocks, more: copy.copy(blocks) | more,
+        lambda blocks, more: copy.deepcopy(blocks) | more,
     ],
 )
 def test_blocks_are_joined_as_dicts(change: Any) -> None:  # noqa: ANN401
@@ -69,6 +72,19 @@ def test_blocks_are_joined_as_dicts(change: Any) -> None:  # noqa: ANN401
     assert list(joined) == ["a", "b", "c"]
     assert joined["b"] is more["b"]
     assert ({"c": 1} | Counted().blocks()).keys() == {"a", "b", "c"}
+
+
+def test_blocks_of_other_names_are_added_without_reading() -> None:
+    encoder = Counted()
+    more = {"c": np.full((3, 6, 2), 9.0, np.float32)}
+    joined = encoder.blocks() | more
+    assert encoder.calls == 0
+    out = np.empty((3, 6, 8), np.float32)
+    assert joined.write(out, np.full(8, 4.5, np.float32))
+    assert out[2, 5].tolist() == [0.0, 1.0, 2.0, 3.0, 4.0, 4.5, 4.5, 4.5]
+    assert not joined.write(np.empty((3, 6, 6), np.float32), np.ones(6, np.float32))
+    assert list(joined) == ["a", "b", "c"]
+    assert joined["c"] is more["c"]
 
 
 def test_blocks_can_be_replaced_and_deleted() -> None:

@@ -1142,7 +1142,7 @@ class EgoFeatures:
                 a bound is below 0, or the viewpoint has another number of slots.
         """
 
-    def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int]]: ...
+    def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int, bool]]: ...
 
 @final
 class Simulator:

@@ -1,5 +1,6 @@
 """Observation blocks that the core computes at once, when they are needed."""
 
+import copy
 from collections import UserDict
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -72,6 +73,12 @@ class EncodedBlocks(UserDict[str, Floats]):
     def copy(self) -> Any:  # noqa: ANN401  (UserDict's own type)
         """Return a dict of the same blocks."""
         return dict(self.data)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> dict[str, Floats]:
+        """Return a dict of copies of the blocks."""
+        return copy.deepcopy(self.data, memo)
 
     def write(self, out: Floats, bounds: Floats) -> bool:
         """Write all blocks in their order, unless one of them has been read.

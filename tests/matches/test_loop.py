@@ -94,6 +94,23 @@ def test_disabled_waits_for_a_reset() -> None:
     assert matches.done.tolist() == [False, True, True, True, False]
 
 
+def test_waiting_worlds_keep_their_metrics_and_have_no_terms() -> None:
+    class Timed(Counting):
+        def metrics(self, play: Play) -> dict[str, Floats]:
+            return {"speed": play.frame.ball.velocity[:, 0] + play.steps.astype(np.float32)}
+
+    matches = begun(Timed(), autoreset="disabled")
+    while not matches.done[0]:
+        outcome = matches.step(np.ones_like(zeros(matches)))
+    last = outcome.metrics["speed"].copy()
+    for _ in range(3):
+        outcome = matches.step(np.ones_like(zeros(matches)))
+        assert outcome.metrics["speed"][0] == last[0]
+        assert outcome.metrics["speed"][4] != last[4] or matches.done[4]
+        assert matches.observer_terms["twice"][0].tolist() == [0.0] * 6
+    assert matches.observer_terms["twice"].shape == (5, 6)
+
+
 def test_waiting_worlds_draw_no_random_numbers() -> None:
     options: dict[str, Any] = {"autoreset": "disabled", "controllers": {"yellow": "ou"}}
     waiting, control = begun(Counting(), **options), begun(Counting(), **options)

@@ -56,6 +56,27 @@ def test_a_restart_without_a_placer_says_what_to_do() -> None:
     matches.reset()
 
 
+@pytest.mark.parametrize("autoreset", ["same_step", "next_step", "disabled"])
+def test_a_restart_in_the_last_step_of_an_episode_moves_nothing(autoreset: str) -> None:
+    class Last(Rule):
+        def judge(self, play: Play) -> Restart | None:
+            worlds = np.flatnonzero(play.steps >= 3)
+            return Restart(worlds, rows=play.frame.rows[worlds]) if len(worlds) else None
+
+    class Restarted(VssSelfPlay):
+        @property
+        def rules(self) -> list[Rule]:
+            return [Last()]
+
+    task = Restarted(max_steps=3)
+    matches = Matches(task, 2, simulator=robots_of(task, 2), autoreset=autoreset)
+    matches.reset()
+    ended = 0
+    for _ in range(8):
+        ended += int(matches.step(zeros(matches)).ended.sum())
+    assert ended >= 2
+
+
 def test_a_simulator_that_neither_places_nor_reads_is_refused() -> None:
     class OnlySteps:
         def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:

@@ -21,6 +21,7 @@ from rsoccer.rules import FreeBalls, free_ball
 from rsoccer.tasks import VssSelfPlay
 from rsoccer.tasks.vss import Vss
 from rsoccer.testing import check_task
+from rsoccer.vectors import norm
 from tests.helpers import same, zeros
 
 NAMES = ["VSS-v0", "VSSMulti-v0", "VSSSelfPlay-v0"]
@@ -421,3 +422,18 @@ def test_a_replay_shows_free_balls_and_keeps_the_option() -> None:
     assert [event.frame for event in replay.events if event.kind == "free_ball"] == [STEPS]
     assert replay.options == {"max_steps": 450}
     assert replay.episodes[0].metrics["free_balls"] == 1.0
+
+
+@pytest.mark.parametrize("absent", [(0,), (1,), (0, 1, 2), (3, 5), (1, 4), (0, 1, 2, 3, 4, 5)])
+def test_absent_robots_stay_absent_and_take_no_free_ball(absent: tuple[int, ...]) -> None:
+    frame = wedge()
+    frame.robots.absent[0, list(absent)] = 1.0
+    matches = started(VssSelfPlay(), frame)
+    matches.play.game.stuck_steps[:] = STEPS - 1
+    matches.step(zeros(matches))
+    assert matches.play.events.happened(EventKind.NO_PROGRESS_IN_GAME).all()
+    robots = matches.frame.robots
+    assert np.flatnonzero(robots.absent[0]).tolist() == list(absent)
+    near = norm(*(robots.position[0] - matches.frame.ball.position[0]).T) < 0.21
+    present = [[r for r in team if r not in absent] for team in ((0, 1, 2), (3, 4, 5))]
+    assert np.flatnonzero(near).tolist() == [team[0] for team in present if team]

@@ -160,6 +160,7 @@ class Matches:
         self._returns = np.zeros((worlds, len(self.agents)))
         self._final_rows: tuple[Indices, Floats] | None = None
         self._observer_terms: Mapping[str, Floats] = {}
+        self._waited = _NO_WORLDS  # in the last step
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
         # Last, so that what fails before leaves no simulator open.
@@ -176,10 +177,15 @@ class Matches:
         """(n, observers) weighted reward terms of the last step by name, of all observing robots.
 
         The robots are `play.observers`. To be read only, valid until the next step; empty before
-        the first one.
+        the first one. Those of a world that waits for its reset are 0.
         """
         shape = (self.worlds, len(self.play.observers))
-        return {name: np.broadcast_to(t, shape) for name, t in self._observer_terms.items()}
+        terms = {name: np.broadcast_to(t, shape) for name, t in self._observer_terms.items()}
+        if not len(self._waited):
+            return terms
+        played = np.ones((self.worlds, 1), np.float32)
+        played[self._waited] = 0.0
+        return {name: term * played for name, term in terms.items()}
 
     @property
     def frame(self) -> Frame:
@@ -370,9 +376,10 @@ class Matches:
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
         self._final_rows = None
-        waiting, paused = _NO_WORLDS, None
+        self._waited = waiting = _NO_WORLDS
+        paused = None
         if np.count_nonzero(self._done):
-            waiting = np.flatnonzero(self._done)
+            self._waited = waiting = np.flatnonzero(self._done)
             groups = self.assignment.groups
             paused = PausedWorlds(waiting, self.play, groups, self._observations)
         active = ~self._done if paused else None
@@ -384,7 +391,7 @@ class Matches:
         self._sense()
         self._observe()
         if paused:
-            paused.restore(self._observations, outcome)
+            paused.restore(self.task, self._observations, outcome)
         self._returns = self._returns + outcome.rewards
         self._autoreset(waiting, outcome)
         return outcome
@@ -442,6 +449,8 @@ class Matches:
         play = self.play
         for restart in restarts:
             chosen = select(restart, going)
+            if not len(chosen.worlds):
+                continue
             mask = np.zeros(self.worlds, np.bool_)
             mask[chosen.worlds] = True
             self._stamp(self._starts.restart(mask, chosen.rows, chosen.balls, play.frame.rows))

@@ -9,6 +9,7 @@ from rsoccer.arrays import Floats
 from rsoccer.controllers import PolicyGroup
 from rsoccer.matches.outcome import Outcome
 from rsoccer.play import Play
+from rsoccer.task import Task
 
 
 class PausedWorlds:
@@ -34,10 +35,13 @@ class PausedWorlds:
         self._saved_groups = [group.take(worlds) for group in groups]
         self._observations = observations[worlds]
 
-    def restore(self, observations: Floats, outcome: Outcome) -> None:
-        """Undo the step in the paused worlds, and clear their part of its outcome.
+    def restore(self, task: Task, observations: Floats, outcome: Outcome) -> None:
+        """Undo the step in the paused worlds, and in their part of its outcome.
+
+        Rewards and ends become 0, and metrics those of the episode that ended.
 
         Args:
+            task: the task.
             observations: (n, observers, o) observations after the step; changed in place.
             outcome: outcome of the step; changed in place.
         """
@@ -50,3 +54,5 @@ class PausedWorlds:
             array[self._worlds] = 0
         for term in outcome.terms.values():
             term[self._worlds] = 0.0
+        for name, value in task.metrics(self._saved_play).items():
+            outcome.metrics[name][self._worlds] = value

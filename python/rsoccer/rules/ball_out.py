@@ -72,7 +72,8 @@ class BallOut(Rule):
     @cached_property
     def clearance(self) -> float:
         """Least distance from the ball to the center of a robot, m."""
-        return self.config.robot.bounding_radius + 2.0 * self.config.ball.radius
+        radius = max(robot.bounding_radius for robot in self.config.robots)
+        return radius + 2.0 * self.config.ball.radius
 
     @cached_property
     def grid(self) -> Floats:

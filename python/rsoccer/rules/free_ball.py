@@ -126,10 +126,12 @@ class FreeBalls(Rule):
         """States at rest, of k worlds, with the ball at the mark of its quarter."""
         new = Frame.empty(len(frame), frame.n_blue, frame.n_yellow)
         new.robots.heading[:] = frame.robots.heading
+        new.robots.absent[:] = frame.robots.absent
         for world in range(len(frame)):
             ball, robots = frame.ball.position[world], frame.robots.position[world]
+            present = frame.robots.absent[world] == 0.0
             quarter = np.copysign(np.float32(1.0), ball)
-            takers = self._takers(ball, robots)
+            takers = self._takers(ball, robots, present)
             # Within the loop all positions are mirrored into the quarter of positive x and y, so
             # that the choice between equal positions is symmetric between the teams.
             placed = robots * quarter
@@ -138,20 +140,24 @@ class FreeBalls(Rule):
                 shift = np.array([side * quarter[0] * self.robot_distance, 0.0], np.float32)
                 placed[robot] = self.mark + shift
                 new.robots.heading[world, robot] = (-side, 0.0)
-            self._clear_quarter(placed, ball * quarter, list(takers))
+            self._clear_quarter(placed, ball * quarter, list(takers), present)
             new.robots.position[world] = placed * quarter
         return new
 
-    def _takers(self, ball: Floats, robots: Floats) -> dict[int, float]:
+    def _takers(self, ball: Floats, robots: Floats, present: Mask) -> dict[int, float]:
         """The robot of each team nearest to the ball, with the sign of its own side along x."""
-        squared = ((robots - ball) ** 2).sum(axis=1)
-        n_blue = self.config.n_blue
-        takers = {int(np.argmin(squared[:n_blue])): -1.0}
-        if self.config.n_yellow:
-            takers[n_blue + int(np.argmin(squared[n_blue:]))] = 1.0
-        return takers
+        squared = np.where(present, ((robots - ball) ** 2).sum(axis=1), np.inf)
+        teams = (slice(None, self.config.n_blue), -1.0), (slice(self.config.n_blue, None), 1.0)
+        indices = np.arange(len(robots))
+        return {
+            int(indices[team][np.argmin(squared[team])]): side
+            for team, side in teams
+            if present[team].any()
+        }
 
-    def _clear_quarter(self, placed: Floats, ball: Floats, takers: list[int]) -> None:
+    def _clear_quarter(
+        self, placed: Floats, ball: Floats, takers: list[int], present: Mask
+    ) -> None:
         """Move robots (robots, 2), changed in place, out of the quarter of positive x and y.
 
         A robot outside keeps its place. Those inside move to the nearest free place outside, the
@@ -161,7 +167,7 @@ class FreeBalls(Rule):
         squared = ((placed - ball) ** 2).sum(axis=1)
         leaving = []
         for robot in np.argsort(squared, kind="stable").tolist():
-            if robot in takers:
+            if robot in takers or not present[robot]:
                 continue
             inside = bool((placed[robot] > 0.0).all())
             if inside or not self._is_free(placed[robot : robot + 1], placed[takers])[0]:
