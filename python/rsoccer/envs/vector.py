@@ -45,7 +45,7 @@ def vector_env(
 
     Args:
         task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
-        num_envs: number of matches, n, at least 1.
+        num_envs: number of rows, n, at least 1: one learner each, in a match of its own.
         render_mode: "rgb_array" for images of all matches from `render`, or None.
         learner: the robot that learns in every match, such as "blue_0"; needed for tasks with
             several learners. It takes precedence over `controllers`.
@@ -121,7 +121,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
     that was never reset begin with random seeds of their own.
 
     Attributes:
-        num_envs: number of matches, n.
+        num_envs: number of rows, n, each of a match of its own.
         observation_space: Box (n, o) float32.
         action_space: Box (n, action) float32 from -1 to 1, or MultiDiscrete (n,).
         single_observation_space: Box (o,) float32 of one match; `task.layout.blocks` names its
@@ -149,7 +149,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
 
         Args:
             task: the task that is played.
-            num_envs: number of matches, n, at least 1.
+            num_envs: number of rows, n, at least 1: one learner each, in a match of its own.
             render_mode: "rgb_array" or None.
             learner: the robot that learns; needed for tasks with several learners.
             controllers: policies of the other robots, as for `vector_env`.
