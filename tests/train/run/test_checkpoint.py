@@ -14,6 +14,7 @@ from rsoccer.train.run.checkpoint import Checkpoint
 SAVED = Checkpoint(
     arrays={
         "model.weight": np.arange(6, dtype=np.float32).reshape(2, 3),
+        "model.turned": np.arange(6, dtype=np.float32).reshape(2, 3).T,
         "worlds.snapshot": np.arange(256, dtype=np.uint8),
         "worlds.rng": np.array([2**64 - 1], np.uint64),
         "adam.step": np.array(3.0, np.float32),

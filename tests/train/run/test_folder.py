@@ -12,7 +12,7 @@ from rsoccer.train.run import checkpoint
 from rsoccer.train.run import folder as folder_module
 from rsoccer.train.run.folder import MATCH_FILES, opened, policy_digests
 from tests.policies.networks import network_for
-from tests.train.runs import digest
+from tests.train.runs import digest, progress
 from tests.train.short_task import NAME, tiny
 
 
@@ -53,6 +53,15 @@ def test_overwriting_removes_the_match_of_the_earlier_policy(tmp_path: Path) -> 
     with opened(tiny(tmp_path, overwrite=True), {}) as saved:
         assert saved is None
     assert not any((tmp_path / name).exists() for name in MATCH_FILES)
+
+
+def test_a_run_that_overwrites_another_equals_a_new_one(finished: Path, tmp_path: Path) -> None:
+    """Also where the earlier one has another seed and no match of its policy."""
+    train(tiny(tmp_path, seed=5))
+    assert digest(tmp_path) != digest(finished)
+    train(tiny(tmp_path, overwrite=True))
+    assert digest(tmp_path) == digest(finished)
+    assert progress(tmp_path) == progress(finished)
 
 
 def test_another_policy_at_the_same_path_is_refused(tmp_path: Path) -> None:
