@@ -58,6 +58,16 @@ def test_a_policy_file_names_the_task_by_its_registered_name(tmp_path: Path) -> 
     policy.check_fits(task, task.layout.size)
 
 
+def test_the_policy_after_a_signal_is_that_of_the_checkpoint(tmp_path: Path) -> None:
+    """The signal comes while the third update changes the network."""
+    assert run_until(tiny(tmp_path), 2 * 13 + 11) == 2
+    trainer = Trainer(tiny(tmp_path))
+    restore(trainer, checkpoint.load(tmp_path / checkpoint.FILE_NAME))
+    saved, expected = Network.load(tmp_path / "policy.safetensors"), trainer.network()
+    arrays = expected.arrays()
+    assert all(array.tobytes() == arrays[name].tobytes() for name, array in saved.arrays().items())
+
+
 def test_equal_runs_write_policies_of_equal_bytes(finished: Path, tmp_path: Path) -> None:
     (tmp_path / "resumed").mkdir()
     run_until(tiny(tmp_path / "resumed"), 2 * 13)

@@ -37,6 +37,7 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert arrays["pool.frozen_at"].tolist() == [5, 6]
     settings = json.loads((finished / "args.json").read_text())
     assert settings["task"] == NAME and settings["rollout.worlds"] == 6
+    assert not log["time_opponents"][:3].any() and log["time_opponents"][3:].all(), "solo, teams"
     [events] = (finished / "tensorboard").iterdir()
     assert events.read_bytes().count(b"value_loss") == 6
 
