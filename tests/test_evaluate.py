@@ -1,7 +1,9 @@
 """Evaluations of two-sided tasks: sides, seeds, counts, and invalid input."""
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -10,14 +12,16 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.evaluate import Results, evaluate
 from rsoccer.frame import Frame
+from rsoccer.game import EventKind
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import FORMAT
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.rng import WorldRng
+from rsoccer.rules import Crossings, Restart, Rule
 from rsoccer.task import Play
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from tests.helpers import bounds
@@ -283,6 +287,42 @@ def test_own_goals_of_the_first_yellow_robot_are_yellows() -> None:
     assert (result.decided, result.own_goals) == (8, 4)
     pushed = evaluate("zero", Push(), matches=16, task=task)
     assert (pushed.decided, pushed.own_goals) == (8, 0), "these are own goals of the opponent"
+
+
+class KickOff(Rule):
+    """After a goal all bodies go back to where they stood at the start."""
+
+    def __init__(self, rows: Floats) -> None:
+        self.rows = rows
+
+    def judge(self, play: Play) -> Restart | None:
+        worlds = np.flatnonzero(play.events.happened(EventKind.GOAL))
+        return Restart(worlds, rows=self.rows[worlds]) if len(worlds) else None
+
+
+@dataclass(frozen=True)
+class ToTheTimeLimit(BeforeTheGoal):
+    """Play goes on after goals."""
+
+    @cached_property
+    def rules(self) -> Sequence[Rule]:
+        start = self.get_initial_positions_frame(WorldRng.seeded(0, 8))
+        return (Crossings(), KickOff(start.rows))
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        terms, done = super().calculate_reward_and_done(play)
+        return terms, np.zeros_like(done)
+
+
+def test_goals_that_end_no_match_count_too() -> None:
+    task = ToTheTimeLimit(n_blue=1, n_yellow=1, max_steps=100)
+    result = evaluate(Push(), "zero", matches=16, task=task)
+    ending = BeforeTheGoal(n_blue=1, n_yellow=1, max_steps=100)
+    first = evaluate(Push(), "zero", matches=16, task=ending)
+    assert result.decided == first.decided == 8
+    assert result.seconds_to_decision == first.seconds_to_decision
+    assert result.seconds.mean == pytest.approx(2.5)
+    assert result.own_goals > first.own_goals == 4
 
 
 def test_other_metrics_are_means_from_the_view_of_the_policy() -> None:

@@ -6,12 +6,15 @@ repository). A file has the rows of one kick: position (mm) and tracked speed (m
 of zeros is a frame without a ball. Prints the fits, predicts each kick by the others, and writes
 what the page needs into `tools/physics/kicks.json`.
 
-The tracker smooths speeds for up to a second, but not positions. Speeds therefore follow from
-positions; the tracked speeds only give the time between two of them, once the ball rolls.
+The tracker smooths speeds for up to a second, but not positions. At RoboCup speeds therefore follow
+from positions; the tracked speeds only give the time between two of them, once the ball rolls. In
+the laboratory positions of two cameras disagree by centimeters, so rolling is fitted to tracked
+speeds, of which the lag cancels between two places.
 """
 
 import argparse
 import json
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -23,7 +26,7 @@ from tools.physics.kicks import FIGURES, rolled, slid_then_rolled
 from tools.physics.rolling import Rolling
 
 VENUES = {"robocup2023": "ssl_robocup_2023", "lab": "ssl_lab_2023"}
-EVERY_ROW = {"lab"}  # two cameras see the ball: rows come at a constant rate, not detections
+TWO_CAMERAS = {"lab"}  # rows come at a constant rate, and not at detections
 SLOWEST = 0.12  # m/s: below it dimples of the carpet decide
 MARGIN = 1.0  # m between the end of sliding and the rolling that is fitted: slides differ in length
 FASTEST = 3  # kicks of a venue that give the time between its frames
@@ -33,6 +36,8 @@ OUTLIER = 0.01  # m: larger residuals count by their magnitude, not its square
 EARLY = 1.0  # m of rolling that a prediction starts from
 AFTER_BOUNCE = 0.6  # m behind a bounce, from where a ball rolls
 AFTER = 3.0  # m that a prediction reaches
+NEAR = 0.3  # m around a place whose tracked speeds give the speed there
+BETWEEN = 0.5  # m between places from which tracked speeds are predicted
 STEP = 0.25  # m between the speeds that the page shows
 SHOWN = 4  # least number of speeds of a run that it shows
 
@@ -53,11 +58,13 @@ class Kick:
     name: str
     first: Run
     bounced: Run | None
+    tracked: tuple[Array, Array]
+    """Distances (m) and tracked speeds (m/s) after the peak of the speed and before a contact."""
 
 
-def read(paths: list[Path], every_row: bool) -> list[Kick]:
+def read(paths: list[Path], two_cameras: bool) -> list[Kick]:
     """Return the runs of the files of a venue."""
-    all_frames = [_frames(path, every_row) for path in paths]
+    all_frames = [_frames(path, two_cameras) for path in paths]
     # A tracked speed lags, which matters least for the fastest balls.
     fastest = sorted(all_frames, key=lambda frames: -frames.speeds.max())[:FASTEST]
     seconds = float(np.median([_frame_time(frames) for frames in fastest]))
@@ -78,12 +85,12 @@ class Frames:
     """Index of the first contact after the kick; their number if there is none."""
 
 
-def _frames(path: Path, every_row: bool) -> Frames:
+def _frames(path: Path, two_cameras: bool) -> Frames:
     rows = np.genfromtxt(path, delimiter=",", skip_header=1) / 1000
     seen = np.flatnonzero((rows != 0).any(axis=1))
     speeds = np.linalg.norm(rows[seen, 2:], axis=1)
     peak = int(speeds.argmax())
-    numbers = seen if every_row else np.arange(len(seen))
+    numbers = seen if two_cameras else np.arange(len(seen))
     return Frames(path.stem, numbers, rows[seen, :2], speeds, peak, _bounce(speeds, peak))
 
 
@@ -97,12 +104,15 @@ def _kick(frames: Frames, seconds: float) -> Kick:
         return Run(frames.name, numbers * seconds, away)
 
     start = _start(positions, frames.peak)
+    end = len(speeds) if frames.bounce == len(speeds) else frames.bounce - BEFORE_BOUNCE
+    away = np.linalg.norm(positions - positions[start], axis=1)
+    tracked = away[frames.peak : end], speeds[frames.peak : end]
     if frames.bounce == len(speeds):
-        return Kick(frames.name, run(start, _rest(speeds, frames.peak)), None)
+        return Kick(frames.name, run(start, _rest(speeds, frames.peak)), None, tracked)
     again = frames.bounce + 5
     again += int(speeds[again : again + 55].argmax())
     first = run(start, frames.bounce - BEFORE_BOUNCE)
-    return Kick(frames.name, first, run(again, _rest(speeds, again)))
+    return Kick(frames.name, first, run(again, _rest(speeds, again)), tracked)
 
 
 def _bounce(speeds: Array, peak: int) -> int:
@@ -176,17 +186,47 @@ def loss(law: Rolling, runs: list[Run]) -> float:
     return total / weights
 
 
-def fit_rolling(runs: list[Run], drag: float | None) -> Rolling:
-    """Return the law of runs that roll, the best of a grid; its drag is given or fitted too."""
+def fit_rolling(runs: list[Run]) -> Rolling:
+    """Return the law of runs that roll, the best of a grid."""
 
     def best(decelerations: range, drags: range) -> Rolling:
-        given = [b / 1000 for b in drags if b >= 0] if drag is None else [drag]
-        laws = [Rolling(a / 1000, b) for a in decelerations for b in given]
+        laws = [Rolling(a / 1000, b / 1000) for a in decelerations for b in drags if b >= 0]
         return min(laws, key=lambda law: loss(law, runs))
 
     near = best(range(100, 240, 10), range(0, 100, 10))
     a, b = round(1000 * near.deceleration), round(1000 * near.drag)
     return best(range(a - 8, a + 9, 2), range(b - 8, b + 9, 2))
+
+
+def tracked_pairs(kick: Kick, first: float) -> list[tuple[float, float]]:
+    """Return tracked speeds (m/s) at places beyond `first` (m), and those `AFTER` behind them."""
+    distances, speeds = kick.tracked
+
+    def at(place: float) -> float:
+        near = np.abs(distances - place) < NEAR
+        if near.sum() < 6:
+            return math.nan
+        # Squares of speeds fall by about the same in each meter.
+        return math.sqrt(
+            max(float(np.polyfit(distances[near] - place, speeds[near] ** 2, 1)[1]), 0)
+        )
+
+    places = np.arange(first, distances.max() - AFTER, BETWEEN)
+    pairs = [(at(place), at(place + AFTER)) for place in places.tolist()]
+    return [pair for pair in pairs if all(speed > SLOWEST for speed in pair)]  # NaN is not
+
+
+def fit_to_speeds(kicks: list[list[tuple[float, float]]]) -> Rolling:
+    """Return the law, of a grid, with the least relative errors of the second speeds of kicks."""
+
+    def error(law: Rolling, before: float, after: float) -> float:
+        return ((law.speed_at(before, AFTER) or 0.0) / after - 1) ** 2
+
+    def loss(law: Rolling) -> float:
+        return sum(float(np.mean([error(law, *pair) for pair in pairs])) for pairs in kicks)
+
+    laws = (Rolling(a / 1000, b / 1000) for a in range(60, 180, 5) for b in range(0, 100, 4))
+    return min(laws, key=loss)
 
 
 def fit_sliding(run: Run, law: Rolling) -> tuple[Array, float]:
@@ -250,17 +290,27 @@ def predict(run: Run, law: Rolling) -> Prediction:
     return Prediction(at - float(begin), predicted, float(np.interp(at, *measured.T)))
 
 
-def fit_venue(folder: Path, every_row: bool, drag: float | None) -> dict[str, object]:
+def fit_venue(folder: Path, two_cameras: bool) -> dict[str, object]:
     """Fit one venue, print it, and return its figures for the page."""
-    kicks = read(sorted(folder.glob("*.csv")), every_row)
+    kicks = read(sorted(folder.glob("*.csv")), two_cameras)
     law = Rolling(0.15, 0.03)
     for _ in range(2):  # where sliding ends depends on rolling, and the other way round
         slides = {kick.name: fit_sliding(kick.first, law) for kick in kicks}
-        runs = _rolling_runs(kicks, {name: slide for name, (slide, _) in slides.items()})
-        law = fit_rolling([run for parts in runs.values() for run in parts], drag)
-    print(f"{folder.name}: {law}")
+        starts = {name: _rolls_from(slide) for name, (slide, _) in slides.items()}
+        runs = {kick.name: _rolling_runs(kick, starts[kick.name]) for kick in kicks}
+        law = fit_rolling(_all(runs))
     kept = [slides[name][0] for name, parts in runs.items() if parts]
-    _, sliding, ratio, _ = np.median(kept, axis=0)
+    floor = np.median(kept, axis=0)
+    _, sliding, ratio, _ = floor
+    pairs: dict[str, list[tuple[float, float]]] = {}
+    if two_cameras:
+        for kick in kicks:
+            slide = np.array(
+                [slides[kick.name][0][0], *floor[1:]]
+            )  # its speed on the venue's floor
+            pairs[kick.name] = tracked_pairs(kick, _rolls_from(slide))
+        law = fit_to_speeds([of_kick for of_kick in pairs.values() if of_kick])
+    print(f"{folder.name}: {law}")
     figures: dict[str, object] = {
         "sliding_deceleration": round(float(sliding), 2),
         "slide_to_roll_ratio": round(float(ratio), 2),
@@ -275,38 +325,52 @@ def fit_venue(folder: Path, every_row: bool, drag: float | None) -> dict[str, ob
             f"  {kick.name}: kick {slide[0]:.2f} m/s, sliding {slide[1]:.2f} m/s², share "
             f"{slide[2]:.2f}, error {1000 * error:.1f} mm"
         )
-        others = [run for name, parts in runs.items() if name != kick.name for run in parts]
-        by_others = fit_rolling(others, drag)
         parts = runs[kick.name]
-        prediction = predict(parts[0], by_others) if parts else None
-        print(f"    by the others, {by_others}: {prediction}")
-        shown.append(_figures(kick, slide, prediction, parts))
+        predictions: dict[str, Prediction] = {}
+        if two_cameras:
+            for before, after in pairs[kick.name][:1]:
+                by_law = law.speed_at(before, AFTER) or 0.0
+                predictions["fit"] = Prediction(AFTER, by_law, after)
+        elif parts:
+            predictions["fit"] = predict(parts[0], law)
+            others = {name: run for name, run in runs.items() if name != kick.name}
+            predictions["others"] = predict(parts[0], fit_rolling(_all(others)))
+        print(f"    {predictions}")
+        shown.append(_figures(kick, slide, predictions, parts))
     return figures | {"kicks": shown}
 
 
-def _rolling_runs(kicks: list[Kick], slides: dict[str, Array]) -> dict[str, list[Run]]:
-    runs = {}
-    for kick in kicks:
-        speed, deceleration, share, _ = slides[kick.name]
-        slid = speed**2 * (1 - share**2) / (2 * deceleration)
-        parts = [rolling_part(kick.first, slid + MARGIN)]
-        if kick.bounced is not None:
-            parts.append(rolling_part(kick.bounced, AFTER_BOUNCE))
-        runs[kick.name] = [part for part in parts if part is not None]
-    return runs
+def _all(runs: dict[str, list[Run]]) -> list[Run]:
+    return [run for parts in runs.values() for run in parts]
+
+
+def _rolls_from(slide: Array) -> float:
+    """Return the distance (m) from which a kick counts as rolling."""
+    speed, deceleration, share, _ = slide
+    return float(speed**2 * (1 - share**2) / (2 * deceleration)) + MARGIN
+
+
+def _rolling_runs(kick: Kick, first: float) -> list[Run]:
+    """Return the rolling parts of a kick, which rolls from `first` (m)."""
+    parts = [rolling_part(kick.first, first)]
+    if kick.bounced is not None:
+        parts.append(rolling_part(kick.bounced, AFTER_BOUNCE))
+    return [part for part in parts if part is not None]
 
 
 def _figures(
-    kick: Kick, slide: Array, prediction: Prediction | None, runs: list[Run]
+    kick: Kick, slide: Array, predictions: dict[str, Prediction], runs: list[Run]
 ) -> dict[str, object]:
     speeds = [[[round(at, 2), round(speed, 3)] for at, speed in local_speeds(run)] for run in runs]
-    numbers = {} if prediction is None else asdict(prediction)
     return {
         "kick": kick.name,
         "speed": round(float(slide[0]), 2),
         "sliding_deceleration": round(float(slide[1]), 2),
         "slide_to_roll_ratio": round(float(slide[2]), 2),
-        "prediction": {name: round(number, 3) for name, number in numbers.items()},
+        "predictions": {
+            by: {name: round(number, 3) for name, number in asdict(prediction).items()}
+            for by, prediction in predictions.items()
+        },
         "speeds": [run for run in speeds if len(run) >= SHOWN],
     }
 
@@ -317,11 +381,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="folder with the folders of the two venues")
     folder = parser.parse_args().folder
     figures: dict[str, dict[str, object]] = {}
-    drag = None
     for venue, preset in VENUES.items():
-        figures[preset] = fit_venue(folder / venue, venue in EVERY_ROW, drag)
-        # The few kicks of the second venue, of a small range of speeds, do not determine a drag.
-        drag = float(str(figures[preset]["rolling_drag"]))
+        figures[preset] = fit_venue(folder / venue, venue in TWO_CAMERAS)
     FIGURES.write_text(json.dumps(figures, indent=1) + "\n")
 
 

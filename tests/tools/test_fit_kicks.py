@@ -5,7 +5,16 @@ import pytest
 
 from rsoccer._core import BallModel
 from rsoccer.arrays import Array
-from tools.fit_kicks import MARGIN, VENUES, fit_rolling, fit_sliding, read, rolling_part
+from tools.fit_kicks import (
+    MARGIN,
+    VENUES,
+    fit_rolling,
+    fit_sliding,
+    fit_to_speeds,
+    read,
+    rolling_part,
+    tracked_pairs,
+)
 from tools.physics.kick_page import figures, roll
 from tools.physics.kicks import rolled, slid_then_rolled
 from tools.physics.rolling import Rolling
@@ -48,7 +57,7 @@ def test_a_fit_recovers_the_floor_that_made_the_kicks(tmp_path: Path) -> None:
         rows = tracked_kick(speed, rng)
         header = "position_x,position_y,velocity_x,velocity_y"
         np.savetxt(tmp_path / f"{speed}.csv", rows, delimiter=",", header=header, comments="")
-    kicks = read(sorted(tmp_path.glob("*.csv")), every_row=False)
+    kicks = read(sorted(tmp_path.glob("*.csv")), two_cameras=False)
     assert [kick.bounced is not None for kick in kicks] == [False, True, True, True]
     runs, slides = [], []
     for kick, speed in zip(kicks, speeds, strict=True):
@@ -59,10 +68,25 @@ def test_a_fit_recovers_the_floor_that_made_the_kicks(tmp_path: Path) -> None:
         runs.append(rolling_part(kick.first, slid + MARGIN))
     # A camera's offset within one slide misleads the fit of that kick, not the medians.
     assert np.median(slides, axis=0)[:3] == pytest.approx(1.0, abs=0.03)
-    law = fit_rolling([run for run in runs if run is not None], None)
+    law = fit_rolling([run for run in runs if run is not None])
     for speed in (1.0, 2.5, 4.0):
         expected = LAW.deceleration + LAW.drag * speed
         assert law.deceleration + law.drag * speed == pytest.approx(expected, rel=0.05)
+
+
+def test_tracked_speeds_recover_the_law_that_made_them(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    for speed in (3.0, 4.0, 5.0):
+        header = "position_x,position_y,velocity_x,velocity_y"
+        rows = tracked_kick(speed, rng)
+        np.savetxt(tmp_path / f"{speed}.csv", rows, delimiter=",", header=header, comments="")
+    kicks = read(sorted(tmp_path.glob("*.csv")), two_cameras=False)
+    pairs = [tracked_pairs(kick, 3.5) for kick in kicks]
+    assert all(pairs)
+    law = fit_to_speeds(pairs)
+    for speed in (1.5, 2.5):
+        expected = LAW.deceleration + LAW.drag * speed
+        assert law.deceleration + law.drag * speed == pytest.approx(expected, rel=0.06)
 
 
 def test_the_presets_have_the_numbers_of_the_fit() -> None:

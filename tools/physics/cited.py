@@ -64,10 +64,10 @@ ROBOCUP_2023 = replace(
 LAB_2023 = replace(
     TIGERS,
     source=KICKS.format("in a laboratory"),
-    sliding_deceleration=3.0,
-    rolling_deceleration=0.12,
-    rolling_drag=0.032,
-    slide_to_roll_ratio=0.65,
+    sliding_deceleration=3.25,
+    rolling_deceleration=0.095,
+    rolling_drag=0.044,
+    slide_to_roll_ratio=0.66,
 )
 GRSIM = replace(
     ERFORCE,

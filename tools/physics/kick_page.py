@@ -29,34 +29,42 @@ def figures() -> dict[str, Any]:
 
 
 def kick_table() -> str:
-    """Return the table of kicks with their slides and the prediction by the other kicks."""
+    """Return the table of kicks with their slides and the speeds that the fits predict."""
     header = (
         "preset",
         "kick (m/s)",
         "sliding deceleration (m/s²)",
         "rolling share",
         "speed after 3 m of rolling, measured (m/s)",
-        "predicted by the other kicks (m/s)",
+        "by the preset (m/s)",
+        "error",
+        "by the other kicks (m/s)",
         "error",
     )
     rows = []
     for preset, venue in figures().items():
         for kick in venue["kicks"]:
-            if not (prediction := kick["prediction"]):
+            if not (predictions := kick["predictions"]):
                 continue
-            measured, predicted = prediction["measured"], prediction["predicted"]
-            rows.append(
-                (
-                    f"`{preset}`",
-                    f"{kick['speed']:.2f}",
-                    f"{kick['sliding_deceleration']:.2f}",
-                    f"{kick['slide_to_roll_ratio']:.2f}",
-                    f"{measured:.2f}",
-                    f"{predicted:.2f}",
-                    f"{predicted / measured - 1:+.1%}",
-                )
-            )
+            row = [
+                f"`{preset}`",
+                f"{kick['speed']:.2f}",
+                f"{kick['sliding_deceleration']:.2f}",
+                f"{kick['slide_to_roll_ratio']:.2f}",
+                f"{predictions['fit']['measured']:.2f}",
+            ]
+            for by in ("fit", "others"):
+                row += _prediction(predictions.get(by))
+            rows.append(tuple(row))
     return table(header, rows)
+
+
+def _prediction(prediction: dict[str, float] | None) -> tuple[str, str]:
+    """Return a predicted speed and its error as text; dashes if there is none."""
+    if prediction is None:
+        return "-", "-"
+    error = prediction["predicted"] / prediction["measured"] - 1
+    return f"{prediction['predicted']:.2f}", f"{error:+.1%}"
 
 
 def roll(preset: str, speed: float, distance: float) -> tuple[Array, Array]:

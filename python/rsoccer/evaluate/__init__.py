@@ -114,11 +114,9 @@ def _evaluation(
     """Summary of the episodes of each side."""
     # Scores are blue's, so those of yellow change their sign; adding 0.0 turns -0.0 into 0.0.
     scores = [part.scores * (1 - 2 * side) + 0.0 for side, part in enumerate(episodes)]
-    own_goals = sum(
-        int((part.own_goals == 2 * side - 1).sum()) for side, part in enumerate(episodes)
-    )
+    own_goals = sum(int(part.own_goals[:, side].sum()) for side, part in enumerate(episodes))
     seconds = [part.seconds for part in episodes]
-    decided = np.concatenate(seconds)[np.concatenate([part.decided for part in episodes])]
+    decided = np.concatenate([part.decision_seconds[part.decided] for part in episodes])
     return Evaluation(
         **vars(count_results(scores, rng)),
         policy=names[0],

@@ -36,8 +36,10 @@ class Episodes:
     """(n,) duration"""
     decided: NDArray[np.bool_]
     """(n,) a team scored a goal (two-sided tasks), or the success was full"""
-    own_goals: Doubles
-    """(n,) -1 for a goal that blue's last touch gave yellow, 1 for the opposite, else 0"""
+    decision_seconds: Doubles
+    """(n,) time of the first goal in a two-sided task, else the duration"""
+    own_goals: NDArray[np.int64]
+    """(n, 2) goals that a last touch of blue gave yellow, and the opposite"""
     metrics: dict[str, Doubles]
     """(n,) values of all metrics of the task at the end of the episode, by name"""
 
@@ -91,8 +93,21 @@ class EpisodeRunner:
         else:
             scores = metrics[metric]
             decided = scores != 0.0 if task.two_sided else scores >= full
-        seconds = steps * task.config.time_step
-        return Episodes(metric or RETURN, scores, returns, seconds, decided, own_goals, metrics)
+        first_goals = np.concatenate([batch.first_goals for batch in batches])
+        if task.two_sided:
+            decided |= np.isfinite(first_goals)
+        decision_steps = np.where(np.isfinite(first_goals), first_goals, steps)
+        time_step = task.config.time_step
+        return Episodes(
+            metric=metric or RETURN,
+            scores=scores,
+            returns=returns,
+            seconds=steps * time_step,
+            decided=decided,
+            decision_seconds=(decision_steps if task.two_sided else steps) * time_step,
+            own_goals=own_goals,
+            metrics=metrics,
+        )
 
     def _run_batch(self, n: int, seed: int) -> _Batch:
         """Results of n matches that are played at once."""
@@ -115,7 +130,8 @@ class EpisodeRunner:
         n = matches.worlds
         observations = matches.reset()
         learners = LearnerPolicy(self.policy, matches, seed)
-        results = _Batch(np.zeros(n), np.zeros(n), np.zeros(n), {})
+        own_goals = np.zeros((n, 2), np.int64)
+        results = _Batch(np.zeros(n), np.zeros(n), np.full(n, np.nan), own_goals, {})
         playing = ~matches.done
         while playing.any():
             if self.before_step is not None:
@@ -124,10 +140,14 @@ class EpisodeRunner:
             observations = outcome.observations
             results.steps[:] += playing
             results.returns[:] += outcome.rewards.mean(axis=1)  # zero where a match waits
+            scored = playing & matches.play.events.happened(EventKind.GOAL)
+            if scored.any():
+                results.own_goals[scored] += _own_goals(matches.play)[scored]
+                first = scored & np.isnan(results.first_goals)
+                results.first_goals[first] = results.steps[first]
             ending = playing & outcome.ended
             if ending.any():
                 _check_success(self.task, outcome)
-                results.own_goals[ending] = _own_goals(matches.play)[ending]
                 for name, values in outcome.metrics.items():
                     results.metrics.setdefault(name, np.zeros(n))[ending] = values[ending]
             playing &= ~ending
@@ -140,7 +160,10 @@ class _Batch:
 
     returns: Doubles
     steps: Doubles
-    own_goals: Doubles
+    first_goals: Doubles
+    """steps to the first goal, NaN without one"""
+    own_goals: NDArray[np.int64]
+    """(n, 2) of blue and of yellow"""
     metrics: dict[str, Doubles]
 
 
@@ -150,17 +173,17 @@ def _check_success(task: Task, outcome: Outcome) -> None:
         raise ValueError(f"task {task.name!r} has no metric {task.success!r} to evaluate by")
 
 
-def _own_goals(play: Play) -> Doubles:
-    """Own goals (n,) of the last step: 1 for one of yellow, -1 for one of blue, else 0."""
-    balance = np.zeros(len(play.frame))
+def _own_goals(play: Play) -> NDArray[np.int64]:
+    """Own goals (n, 2) of blue and of yellow in the last step."""
+    goals = np.zeros((len(play.frame), 2), np.int64)
     for world in np.flatnonzero(play.events.happened(EventKind.GOAL)).tolist():
         for event in play.events.of_world(world):
             if event.kind is not EventKind.GOAL or event.robot == NOBODY:
                 continue
             last_touch = BLUE if event.robot < play.frame.n_blue else YELLOW
             if last_touch != event.team:
-                balance[world] += -1.0 if last_touch == BLUE else 1.0
-    return balance
+                goals[world, last_touch] += 1
+    return goals
 
 
 class LearnerPolicy:

@@ -34,10 +34,10 @@ class Evaluation(Results):
     seconds: Interval
     """duration of an episode"""
     seconds_to_decision: float | None
-    """mean seconds of episodes that ended with a goal of either team (two-sided tasks) or with
-    full success; None if none did"""
+    """mean time to the first goal of either team (two-sided tasks) or to full success, s; None if
+    there was none"""
     decided: int
-    """number of these episodes"""
+    """number of episodes with such a goal or success"""
     own_goals: int
     """goals against the policy's team after a last touch by one of its own robots"""
     metrics: dict[str, float]

@@ -22,8 +22,8 @@ def test_ended_episodes_are_counted_by_opponent() -> None:
         "episode/goal_score": 0.0,
         "episode_ou/goal_score": 0.5,
         "episode_latest/goal_score": -1.0,
-        "goals_for": 1.0,
-        "goals_against": 1.0,
+        "wins": 1.0,
+        "losses": 1.0,
         "episode/time": 5.0,
         "episode_ou/time": 5.5,
         "episode_latest/time": 4.0,
@@ -34,7 +34,7 @@ def test_the_mean_without_episodes_is_nan() -> None:
     stats = EpisodeStats(("ou",))
     stats.add(np.array([], int), {"goal_score": np.array([])})
     row = stats.take()
-    assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["goals_for"] == 0
+    assert row["episodes"] == 0 and math.isnan(row["episode/goal_score"]) and row["wins"] == 0
 
 
 def test_a_log_of_one_row_is_read(tmp_path: Path) -> None:
@@ -59,17 +59,17 @@ def test_a_resumed_log_continues_at_the_checkpoint(tmp_path: Path) -> None:
     assert read_progress(tmp_path)["samples"].tolist() == [0, 100, 200, 300, 400]
 
 
-def test_the_bar_shows_goals_and_wins(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_bar_shows_wins_and_losses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     logger = Logger(tmp_path, 0, 400, 0, progress=True)
     row = {
         "reward": 0.5,
         "episodes": 4,
         "episode/goal_score": 0.5,
-        "goals_for": 3,
-        "goals_against": 1,
+        "wins": 3,
+        "losses": 1,
     }
     logger.write(300, row)
     logger.close()
     shown = capsys.readouterr().err
     assert "75%" in shown and "300/400" in shown
-    assert "goals 3:1, won 75%" in shown and "samples/s" in shown
+    assert "won 75%, lost 25%" in shown and "samples/s" in shown

@@ -27,8 +27,8 @@ def test_the_log_and_the_checkpoint_of_a_run_are_complete(finished: Path) -> Non
     assert len(rows) == 6
     assert [int(row["samples"]) for row in rows] == [144 * k for k in range(1, 7)]
     assert sum(int(row["episodes"]) for row in rows) > 10
-    assert sum(float(row["goals_for"]) for row in rows) > 0
-    assert sum(float(row["goals_against"]) for row in rows) > 0
+    assert sum(float(row["wins"]) for row in rows) > 0
+    assert sum(float(row["losses"]) for row in rows) > 0
     log = read_progress(finished)
     elapsed = np.diff(log["seconds"], prepend=0.0)
     np.testing.assert_allclose(log["samples_per_second"] * elapsed, 144, rtol=1e-6)

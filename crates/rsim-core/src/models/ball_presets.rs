@@ -104,10 +104,10 @@ impl BallModel {
     /// there, up to 2.2 m/s, by `tools/fit_kicks.py`. Other numbers: TIGERs.
     pub const SSL_LAB_2023: Self = Self {
         name: Cow::Borrowed("ssl_lab_2023"),
-        sliding_deceleration: 3.0,
-        rolling_deceleration: 0.12,
-        rolling_drag: 0.032,
-        slide_to_roll_ratio: 0.65,
+        sliding_deceleration: 3.25,
+        rolling_deceleration: 0.095,
+        rolling_drag: 0.044,
+        slide_to_roll_ratio: 0.66,
         ..Self::SSL_TIGERS
     };
 

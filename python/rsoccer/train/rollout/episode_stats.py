@@ -41,7 +41,7 @@ class EpisodeStats:
 
         Returns:
             The number of episodes, the mean of each metric over all of them and by kind of
-            opponent (NaN where no episode ended), and the goals for and against if the task has
+            opponent (NaN where no episode ended), and the episodes won and lost if the task has
             the metric `goal_score`.
         """
         kinds = np.concatenate([kinds for kinds, _ in self._ended])
@@ -52,8 +52,8 @@ class EpisodeStats:
             for index, kind in enumerate(self._kinds):
                 row[opponent_column(kind, name)] = mean_or_nan(values[kinds == index])
             if name == GOAL_SCORE:
-                row["goals_for"] = float((values > 0).sum())
-                row["goals_against"] = float((values < 0).sum())
+                row["wins"] = float((values > 0).sum())
+                row["losses"] = float((values < 0).sum())
         self._ended = []
         return row
 

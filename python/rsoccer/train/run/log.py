@@ -83,16 +83,15 @@ class Logger:
         self._tensorboard.close()
 
     def _summary(self) -> str:
-        """Goals and share of wins over the last updates; the reward if the task has no goals."""
+        """Shares of wins and losses in the last updates; the reward if the task has no goals."""
         total = {name: sum(row.get(name, 0.0) for row in self._recent) for name in _SUMMED}
         if EPISODE_PREFIX + GOAL_SCORE not in self._recent[-1] or not total["episodes"]:
             return f"reward {self._recent[-1]['reward']:.3f}"
-        goals_for, goals_against = total["goals_for"], total["goals_against"]
-        won = goals_for / total["episodes"]
-        return f"goals {goals_for:.0f}:{goals_against:.0f}, won {won:.0%}"
+        won, lost = (total[name] / total["episodes"] for name in ("wins", "losses"))
+        return f"won {won:.0%}, lost {lost:.0%}"
 
 
-_SUMMED = ("episodes", "goals_for", "goals_against")
+_SUMMED = ("episodes", "wins", "losses")
 
 
 def ladder_column(metric: str, opponent: str | None = None) -> str:
