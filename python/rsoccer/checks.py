@@ -4,6 +4,7 @@ Validation happens before any state changes.
 """
 
 import math
+from collections.abc import Mapping
 from numbers import Real
 
 import numpy as np
@@ -224,8 +225,11 @@ def memory(source: str, arrays: dict[str, Array], n: int) -> dict[str, Array]:
         Copies by name, each (n, ...).
 
     Raises:
+        TypeError: no mapping.
         ValueError: the first axis of an array is not n.
     """
+    if not isinstance(arrays, Mapping):
+        raise TypeError(f"{source}: expected arrays by name, got {arrays!r}")
     for name, array in arrays.items():
         if np.shape(array)[:1] != (n,):
             raise ValueError(

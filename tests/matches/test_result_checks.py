@@ -1,12 +1,16 @@
 """Results of tasks that do not fit the matches."""
 
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pytest
 
-from rsoccer import Matches
-from rsoccer.arrays import Floats, Mask
+from rsoccer import Matches, Simulator
+from rsoccer._core import BALL_COLUMNS, ROBOT_COLUMNS
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import zeros
@@ -37,3 +41,75 @@ def test_a_reward_term_is_of_each_robot_or_of_all(shape: tuple[int, ...]) -> Non
     matches = Matches(Shaped(shape=shape), 4)
     matches.reset()
     assert matches.step(zeros(matches)).terms["own"].tolist() == np.ones((4, 6)).tolist()
+
+
+class Spoiled:
+    """The package's simulator, with one number of world 1 replaced after each step."""
+
+    def __init__(self, column: int, value: float, *arguments: Any) -> None:  # noqa: ANN401
+        self._own, self._column, self._value = Simulator(*arguments), column, value
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401
+        return getattr(self._own, name)
+
+    def step(self, commands: Floats, out: Floats, active: Mask | None = None) -> None:
+        self._own.step(commands, out, active)
+        out[1, self._column] = self._value
+
+
+class Spoiling:
+    """Perfect senses, with one number of world 1 replaced after each step."""
+
+    def __init__(self, column: int, value: float) -> None:
+        self._column, self._value = column, value
+
+    def columns(self, n: int) -> dict[str, Array]:
+        return {}
+
+    def begin(self, frame: Frame, sensed: Frame, state: object, rng: object) -> None:
+        pass
+
+    def sense(self, frame: Frame, sensed: Frame, state: object, rng: object) -> None:
+        sensed.rows[:] = frame.rows
+        sensed.rows[1, self._column] = self._value
+
+
+ABSENT = len(BALL_COLUMNS) + 2 * len(ROBOT_COLUMNS) + ROBOT_COLUMNS.index("absent")
+PLACES = {name: BALL_COLUMNS.index(name) for name in ("x", "v_y", "last_touch", "crossed")}
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "message"),
+    [
+        ("x", np.nan, r"expected finite numbers, got others in worlds \[1\]"),
+        ("v_y", np.inf, r"expected finite numbers"),
+        ("last_touch", 6.0, "from -1 to 5 for 'last_touch', got 6"),
+        ("last_touch", -1.5, "for 'last_touch', got -1.5"),
+        ("crossed", 7.0, "from 0 to 6 for 'crossed', got 7"),
+        ("absent", 0.5, "from 0 to 1 for 'absent', got 0.5"),
+    ],
+)
+@pytest.mark.parametrize("written", ["Spoiled.step", "Spoiling.sense"])
+def test_rows_of_others_are_checked(column: str, value: float, message: str, written: str) -> None:
+    place = {**PLACES, "absent": ABSENT}[column]
+    given: dict[str, Any] = {"sensing": Spoiling(place, value)}
+    if written == "Spoiled.step":
+        given = {"simulator": partial(Spoiled, place, value)}
+    matches = Matches("VSSSelfPlay-v0", 2, **given)
+    matches.reset()
+    with pytest.raises(ValueError, match=f"{written}: .*{message}"):
+        matches.step(zeros(matches))
+
+
+def test_a_sensor_models_columns_are_arrays_by_name() -> None:
+    class Wrong:
+        def columns(self, n: int) -> Any:  # noqa: ANN401
+            return 3
+
+        def begin(self, *given: object) -> None:
+            pass
+
+        sense = begin
+
+    with pytest.raises(TypeError, match=r"Wrong\.columns: expected arrays by name, got 3"):
+        Matches("VSSSelfPlay-v0", sensing=Wrong())

@@ -16,7 +16,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from rsoccer import checks, spaces
-from rsoccer._core import Threads
+from rsoccer._core import Simulator, Threads
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
@@ -165,6 +165,7 @@ class Matches:
         self._consistency = Consistency()
         # Last, so that what fails before leaves no simulator open.
         self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
+        self._is_own_simulator = isinstance(self._simulator, Simulator)
         try:
             self._starts = Starts(self._simulator)
         except BaseException:
@@ -415,6 +416,8 @@ class Matches:
         play = self.play
         times = self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
+        if not self._is_own_simulator:  # which checks its rows itself
+            result_checks.rows(f"{type(self._simulator).__name__}.step", play.frame)
         if times is not None:
             self._stamp(times)
         play.steps += 1
@@ -461,8 +464,10 @@ class Matches:
 
     def _sense(self) -> None:
         """Let the sensor model compute what the robots know."""
-        if self.play.senses is not None:
-            self.play.senses.sense(self.play.frame)
+        senses = self.play.senses
+        if senses is not None:
+            senses.sense(self.play.frame)
+            result_checks.rows(f"{type(senses.model).__name__}.sense", senses.frame)
 
     def _observe(self) -> None:
         """Compute the observations of all observers."""
@@ -528,6 +533,7 @@ class Matches:
         self.task.start_episode(part)
         if part.senses is not None:
             part.senses.begin(part.frame)
+            result_checks.rows(f"{type(part.senses.model).__name__}.begin", part.senses.frame)
         self._observations[worlds] = self.task.layout.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
