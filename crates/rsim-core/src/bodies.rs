@@ -93,6 +93,17 @@ pub(crate) struct Undisturbed {
     pub(crate) velocity: Vector,
     /// rad/s.
     pub(crate) angular_velocity: f32,
+    /// Part of both that the robot's own wheels gave it in that time.
+    pub(crate) gain: Gain,
+}
+
+/// Change of a robot's motion by its wheels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gain {
+    /// m/s.
+    pub(crate) velocity: Vector,
+    /// rad/s.
+    pub(crate) angular_velocity: f32,
 }
 
 /// Sub-steps of a tick.
@@ -205,10 +216,15 @@ impl Bodies {
     pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
         undisturbed.clear();
         undisturbed.extend((robot(0)..self.len()).map(|body| {
-            let (motion, gain) = (self.motion(body), self.acceleration(body));
+            let (motion, acceleration) = (self.motion(body), self.acceleration(body));
+            let gain = Gain {
+                velocity: acceleration.linear * time,
+                angular_velocity: acceleration.angular * time,
+            };
             Undisturbed {
-                velocity: motion.velocity + gain.linear * time,
-                angular_velocity: motion.angular_velocity + gain.angular * time,
+                velocity: motion.velocity + gain.velocity,
+                angular_velocity: motion.angular_velocity + gain.angular_velocity,
+                gain,
             }
         }));
     }

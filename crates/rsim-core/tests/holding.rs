@@ -99,6 +99,46 @@ fn a_robot_holds_pushes_off_its_center_and_of_two_robots() {
     }
 }
 
+/// A standing robot that is pushed from the side with `share` of its grip, by a robot of `mass` (a factor on
+/// its own) that would accelerate by `acceleration` (m/s²).
+fn pushed_hard(model: &RobotModel, share: f32, mass: f32, acceleration: f32) -> Scene {
+    let mut scene = pushed(model, 90.0, &[[0.0, acceleration]]);
+    let grip = acceleration * mass / share;
+    let target = DifferentialDrive { lateral_grip: grip, ..drive(model) };
+    scene.config.blue[0].drive = Drive::Differential(target);
+    let pusher = &mut scene.config.yellow[0];
+    pusher.mass *= mass;
+    let strong = DifferentialDrive { motor_torque: 1.0, ..drive(pusher) };
+    pusher.drive = Drive::Differential(strong);
+    scene
+}
+
+#[test]
+fn pushers_that_accelerate_hard_bounced_in_each_tick() {
+    for model in MODELS {
+        for tick in [0.005, 0.0025] {
+            for acceleration in [8.0, 10.0, 13.0, 20.0] {
+                for (share, mass) in [(0.5, 1.0), (0.6, 1.0), (0.95, 1.0), (0.95, 0.7), (0.8, 1.4)]
+                {
+                    let mut scene = pushed_hard(&model, share, mass, acceleration);
+                    scene.config.tick = tick;
+                    // The impact over the gap between both moves the robot by millimeters.
+                    let places = [1.0, 10.0].map(|seconds| {
+                        let row = scene.after(steps(seconds, scene.config.time_step));
+                        robots(&row).next().expect("a robot")[0]
+                    });
+                    let label = format!(
+                        "{}, {acceleration} m/s², {share} of the grip, mass {mass}, {tick} s",
+                        model.name
+                    );
+                    assert!((0.0..4e-3).contains(&places[0]), "{label}: {} m", places[0]);
+                    assert!((places[1] - places[0]).abs() < 1e-5, "{label}: {places:?} m");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn tires_that_roll_hold_a_push_across() {
     // The robot drives away under the smooth front of the pusher.

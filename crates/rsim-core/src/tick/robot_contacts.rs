@@ -1,7 +1,7 @@
 //! Bounce of robots off each other and off walls, and the record of their collisions.
 
 use crate::blocks::robot;
-use crate::bodies::Undisturbed;
+use crate::bodies::{Gain, Undisturbed};
 use crate::body_parameters::BodyParameters;
 use crate::engine::{Partner, RobotContact};
 use crate::math::Vector;
@@ -40,7 +40,13 @@ pub(super) fn resolve(
                 state.bodies.add_collision(index, closing);
             }
         }
-        if closing > MIN_BOUNCE_SPEED {
+        // Wheels that press a pair together, and those that resist, add to the closing speed of each tick.
+        // A closing speed that is mostly theirs is that of a push, which does not bounce.
+        let pressed = -separation_speed(state, contact, |_, index| {
+            let Gain { velocity, angular_velocity } = undisturbed[index].gain;
+            (velocity, angular_velocity)
+        });
+        if closing > MIN_BOUNCE_SPEED.max(2.0 * pressed) {
             bounce(state, parameters, contact, closing);
         }
     }
