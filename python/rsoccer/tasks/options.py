@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from rsoccer import option_values
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig
+from rsoccer.task import Task
 
 M = TypeVar("M", Field, BallModel, RobotModel)
 
@@ -69,21 +70,32 @@ def robot_models(value: object) -> Any:  # noqa: ANN401  (of the option's types)
     return model("robot", value, RobotModel)
 
 
-def policy(name: str, value: object) -> None:
-    """Validate the type of a policy's name; matches refuse an unknown one.
+def set_policies(task: Task, *names: str) -> None:
+    """Validate the type of options that name policies, and set them to text.
+
+    Matches refuse an unknown policy.
 
     Args:
-        name: name of the argument, for the error.
-        value: the argument.
+        task: the task.
+        *names: names of the options.
 
     Raises:
-        TypeError: not text.
+        TypeError: neither text nor a path.
     """
+    for name in names:
+        object.__setattr__(task, name, _policy(name, getattr(task, name)))
+
+
+def _policy(name: str, value: object) -> str:
+    """A policy's name, or the path of its file as text."""
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
     if not isinstance(value, str):
         raise TypeError(
             f"{name}: expected a policy's name or the path of its file, got {value!r}; "
             "a Policy object is given as controllers={'yellow': policy}"
         )
+    return value
 
 
 def drive(config: SimConfig, kind: str, description: str) -> None:
