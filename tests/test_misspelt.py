@@ -141,7 +141,10 @@ def test_a_missing_policy_file_is_named(call: Callable[[str], object], tmp_path:
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=lost.json"], "lost.json"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=vs"], "'vss_440rpm'"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=3"], "robot: expected a"),
-        (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "engine=3"], "'engine'"),
+        (
+            ["evaluate", "ou", "--task", "VSS-v0", "--task-options", "engine=3"],
+            "engine: expected 'compact' or 'rapier', got 3",
+        ),
     ],
 )
 def test_commands_name_wrong_files(
