@@ -82,7 +82,11 @@ def register_policy(name: str, maker: Maker) -> None:
 
 
 def list_policies() -> list[str]:
-    """Return the registered names, sorted; without those of entry points that were not used yet."""
+    """Return the registered names, sorted; without those of entry points that were not used yet.
+
+    A warning names entry points that are ignored, because the package has a policy of that name.
+    """
+    plugins.warn_of_taken_names(plugins.POLICIES, _BUILT_IN)
     return sorted(_MAKERS)
 
 
