@@ -10,6 +10,7 @@ import pytest
 import rsoccer
 from rsoccer import cli, policies
 from rsoccer.policies.network import Network
+from rsoccer.registry import options_of
 from rsoccer.replay import Replay, record_replay
 from rsoccer.task import Task
 
@@ -47,12 +48,30 @@ def test_sb3_lists_its_arguments() -> None:
         sb3.SoccerVecEnv("VSSMulti-v0", wordls=8)
 
 
-@pytest.mark.parametrize("opponent", [3, None, 0.5, ["ou"]])
-def test_a_wrong_opponent_is_reported_by_the_name_of_the_option(opponent: Any) -> None:  # noqa: ANN401
+@pytest.mark.parametrize(
+    ("task", "option"),
+    [("VSSMulti-v0", "opponent"), ("VSS-v0", "opponent"), ("VSS-v0", "teammates")],
+)
+@pytest.mark.parametrize("policy", [3, None, 0.5, ["ou"]])
+def test_a_wrong_opponent_is_reported_by_the_name_of_the_option(
+    task: str,
+    option: str,
+    policy: Any,  # noqa: ANN401
+) -> None:
     """Formerly `controllers['yellow_0']`, which nobody had given."""
     for make in (rsoccer.make_task, rsoccer.single_env, rsoccer.Matches):
-        with pytest.raises(TypeError, match=r"^opponent: expected a policy's name or the path"):
-            make("VSSMulti-v0", opponent=opponent)
+        with pytest.raises(TypeError, match=rf"^{option}: expected a policy's name or the path"):
+            make(task, **{option: policy})
+
+
+@pytest.mark.parametrize(
+    ("task", "option"),
+    [("VSSMulti-v0", "opponent"), ("VSS-v0", "opponent"), ("VSS-v0", "teammates")],
+)
+def test_a_policy_in_an_option_may_be_a_path(task: str, option: str) -> None:
+    made = rsoccer.make_task(task, **{option: Path("chase")})
+    assert made == rsoccer.make_task(task, **{option: "chase"})
+    assert options_of(made) == {option: "chase"}
 
 
 def test_wrong_controllers_are_reported_by_the_keys_that_were_given() -> None:
@@ -122,7 +141,10 @@ def test_a_missing_policy_file_is_named(call: Callable[[str], object], tmp_path:
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=lost.json"], "lost.json"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=vs"], "'vss_440rpm'"),
         (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "robot=3"], "robot: expected a"),
-        (["evaluate", "ou", "--task", "VSS-v0", "--task-options", "engine=3"], "'engine'"),
+        (
+            ["evaluate", "ou", "--task", "VSS-v0", "--task-options", "engine=3"],
+            "engine: expected 'compact' or 'rapier', got 3",
+        ),
     ],
 )
 def test_commands_name_wrong_files(

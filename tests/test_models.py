@@ -1,11 +1,16 @@
 """Custom fields, robots and balls, and their configurations: errors and representations."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import pytest
 
+import rsoccer
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig, Simulator
+from rsoccer.registry import list_options, task_class
 from rsoccer.tasks import VssSelfPlay
 
 HEAVY = RobotModel("vss_440rpm", mass=0.2)
@@ -85,3 +90,85 @@ def test_a_model_can_be_the_default_of_a_dataclass() -> None:
 def test_a_number_of_another_type_is_refused_by_name() -> None:
     with pytest.raises(TypeError, match="mass: expected a number, got 'heavy'"):
         RobotModel("vss_440rpm", mass="heavy")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("path", [str, Path])
+def test_files_of_models_are_taken_everywhere(path: Callable[[Path], Any], tmp_path: Path) -> None:
+    robot, ball, field = (tmp_path / f"{name}.json" for name in ("robot", "ball", "field"))
+    robot.write_text('{"preset": "vss_440rpm", "mass": 0.2}')
+    ball.write_text(BallModel("vss_rsim").to_json())
+    field.write_text(Field("vss_3v3", goal_width=0.5).to_json())
+    config = SimConfig(path(field), robot=path(robot), ball=path(ball))
+    assert config == SimConfig(Field("vss_3v3", goal_width=0.5), robot=HEAVY)
+    assert SimConfig(n_blue=1, n_yellow=1, robot=[path(robot), "vss_440rpm"]).robots[0] == HEAVY
+    assert RobotModel(path(robot)) == HEAVY
+    assert BallModel(path(ball)) == BallModel("vss_rsim")
+    assert rsoccer.make_task("VSS-v0", robot=path(robot)).config.robot == HEAVY
+
+
+class BytesPath:
+    """A path of bytes, which names no model."""
+
+    def __fspath__(self) -> bytes:
+        return b"heavy.json"
+
+    def __repr__(self) -> str:
+        return "BytesPath()"
+
+
+@pytest.mark.parametrize("value", [3, 3.5, {}, BytesPath()])
+@pytest.mark.parametrize(
+    ("argument", "kind"), [("field", "Field"), ("robot", "RobotModel"), ("ball", "BallModel")]
+)
+def test_what_is_no_model_is_refused_by_the_name_of_the_argument(
+    argument: str,
+    kind: str,
+    value: Any,  # noqa: ANN401
+) -> None:
+    """Formerly the words of the binding, such as `failed to extract enum Robots`."""
+    expected = f"{argument}: expected a preset's name, the path of a .json file or a {kind}, got"
+    for make in (SimConfig, lambda **options: rsoccer.make_task("SSLGoToBall-v0", **options)):
+        with pytest.raises(TypeError, match=f"^{re.escape(f'{expected} {value!r}')}$"):
+            make(**{argument: value})
+
+
+@pytest.mark.parametrize("argument", ["robot", "ball"])
+def test_none_is_no_model_of_a_task(argument: str) -> None:
+    names = [name for name in rsoccer.list_tasks() if argument in list_options(task_class(name))]
+    assert "SSLGoToBall-v0" in names
+    for name in names:
+        with pytest.raises(TypeError, match=f"^{argument}: expected a preset's name, .*, got None"):
+            rsoccer.make_task(name, **{argument: None})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"ball": []}, r"ball: expected a preset's name, .* or a BallModel, got \[\]"),
+        ({"field": None}, "field: expected a preset's name, .* or a Field, got None"),
+        ({"robot": [3] * 6}, "robot: expected a preset's name, .* or a RobotModel, got 3"),
+        ({"n_blue": 3.5}, "n_blue: expected a whole number, got 3.5"),
+        ({"n_yellow": None}, "n_yellow: expected a whole number, got None"),
+        ({"time_step": "short"}, "time_step: expected a number, got 'short'"),
+        ({"tick": None}, "tick: expected a number, got None"),
+        ({"engine": 3}, "engine: expected 'compact' or 'rapier', got 3"),
+    ],
+)
+def test_arguments_of_another_type_are_refused_by_name(
+    arguments: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(TypeError, match=f"^{message}$"):
+        SimConfig(**arguments)
+
+
+@pytest.mark.parametrize("kind", [Field, BallModel, RobotModel])
+def test_a_preset_that_is_no_text_is_refused_by_name(kind: Any) -> None:  # noqa: ANN401
+    message = r"^name: expected a preset's name or the path of a \.json file, got 3$"
+    with pytest.raises(TypeError, match=message):
+        kind(3)
+
+
+@pytest.mark.parametrize("name", rsoccer.list_tasks())
+def test_tasks_name_the_engine(name: str) -> None:
+    with pytest.raises(TypeError, match=r"^engine: expected 'compact' or 'rapier', got 3$"):
+        rsoccer.make_task(name, engine=3)

@@ -87,7 +87,30 @@ def test_the_list_has_entry_points_and_broken_ones(package: Path, tmp_path: Path
     done = run_in(tmp_path, "list", path=package)
     assert "Duel-v0: One robot against one that turns.\n    field=" in done.stdout
     assert "\n'Lost-v0': the entry point 'mine:Lost'" in done.stdout
-    assert ", spin, strike, text," in done.stdout
+    assert ", spin, strike, uniform," in done.stdout, "text and wrong are no policies"
+    assert "\n'text': the entry point in 'rsoccer.policies' names no policy: " in done.stdout
+    assert "\n'wrong': the entry point 'mine:MISSING' of mine 1.0 in" in done.stdout
+
+
+def test_tasks_of_entry_points_are_listed_without_being_loaded(
+    package: Path, tmp_path: Path
+) -> None:
+    code = "import sys, rsoccer; print('Duel-v0' in rsoccer.list_tasks(), 'mine' in sys.modules)"
+    assert run_in(tmp_path, "-c", code, path=package).stdout == "True False\n"
+
+
+def test_entry_points_with_taken_names_are_reported(tmp_path: Path) -> None:
+    """Formerly they were dropped without a word."""
+    taken = {"rsoccer.tasks": ["VSS-v0", "VSSMA-v0"], "rsoccer.policies": ["chase"]}
+    lines = [f"[{group}]\n" + "".join(f"{n} = mine:It\n" for n in taken[group]) for group in taken]
+    write_package(tmp_path, "\n".join(lines))
+    done = run_in(tmp_path, "list", path=tmp_path)
+    assert done.returncode == 0
+    assert done.stdout.count("\nVSS-v0: ") == 1
+    for group, names in taken.items():
+        for name in names:
+            message = f"{name!r}: the entry point 'mine:It' of mine 1.0 in {group!r} is ignored: "
+            assert done.stderr.count(message) == 1
 
 
 def test_child_processes_import_the_modules_too(tmp_path: Path) -> None:

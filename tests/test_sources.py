@@ -65,3 +65,23 @@ def test_a_text_that_names_nothing_is_refused(
 def test_other_objects_are_refused(argument: str, given: Any) -> None:  # noqa: ANN401
     with pytest.raises(TypeError, match=f"^{argument}: expected a .*, got "):
         Matches("VSS-v0", **{argument: given})
+
+
+def test_a_factory_with_other_arguments_is_named() -> None:
+    """Formerly Python's error, without a word of the argument."""
+
+    def make(config: object) -> None:
+        raise AssertionError
+
+    message = r"^simulator: expected a function \(config, worlds, threads\), got .*make.*too many"
+    with pytest.raises(TypeError, match=message) as error:
+        Matches("VSS-v0", simulator=make)  # type: ignore[arg-type]
+    assert isinstance(error.value.__cause__, TypeError)
+
+
+def test_the_error_of_a_factory_is_its_own() -> None:
+    def make(config: object, worlds: int, threads: object) -> Any:  # noqa: ANN401
+        raise ConnectionError("no robots")
+
+    with pytest.raises(ConnectionError, match="no robots"):
+        Matches("VSS-v0", simulator=make)

@@ -6,6 +6,7 @@ center of the field, x points at yellow's goal, y to the left, and blue attacks 
 """
 
 from collections.abc import Sequence
+from os import PathLike
 from typing import ClassVar, final
 
 import numpy as np
@@ -139,7 +140,7 @@ class Field:
 
     Raises:
         FileNotFoundError: no such file.
-        TypeError: a number of another type.
+        TypeError: a name or a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -147,7 +148,7 @@ class Field:
     PRESETS: ClassVar[tuple[str, ...]]
     """Names of the presets."""
 
-    def __new__(cls, name: str, **numbers: float) -> Field: ...
+    def __new__(cls, name: str | PathLike[str], **numbers: float) -> Field: ...
     @property
     def name(self) -> str:
         """Name of the preset."""
@@ -294,7 +295,7 @@ class BallModel:
 
     Raises:
         FileNotFoundError: no such file.
-        TypeError: a number of another type.
+        TypeError: a name or a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -302,7 +303,7 @@ class BallModel:
     PRESETS: ClassVar[tuple[str, ...]]
     """Names of the presets."""
 
-    def __new__(cls, name: str, **numbers: float) -> BallModel: ...
+    def __new__(cls, name: str | PathLike[str], **numbers: float) -> BallModel: ...
     @property
     def name(self) -> str:
         """Name of the preset."""
@@ -411,7 +412,7 @@ class RobotModel:
 
     Raises:
         FileNotFoundError: no such file.
-        TypeError: a number of another type.
+        TypeError: a name or a number of another type.
         ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
             message names it.
     """
@@ -419,7 +420,7 @@ class RobotModel:
     PRESETS: ClassVar[tuple[str, ...]]
     """Names of the presets."""
 
-    def __new__(cls, name: str, **numbers: float) -> RobotModel: ...
+    def __new__(cls, name: str | PathLike[str], **numbers: float) -> RobotModel: ...
     @property
     def name(self) -> str:
         """Name of the preset."""
@@ -619,18 +620,21 @@ class SimConfig:
     numbers: `vss_440rpm` and `vss_rsim`, or `ssl_generic` and `ssl_tigers`.
 
     Args:
-        field: Field, or the name of its preset.
+        field: Field, the name of its preset, or the path of a .json file.
         n_blue: Number of blue robots, from 0 to the field's `max_robots`.
         n_yellow: Number of yellow robots, from 0 to the field's `max_robots`.
-        robot: Model of all robots, or a sequence with one model for each robot, blue first; models
-            or names of presets. None for the league's default.
-        ball: Ball, or the name of its preset. None for the league's default.
+        robot: Model of all robots, or a sequence with one model for each robot, blue first; models,
+            names of presets, or paths of .json files. None for the league's default.
+        ball: Ball, the name of its preset, or the path of a .json file. None for the league's
+            default.
         time_step: Length of a control step, s; a whole multiple of `tick`, 1 to 1000 ticks.
         tick: Length of a physics tick, s; above 0 and at most 0.005.
         engine: Solver of contacts: "compact" is made for few bodies, "rapier" is the slower
             reference.
 
     Raises:
+        FileNotFoundError: No such file.
+        TypeError: An argument of another type.
         ValueError: A name is no preset or no engine, there are more robots than the league allows,
             a sequence of robots has another length, a time is out of its range, or a field of no
             known league needs a default.
@@ -638,12 +642,16 @@ class SimConfig:
 
     def __new__(
         cls,
-        field: str | Field = "vss_3v3",
+        field: str | PathLike[str] | Field = "vss_3v3",
         n_blue: int = 3,
         n_yellow: int = 3,
         *,
-        robot: str | RobotModel | Sequence[str | RobotModel] | None = None,
-        ball: str | BallModel | None = None,
+        robot: str
+        | PathLike[str]
+        | RobotModel
+        | Sequence[str | PathLike[str] | RobotModel]
+        | None = None,
+        ball: str | PathLike[str] | BallModel | None = None,
         time_step: float = 0.025,
         tick: float = 0.005,
         engine: str = "compact",

@@ -19,6 +19,7 @@ import importlib
 import operator
 import os
 import sys
+import warnings
 from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -75,10 +76,8 @@ def load(group: str, name: str) -> Any | None:  # noqa: ANN401  (whatever a pack
     try:
         return point.load()
     except Exception as error:
-        package = "" if point.dist is None else f" of {point.dist.name} {point.dist.version}"
         raise ImportError(
-            f"{name!r}: the entry point {point.value!r}{package} in {group!r} cannot be loaded: "
-            f"{type(error).__name__}: {error}"
+            f"{_described(point)} cannot be loaded: {type(error).__name__}: {error}"
         ) from error
 
 
@@ -110,6 +109,24 @@ def list_names(group: str) -> list[str]:
         group: `TASKS` or `POLICIES`.
     """
     return sorted(_points(group))
+
+
+def warn_of_taken_names(group: str, taken: Iterable[str]) -> None:
+    """Warn of entry points that are never loaded, because their names stand for something else.
+
+    Args:
+        group: `TASKS` or `POLICIES`.
+        taken: names that stand for tasks or policies of other origin.
+    """
+    for name in sorted(_points(group).keys() & set(taken)):
+        point = _points(group)[name]
+        warnings.warn(f"{_described(point)} is ignored: the name is taken", stacklevel=3)
+
+
+def _described(point: EntryPoint) -> str:
+    """Words that name an entry point and its package."""
+    package = "" if point.dist is None else f" of {point.dist.name} {point.dist.version}"
+    return f"{point.name!r}: the entry point {point.value!r}{package} in {point.group!r}"
 
 
 @cache

@@ -7,6 +7,7 @@ processes: the module is imported where the matches are made.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from contextlib import AbstractContextManager, closing, nullcontext
 from typing import Any, TypeAlias, TypeVar
@@ -46,12 +47,31 @@ def make_simulator(
     if source is None:
         return Simulator(config, worlds, threads)
     factory = plugins.find("simulator", source) if isinstance(source, str) else source
-    made = factory(config, worlds, threads) if callable(factory) else factory
+    made: Any = factory
+    if callable(factory):
+        _check_signature(factory, config, worlds, threads)
+        made = factory(config, worlds, threads)
     if not callable(getattr(made, "step", None)):
         expected = "a simulator, a function (config, worlds, threads) that makes one, or its text"
         got = f"{factory!r}, which made {made!r}" if callable(factory) else repr(made)
         raise TypeError(f"simulator: expected {expected}, got {got}")
-    return made
+    stepper: Stepper = made
+    return stepper
+
+
+def _check_signature(factory: Callable[..., object], *arguments: object) -> None:
+    """Refuse a factory that does not take the arguments; errors in it are its own."""
+    try:
+        signature = inspect.signature(factory)
+    except ValueError:  # of compiled functions without a signature
+        return
+    try:
+        signature.bind(*arguments)
+    except TypeError as error:
+        raise TypeError(
+            f"simulator: expected a function (config, worlds, threads), got {factory!r} with "
+            f"{signature}: {error}"
+        ) from error
 
 
 def is_shared(source: object) -> bool:

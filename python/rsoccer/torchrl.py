@@ -125,7 +125,7 @@ class SoccerEnv(EnvBase):
             ValueError: an unknown task, option or controller, a number out of range, no robot
                 that learns, or groups that do not hold each learner once.
         """
-        self.task = resolve_task(task, max_steps, options, type(self))
+        self.task = resolve_task(task, max_steps, options, SoccerEnv.__init__)
         self.matches = EnvMatches(
             self.task,
             worlds,
@@ -204,7 +204,15 @@ class SoccerEnv(EnvBase):
         return Bounded(-1.0, 1.0, (n, k, self.task.action_size), dtype=torch.float32)
 
     def _reset(self, tensordict: TensorDictBase | None = None, **kwargs: Any) -> TensorDictBase:  # noqa: ANN401
-        """Begin episodes in the matches of the mask `_reset`, or in all."""
+        """Begin episodes in the matches of the mask `_reset`, or in all.
+
+        TorchRL passes on further arguments of `reset`, and none of its own.
+        """
+        if kwargs:
+            raise TypeError(
+                f"reset: expected no arguments beside the tensordict, got {sorted(kwargs)}; "
+                "set_seed(s) seeds the next reset"
+            )
         mask: Mask | None = None
         given = None if tensordict is None else tensordict.get("_reset", None)
         if given is not None and not bool(given.all()):

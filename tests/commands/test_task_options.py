@@ -38,6 +38,17 @@ def test_a_command_plays_the_task_with_its_options(
     assert "velocity in the robot's axes" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("task", ["VSS-v0", "VSSMulti-v0"])
+def test_a_number_in_the_place_of_a_policy_is_one_line(
+    task: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["evaluate", "chase", "--task", task, "--task-options", "opponent=3", "--matches", "2"]
+    assert cli.main(words) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("rsoccer: task_options: opponent: expected a policy's name ")
+    assert error.count("\n") == 1
+
+
 def test_a_recorded_match_has_them(tmp_path: Path) -> None:
     path = tmp_path / "match.rsr"
     watch = ["watch", "SSLGoToBall-v0", "--policy", "fetch", "--seconds", "0.5"]

@@ -1,5 +1,6 @@
 """Options and actions of PettingZoo environments: used as given, or refused without a change."""
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -75,7 +76,7 @@ def test_the_time_limit_can_be_set_without_a_change_of_the_callers_task() -> Non
 
 def test_a_match_starts_from_a_given_frame() -> None:
     match = parallel_env(SELF_PLAY)
-    match.reset(seed=0, options={"frame": shot_at(1), "unknown": object()})
+    match.reset(seed=0, options={"frame": shot_at(1)})
     assert np.array_equal(match._matches.frame.rows[0], shot_at(1))
 
 
@@ -99,6 +100,16 @@ def test_refused_frames_change_nothing(row: object, error: type[Exception], mess
     actions = random_actions(match, rng)
     assert comparable(match.step(actions)[0]) == comparable(twin.step(actions)[0])
     assert comparable(match.reset()[0]) == comparable(twin.reset()[0])
+
+
+@pytest.mark.parametrize("make", [parallel_env, env])
+@pytest.mark.parametrize("key", ["frames", "initial_state", "seed", 1])
+def test_unknown_options_of_a_reset_are_refused(make: Callable[[str], Any], key: object) -> None:
+    """Formerly only those that look like `frame`; a wrong name left the start to chance."""
+    match = make(SELF_PLAY)
+    with pytest.raises(ValueError, match=re.escape(f"options: unknown [{key!r}]; valid are ['fr")):
+        match.reset(seed=0, options={key: shot_at(1), "options": 1})
+    match.reset(seed=0, options={"options": 1})  # as PettingZoo's tests do
 
 
 def test_options_must_be_a_dictionary() -> None:

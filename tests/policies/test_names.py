@@ -83,3 +83,20 @@ def test_a_maker_has_to_return_a_policy() -> None:
     rsoccer.register_policy("nothing", lambda task: None)  # type: ignore[arg-type, return-value]
     with pytest.raises(TypeError, match="nothing: expected its maker to return a Policy, got None"):
         policies.make_policy("nothing", rsoccer.make_task("VSS-v0"))
+
+
+@pytest.mark.parametrize(
+    ("raised", "kind"),
+    [(KeyError("lost"), RuntimeError), (ValueError("lost"), ValueError), (OSError(), RuntimeError)],
+)
+def test_a_maker_that_raises_is_named(raised: Exception, kind: type[Exception]) -> None:
+    """Formerly the error alone, in a traceback."""
+
+    def make(task: Task) -> Policy:
+        raise raised
+
+    rsoccer.register_policy("faulty", make)
+    message = f"^policy 'faulty': its maker raises {type(raised).__name__}: "
+    with pytest.raises(kind, match=message) as error:
+        rsoccer.Matches("VSS-v0", controllers={"all": "faulty"})
+    assert error.value.__cause__ is raised

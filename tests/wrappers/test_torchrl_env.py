@@ -15,6 +15,7 @@ from tests.simulators import Still
 torch = pytest.importorskip("torch")
 pytest.importorskip("torchrl")
 
+from torchrl.envs import RewardSum, TransformedEnv  # noqa: E402
 from torchrl.envs.utils import MarlGroupMapType, check_env_specs  # noqa: E402
 
 from rsoccer.torchrl import SoccerEnv  # noqa: E402
@@ -151,8 +152,18 @@ def test_bad_arguments_are_named() -> None:
         SoccerEnv(TASK, state="yes")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="blue_1"):
         SoccerEnv(TASK, group_map={"one": ["blue_0"]})
-    with pytest.raises((TypeError, ValueError), match="unknwon"):
-        SoccerEnv(TASK, unknwon=1)
+    for task in (TASK, rsoccer.make_task(TASK)):
+        with pytest.raises(TypeError, match=r"'unknwon'.* \['worlds', 'seed', 'threads', 'contr"):
+            SoccerEnv(task, unknwon=1)
+
+
+@pytest.mark.parametrize("argument", ["options", "frame", "seed"])
+def test_a_reset_refuses_other_arguments_than_its_own(argument: str) -> None:
+    """Formerly they were ignored, and the start was left to chance."""
+    env = SoccerEnv(TASK, WORLDS)
+    for each in (env, TransformedEnv(env, RewardSum())):
+        with pytest.raises(TypeError, match=f"^reset: expected no arguments .*'{argument}'"):
+            each.reset(**{argument: 1})
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore::UserWarning")

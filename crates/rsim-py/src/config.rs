@@ -8,7 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 use rsim_core::{EngineKind, League};
 
-use crate::models::{BallModel, Field, Named, RobotModel, shortest};
+use crate::arguments::{Given, argument, given};
+use crate::models::{BallModel, Field, Model, RobotModel, named, shortest};
 
 /// Configuration of a simulator.
 #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
@@ -19,33 +20,41 @@ pub(crate) struct SimConfig(pub(crate) rsim_core::SimConfig);
 impl SimConfig {
     #[new]
     #[pyo3(signature = (
-        field = Named::Preset("vss_3v3".to_owned()), n_blue = 3, n_yellow = 3, *,
-        robot = None, ball = None, time_step = 0.025, tick = 0.005, engine = "compact"
+        field = None, n_blue = None, n_yellow = None, *,
+        robot = None, ball = None, time_step = None, tick = None, engine = None
     ), text_signature = "(field='vss_3v3', n_blue=3, n_yellow=3, *, robot=None, ball=None, \
         time_step=0.025, tick=0.005, engine='compact')")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's constructor")]
     fn new(
-        field: Named<Field>,
-        n_blue: i64,
-        n_yellow: i64,
-        robot: Option<Robots>,
-        ball: Option<Named<BallModel>>,
-        time_step: f32,
-        tick: f32,
-        engine: &str,
+        #[pyo3(from_py_with = given)] field: Given<'_>,
+        #[pyo3(from_py_with = given)] n_blue: Given<'_>,
+        #[pyo3(from_py_with = given)] n_yellow: Given<'_>,
+        robot: Option<Bound<'_, PyAny>>,
+        ball: Option<Bound<'_, PyAny>>,
+        #[pyo3(from_py_with = given)] time_step: Given<'_>,
+        #[pyo3(from_py_with = given)] tick: Given<'_>,
+        #[pyo3(from_py_with = given)] engine: Given<'_>,
     ) -> PyResult<Self> {
-        let engine = EngineKind::named(engine).map_err(invalid)?;
-        let field = field.found()?.0;
-        let (n_blue, n_yellow) = (count("n_blue", n_blue)?, count("n_yellow", n_yellow)?);
+        let solvers = "'compact' or 'rapier'";
+        let engine = argument("engine", solvers, engine, || "compact".to_owned())?;
+        let engine = EngineKind::named(&engine).map_err(invalid)?;
+        let field = match field {
+            Some(field) => named::<Field>("field", &field)?.0,
+            None => Field::preset("vss_3v3")?.0,
+        };
+        let n_blue = count("n_blue", argument("n_blue", "a whole number", n_blue, || 3)?)?;
+        let n_yellow = count("n_yellow", argument("n_yellow", "a whole number", n_yellow, || 3)?)?;
+        let time_step = argument("time_step", "a number", time_step, || 0.025)?;
+        let tick = argument("tick", "a number", tick, || 0.005)?;
         // Checked before the models are copied.
         rsim_core::check_team("n_blue", &field, n_blue).map_err(invalid)?;
         rsim_core::check_team("n_yellow", &field, n_yellow).map_err(invalid)?;
         let ball = match ball {
-            Some(ball) => ball.found()?.0,
+            Some(ball) => named::<BallModel>("ball", &ball)?.0,
             None => League::of(&field, "ball").map_err(invalid)?.ball(),
         };
         let mut blue = if let Some(robot) = robot {
-            robot.models(n_blue + n_yellow)?
+            robot_models(&robot, n_blue + n_yellow)?
         } else {
             let robot = League::of(&field, "robot").map_err(invalid)?.robot();
             vec![robot; n_blue + n_yellow]
@@ -178,26 +187,18 @@ impl SimConfig {
     }
 }
 
-/// Models of robots: one for all robots, or one for each.
-#[derive(FromPyObject)]
-enum Robots {
-    All(Named<RobotModel>),
-    Each(Vec<Named<RobotModel>>),
-}
-
-impl Robots {
-    fn models(self, n_robots: usize) -> PyResult<Vec<rsim_core::RobotModel>> {
-        match self {
-            Self::All(robot) => Ok(vec![robot.found()?.0; n_robots]),
-            Self::Each(robots) if robots.len() == n_robots => {
-                robots.into_iter().map(|robot| Ok(robot.found()?.0)).collect()
-            }
-            Self::Each(robots) => Err(PyValueError::new_err(format!(
-                "robot must be one model or one for each of {n_robots} robots, got {}",
-                robots.len()
-            ))),
-        }
+/// The models of all robots, from one for all or a sequence with one for each.
+fn robot_models(robot: &Bound<'_, PyAny>, n_robots: usize) -> PyResult<Vec<rsim_core::RobotModel>> {
+    let Ok(robots) = robot.extract::<Vec<Bound<'_, PyAny>>>() else {
+        return Ok(vec![named::<RobotModel>("robot", robot)?.0; n_robots]);
+    };
+    if robots.len() != n_robots {
+        return Err(PyValueError::new_err(format!(
+            "robot must be one model or one for each of {n_robots} robots, got {}",
+            robots.len()
+        )));
     }
+    robots.iter().map(|robot| Ok(named::<RobotModel>("robot", robot)?.0)).collect()
 }
 
 /// A `ValueError` with the core's message.

@@ -3,6 +3,7 @@
 #![deny(unsafe_code)]
 #![allow(clippy::needless_pass_by_value)] // PyO3 hands arrays over by value
 
+mod arguments;
 mod arrays;
 mod bounds;
 mod config;

@@ -4,26 +4,26 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::{PyAttributeError, PyFileNotFoundError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyString, PyTuple, PyType};
 use rsim_core::{Drive, Number};
 use serde_json::Value;
 
+use crate::arguments::{text_or_path, unexpected};
 use crate::config::invalid;
 
 /// End of the names of files that hold a model.
 const SUFFIX: &str = ".json";
-
-/// The name of a preset or of a file, or a model.
-#[derive(FromPyObject)]
-pub(crate) enum Named<T> {
-    Preset(String),
-    Model(T),
-}
+/// What names a model, in words.
+const NAMES: &str = "a preset's name, the path of a .json file";
 
 /// A model class with presets and numbers.
-pub(crate) trait Model: Sized + Clone {
+pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
+    /// Name of the class in Python.
+    const CLASS: &'static str;
+
     fn preset(name: &str) -> PyResult<Self>;
     fn decoded(text: &str) -> PyResult<Self>;
     fn numbers() -> Vec<Number>;
@@ -111,13 +111,20 @@ pub(crate) trait Model: Sized + Clone {
     }
 }
 
-impl<T: Model> Named<T> {
-    pub(crate) fn found(self) -> PyResult<T> {
-        match self {
-            Self::Preset(path) if path.ends_with(SUFFIX) => T::read(&path),
-            Self::Preset(name) => T::preset(&name),
-            Self::Model(model) => Ok(model),
-        }
+/// The model that an argument is or names: a model, a preset's name, or a file.
+pub(crate) fn named<T: Model>(argument: &str, value: &Bound<'_, PyAny>) -> PyResult<T> {
+    match value.extract() {
+        Ok(model) => Ok(model),
+        Err(_) => found(argument, &format!("{NAMES} or a {}", T::CLASS), value),
+    }
+}
+
+/// The model that an argument names.
+fn found<T: Model>(argument: &str, expected: &str, value: &Bound<'_, PyAny>) -> PyResult<T> {
+    match text_or_path(value)? {
+        Some(path) if path.ends_with(SUFFIX) => T::read(&path),
+        Some(name) => T::preset(&name),
+        None => Err(unexpected(argument, expected, value)),
     }
 }
 
@@ -165,6 +172,8 @@ macro_rules! mirror {
         pub(crate) struct $name(pub(crate) rsim_core::$name);
 
         impl Model for $name {
+            const CLASS: &'static str = stringify!($name);
+
             fn preset(name: &str) -> PyResult<Self> {
                 Ok(Self(rsim_core::$name::preset(name).map_err(invalid)?))
             }
@@ -196,8 +205,9 @@ macro_rules! mirror {
         impl $name {
             #[new]
             #[pyo3(signature = (name, **numbers))]
-            fn new(name: String, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-                Named::<Self>::Preset(name).found()?.with(numbers)
+            fn new(name: &Bound<'_, PyAny>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+                let expected = "a preset's name or the path of a .json file";
+                found::<Self>("name", expected, name)?.with(numbers)
             }
 
             #[classattr]

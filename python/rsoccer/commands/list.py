@@ -17,7 +17,7 @@ class List(Imports):
 
     def run(self) -> None:
         """Print the lists."""
-        for name in sorted({*registry.list_tasks(), *plugins.list_names(plugins.TASKS)}):
+        for name in registry.list_tasks():
             try:
                 write(_description(name))
             except ImportError as error:
@@ -25,8 +25,7 @@ class List(Imports):
         for name, (task_name, options) in registry.list_aliases().items():
             values = [f"{option}={value!r}" for option, value in options.items()]
             write(f"{name}: {', '.join([task_name, *values])}")
-        names = sorted({*policies.list_policies(), *plugins.list_names(plugins.POLICIES)})
-        write(f"policies: {', '.join(names)}, or the path of a policy file")
+        write(f"policies: {', '.join(_usable_policies())}, or the path of a policy file")
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
         for name, path in trained.list_trained().items():
             scores = [_score_text(score) for score in trained.list_scores(path)]
@@ -34,6 +33,18 @@ class List(Imports):
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
         write("best and files play as they were trained; :mean or :sample may follow the name")
         write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
+
+
+def _usable_policies() -> list[str]:
+    """Names of policies, without entry points that cannot be loaded, whose errors are printed."""
+    names = []
+    for name in sorted({*policies.list_policies(), *plugins.list_names(plugins.POLICIES)}):
+        try:
+            if policies.is_registered(name):
+                names.append(name)
+        except ImportError as error:
+            write(str(error))
+    return names
 
 
 def _score_text(score: Score) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -87,14 +86,13 @@ def single_learner_controllers(
     return resolved
 
 
-def reset_options(options: object, *keys: str, others: bool = False) -> Mapping[str, Any]:
+def reset_options(options: object, *keys: str, ignored: Sequence[str] = ()) -> Mapping[str, Any]:
     """Return the options of a `reset` as a dictionary; an empty one for None.
 
     Args:
         options: argument of `reset`.
         *keys: the keys that it may have.
-        others: ignore other keys, unless they look like one of these misspelt: PettingZoo's own
-            tests pass a key that no environment has.
+        ignored: further keys that it may have, without a meaning.
 
     Raises:
         TypeError: not a dictionary.
@@ -104,10 +102,7 @@ def reset_options(options: object, *keys: str, others: bool = False) -> Mapping[
         return {}
     if not isinstance(options, Mapping):
         raise TypeError(f"options: expected a dictionary, got {type(options).__name__}")
-    unknown = [key for key in options if key not in keys]
-    if others:
-        unknown = [key for key in unknown if get_close_matches(str(key).lower(), keys)]
-    if unknown:
+    if unknown := [key for key in options if key not in (*keys, *ignored)]:
         raise ValueError(f"options: unknown {unknown}; valid are {list(keys)}")
     return options
 

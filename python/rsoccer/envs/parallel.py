@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -32,6 +32,9 @@ from rsoccer.spaces import ActionSpace
 from rsoccer.task import Task
 
 Infos = dict[str, dict[str, Any]]
+TESTED_OPTION: Final = "options"
+"""Key that a reset ignores: PettingZoo's `api_test` and `parallel_api_test` reset with it, to see
+that environments take options."""
 
 
 def parallel_env(
@@ -302,8 +305,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             seed: seed of the episode and of those that follow, at least 0. The same seed gives the
                 same episode, whatever was played before. None: the random streams continue.
             options: `options["frame"]` (row,) is an initial state in the layout of a row of
-                `Frame.rows`, in place of the task's own. Other keys are ignored,
-                unless they look like a misspelt "frame".
+                `Frame.rows`, in place of the task's own.
 
         Returns:
             Observations (o,) and empty infos by agent name.
@@ -316,7 +318,9 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         """
         self.check_open("reset")
         rows = initial_rows(
-            reset_options(options, "frame", others=True), self.task, np.ones(1, np.bool_)
+            reset_options(options, "frame", ignored=(TESTED_OPTION,)),
+            self.task,
+            np.ones(1, np.bool_),
         )
         observations = self._matches.reset(seed, rows=rows)
         self.agents = self.possible_agents.copy()

@@ -86,6 +86,7 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     Raises:
         FileNotFoundError: no such policy file.
         ImportError: a package that offers the policy cannot be loaded, see `rsoccer.plugins`.
+        RuntimeError: the maker of a registered policy raises an error other than ValueError.
         TypeError: not a `PolicyLike`.
         ValueError: an unknown name, a wrong skill or mode, or a policy that does not fit the task.
 

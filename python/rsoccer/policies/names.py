@@ -49,6 +49,8 @@ _MAKERS: Final[dict[str, Maker]] = {
     "weave": Weave,
     "zero": lambda task: Zero(),
 }
+_BUILT_IN: Final = frozenset(_MAKERS)
+"""Names of the package's own policies, whose makers name them in errors."""
 
 
 def register_policy(name: str, maker: Maker) -> None:
@@ -80,7 +82,11 @@ def register_policy(name: str, maker: Maker) -> None:
 
 
 def list_policies() -> list[str]:
-    """Return the registered names, sorted; without those of entry points that were not used yet."""
+    """Return the registered names, sorted; without those of entry points that were not used yet.
+
+    A warning names entry points that are ignored, because the package has a policy of that name.
+    """
+    plugins.warn_of_taken_names(plugins.POLICIES, _BUILT_IN)
     return sorted(_MAKERS)
 
 
@@ -120,11 +126,19 @@ def make(name: str, task: Task, skill: str | None = None) -> Policy:
         A new policy; it may not fit the task.
 
     Raises:
+        RuntimeError: a maker of a user raises an error other than ValueError.
         TypeError: the maker returns something else than a policy.
-        ValueError: a wrong skill, or one for a policy without skill.
+        ValueError: a wrong skill, or one for a policy without skill, or the maker refuses the task.
     """
     maker = _MAKERS[name]
-    policy = maker(task) if skill is None else maker(task, skill=_number(name, maker, skill))
+    arguments = {} if skill is None else {"skill": _number(name, maker, skill)}
+    try:
+        policy = maker(task, **arguments)
+    except Exception as error:
+        if name in _BUILT_IN:
+            raise
+        kind = ValueError if isinstance(error, ValueError) else RuntimeError
+        raise kind(f"policy {name!r}: its maker raises {type(error).__name__}: {error}") from error
     if not isinstance(policy, Policy):
         raise TypeError(f"{name}: expected its maker to return a Policy, got {policy!r}")
     return policy

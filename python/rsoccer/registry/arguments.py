@@ -83,7 +83,8 @@ def resolve_task(
         task: a task, or the name of a registered one.
         max_steps: time limit of an episode in control steps; None for the task's own.
         options: options of a registered task, by name.
-        caller: function or class that got the options beside its own arguments, which errors list.
+        caller: function or class that got the options beside its own arguments, which errors list;
+            the constructor of a class whose metaclass hides its arguments.
 
     Raises:
         TypeError: not a task, an unknown option, or options for a Task object.
@@ -105,7 +106,7 @@ def _arguments(caller: Callable[..., object]) -> list[str]:
     """Names of the arguments of a function or class beside the task and its options."""
     parameters = inspect.signature(caller).parameters.values()
     names = [each.name for each in parameters if each.kind is not each.VAR_KEYWORD]
-    return [name for name in names if name != "task"]
+    return [name for name in names if name not in ("self", "task")]
 
 
 def with_max_steps(task: Task, max_steps: int, name: str) -> Task:

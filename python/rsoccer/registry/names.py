@@ -97,8 +97,14 @@ def register_removed(name: str, hint: str) -> None:
 
 
 def list_tasks() -> list[str]:
-    """Return the names of all registered tasks in alphabetical order, without aliases."""
-    return sorted(_TASKS)
+    """Return the names of all tasks in alphabetical order, without aliases.
+
+    They are the registered ones and those of entry points, which are not loaded. A warning names
+    entry points that are ignored, because the package has a task of that name.
+    """
+    own = (name for name, each in _TASKS.items() if each.__module__.startswith("rsoccer."))
+    plugins.warn_of_taken_names(plugins.TASKS, {*own, *_ALIASES, *_REMOVED})
+    return sorted({*_TASKS, *plugins.list_names(plugins.TASKS)} - {*_ALIASES, *_REMOVED})
 
 
 def list_aliases() -> dict[str, Alias]:

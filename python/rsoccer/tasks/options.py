@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from rsoccer import option_values
 from rsoccer._core import BallModel, Field, RobotModel, SimConfig
+from rsoccer.task import Task
 
 M = TypeVar("M", Field, BallModel, RobotModel)
 
@@ -28,31 +29,29 @@ def model(name: str, value: object, kind: type[M]) -> str | M:
         TypeError: neither text nor a `kind`.
         ValueError: an unknown preset, or a file without such a model.
     """
-    if isinstance(value, os.PathLike):
-        value = os.fspath(value)
     if isinstance(value, kind):
         return value
-    if not isinstance(value, str):
+    text = os.fspath(value) if isinstance(value, os.PathLike) else value
+    if not isinstance(text, str):
         raise TypeError(
             f"{name}: expected a preset's name, the path of a {option_values.SUFFIX} file or a "
             f"{kind.__name__}, got {value!r}"
         )
-    if option_values.is_file(value):
-        return option_values.read_model(name, value, kind)
-    if value not in kind.PRESETS:
+    if option_values.is_file(text):
+        return option_values.read_model(name, text, kind)
+    if text not in kind.PRESETS:
         raise ValueError(
             f"{name}: expected one of {list(kind.PRESETS)}, or the path of a "
-            f"{option_values.SUFFIX} file, got {value!r}"
+            f"{option_values.SUFFIX} file, got {text!r}"
         )
-    return value
+    return text
 
 
 def robot_models(value: object) -> Any:  # noqa: ANN401  (of the option's types)
     """Validate the option `robot`.
 
     Args:
-        value: one robot model, preset's name or file for all robots, or a list with one for each;
-            None for the simulator's default.
+        value: one robot model, preset's name or file for all robots, or a list with one for each.
 
     Returns:
         The value, with the models of files in place of their paths.
@@ -62,28 +61,36 @@ def robot_models(value: object) -> Any:  # noqa: ANN401  (of the option's types)
         TypeError: an entry is neither text nor a `RobotModel`.
         ValueError: an unknown preset, or a file without such a model.
     """
-    if value is None:
-        return None
     if isinstance(value, list | tuple):
         return [model("robot", entry, RobotModel) for entry in value]
     return model("robot", value, RobotModel)
 
 
-def policy(name: str, value: object) -> None:
-    """Validate the type of a policy's name; matches refuse an unknown one.
+def set_policies(task: Task, *names: str) -> None:
+    """Validate the type of options that name policies, and set them to text.
+
+    Matches refuse an unknown policy.
 
     Args:
-        name: name of the argument, for the error.
-        value: the argument.
+        task: the task.
+        *names: names of the options.
 
     Raises:
-        TypeError: not text.
+        TypeError: neither text nor a path.
     """
-    if not isinstance(value, str):
+    for name in names:
+        object.__setattr__(task, name, _policy(name, getattr(task, name)))
+
+
+def _policy(name: str, value: object) -> str:
+    """A policy's name, or the path of its file as text."""
+    text = os.fspath(value) if isinstance(value, os.PathLike) else value
+    if not isinstance(text, str):
         raise TypeError(
             f"{name}: expected a policy's name or the path of its file, got {value!r}; "
             "a Policy object is given as controllers={'yellow': policy}"
         )
+    return text
 
 
 def drive(config: SimConfig, kind: str, description: str) -> None:

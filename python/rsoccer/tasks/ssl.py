@@ -122,8 +122,7 @@ class Ssl(Soccer):
             raise ValueError(
                 f"velocity_frame: expected one of {VELOCITY_FRAMES}, got {self.velocity_frame!r}"
             )
-        if self.ball is not None:
-            object.__setattr__(self, "ball", options.model("ball", self.ball, BallModel))
+        object.__setattr__(self, "ball", options.model("ball", self.ball, BallModel))
         options.drive(self.config, "omni", "with an omnidirectional drive")
         if not self.config.field.touch_line_margin > 0.0:
             raise ValueError(f"field: expected one of the SSL, like 'ssl_b', got {self.field!r}")

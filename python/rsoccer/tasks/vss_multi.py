@@ -23,7 +23,7 @@ class VssMulti(Vss):
     def __post_init__(self) -> None:
         """Validate the options."""
         super().__post_init__()
-        options.policy("opponent", self.opponent)
+        options.set_policies(self, "opponent")
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for blue robots and the policy `opponent` for yellow ones."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from rsoccer.task import LEARN, Learn
+from rsoccer.tasks import options
 from rsoccer.tasks.vss import Vss
 
 
@@ -20,6 +21,11 @@ class VssSingle(Vss):
     """Policy of the other blue robots: a policy's name or the path of a policy file."""
     opponent: str = "ou"
     """Policy of the yellow robots: a policy's name or the path of a policy file."""
+
+    def __post_init__(self) -> None:
+        """Validate the options."""
+        super().__post_init__()
+        options.set_policies(self, "teammates", "opponent")
 
     def default_controllers(self) -> dict[str, str | Learn]:
         """Return `LEARN` for blue_0 and the policies of the options for the others."""
