@@ -59,7 +59,6 @@ def _read_only(value: object) -> object:
 
 
 def _array(array: Array) -> Array:
-    """A read-only view of an array."""
-    view = array.view()
-    view.flags.writeable = False
-    return view
+    """A read-only view of an array that is read-only itself, so that neither can be written."""
+    array.flags.writeable = False
+    return array.view()

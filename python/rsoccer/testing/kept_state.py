@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import pickle
 import random
-from collections.abc import Iterator, Mapping
+import sys
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from rsoccer.rules import Rule
 from rsoccer.task import Task
 from rsoccer.testing.errors import expect
-
-_GENERATORS: Final = ("random", "numpy.random")
 
 
 class KeptState:
@@ -43,7 +42,8 @@ class KeptState:
         names = [name for name in now | self._before if self._changed(name, now)]
         fault = f"keeps state on self, in {', '.join(names)}; state of an episode belongs in"
         expect(not names, f"{culprit} {fault} play.memory")
-        drawn = [name for name, state in _generators().items() if state != self._generators[name]]
+        now_at = _generators()
+        drawn = [name for name, state in self._generators.items() if state != now_at[name]]
         fault = f"draws global random numbers of {', '.join(drawn)} instead of numbers from its rng"
         expect(not drawn, f"{culprit} {fault}")
 
@@ -96,6 +96,11 @@ def _is_cached(task: Task, name: str) -> bool:
 
 
 def _generators() -> dict[str, bytes]:
-    """States of the global random generators."""
-    states: Iterator[object] = iter((random.getstate(), np.random.get_state()))  # noqa: NPY002
-    return {name: pickle.dumps(next(states)) for name in _GENERATORS}
+    """States of the global random generators; of torch's if something has imported it."""
+    states: dict[str, object] = {
+        "random": random.getstate(),
+        "numpy.random": np.random.get_state(),  # noqa: NPY002
+    }
+    if (torch := sys.modules.get("torch")) is not None:
+        states["torch"] = torch.random.get_rng_state().numpy()
+    return {name: pickle.dumps(state) for name, state in states.items()}

@@ -8,10 +8,11 @@ from typing import Final
 import numpy as np
 
 from rsoccer.arrays import Array
+from rsoccer.frame import Frame
 from rsoccer.new_play import new_viewpoint
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import TaskError, expect
-from rsoccer.testing.frozen_play import freezable, frozen
+from rsoccer.testing.frozen_play import VIEWS, freezable, frozen
 from rsoccer.testing.kept_state import KeptState
 from rsoccer.testing.method_results import (
     DURING_EPISODES,
@@ -70,6 +71,7 @@ def _results(task: Task, method: Method, play: Play) -> Results:
     """Streams and memory after the method, and what it returns, for a read-only copy of a state."""
     parts = [name for name in freezable(play) if name not in method.updates]
     copy = frozen(play, parts)
+    values = {name: getattr(copy, name) for name in parts if name not in (*VIEWS, *_KEPT)}
     try:
         results = method.call(task, copy)
     except TaskError as error:
@@ -77,8 +79,24 @@ def _results(task: Task, method: Method, play: Play) -> Results:
     except Exception as error:
         _expect_no_write(task, method, play, parts)
         raise TaskError(f"{method.name}: {type(error).__name__}: {error}") from error
+    for name, value in values.items():
+        _expect_kept(method, name, play, value, getattr(copy, name))
     kept = [_arrays_after(method, name, play, copy) for name in _KEPT]
     return {**_draws_after(method, play, copy), **kept[0], **kept[1], **kept[2], **results}
+
+
+def _expect_kept(method: Method, name: str, play: Play, value: object, after: object) -> None:
+    """Expect that a part of a state is the same object with the same numbers after a method."""
+    fault = f"{method.name}: it replaces play.{name}, which is read-only for this method"
+    expect(after is value, fault)
+    before, now = ({name: _numbers(each)} for each in (getattr(play, name), value))
+    fault = f"{method.name}: it writes into play.{name}, which is read-only for this method"
+    expect(not differing(before, now), fault)
+
+
+def _numbers(value: object) -> Array:
+    """Array of a part of a state."""
+    return value.rows if isinstance(value, Frame) else np.asarray(value)
 
 
 def _expect_no_write(task: Task, method: Method, play: Play, parts: list[str]) -> None:

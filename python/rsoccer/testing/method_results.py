@@ -117,6 +117,12 @@ def _restarts(task: Task, play: Play) -> Results:
     return results
 
 
+def _begin(task: Task, play: Play) -> Results:
+    for rule in task.rules:
+        rule.begin(play, np.arange(len(play.frame)))
+    return {}
+
+
 def _expect_form(name: str, array: Array, shape: tuple[int, ...]) -> None:
     """Expect float32 numbers of a shape, all finite."""
     expect(isinstance(array, np.ndarray), f"{name!r} is {type(array).__name__}, not an array")
@@ -129,6 +135,7 @@ NEW_MEMORY: Final = Method("new_memory", _new_memory)
 INITIAL_POSITIONS: Final = Method("get_initial_positions_frame", _initial_positions, draws=True)
 START_EPISODE: Final = Method("start_episode", _start_episode, ("memory",), draws=True)
 RULES: Final = Method("rules", _restarts, ("game", "events"), draws=True, reads="truth")
+RULES_BEGIN: Final = Method("rules: begin", _begin, ("game",), draws=True, reads="truth")
 DURING_EPISODES: Final = (
     Method("get_commands", _commands, draws=True, reads="sensed"),
     RULES,

@@ -13,7 +13,13 @@ from rsoccer.rng import WorldRng
 from rsoccer.senses import Senses
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import TaskError
-from rsoccer.testing.method_results import DURING_EPISODES, Method, differing
+from rsoccer.testing.method_results import (
+    DURING_EPISODES,
+    RULES_BEGIN,
+    Method,
+    Results,
+    differing,
+)
 
 
 class _Given:
@@ -44,7 +50,7 @@ def check_senses(task: Task, play: Play) -> None:
     sensing = replace(_copy(play), senses=Senses.new(_Given(), play.frame, play.rng[others]))
     sensing.frame, sensing.last_frame = play.frame.take(others), play.last_frame.take(others)
     judging = replace(_copy(play), senses=Senses.new(_Given(), play.frame.take(others), play.rng))
-    for method in DURING_EPISODES:
+    for method in (RULES_BEGIN, *DURING_EPISODES):
         if method.reads == "sensed":
             _compare(task, method, play, sensing, "it reads the true state; robots know")
         elif method.reads == "truth":
@@ -53,11 +59,20 @@ def check_senses(task: Task, play: Play) -> None:
 
 def _compare(task: Task, method: Method, play: Play, other: Play, fault: str) -> None:
     """Raise if a method returns something else for a state that it should not tell apart."""
-    results = (method.call(task, _copy(each)) for each in (play, other))
+    results = (_results(task, method, _copy(each)) for each in (play, other))
     if names := differing(*results):
         known = "play.sensed" if method.reads == "sensed" else "play.frame"
         listed = ", ".join(map(repr, names))
         raise TaskError(f"{method.name}: {listed}: {fault} {known} and its view")
+
+
+def _results(task: Task, method: Method, play: Play) -> Results:
+    """What a method returns, and what it writes into the fields that it may change."""
+    results = method.call(task, play)
+    for field in method.updates:
+        arrays: Mapping[str, Array] = getattr(play, field)
+        results |= {f"play.{field}[{name!r}]": array for name, array in arrays.items()}
+    return results
 
 
 def _copy(play: Play) -> Play:

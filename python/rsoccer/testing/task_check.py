@@ -34,6 +34,7 @@ from rsoccer.testing.method_results import (
     INITIAL_POSITIONS,
     NEW_MEMORY,
     RULES,
+    RULES_BEGIN,
     START_EPISODE,
 )
 from rsoccer.testing.pressure import Pressing
@@ -140,6 +141,7 @@ def _check_start(task: Task, worlds: int, seed: int) -> None:
     play.start(frame.rows)
     check_method(task, START_EPISODE, play)
     task.start_episode(play)
+    check_method(task, RULES_BEGIN, play)
     for rule in task.rules:
         rule.begin(play, np.arange(worlds))
     for method in DURING_EPISODES:
