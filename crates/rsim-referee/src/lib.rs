@@ -1,0 +1,14 @@
+//! Referee of robot-soccer matches: the rules of VSSS and SSL as a state machine of one match.
+//!
+//! It knows rows of columns by name, its own row of state and its configuration: no physics, no
+//! Python, no threads and no clock.
+
+pub mod codes;
+mod error;
+pub mod sight;
+mod team;
+mod vector;
+
+pub use error::RefereeError;
+pub use team::Team;
+pub use vector::Vector;
