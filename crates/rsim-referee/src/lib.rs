@@ -4,11 +4,14 @@
 //! Python, no threads and no clock.
 
 pub mod codes;
+pub mod column;
 mod error;
+mod lines;
 pub mod sight;
 mod team;
 mod vector;
 
 pub use error::RefereeError;
+pub use lines::Lines;
 pub use team::Team;
 pub use vector::Vector;
