@@ -44,7 +44,7 @@ impl Column for i32 {
     fn read(row: &[f32]) -> Option<(Self, &[f32])> {
         let (first, rest) = row.split_first()?;
         let is_whole = first.fract() == 0.0 && first.abs() < 16_777_216.0;
-        is_whole.then(|| (*first as Self, rest))
+        is_whole.then_some((*first as Self, rest))
     }
 
     fn write(&self, row: &mut Vec<f32>) {
@@ -154,7 +154,9 @@ impl<T: Column> Column for ByTeam<T> {
     }
 
     fn write(&self, row: &mut Vec<f32>) {
-        self.0.iter().for_each(|value| value.write(row));
+        for value in &self.0 {
+            value.write(row);
+        }
     }
 }
 
@@ -175,7 +177,9 @@ impl<T: Column, const N: usize> Column for [T; N] {
     }
 
     fn write(&self, row: &mut Vec<f32>) {
-        self.iter().for_each(|value| value.write(row));
+        for value in self {
+            value.write(row);
+        }
     }
 }
 

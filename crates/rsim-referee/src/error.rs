@@ -9,6 +9,12 @@ pub enum RefereeError {
         /// The name.
         name: &'static str,
     },
+    /// A number in a row that its column cannot have.
+    #[error("row: expected a value of {name:?}")]
+    Column {
+        /// Name of the column, without its ends.
+        name: &'static str,
+    },
     /// A row of another length.
     #[error("row: expected {expected} numbers, got {got}")]
     RowSize {

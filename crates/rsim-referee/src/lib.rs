@@ -6,6 +6,7 @@
 pub mod codes;
 pub mod column;
 mod error;
+pub mod game;
 mod lines;
 pub mod sight;
 mod team;
