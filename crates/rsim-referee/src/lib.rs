@@ -5,10 +5,12 @@
 
 pub mod codes;
 pub mod column;
+pub mod config;
 mod error;
 pub mod game;
 mod lines;
 pub mod sight;
+pub mod stages;
 mod team;
 mod vector;
 
