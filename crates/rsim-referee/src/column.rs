@@ -1,0 +1,231 @@
+//! Values that stand in columns of a row of numbers.
+
+use crate::codes::{Command, Stage};
+use crate::team::Team;
+use crate::vector::Vector;
+
+/// A value that stands in one or more columns of a row. All numbers are exact: whole ones are below 2^24.
+pub trait Column: Sized {
+    /// Ends of the names of its columns; `[""]` for a single one.
+    fn suffixes() -> Vec<String>;
+
+    /// Reads the value and the rest of the row; `None` for numbers that are no such value.
+    fn read(row: &[f32]) -> Option<(Self, &[f32])>;
+
+    /// Adds the value to a row.
+    fn write(&self, row: &mut Vec<f32>);
+}
+
+fn single() -> Vec<String> {
+    vec![String::new()]
+}
+
+impl Column for f32 {
+    fn suffixes() -> Vec<String> {
+        single()
+    }
+
+    fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+        let (first, rest) = row.split_first()?;
+        Some((*first, rest))
+    }
+
+    fn write(&self, row: &mut Vec<f32>) {
+        row.push(*self);
+    }
+}
+
+impl Column for i32 {
+    fn suffixes() -> Vec<String> {
+        single()
+    }
+
+    #[allow(clippy::cast_possible_truncation)] // a whole number in range
+    fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+        let (first, rest) = row.split_first()?;
+        let is_whole = first.fract() == 0.0 && first.abs() < 16_777_216.0;
+        is_whole.then_some((*first as Self, rest))
+    }
+
+    fn write(&self, row: &mut Vec<f32>) {
+        row.push(*self as f32);
+    }
+}
+
+/// Values that are whole numbers in a row.
+macro_rules! as_number {
+    ($($value:ty: $to:expr, $from:expr;)*) => {$(
+        impl Column for $value {
+            fn suffixes() -> Vec<String> {
+                single()
+            }
+
+            fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+                let (number, rest) = i32::read(row)?;
+                let from: fn(i32) -> Option<Self> = $from;
+                Some((from(number)?, rest))
+            }
+
+            fn write(&self, row: &mut Vec<f32>) {
+                let to: fn(&Self) -> i32 = $to;
+                to(self).write(row);
+            }
+        }
+    )*};
+}
+
+as_number! {
+    bool: |value| i32::from(*value), |number| match number {
+        0 => Some(false),
+        1 => Some(true),
+        _ => None,
+    };
+    Command: |value| i32::from(value.code()), |number| Self::of_code(u8::try_from(number).ok()?);
+    Stage: |value| i32::from(value.code()), |number| Self::of_code(u8::try_from(number).ok()?);
+    Option<Command>: |value| value.map_or(-1, |command| i32::from(command.code())),
+        |number| if number == -1 {
+            Some(None)
+        } else {
+            Command::of_code(u8::try_from(number).ok()?).map(Some)
+        };
+    Option<Team>: |value| value.map_or(-1, |team| i32::from(team.index() != 0)), |number| match number {
+        -1 => Some(None),
+        0 => Some(Some(Team::Blue)),
+        1 => Some(Some(Team::Yellow)),
+        _ => None,
+    };
+    Option<usize>: |value| value.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX)),
+        |number| if number == -1 { Some(None) } else { usize::try_from(number).ok().map(Some) };
+}
+
+impl Column for Vector {
+    fn suffixes() -> Vec<String> {
+        ["_x", "_y"].map(str::to_owned).to_vec()
+    }
+
+    fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+        let [x, y, rest @ ..] = row else { return None };
+        Some((Self::new(*x, *y), rest))
+    }
+
+    fn write(&self, row: &mut Vec<f32>) {
+        row.extend([self.x, self.y]);
+    }
+}
+
+/// One value for each team.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ByTeam<T>([T; 2]);
+
+impl<T> ByTeam<T> {
+    /// Values of blue and of yellow.
+    pub const fn new(blue: T, yellow: T) -> Self {
+        Self([blue, yellow])
+    }
+}
+
+impl<T> std::ops::Index<Team> for ByTeam<T> {
+    type Output = T;
+
+    fn index(&self, team: Team) -> &T {
+        &self.0[team.index()]
+    }
+}
+
+impl<T> std::ops::IndexMut<Team> for ByTeam<T> {
+    fn index_mut(&mut self, team: Team) -> &mut T {
+        &mut self.0[team.index()]
+    }
+}
+
+impl<T: Column> Column for ByTeam<T> {
+    fn suffixes() -> Vec<String> {
+        let ends = T::suffixes();
+        ["_blue", "_yellow"]
+            .iter()
+            .flat_map(|team| ends.iter().map(move |end| format!("{team}{end}")))
+            .collect()
+    }
+
+    fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+        let (blue, rest) = T::read(row)?;
+        let (yellow, rest) = T::read(rest)?;
+        Some((Self([blue, yellow]), rest))
+    }
+
+    fn write(&self, row: &mut Vec<f32>) {
+        for value in &self.0 {
+            value.write(row);
+        }
+    }
+}
+
+impl<T: Column, const N: usize> Column for [T; N] {
+    fn suffixes() -> Vec<String> {
+        let ends = T::suffixes();
+        (0..N).flat_map(|nth| ends.iter().map(move |end| format!("_{nth}{end}"))).collect()
+    }
+
+    fn read(mut row: &[f32]) -> Option<(Self, &[f32])> {
+        let mut values = Vec::with_capacity(N);
+        for _ in 0..N {
+            let (value, rest) = T::read(row)?;
+            values.push(value);
+            row = rest;
+        }
+        Some((values.try_into().ok()?, row))
+    }
+
+    fn write(&self, row: &mut Vec<f32>) {
+        for value in self {
+            value.write(row);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn there_and_back<T: Column + PartialEq + std::fmt::Debug>(value: &T) {
+        let mut row = Vec::new();
+        value.write(&mut row);
+        assert_eq!(row.len(), T::suffixes().len(), "{value:?}");
+        row.push(7.0);
+        let (read, rest) = T::read(&row).expect("it was written");
+        assert_eq!((&read, rest), (value, &[7.0][..]));
+    }
+
+    #[test]
+    fn values_come_back_from_their_columns() {
+        there_and_back(&1.5_f32);
+        there_and_back(&-3_i32);
+        there_and_back(&true);
+        there_and_back(&Command::BallPlacement(Team::Blue));
+        there_and_back(&Stage::Shootout);
+        for team in [None, Some(Team::Blue), Some(Team::Yellow)] {
+            there_and_back(&team);
+            there_and_back(&team.map(Command::DirectFree));
+            there_and_back(&team.map(Team::index));
+        }
+        there_and_back(&Vector::new(1.0, -2.0));
+        there_and_back(&ByTeam::new([1_i32, 2, 3], [4, 5, 6]));
+    }
+
+    #[test]
+    fn numbers_that_are_no_value_are_refused() {
+        assert!(bool::read(&[2.0]).is_none());
+        assert!(i32::read(&[0.5]).is_none());
+        assert!(Command::read(&[11.0]).is_none());
+        assert!(Stage::read(&[-1.0]).is_none());
+        assert!(Option::<Team>::read(&[2.0]).is_none());
+        assert!(Vector::read(&[1.0]).is_none());
+        assert!(<[i32; 2]>::read(&[1.0]).is_none());
+    }
+
+    #[test]
+    fn columns_of_teams_have_their_names() {
+        assert_eq!(ByTeam::<i32>::suffixes(), ["_blue", "_yellow"]);
+        assert_eq!(<[Vector; 2]>::suffixes(), ["_0_x", "_0_y", "_1_x", "_1_y"]);
+    }
+}

@@ -1,0 +1,26 @@
+//! What a referee refuses.
+
+/// Input that does not fit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RefereeError {
+    /// A row without a column that the rules read.
+    #[error("columns: expected one named {name:?}")]
+    MissingColumn {
+        /// The name.
+        name: &'static str,
+    },
+    /// A number in a row that its column cannot have.
+    #[error("row: expected a value of {name:?}")]
+    Column {
+        /// Name of the column, without its ends.
+        name: &'static str,
+    },
+    /// A row of another length.
+    #[error("row: expected {expected} numbers, got {got}")]
+    RowSize {
+        /// Numbers in a row.
+        expected: usize,
+        /// Numbers given.
+        got: usize,
+    },
+}

@@ -1,0 +1,3 @@
+//! The rules, one small function each.
+
+pub mod ball_out;

@@ -1,0 +1,284 @@
+//! What a referee sees: ball and robots, read from rows of columns by name.
+
+use crate::error::RefereeError;
+use crate::team::Team;
+use crate::vector::Vector;
+
+/// Places of the columns that the rules read, in a row of a match.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Layout {
+    ball: [usize; BALL.len()],
+    robot: [usize; ROBOT.len()],
+    ball_size: usize,
+    robot_size: usize,
+    n_blue: usize,
+    n_yellow: usize,
+}
+
+const BALL: [&str; 10] =
+    ["x", "y", "z", "v_x", "v_y", "v_z", "last_touch", "crossed", "crossed_x", "crossed_y"];
+const ROBOT: [&str; 9] = [
+    "x",
+    "y",
+    "v_x",
+    "v_y",
+    "infrared",
+    "touched_ball",
+    "touched_opponent",
+    "collision_speed",
+    "absent",
+];
+
+/// The ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ball {
+    /// Position of the center, m.
+    pub position: Vector,
+    /// Height of the lowest point, m.
+    pub height: f32,
+    /// Velocity over the floor, m/s.
+    pub velocity: Vector,
+    /// Vertical velocity, m/s.
+    pub vertical_velocity: f32,
+    /// Index of the last robot that touched the ball.
+    pub last_touch: Option<usize>,
+    /// Line that the center crossed in the step, by its number among the crossings of a row.
+    pub crossed: Option<u8>,
+    /// Point of the crossing, m.
+    pub crossed_at: Vector,
+}
+
+impl Ball {
+    /// Speed in three dimensions, m/s.
+    pub fn speed(&self) -> f32 {
+        (self.velocity.dot(self.velocity) + self.vertical_velocity * self.vertical_velocity).sqrt()
+    }
+}
+
+/// A robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Robot {
+    /// Index in the order of a row.
+    pub index: usize,
+    /// Its team.
+    pub team: Team,
+    /// Position of the center, m.
+    pub position: Vector,
+    /// Velocity, m/s.
+    pub velocity: Vector,
+    /// Whether the ball is in its mouth.
+    pub has_ball: bool,
+    /// Whether it touched the ball in the step.
+    pub touched_ball: bool,
+    /// Whether it touched an opponent in the step.
+    pub touched_opponent: bool,
+    /// Closing speed of its hardest contact with a robot in the step, m/s.
+    pub collision_speed: f32,
+}
+
+/// State of a match after a step, as the referee sees it.
+#[derive(Debug, Clone, Copy)]
+pub struct Sight<'a> {
+    layout: &'a Layout,
+    row: &'a [f32],
+}
+
+impl Layout {
+    /// Finds the columns that the rules read.
+    ///
+    /// # Errors
+    /// If a column is missing.
+    pub fn new(
+        ball_columns: &[&str],
+        robot_columns: &[&str],
+        n_blue: usize,
+        n_yellow: usize,
+    ) -> Result<Self, RefereeError> {
+        let mut layout = Self {
+            ball: [0; BALL.len()],
+            robot: [0; ROBOT.len()],
+            ball_size: ball_columns.len(),
+            robot_size: robot_columns.len(),
+            n_blue,
+            n_yellow,
+        };
+        find(&BALL, ball_columns, &mut layout.ball)?;
+        find(&ROBOT, robot_columns, &mut layout.robot)?;
+        Ok(layout)
+    }
+
+    /// Number of robots of both teams.
+    pub const fn robots(&self) -> usize {
+        self.n_blue + self.n_yellow
+    }
+
+    /// Numbers in a row.
+    pub const fn row_size(&self) -> usize {
+        self.ball_size + self.robots() * self.robot_size
+    }
+
+    /// Team of the robot with an index in the order of a row.
+    pub const fn team_of(&self, robot: usize) -> Team {
+        if robot < self.n_blue { Team::Blue } else { Team::Yellow }
+    }
+
+    /// The state in a row.
+    ///
+    /// # Errors
+    /// If the row has another length.
+    pub fn sight<'a>(&'a self, row: &'a [f32]) -> Result<Sight<'a>, RefereeError> {
+        if row.len() == self.row_size() {
+            return Ok(Sight { layout: self, row });
+        }
+        Err(RefereeError::RowSize { expected: self.row_size(), got: row.len() })
+    }
+}
+
+fn find(
+    names: &[&'static str],
+    columns: &[&str],
+    places: &mut [usize],
+) -> Result<(), RefereeError> {
+    for (name, place) in names.iter().zip(places) {
+        *place = columns
+            .iter()
+            .position(|column| column == name)
+            .ok_or(RefereeError::MissingColumn { name })?;
+    }
+    Ok(())
+}
+
+impl Sight<'_> {
+    /// The ball.
+    pub fn ball(&self) -> Ball {
+        let [x, y, height, v_x, v_y, vertical_velocity, touch, crossed, crossed_x, crossed_y] =
+            self.layout.ball.map(|place| self.row[place]);
+        Ball {
+            position: Vector::new(x, y),
+            height,
+            velocity: Vector::new(v_x, v_y),
+            vertical_velocity,
+            last_touch: index_of(touch),
+            crossed: index_of(crossed - 1.0).and_then(|line| u8::try_from(line + 1).ok()),
+            crossed_at: Vector::new(crossed_x, crossed_y),
+        }
+    }
+
+    /// A robot; `None` for one that is absent.
+    pub fn robot(&self, index: usize) -> Option<Robot> {
+        let first = self.layout.ball_size + index * self.layout.robot_size;
+        let [x, y, v_x, v_y, mouth, ball, opponent, collision_speed, absent] =
+            self.layout.robot.map(|place| self.row[first + place]);
+        let robot = Robot {
+            index,
+            team: self.layout.team_of(index),
+            position: Vector::new(x, y),
+            velocity: Vector::new(v_x, v_y),
+            has_ball: mouth > 0.5,
+            touched_ball: ball > 0.5,
+            touched_opponent: opponent > 0.5,
+            collision_speed,
+        };
+        (absent < 0.5).then_some(robot)
+    }
+
+    /// All robots on the field, in the order of a row.
+    pub fn robots(&self) -> impl Iterator<Item = Robot> {
+        (0..self.layout.robots()).filter_map(|index| self.robot(index))
+    }
+
+    /// The robots of a team on the field.
+    pub fn team(&self, team: Team) -> impl Iterator<Item = Robot> {
+        self.robots().filter(move |robot| robot.team == team)
+    }
+
+    /// Team of the last robot that touched the ball.
+    pub fn last_team(&self) -> Option<Team> {
+        self.ball().last_touch.map(|robot| self.layout.team_of(robot))
+    }
+}
+
+/// Index in a column that has -1 for none.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small whole number
+fn index_of(value: f32) -> Option<usize> {
+    (value > -0.5).then(|| value.round() as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BALL_ROW: [&str; 12] = [
+        "x",
+        "y",
+        "z",
+        "v_x",
+        "v_y",
+        "v_z",
+        "spin_x",
+        "last_touch",
+        "crossed",
+        "crossed_x",
+        "crossed_y",
+        "crossed_z",
+    ];
+    const ROBOT_ROW: [&str; 11] = [
+        "x",
+        "y",
+        "cos",
+        "sin",
+        "v_x",
+        "v_y",
+        "infrared",
+        "touched_ball",
+        "touched_opponent",
+        "collision_speed",
+        "absent",
+    ];
+
+    fn layout() -> Layout {
+        Layout::new(&BALL_ROW, &ROBOT_ROW, 1, 2).expect("all columns are there")
+    }
+
+    #[test]
+    fn ball_and_robots_are_read_by_the_names_of_columns() {
+        let layout = layout();
+        let mut row = vec![1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 9.0, 2.0, 6.0, 1.5, 0.5, 0.0];
+        row.extend([0.5, 0.6, 1.0, 0.0, 0.7, 0.8, 1.0, 0.0, 1.0, 1.25, 0.0]);
+        row.extend([0.0; 10].into_iter().chain([1.0]));
+        row.extend([-1.0; 10].into_iter().chain([0.0]));
+        let sight = layout.sight(&row).expect("a row of this layout");
+        let ball = sight.ball();
+        assert_eq!(ball.position, Vector::new(1.0, 2.0));
+        assert!((ball.speed() - 5.0).abs() < 1e-6);
+        assert_eq!((ball.last_touch, ball.crossed), (Some(2), Some(6)));
+        assert_eq!(ball.crossed_at, Vector::new(1.5, 0.5));
+        assert_eq!(sight.last_team(), Some(Team::Yellow));
+        let blue = sight.robot(0).expect("on the field");
+        assert_eq!(blue.velocity, Vector::new(0.7, 0.8));
+        assert_eq!((blue.has_ball, blue.touched_ball, blue.touched_opponent), (true, false, true));
+        assert!((blue.collision_speed - 1.25).abs() < 1e-6);
+        assert_eq!(sight.robot(1), None);
+        let indices: Vec<usize> = sight.robots().map(|robot| robot.index).collect();
+        assert_eq!(indices, [0, 2]);
+        assert_eq!(sight.team(Team::Yellow).count(), 1);
+    }
+
+    #[test]
+    fn nobody_and_nothing_are_none() {
+        let layout = layout();
+        let mut row = vec![0.0; layout.row_size()];
+        row[7] = -1.0;
+        let ball = layout.sight(&row).expect("a row of this layout").ball();
+        assert_eq!((ball.last_touch, ball.crossed), (None, None));
+    }
+
+    #[test]
+    fn missing_columns_and_other_rows_are_refused() {
+        let error = Layout::new(&BALL_ROW[1..], &ROBOT_ROW, 1, 1).expect_err("no x");
+        assert_eq!(error, RefereeError::MissingColumn { name: "x" });
+        let layout = layout();
+        let error = layout.sight(&[0.0; 3]).expect_err("too short");
+        assert_eq!(error, RefereeError::RowSize { expected: layout.row_size(), got: 3 });
+    }
+}
