@@ -16,7 +16,7 @@ use crate::config::invalid;
 
 /// End of the names of files that hold a model.
 const SUFFIX: &str = ".json";
-/// What names a model, in words.
+/// Ways to name a model, in words.
 const NAMES: &str = "a preset's name, the path of a .json file";
 
 /// A model class with presets and numbers.

@@ -15,7 +15,7 @@ pub enum League {
     Vsss,
 }
 
-/// What the match clock counts.
+/// Time that the match clock counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {
@@ -25,7 +25,7 @@ pub enum Clock {
     Stopped,
 }
 
-/// How the ball comes to the place of the next kick.
+/// Way in which the ball comes to the place of the next kick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Placement {
@@ -51,7 +51,7 @@ pub struct Times {
     pub early_end_goals: u8,
     /// Lead that ends the match early.
     pub early_end_lead: u8,
-    /// What the clock counts.
+    /// Time that the clock counts.
     pub clock: Clock,
 }
 
@@ -85,7 +85,7 @@ pub struct RefereeConfig {
     pub times: Times,
     /// Times in which something has to happen.
     pub limits: Limits,
-    /// How the ball comes to the place of the next kick.
+    /// Way in which the ball comes to the place of the next kick.
     pub placement: Placement,
 }
 

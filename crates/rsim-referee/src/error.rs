@@ -1,4 +1,4 @@
-//! What a referee refuses.
+//! Errors of input that a referee refuses.
 
 /// Input that does not fit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

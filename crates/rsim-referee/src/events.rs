@@ -1,4 +1,4 @@
-//! What a referee decides in a step.
+//! Decisions of a referee in a step.
 
 use crate::team::Team;
 use crate::vector::Vector;
@@ -89,7 +89,7 @@ pub struct Event {
     pub team: Option<Team>,
     /// Index of the robot that it is about.
     pub robot: Option<usize>,
-    /// Where it happened, m.
+    /// Place where it happened, m.
     pub position: Vector,
 }
 

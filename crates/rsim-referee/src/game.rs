@@ -67,27 +67,27 @@ game! {
         command_steps: i32,
         /// Goals that count.
         score: ByTeam<i32>,
-        /// Where the ball has to be for the next kick, m.
+        /// Place where the ball has to be for the next kick, m.
         designated_position: Vector,
         /// Whether the ball has moved since the kick was allowed.
         in_play: bool,
-        /// Where the ball was when the kick was allowed, m.
+        /// Place where the ball was when the kick was allowed, m.
         kick_position: Vector,
         /// Robot that took the last kick and may not touch the ball again before another one.
         kick_taker: Option<usize>,
         /// Robot that touched the ball last.
         last_touch: Option<usize>,
-        /// Where the ball was when it was touched last, m.
+        /// Place where the ball was when it was touched last, m.
         last_touch_position: Vector,
         /// Maximum height of the ball since each team touched it last, m.
         height_since_touch: ByTeam<f32>,
-        /// Where the robot that has the ball began to have it, m.
+        /// Place where the robot that has the ball began to have it, m.
         dribble_start: Vector,
         /// Robot that has the ball.
         dribbler: Option<usize>,
         /// Time since the ball has hardly moved.
         stuck_steps: i32,
-        /// Where the ball is stuck, m.
+        /// Place where the ball is stuck, m.
         stuck_position: Vector,
         /// Time since the ball is in the area of a team.
         area_steps: ByTeam<i32>,

@@ -1,4 +1,4 @@
-//! What a referee sees: ball and robots, read from rows of columns by name.
+//! Sight of a referee: ball and robots, read from rows of columns by name.
 
 use crate::error::RefereeError;
 use crate::team::Team;

@@ -67,7 +67,7 @@ def _compare(task: Task, method: Method, play: Play, other: Play, fault: str) ->
 
 
 def _results(task: Task, method: Method, play: Play) -> Results:
-    """What a method returns, and what it writes into the fields that it may change."""
+    """Results of a method, with the fields that it may change."""
     results = method.call(task, play)
     for field in method.updates:
         arrays: Mapping[str, Array] = getattr(play, field)

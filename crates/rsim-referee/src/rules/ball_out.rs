@@ -23,13 +23,13 @@ pub enum Line {
 /// A ball that left the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BallOut {
-    /// Where it left, m.
+    /// Place where it left, m.
     pub position: Vector,
     /// Line that it crossed.
     pub line: Line,
     /// Robot that touched it last, and its team.
     pub toucher: Option<(usize, Team)>,
-    /// Where that robot touched it, m.
+    /// Place where that robot touched it, m.
     pub touched_at: Vector,
     /// Whether another robot has touched it since that robot's kick.
     pub was_deflected: bool,
@@ -38,11 +38,11 @@ pub struct BallOut {
 /// The decision about a ball that left the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
-    /// What happened.
+    /// The event.
     pub event: Event,
-    /// How play goes on.
+    /// Command with which play goes on.
     pub command: Command,
-    /// Where the ball has to be, m.
+    /// Place where the ball has to be, m.
     pub position: Vector,
 }
 
