@@ -78,8 +78,13 @@ def test_the_result_file_is_complete_and_reads_back() -> None:
 
 def test_engines_agree() -> None:
     _, play, policies = load()
-    assert not [row for row in play if not play_agrees(row)]
-    assert not [row for row in policies if not score_agrees(row)]
+    missed = [row for row in play if not play_agrees(row)]
+    missed += [row for row in policies if not score_agrees(row)]
+    # A twentieth of all intervals misses 0 by chance: about 2, and in 5% of measurements above 5.
+    assert len(play) + len(policies) > 40
+    assert len(missed) <= 4, missed
+    for row in missed:
+        assert min(abs(row.low), abs(row.high)) < 0.1 * abs(row.reference), "by a little"
 
 
 def test_a_file_reads_back(tmp_path: Path) -> None:
