@@ -111,6 +111,21 @@ def test_a_position_off_the_line_is_free_where_robots_cover_the_line(robots_in: 
     assert np.hypot(*(position - [0.0, 1.8])) < distance[clear].min() + 0.04
 
 
+def test_a_covered_line_of_one_world_does_not_move_the_balls_of_others() -> None:
+    task = SslSelfPlay(n_blue=11, n_yellow=11)
+    frame = Frame.empty(3, 11, 11)
+    frame.robots.position[..., 0] = np.linspace(-2.1, 2.1, 22)
+    frame.robots.position[1, :, 1] = 1.8  # in the other worlds they stand on the middle line
+    frame.ball.crossed[:] = CROSSINGS.index("touch_line_left")
+    frame.ball.crossed_at[:] = (0.3, 2.0)
+    restart = judged(task, frame)
+    assert restart is not None
+    assert restart.balls is not None
+    assert restart.balls[[0, 2], :2] == pytest.approx(np.array([[0.3, 1.8]] * 2))
+    gaps = np.linalg.norm(frame.robots.position[1] - restart.balls[1, :2], axis=1)
+    assert gaps.min() > 0.09 + 0.0215
+
+
 def test_a_position_off_the_line_is_symmetric_between_the_teams() -> None:
     task, rng = SslSelfPlay(n_blue=11, n_yellow=11), np.random.default_rng(0)
     off = 0

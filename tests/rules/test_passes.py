@@ -9,7 +9,7 @@ import pytest
 from rsoccer import Matches
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
-from rsoccer.game import NOBODY
+from rsoccer.game import BLUE, NOBODY, EventKind
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes
@@ -90,6 +90,20 @@ def test_a_ball_that_nobody_touched_is_no_pass() -> None:
     kicked = kick({**FACING, "ball": (0.0, 0.0, 1.5, 0.0)})
     assert 1 in kicked.beams
     assert kicked.passes == (0.0, 0.0)
+
+
+def test_a_pass_is_an_event_of_its_receiver_where_it_arrived() -> None:
+    matches = Matches(TASK, 1, autoreset="disabled")
+    matches.reset(rows=scene(TASK, **FACING, ball=(-1.0 + MOUTH, 0.0)).rows)
+    actions = np.tile(np.array(DRIBBLE, np.float32), (1, 6, 1))
+    found = []
+    for step in range(60):
+        actions[0, 0] = (*KICK[:3], 0.5, -1.0) if step < 2 else STAND
+        matches.step(actions)
+        found += matches.play.events.of_world(0)
+    [event] = found
+    assert event[:3] == (EventKind.PASS, BLUE, 1)
+    assert event.position == pytest.approx((1.0 - MOUTH, 0.0), abs=0.03)
 
 
 def test_worlds_and_episodes_have_their_own_passes() -> None:
