@@ -1,3 +1,5 @@
+from typing import ClassVar
+
 import numpy as np
 import pytest
 
@@ -111,6 +113,27 @@ def test_a_controller_in_si_units_replaces_the_commands_of_its_robots_alone() ->
     plain.reset()
     plain.step(np.full((3, 1, 2), 0.5, np.float32))
     assert same(plain.play.commands[:, :3], play.commands[:, :3])
+
+
+def test_a_controller_in_si_units_may_act_by_the_observations_of_its_robots() -> None:
+    class Observing(CommandPolicy):
+        observes = "observation"
+        seen: ClassVar[list[Floats]] = []
+
+        def commands(
+            self, inputs: PolicyInput, converted: Floats, rng: WorldRng, memory: Memory
+        ) -> Floats:
+            assert inputs.observations is not None
+            self.seen.append(inputs.observations.copy())
+            return converted
+
+    matches = begun(VssSelfPlay(), controllers={"yellow": Observing()})
+    everyone = begun(VssSelfPlay(), controllers={"all": LEARN})
+    shown = everyone.reset(seed=3)
+    matches.reset(seed=3)
+    matches.step(zeros(matches))
+    assert len(Observing.seen) == 1
+    assert same(Observing.seen[0], np.ascontiguousarray(shown[:, 3:]))
 
 
 def test_a_controller_in_si_units_is_reproduced_saved_and_copied_like_a_policy() -> None:

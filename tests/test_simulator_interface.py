@@ -103,6 +103,9 @@ def test_time_stamps_reach_the_state_and_are_saved() -> None:
     resumed = Matches(task, 2, simulator=robots_of(task, 2))
     resumed.load_state_dict(saved)
     assert resumed.play.times == pytest.approx([7.21, 7.21])
+    with pytest.raises(ValueError, match="state: missing or unknown"):
+        resumed.load_state_dict({**saved, "times": 0.0 * saved["times"], "more": saved["times"]})
+    assert resumed.play.times == pytest.approx([7.21, 7.21]), "nothing has changed"
     plain = Matches(task, 2, simulator=robots_of(task, 2, stamps=False))
     plain.reset()
     plain.step(zeros(plain))

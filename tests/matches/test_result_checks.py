@@ -13,7 +13,7 @@ from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.task import Play
 from rsoccer.tasks import VssSelfPlay
-from tests.helpers import zeros
+from tests.helpers import same, zeros
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,54 @@ def test_a_reward_term_is_of_each_robot_or_of_all(shape: tuple[int, ...]) -> Non
     matches = Matches(Shaped(shape=shape), 4)
     matches.reset()
     assert matches.step(zeros(matches)).terms["own"].tolist() == np.ones((4, 6)).tolist()
+
+
+@dataclass(frozen=True)
+class Returning(VssSelfPlay):
+    """A task that returns given ends, metrics or commands."""
+
+    done: Any = None
+    metric: Any = None
+    commands: Any = None
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        terms, done = super().calculate_reward_and_done(play)
+        return terms, done if self.done is None else self.done
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        return super().metrics(play) if self.metric is None else {"goal_score": self.metric}
+
+    def get_commands(self, play: Play, actions: Floats) -> Floats:
+        usual = super().get_commands(play, actions)
+        given: Floats = usual if self.commands is None else self.commands
+        return given
+
+
+@pytest.mark.parametrize("done", [np.zeros(4), np.zeros((4, 1), np.bool_), np.zeros(1, np.bool_)])
+def test_ends_of_another_shape_or_type_are_refused(done: Array) -> None:
+    matches = Matches(Returning(done=done), 4)
+    matches.reset()
+    with pytest.raises(ValueError, match=r"expected bool \(4,\) for the end of episodes, got"):
+        matches.step(zeros(matches))
+
+
+def test_commands_of_another_shape_are_refused() -> None:
+    matches = Matches(Returning(commands=np.zeros((4, 6, 3), np.float32)), 4)
+    matches.reset()
+    with pytest.raises(
+        ValueError, match=r"get_commands: expected shape \(4, 6, 2\), got \(4, 6, 3"
+    ):
+        matches.step(zeros(matches))
+
+
+@pytest.mark.parametrize("kind", [np.int64, np.bool_, np.float64])
+def test_metrics_and_commands_of_any_type_become_float32(kind: type[np.generic]) -> None:
+    task = Returning(metric=np.ones(4, kind), commands=np.ones((4, 6, 2), kind))
+    matches = Matches(task, 4)
+    matches.reset()
+    metric = matches.step(zeros(matches)).metrics["goal_score"]
+    assert same(metric, np.ones(4, np.float32))
+    assert matches.play.commands.dtype == np.float32
 
 
 class Spoiled:

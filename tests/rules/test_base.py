@@ -183,6 +183,17 @@ class Second(Listed):
         return {}
 
 
+def test_a_restart_of_worlds_that_wait_does_not_hold_up_those_of_other_rules() -> None:
+    task = TwoRules()
+    matches = begun(task, 3, autoreset="disabled")
+    matches.reset(rows=corner_start(3))
+    matches._done[0] = True
+    task.first.results.append(Restart(np.array([0]), balls=balls(CORNERS[0])))
+    task.second.results.append(Restart(np.array([1]), rows=line_ups(0.3)))
+    matches.step(zeros(matches))
+    assert same(matches.frame.rows[[0, 1]], line_ups(0.0, 0.3))
+
+
 def test_of_two_restarts_of_a_world_the_first_counts() -> None:
     task = TwoRules()
     matches = begun(task, 3)
