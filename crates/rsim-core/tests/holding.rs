@@ -140,6 +140,30 @@ fn pushers_that_accelerate_hard_bounced_in_each_tick() {
 }
 
 #[test]
+fn a_robot_holds_two_pushers_in_line() {
+    for model in MODELS {
+        for (acceleration, share) in [(6.0, 0.95), (10.0, 0.6), (16.0, 0.9)] {
+            let mut scene = pushed(&model, 90.0, &[[0.0, acceleration]; 2]);
+            scene.set_robot_column(2, "x", -2.0 * (side(&model) + 1e-4));
+            let grip = 2.0 * acceleration / share;
+            let target = DifferentialDrive { lateral_grip: grip, ..drive(&model) };
+            scene.config.blue[0].drive = Drive::Differential(target);
+            for pusher in &mut scene.config.yellow {
+                let strong = DifferentialDrive { motor_torque: 1.0, ..drive(pusher) };
+                pusher.drive = Drive::Differential(strong);
+            }
+            let places = [1.0, 10.0].map(|seconds| {
+                let row = scene.after(steps(seconds, scene.config.time_step));
+                robots(&row).next().expect("a robot")[0]
+            });
+            let label = format!("{}, {acceleration} m/s², {share} of the grip", model.name);
+            assert!((0.0..8e-3).contains(&places[0]), "{label}: {} m", places[0]);
+            assert!((places[1] - places[0]).abs() < 5e-5, "{label}: {places:?} m");
+        }
+    }
+}
+
+#[test]
 fn tires_that_roll_hold_a_push_across() {
     // The robot drives away under the smooth front of the pusher.
     for model in MODELS {
