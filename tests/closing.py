@@ -1,6 +1,9 @@
 """A simulator that counts how often it is closed, planted into whatever plays matches."""
 
+from collections.abc import Callable
 from typing import Any
+
+import pytest
 
 from rsoccer import SimConfig, Simulator
 from rsoccer._core import Threads
@@ -58,4 +61,23 @@ class Planted:
 
 
 PLANTED = Planted()
+
+
+def check_closing(close: Callable[[], object], failing: Callable[[], object] | None = None) -> None:
+    """Check that what has played matches closes its simulators when it is closed, and once.
+
+    Args:
+        close: closes what has played.
+        failing: a step that fails, which closes nothing; None without one.
+    """
+    if failing is not None:
+        with pytest.raises(LostError):
+            failing()
+    assert PLANTED.closed() == [0]
+    close()
+    assert PLANTED.closed() == [1]
+    close()
+    assert PLANTED.closed() == [1]
+
+
 TEXT = "tests.closing:PLANTED"

@@ -11,6 +11,7 @@ import numpy as np
 
 from rsoccer import _core
 from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
 
 
 def integer(name: str, value: object, low: int) -> int:
@@ -211,6 +212,34 @@ def mask(value: object, n: int) -> Mask:
     if array.dtype != np.bool_ or array.shape != (n,):
         raise ValueError(f"mask: expected bool ({n},), got {array.dtype} {array.shape}")
     return array
+
+
+def rows(source: str, frame: Frame) -> None:
+    """Validate the state rows that a simulator or a sensor model wrote.
+
+    Args:
+        source: name of the method that wrote them, for the error.
+        frame: the rows, n worlds.
+
+    Raises:
+        ValueError: a number that is not finite, or a robot or a line that does not exist.
+    """
+    finite = np.isfinite(frame.rows).all(axis=1)
+    if not finite.all():
+        worlds = np.flatnonzero(~finite).tolist()
+        raise ValueError(f"{source}: expected finite numbers, got others in worlds {worlds}")
+    robots = frame.n_blue + frame.n_yellow
+    for name, values, low, high in (
+        ("last_touch", frame.ball.last_touch, -1, robots - 1),
+        ("crossed", frame.ball.crossed, 0, len(_core.CROSSINGS) - 1),
+        ("absent", frame.robots.absent, 0, 1),
+    ):
+        valid = (values >= low) & (values <= high) & (values == np.round(values))
+        if not valid.all():
+            got = float(values[~valid].flat[0])
+            raise ValueError(
+                f"{source}: expected whole numbers from {low} to {high} for {name!r}, got {got:g}"
+            )
 
 
 def memory(source: str, arrays: dict[str, Array], n: int) -> dict[str, Array]:

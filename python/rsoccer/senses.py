@@ -93,6 +93,7 @@ class Senses:
         """
         self.frame.rows[:] = frame.rows
         self.model.begin(frame, self.frame, self.state, self.rng)
+        self._check("begin")
 
     def sense(self, frame: Frame) -> None:
         """Sense the state after a step.
@@ -101,6 +102,11 @@ class Senses:
             frame: true state.
         """
         self.model.sense(frame, self.frame, self.state, self.rng)
+        self._check("sense")
+
+    def _check(self, method: str) -> None:
+        """Check the state that a method of the model wrote."""
+        checks.rows(f"{type(self.model).__name__}.{method}", self.frame)
 
     def take(self, worlds: NDArray[np.intp]) -> "Senses":
         """Return a copy of some worlds.

@@ -8,8 +8,14 @@ processes: the module is imported where the matches are made.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
-from contextlib import AbstractContextManager, closing, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import (
+    AbstractContextManager,
+    ExitStack,
+    closing,
+    contextmanager,
+    nullcontext,
+)
 from typing import Any, TypeAlias, TypeVar
 
 from rsoccer import plugins
@@ -95,6 +101,20 @@ def closed_after(
         source: what their simulator was made from.
     """
     return nullcontext(matches) if is_shared(source) else closing(matches)
+
+
+@contextmanager
+def closed_on_error(matches: Closer, source: SimulatorSource | None = None) -> Iterator[None]:
+    """Return a context manager that closes matches if its block raises, as `closed_after` does.
+
+    Args:
+        matches: what `Matches` is.
+        source: what their simulator was made from; None to close it whatever it was.
+    """
+    with ExitStack() as on_error:
+        on_error.enter_context(closed_after(matches, source))
+        yield
+        on_error.pop_all()
 
 
 def make_sensing(source: SensingSource | None) -> SensorModel | None:

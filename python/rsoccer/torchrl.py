@@ -11,7 +11,6 @@ It needs TorchRL: `pip install "torchrl>=0.14"`.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,7 @@ from rsoccer.envs.options import learner_controllers
 from rsoccer.frame import team_of
 from rsoccer.global_state import LIMIT
 from rsoccer.registry import resolve_task
-from rsoccer.sources import SensingSource, SimulatorSource
+from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
 from rsoccer.task import Task
 
 try:
@@ -136,10 +135,8 @@ class SoccerEnv(EnvBase):
             simulator=simulator,
             sensing=sensing,
         )
-        with ExitStack() as on_error:
-            on_error.callback(self.matches.close)
+        with closed_on_error(self.matches):
             self._prepare(group_map, state, device)
-            on_error.pop_all()
 
     def _prepare(
         self,

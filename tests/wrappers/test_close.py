@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.closing import PLANTED, TEXT, LostError
+from tests.closing import PLANTED, TEXT, check_closing
 
 NAME = "VSSSelfPlay-v0"
 
@@ -50,14 +50,7 @@ def test_an_environment_closes_its_simulator_once(
     env.reset()
     for _ in range(3):
         step()
-    if fails_after is not None:
-        with pytest.raises(LostError):
-            step()
-    assert PLANTED.closed() == [0]
-    env.close()
-    assert PLANTED.closed() == [1]
-    env.close()
-    assert PLANTED.closed() == [1]
+    check_closing(env.close, None if fails_after is None else step)
 
 
 def test_torchrl_closes_the_simulator_of_groups_that_it_refuses() -> None:

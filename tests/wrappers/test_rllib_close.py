@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.closing import PLANTED, TEXT, LostError
+from tests.closing import PLANTED, TEXT, check_closing
 
 pytest.importorskip("torch")
 pytest.importorskip("ray.rllib")
@@ -56,14 +56,7 @@ def test_what_plays_matches_closes_its_simulator_once(
     step, close = make()
     for _ in range(3):
         step()
-    if fails_after is not None:
-        with pytest.raises(LostError):
-            step()
-    assert PLANTED.closed() == [0]
-    close()
-    assert PLANTED.closed() == [1]
-    close()
-    assert PLANTED.closed() == [1]
+    check_closing(close, None if fails_after is None else step)
 
 
 def test_rllibs_own_runner_closes_all_of_its_environments() -> None:

@@ -208,45 +208,28 @@ fn index_of(value: f32) -> Option<usize> {
 mod tests {
     use super::*;
 
-    const BALL_ROW: [&str; 12] = [
-        "x",
-        "y",
-        "z",
-        "v_x",
-        "v_y",
-        "v_z",
-        "spin_x",
-        "last_touch",
-        "crossed",
-        "crossed_x",
-        "crossed_y",
-        "crossed_z",
-    ];
-    const ROBOT_ROW: [&str; 11] = [
-        "x",
-        "y",
-        "cos",
-        "sin",
-        "v_x",
-        "v_y",
-        "infrared",
-        "touched_ball",
-        "touched_opponent",
-        "collision_speed",
-        "absent",
-    ];
+    /// Columns in another order than that of the rules, with one more of each.
+    fn columns(names: &[&'static str]) -> Vec<&'static str> {
+        names.iter().rev().copied().chain(["other"]).collect()
+    }
 
     fn layout() -> Layout {
-        Layout::new(&BALL_ROW, &ROBOT_ROW, 1, 2).expect("all columns are there")
+        Layout::new(&columns(&BALL), &columns(&ROBOT), 1, 2).expect("all columns are there")
+    }
+
+    /// Numbers of the columns of a body, from those in the order of the rules.
+    fn numbers<const N: usize>(in_order: [f32; N]) -> impl Iterator<Item = f32> {
+        in_order.into_iter().rev().chain([9.0])
     }
 
     #[test]
     fn ball_and_robots_are_read_by_the_names_of_columns() {
         let layout = layout();
-        let mut row = vec![1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 9.0, 2.0, 6.0, 1.5, 0.5, 0.0];
-        row.extend([0.5, 0.6, 1.0, 0.0, 0.7, 0.8, 1.0, 0.0, 1.0, 1.25, 0.0]);
-        row.extend([0.0; 10].into_iter().chain([1.0]));
-        row.extend([-1.0; 10].into_iter().chain([0.0]));
+        let row: Vec<f32> = numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 2.0, 6.0, 1.5, 0.5])
+            .chain(numbers([0.5, 0.6, 0.7, 0.8, 1.0, 0.0, 1.0, 1.25, 0.0]))
+            .chain(numbers([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+            .chain(numbers([-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 0.0]))
+            .collect();
         let sight = layout.sight(&row).expect("a row of this layout");
         let ball = sight.ball();
         assert_eq!(ball.position, Vector::new(1.0, 2.0));
@@ -268,14 +251,15 @@ mod tests {
     fn nobody_and_nothing_are_none() {
         let layout = layout();
         let mut row = vec![0.0; layout.row_size()];
-        row[7] = -1.0;
+        let touch = columns(&BALL).iter().position(|name| *name == "last_touch");
+        row[touch.expect("the ball has it")] = -1.0;
         let ball = layout.sight(&row).expect("a row of this layout").ball();
         assert_eq!((ball.last_touch, ball.crossed), (None, None));
     }
 
     #[test]
     fn missing_columns_and_other_rows_are_refused() {
-        let error = Layout::new(&BALL_ROW[1..], &ROBOT_ROW, 1, 1).expect_err("no x");
+        let error = Layout::new(&BALL[1..], &ROBOT, 1, 1).expect_err("no x");
         assert_eq!(error, RefereeError::MissingColumn { name: "x" });
         let layout = layout();
         let error = layout.sight(&[0.0; 3]).expect_err("too short");

@@ -94,17 +94,15 @@ class EpisodeRunner:
             scores = metrics[metric]
             decided = scores != 0.0 if task.two_sided else scores >= full
         first_goals = np.concatenate([batch.first_goals for batch in batches])
-        if task.two_sided:
-            decided |= np.isfinite(first_goals)
-        decision_steps = np.where(np.isfinite(first_goals), first_goals, steps)
+        by_goal = np.isfinite(first_goals) & task.two_sided
         time_step = task.config.time_step
         return Episodes(
             metric=metric or RETURN,
             scores=scores,
             returns=returns,
             seconds=steps * time_step,
-            decided=decided,
-            decision_seconds=(decision_steps if task.two_sided else steps) * time_step,
+            decided=decided | by_goal,
+            decision_seconds=np.where(by_goal, first_goals, steps) * time_step,
             own_goals=own_goals,
             metrics=metrics,
         )

@@ -33,7 +33,7 @@ from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
-from rsoccer.rules.base import Restart, judge, select
+from rsoccer.rules.base import Restart, begin, judge, select
 from rsoccer.senses import Senses
 from rsoccer.simulator_interface import close
 from rsoccer.sources import (
@@ -377,12 +377,11 @@ class Matches:
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""
         self._final_rows = None
-        self._waited = waiting = _NO_WORLDS
-        paused = None
+        self._waited, paused = _NO_WORLDS, None
         if np.count_nonzero(self._done):
-            self._waited = waiting = np.flatnonzero(self._done)
+            self._waited = np.flatnonzero(self._done)
             groups = self.assignment.groups
-            paused = PausedWorlds(waiting, self.play, groups, self._observations)
+            paused = PausedWorlds(self._waited, self.play, groups, self._observations)
         active = ~self._done if paused else None
         self._act(actions)
         self._move(active)
@@ -394,7 +393,7 @@ class Matches:
         if paused:
             paused.restore(self.task, self._observations, outcome)
         self._returns = self._returns + outcome.rewards
-        self._autoreset(waiting, outcome)
+        self._autoreset(outcome)
         return outcome
 
     def _act(self, actions: Floats) -> None:
@@ -417,7 +416,7 @@ class Matches:
         times = self._simulator.step(play.commands, out=play.last_frame.rows, active=active)
         play.advance()
         if not self._is_own_simulator:  # which checks its rows itself
-            result_checks.rows(f"{type(self._simulator).__name__}.step", play.frame)
+            checks.rows(f"{type(self._simulator).__name__}.step", play.frame)
         if times is not None:
             self._stamp(times)
         play.steps += 1
@@ -458,25 +457,22 @@ class Matches:
             mask[chosen.worlds] = True
             self._stamp(self._starts.restart(mask, chosen.rows, chosen.balls, play.frame.rows))
             play.last_frame.rows[mask] = play.frame.rows[mask]
-            for rule in self._rules:
-                rule.begin(play, chosen.worlds)
+            begin(self._rules, play, chosen.worlds)
         play.expire_views()
 
     def _sense(self) -> None:
         """Let the sensor model compute what the robots know."""
-        senses = self.play.senses
-        if senses is not None:
-            senses.sense(self.play.frame)
-            result_checks.rows(f"{type(senses.model).__name__}.sense", senses.frame)
+        if self.play.senses is not None:
+            self.play.senses.sense(self.play.frame)
 
     def _observe(self) -> None:
         """Compute the observations of all observers."""
         self.task.layout.observe(self.play, out=self._observations)
 
-    def _autoreset(self, waiting: Indices, outcome: Outcome) -> None:
+    def _autoreset(self, outcome: Outcome) -> None:
         """Reset matches as `autoreset` demands, and fill in the outcome's observations."""
-        if self.autoreset == "next_step" and len(waiting):
-            self._begin(waiting)
+        if self.autoreset == "next_step" and len(self._waited):
+            self._begin(self._waited)
         final = self._observed()
         outcome.observations = outcome.final_observations = final
         ended = outcome.ended
@@ -528,12 +524,10 @@ class Matches:
         """Compute the first observations of worlds that the simulator has just placed."""
         part.start(self.play.frame.rows[worlds])
         part.times = None if self.play.times is None else self.play.times[worlds]
-        for rule in self._rules:
-            rule.begin(part, np.arange(len(worlds)))
+        begin(self._rules, part, np.arange(len(worlds)))
         self.task.start_episode(part)
         if part.senses is not None:
             part.senses.begin(part.frame)
-            result_checks.rows(f"{type(part.senses.model).__name__}.begin", part.senses.frame)
         self._observations[worlds] = self.task.layout.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False

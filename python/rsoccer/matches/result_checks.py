@@ -4,9 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rsoccer._core import CROSSINGS
 from rsoccer.arrays import Array, Doubles, Floats, Mask
-from rsoccer.frame import Frame
 
 
 def commands(value: Array, shape: tuple[int, ...]) -> Floats:
@@ -85,34 +83,6 @@ def times(value: Array, n: int) -> Doubles:
             f"simulator: expected finite float64 ({n},) for the time stamps, got {value!r}"
         )
     return found.copy()
-
-
-def rows(source: str, frame: Frame) -> None:
-    """Validate the state rows that a simulator or a sensor model wrote.
-
-    Args:
-        source: name of the method that wrote them, for the error.
-        frame: the rows, n worlds.
-
-    Raises:
-        ValueError: a number that is not finite, or a robot or a line that does not exist.
-    """
-    finite = np.isfinite(frame.rows).all(axis=1)
-    if not finite.all():
-        worlds = np.flatnonzero(~finite).tolist()
-        raise ValueError(f"{source}: expected finite numbers, got others in worlds {worlds}")
-    robots = frame.n_blue + frame.n_yellow
-    for name, values, low, high in (
-        ("last_touch", frame.ball.last_touch, -1, robots - 1),
-        ("crossed", frame.ball.crossed, 0, len(CROSSINGS) - 1),
-        ("absent", frame.robots.absent, 0, 1),
-    ):
-        valid = (values >= low) & (values <= high) & (values == np.round(values))
-        if not valid.all():
-            got = float(values[~valid].flat[0])
-            raise ValueError(
-                f"{source}: expected whole numbers from {low} to {high} for {name!r}, got {got:g}"
-            )
 
 
 def state(saved: Mapping[str, Array], expected: Mapping[str, Array]) -> None:

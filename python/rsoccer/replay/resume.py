@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from contextlib import ExitStack
 from typing import Final
 
 from rsoccer import registry
@@ -14,7 +13,7 @@ from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Recorded
-from rsoccer.sources import SensingSource, SimulatorSource, closed_after
+from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
 from rsoccer.task import LEARN, Learn, Task
 
 # A task's own checks of its options may meet values of any type.
@@ -68,10 +67,8 @@ def resume(
         matches = Matches(
             task, controllers=given, autoreset="disabled", simulator=simulator, sensing=sensing
         )
-        with ExitStack() as on_error:
-            on_error.enter_context(closed_after(matches, simulator))
+        with closed_on_error(matches, simulator):
             matches.load_state_dict(replay.snapshots[frame])
-            on_error.pop_all()
     except ReplayError:
         raise
     except _REFUSALS as error:

@@ -100,6 +100,18 @@ def columns(rules: Sequence[Rule], n: int) -> dict[str, Array]:
     return found
 
 
+def begin(rules: Sequence[Rule], play: Play, worlds: NDArray[np.intp]) -> None:
+    """Fit the state of all rules to the frame from which play begins or goes on.
+
+    Args:
+        rules: the rules of the task.
+        play: state of n worlds; its game may be changed in place.
+        worlds: (k,) indices of the worlds in which play begins.
+    """
+    for rule in rules:
+        rule.begin(play, worlds)
+
+
 def judge(rules: Sequence[Rule], play: Play) -> list[Restart]:
     """Let all rules judge the last step.
 

@@ -31,7 +31,7 @@ def model(name: str, value: object, kind: type[M]) -> str | M:
     """
     if isinstance(value, kind):
         return value
-    text = os.fspath(value) if isinstance(value, os.PathLike) else value
+    text = _path_as_text(value)
     if not isinstance(text, str):
         raise TypeError(
             f"{name}: expected a preset's name, the path of a {option_values.SUFFIX} file or a "
@@ -84,13 +84,18 @@ def set_policies(task: Task, *names: str) -> None:
 
 def _policy(name: str, value: object) -> str:
     """A policy's name, or the path of its file as text."""
-    text = os.fspath(value) if isinstance(value, os.PathLike) else value
+    text = _path_as_text(value)
     if not isinstance(text, str):
         raise TypeError(
             f"{name}: expected a policy's name or the path of its file, got {value!r}; "
             "a Policy object is given as controllers={'yellow': policy}"
         )
     return text
+
+
+def _path_as_text(value: object) -> object:
+    """A path as text; any other value as it is."""
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
 def drive(config: SimConfig, kind: str, description: str) -> None:

@@ -20,6 +20,7 @@ from rsoccer.testing.method_results import (
     Method,
     Results,
     differing,
+    fields_of,
     names_of,
 )
 
@@ -129,10 +130,9 @@ def _arrays_after(method: Method, field: str, play: Play, after: Play) -> Result
             f"{where}[{name!r}] becomes {found[name].dtype} {found[name].shape} from "
             f"{array.dtype} {array.shape}",
         )
-    results = {f"play.{field}[{name!r}]": array for name, array in found.items()}
+    results = fields_of(after, field)
     if field not in method.updates:
-        before = {f"play.{field}[{name!r}]": array for name, array in arrays.items()}
-        names = differing(before, results)
+        names = differing(fields_of(play, field), results)
         updating = [m for m in (START_EPISODE, *DURING_EPISODES) if field in m.updates]
         fault = f"it replaces {_listed(names, quoted=False)}; {field} changes in"
         expect(not names, f"{method.name}: {fault} {names_of(updating)} alone")

@@ -12,7 +12,7 @@ import numpy as np
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
 from rsoccer.markers import Marker
-from rsoccer.rules.base import judge
+from rsoccer.rules.base import begin, judge
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import expect
 
@@ -118,8 +118,7 @@ def _restarts(task: Task, play: Play) -> Results:
 
 
 def _begin(task: Task, play: Play) -> Results:
-    for rule in task.rules:
-        rule.begin(play, np.arange(len(play.frame)))
+    begin(task.rules, play, np.arange(len(play.frame)))
     return {}
 
 
@@ -145,6 +144,17 @@ DURING_EPISODES: Final = (
     Method("markers", _markers),
 )
 """Methods that are called in every step, in this order."""
+
+
+def fields_of(play: Play, field: str) -> Results:
+    """Return the arrays of a field of a state, by their names in messages.
+
+    Args:
+        play: the state.
+        field: "memory", "game" or "events".
+    """
+    arrays: Mapping[str, Array] = getattr(play, field)
+    return {f"play.{field}[{name!r}]": array for name, array in arrays.items()}
 
 
 def names_of(methods: Iterable[Method]) -> str:

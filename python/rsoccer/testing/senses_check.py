@@ -19,6 +19,7 @@ from rsoccer.testing.method_results import (
     Method,
     Results,
     differing,
+    fields_of,
 )
 
 
@@ -70,8 +71,7 @@ def _results(task: Task, method: Method, play: Play) -> Results:
     """Results of a method, with the fields that it may change."""
     results = method.call(task, play)
     for field in method.updates:
-        arrays: Mapping[str, Array] = getattr(play, field)
-        results |= {f"play.{field}[{name!r}]": array for name, array in arrays.items()}
+        results |= fields_of(play, field)
     return results
 
 

@@ -23,6 +23,7 @@ from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.policies.base import Policy
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Restart
+from rsoccer.rules.base import begin
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.testing.errors import TaskError, expect
 from rsoccer.testing.kept_state import KeptState
@@ -142,8 +143,7 @@ def _check_start(task: Task, worlds: int, seed: int) -> None:
     check_method(task, START_EPISODE, play)
     task.start_episode(play)
     check_method(task, RULES_BEGIN, play)
-    for rule in task.rules:
-        rule.begin(play, np.arange(worlds))
+    begin(task.rules, play, np.arange(worlds))
     for method in DURING_EPISODES:
         check_method(task, method, play)
 

@@ -118,21 +118,19 @@ impl Wheels {
         let rims = [command[0], command[1]]
             .map(|speed| self.wheel_radius * limited(speed, self.max_wheel_speed));
         let mut slip = self.slip(own.velocity, own.angular_velocity, rims);
-        let mut load = own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO;
-        let friction = loop {
-            let (holding, holds) = self.holding(&slip, mask);
-            if !load {
-                if (holds | !mask).all() {
-                    break holding;
-                }
-                break holding.where_else(holds, &self.sliding(&slip));
-            }
+        let (mut holding, mut holds) = self.holding(&slip, mask);
+        if own.load != VectorLanes::ZERO || own.angular_load != Lanes::ZERO {
             // Tires that hold also compensate the load of the last tick. Those that slide give their
             // maximum whatever the load.
             let added = self.slip(own.load, own.angular_load, [Lanes::ZERO; 2]);
             slip.along = [0, 1].map(|wheel| slip.along[wheel] + (holds & added.along[wheel]));
             slip.across += holds & added.across;
-            load = false;
+            (holding, holds) = self.holding(&slip, mask);
+        }
+        let friction = if (holds | !mask).all() {
+            holding
+        } else {
+            holding.where_else(holds, &self.sliding(&slip))
         };
         let [left, right] = friction.along;
         WheelEffect {

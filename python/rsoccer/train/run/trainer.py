@@ -7,14 +7,13 @@ updates the networks. `loop` runs one update after the other, `state` captures a
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import ExitStack
 
 import numpy as np
 import torch
 
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
-from rsoccer.sources import closed_after
+from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
 from rsoccer.train.network.build import build_networks
@@ -84,10 +83,8 @@ class Trainer:
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
         create = self.curriculum.solo if self.is_solo else self.curriculum.team
         matches = create(first_seed)
-        with ExitStack() as on_error:
-            on_error.enter_context(closed_after(matches, args.simulator))
+        with closed_on_error(matches, args.simulator):
             self._begin(matches)
-            on_error.pop_all()
 
     def _begin(self, matches: Matches) -> None:
         """Create the networks and what updates them, and enter the matches."""
