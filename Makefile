@@ -159,10 +159,12 @@ $(VENV)/built: $(VENV)/tools $(RUST)
 	@echo "building rSoccer and downloading its dependencies (torch alone may be 3 GB)"
 	@if [ -f $(VENV)/torch.pth ]; then cp $(VENV)/torch.pth $(VENV)/lib/python3*/site-packages/; fi
 # The build starts in parallel to the downloads. When pip calls the compiler, the build is complete
-# or pip waits for it, and the compiler repeats its messages.
+# or pip waits for it, and the compiler repeats its messages. Two builds that end at the same moment
+# move the library both, so a second try follows.
 	@PATH="$(CURDIR)/$(BIN):$$PATH"; export PATH; \
 	maturin develop --release --skip-install >/dev/null 2>&1 & \
-	$(PIP) --no-build-isolation --editable '.[all]'; status=$$?; wait; exit $$status
+	install() { $(PIP) --no-build-isolation --editable '.[all]'; }; \
+	install || { wait; install; }; status=$$?; wait; exit $$status
 	@touch $@
 
 # These see the packages of .venv, and have own ones beside them.

@@ -12,8 +12,8 @@ pub trait Column: Sized {
     /// Reads the value and the rest of the row; `None` for numbers that are no such value.
     fn read(row: &[f32]) -> Option<(Self, &[f32])>;
 
-    /// Adds the value to a row.
-    fn write(&self, row: &mut Vec<f32>);
+    /// Writes the value to the first columns of a row, and returns the others.
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32];
 }
 
 fn single() -> Vec<String> {
@@ -30,8 +30,10 @@ impl Column for f32 {
         Some((*first, rest))
     }
 
-    fn write(&self, row: &mut Vec<f32>) {
-        row.push(*self);
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+        let (first, rest) = row.split_at_mut(1);
+        first[0] = *self;
+        rest
     }
 }
 
@@ -47,8 +49,9 @@ impl Column for i32 {
         is_whole.then_some((*first as Self, rest))
     }
 
-    fn write(&self, row: &mut Vec<f32>) {
-        row.push(*self as f32);
+    #[allow(clippy::cast_precision_loss)] // a whole number below 2^24
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+        (*self as f32).write(row)
     }
 }
 
@@ -66,9 +69,9 @@ macro_rules! as_number {
                 Some((from(number)?, rest))
             }
 
-            fn write(&self, row: &mut Vec<f32>) {
+            fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
                 let to: fn(&Self) -> i32 = $to;
-                to(self).write(row);
+                to(self).write(row)
             }
         }
     )*};
@@ -94,6 +97,11 @@ as_number! {
         1 => Some(Some(Team::Yellow)),
         _ => None,
     };
+    Team: |value| i32::from(value.index() != 0), |number| match number {
+        0 => Some(Team::Blue),
+        1 => Some(Team::Yellow),
+        _ => None,
+    };
     Option<usize>: |value| value.map_or(-1, |index| i32::try_from(index).unwrap_or(i32::MAX)),
         |number| if number == -1 { Some(None) } else { usize::try_from(number).ok().map(Some) };
 }
@@ -108,8 +116,8 @@ impl Column for Vector {
         Some((Self::new(*x, *y), rest))
     }
 
-    fn write(&self, row: &mut Vec<f32>) {
-        row.extend([self.x, self.y]);
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+        self.y.write(self.x.write(row))
     }
 }
 
@@ -153,10 +161,8 @@ impl<T: Column> Column for ByTeam<T> {
         Some((Self([blue, yellow]), rest))
     }
 
-    fn write(&self, row: &mut Vec<f32>) {
-        for value in &self.0 {
-            value.write(row);
-        }
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+        self.0.iter().fold(row, |rest, value| value.write(rest))
     }
 }
 
@@ -167,19 +173,17 @@ impl<T: Column, const N: usize> Column for [T; N] {
     }
 
     fn read(mut row: &[f32]) -> Option<(Self, &[f32])> {
-        let mut values = Vec::with_capacity(N);
-        for _ in 0..N {
-            let (value, rest) = T::read(row)?;
-            values.push(value);
+        let mut values = [(); N].map(|()| None);
+        for value in &mut values {
+            let (read, rest) = T::read(row)?;
+            *value = Some(read);
             row = rest;
         }
-        Some((values.try_into().ok()?, row))
+        Some((values.map(|value| value.expect("all were read")), row))
     }
 
-    fn write(&self, row: &mut Vec<f32>) {
-        for value in self {
-            value.write(row);
-        }
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+        self.iter().fold(row, |rest, value| value.write(rest))
     }
 }
 
@@ -188,10 +192,9 @@ mod tests {
     use super::*;
 
     fn there_and_back<T: Column + PartialEq + std::fmt::Debug>(value: &T) {
-        let mut row = Vec::new();
-        value.write(&mut row);
-        assert_eq!(row.len(), T::suffixes().len(), "{value:?}");
-        row.push(7.0);
+        let size = T::suffixes().len();
+        let mut row = vec![7.0; size + 1];
+        assert_eq!(value.write(&mut row).len(), 1, "{value:?}");
         let (read, rest) = T::read(&row).expect("it was written");
         assert_eq!((&read, rest), (value, &[7.0][..]));
     }

@@ -1,9 +1,9 @@
-//! Numbers and switches of the rules, with presets of both leagues.
-//!
-//! Sources: RoboCup-SSL/ssl-rules 4300196 (2026-05-21) for SSL; VSSSLeague/VSSReferee 2862742 (2022-03-12),
-//! `src/constants/constants.json` and `referee/checkers`, for VSSS.
+//! Numbers and switches of the rules of a match. [`crate::presets`] has those of the leagues.
 
 use serde::{Deserialize, Serialize};
+
+use crate::error::RefereeError;
+use crate::rules;
 
 /// League whose rules are played.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,9 +19,9 @@ pub enum League {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {
-    /// The time of a stage passes always.
+    /// All time of a half counts.
     Running,
-    /// It passes only while the ball is in play or a free kick may be taken.
+    /// Time counts only while a team may play the ball.
     Stopped,
 }
 
@@ -35,132 +35,190 @@ pub enum Placement {
     Robots,
 }
 
-/// Times of the stages of a match.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Times {
-    /// Duration of a half, s.
-    pub half_seconds: f32,
-    /// Number of halves, 1 or 2.
-    pub halves: u8,
-    /// Duration of a half of extra time after a draw, s; 0 for none.
-    pub extra_half_seconds: f32,
-    /// Penalty kicks of each team in the shoot-out after a draw, before sudden death; 0 for none.
-    pub shootout_kicks: u8,
-    /// Goals of a team from which a lead of `early_end_lead` ends the match; 0 for never.
-    pub early_end_goals: u8,
-    /// Lead that ends the match early.
-    pub early_end_lead: u8,
-    /// Time that the clock counts.
-    pub clock: Clock,
+/// Moment at which a half whose time is up ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum HalfEnd {
+    /// At once, but for a penalty kick, which is still taken.
+    AtOnce,
+    /// At the next stop, as the game controller does.
+    NextStop,
 }
 
-/// Times in which something has to happen, s.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Limits {
-    /// From the permission of a kick-off to the kick.
-    pub kickoff_seconds: f32,
-    /// From the permission of a free kick to the kick.
-    pub free_kick_seconds: f32,
-    /// Duration of a penalty kick.
-    pub penalty_seconds: f32,
-    /// Of a ball that makes no progress.
-    pub no_progress_seconds: f32,
-    /// Of the ball in the own area.
-    pub held_ball_seconds: f32,
-    /// Of a ball placement by robots.
-    pub placement_seconds: f32,
-    /// Between a stop and the next kick.
-    pub transition_seconds: f32,
+/// Declares the configuration: its choices, and its numbers with unit and source.
+macro_rules! config {
+    (
+        choices { $($(#[$choice_doc:meta])* $choice:ident: $kind:ty,)* }
+        numbers { $($(#[$doc:meta])* $name:ident, $unit:literal;)* }
+    ) => {
+        /// Numbers and switches of the rules of a match.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub struct RefereeConfig {
+            $($(#[$choice_doc])* pub $choice: $kind,)*
+            $($(#[$doc])* pub $name: f32,)*
+        }
+
+        impl RefereeConfig {
+            /// Rules whose numbers are all 0.
+            pub(crate) const fn zero(league: League) -> Self {
+                Self {
+                    league,
+                    clock: Clock::Stopped,
+                    placement: Placement::Teleport,
+                    half_end: HalfEnd::AtOnce,
+                    aimless_kick: false,
+                    failed_placement_passes: false,
+                    off: Vec::new(),
+                    $($name: 0.0,)*
+                }
+            }
+
+            /// Names and units of all numbers.
+            pub const NUMBERS: &'static [(&'static str, &'static str)] =
+                &[$((stringify!($name), $unit),)*];
+
+            /// All numbers, in the order of [`Self::NUMBERS`].
+            pub fn numbers(&self) -> impl Iterator<Item = f32> {
+                [$(self.$name,)*].into_iter()
+            }
+
+            /// Checks that all numbers are finite and not negative, and that the rules in `off` exist.
+            ///
+            /// # Errors
+            /// The first number or name that is not.
+            pub fn validate(&self) -> Result<(), RefereeError> {
+                $(if !(self.$name.is_finite() && self.$name >= 0.0) {
+                    return Err(RefereeError::Number {
+                        name: stringify!($name),
+                        got: self.$name,
+                    });
+                })*
+                self.off.iter().try_for_each(|name| rules::find(name).map(drop))
+            }
+        }
+    };
 }
 
-/// Numbers and switches of the rules of a match.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct RefereeConfig {
-    /// League.
-    pub league: League,
-    /// Times of the stages.
-    pub times: Times,
-    /// Times in which something has to happen.
-    pub limits: Limits,
-    /// Way in which the ball comes to the place of the next kick.
-    pub placement: Placement,
-}
-
-impl RefereeConfig {
-    /// Names of the presets.
-    pub const PRESETS: [&'static str; 4] = ["ssl_2026_a", "ssl_2026_b", "vsss_3v3", "vsss_5v5"];
-
-    /// A preset by name; `None` if there is none.
-    pub fn preset(name: &str) -> Option<Self> {
-        match name {
-            "ssl_2026_a" => Some(Self::ssl_2026_a()),
-            "ssl_2026_b" => Some(Self::ssl_2026_b()),
-            "vsss_3v3" | "vsss_5v5" => Some(Self::vsss()),
-            _ => None,
-        }
+config! {
+    choices {
+        /// League.
+        league: League,
+        /// Time that the clock counts.
+        clock: Clock,
+        /// Way in which the ball comes to the place of the next kick.
+        placement: Placement,
+        /// Moment at which a half whose time is up ends.
+        half_end: HalfEnd,
+        /// Whether a ball over the far goal line from the own half is a free kick where it was kicked.
+        aimless_kick: bool,
+        /// Whether a free kick passes to the opponents where the team in favor failed to place the ball.
+        failed_placement_passes: bool,
+        /// Rules that are not judged, by the names of their events.
+        off: Vec<String>,
     }
-
-    /// SSL division A: "Game Structure", "Referee Commands", "Offenses".
-    fn ssl_2026_a() -> Self {
-        Self {
-            league: League::Ssl,
-            times: Times {
-                half_seconds: 300.0,
-                halves: 2,
-                extra_half_seconds: 150.0,
-                shootout_kicks: 5,
-                early_end_goals: 10,
-                early_end_lead: 2,
-                clock: Clock::Stopped,
-            },
-            limits: Limits {
-                kickoff_seconds: 10.0,
-                free_kick_seconds: 5.0,
-                penalty_seconds: 10.0,
-                no_progress_seconds: 5.0,
-                held_ball_seconds: 5.0,
-                placement_seconds: 30.0,
-                transition_seconds: 2.0,
-            },
-            placement: Placement::Teleport,
-        }
-    }
-
-    /// SSL division B: as division A, with more time to act.
-    fn ssl_2026_b() -> Self {
-        let mut config = Self::ssl_2026_a();
-        config.limits.free_kick_seconds = 10.0;
-        config.limits.no_progress_seconds = 10.0;
-        config.limits.held_ball_seconds = 10.0;
-        config
-    }
-
-    /// VSSS: two halves of five minutes, then two of three and penalty kicks.
-    fn vsss() -> Self {
-        Self {
-            league: League::Vsss,
-            times: Times {
-                half_seconds: 300.0,
-                halves: 2,
-                extra_half_seconds: 180.0,
-                shootout_kicks: 5,
-                early_end_goals: 0,
-                early_end_lead: 0,
-                clock: Clock::Stopped,
-            },
-            limits: Limits {
-                kickoff_seconds: 10.0,
-                free_kick_seconds: 10.0,
-                penalty_seconds: 10.0,
-                no_progress_seconds: 5.0,
-                held_ball_seconds: 10.0,
-                placement_seconds: 0.0,
-                transition_seconds: 4.0,
-            },
-            placement: Placement::Teleport,
-        }
+    numbers {
+        /// Duration of a half.
+        half_seconds, "s";
+        /// Number of halves, 1 or 2.
+        halves, "1";
+        /// Duration of a half of extra time after a draw; 0 for none.
+        extra_half_seconds, "s";
+        /// Penalty kicks of each team in the shoot-out after a draw, before sudden death; 0 for none.
+        shootout_kicks, "1";
+        /// Goals of a team from which a lead of `early_end_lead` ends the match; 0 for never.
+        early_end_goals, "1";
+        /// Lead that ends the match early.
+        early_end_lead, "1";
+        /// Duration of a stop before play is prepared or goes on.
+        stop_seconds, "s";
+        /// The same after a goal.
+        goal_stop_seconds, "s";
+        /// Duration of a halt.
+        halt_seconds, "s";
+        /// Time to take the positions of a kick, at least.
+        prepare_seconds, "s";
+        /// The same, at most: then robots in forbidden places are put in valid ones.
+        max_prepare_seconds, "s";
+        /// Time from the permission of a kick-off until the ball is free for all.
+        kickoff_seconds, "s";
+        /// Time from the permission of a free kick until the ball is free for all.
+        free_kick_seconds, "s";
+        /// Duration of a penalty kick.
+        penalty_seconds, "s";
+        /// Time of a ball that makes no progress.
+        no_progress_seconds, "s";
+        /// Time for which the ball may be in a defense area.
+        held_ball_seconds, "s";
+        /// Time of a ball placement.
+        placement_seconds, "s";
+        /// Time of a ball placement, at least.
+        min_placement_seconds, "s";
+        /// Time that an interference adds to a ball placement.
+        interference_seconds, "s";
+        /// Time in which robots have to obey a new command.
+        grace_seconds, "s";
+        /// Time in which the same foul of a team is not raised again.
+        repeat_seconds, "s";
+        /// Time after a foul of its own in which no goal of a team counts.
+        goal_foul_seconds, "s";
+        /// Time after a card until robots over the limit are taken out.
+        removal_seconds, "s";
+        /// Playing time for which a yellow card reduces a team.
+        yellow_card_seconds, "s";
+        /// Way of the ball that brings it into play.
+        in_play_distance, "m";
+        /// Way that a robot may dribble.
+        dribble_distance, "m";
+        /// Way of the ball that is no progress.
+        no_progress_distance, "m";
+        /// Distance of robots from the ball before a kick of the opponents, and in a stop.
+        ball_distance, "m";
+        /// Distance of robots from the opponents' defense area before a kick.
+        area_distance, "m";
+        /// Way over which a robot may push an opponent.
+        push_distance, "m";
+        /// Height of the ball above which a team scores no goal, since its last touch.
+        goal_height, "m";
+        /// Height of the outer walls, over which the ball must not be kicked.
+        boundary_height, "m";
+        /// Distance from its place within which a ball is placed.
+        placement_tolerance, "m";
+        /// Distance of robots from a placed ball before a free kick of their own.
+        placement_clearance, "m";
+        /// Distance of the ball from its place from which it has to be placed.
+        placement_distance, "m";
+        /// Distance of the ball from defense areas below which it has to be placed.
+        placement_area_distance, "m";
+        /// Distance of the ball from the lines for a free kick, a throw-in and a corner kick.
+        kick_line_distance, "m";
+        /// Distance of the ball from the defense areas for a free kick.
+        kick_area_distance, "m";
+        /// Distance of the ball from the goal line for a goal kick.
+        goal_kick_distance, "m";
+        /// Distance behind the ball of robots that take no part in a penalty kick.
+        penalty_distance, "m";
+        /// Distance from the ball within which a team plays for it.
+        contest_distance, "m";
+        /// Maximum speed of the ball.
+        ball_speed, "m/s";
+        /// Maximum speed of robots in a stop.
+        stop_speed, "m/s";
+        /// Closing speed from which a contact of opponents is a crash.
+        crash_speed, "m/s";
+        /// Difference of speeds below which both robots are at fault.
+        crash_difference, "m/s";
+        /// Speed below which the ball is stuck or stationary.
+        stuck_speed, "m/s";
+        /// Fouls of a team that make a yellow card; 0 for none.
+        fouls_per_card, "1";
+        /// Ball placements that may fail before a team places no more.
+        placement_failures, "1";
+        /// Robots of a team in the smaller area that are too many.
+        area_robots, "1";
+        /// Defenders in the larger area that are too many; 0 for any number.
+        large_area_defenders, "1";
+        /// Attackers in the larger area that are too many; 0 for any number.
+        large_area_attackers, "1";
     }
 }

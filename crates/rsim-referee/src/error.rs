@@ -23,4 +23,20 @@ pub enum RefereeError {
         /// Numbers given.
         got: usize,
     },
+    /// A number of the configuration that is not finite or negative.
+    #[error("{name}: expected a finite number, at least 0, got {got}")]
+    Number {
+        /// Name of the number.
+        name: &'static str,
+        /// Number given.
+        got: f32,
+    },
+    /// A rule that does not exist.
+    #[error("off: expected names of {known}, got {name:?}")]
+    UnknownRule {
+        /// Name given.
+        name: String,
+        /// Names of all rules.
+        known: String,
+    },
 }

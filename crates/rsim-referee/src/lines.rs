@@ -14,6 +14,8 @@ pub struct Lines {
     pub half_width: f32,
     /// Half the width of a goal.
     pub half_goal_width: f32,
+    /// Height of a goal, below its crossbar.
+    pub goal_height: f32,
     /// Depth of the area in front of a goal.
     pub area_depth: f32,
     /// Half the width of the area in front of a goal.
@@ -22,10 +24,20 @@ pub struct Lines {
     pub inner_area_depth: f32,
     /// Half the width of the smaller area in it, 0 without one.
     pub half_inner_area_width: f32,
+    /// Width of the painted lines; they belong to the areas that they bound.
+    pub line_width: f32,
+    /// Leg of the 45-degree block in each corner; 0 for none.
+    pub corner_leg: f32,
+    /// Thickness of a goal's own walls; 0 without them.
+    pub goal_wall_thickness: f32,
     /// Radius of the center circle.
     pub center_circle_radius: f32,
     /// Distance of a penalty mark from the goal line that it attacks.
     pub penalty_mark_distance: f32,
+    /// Distance of the outer walls from the center along x.
+    pub boundary_x: f32,
+    /// Distance of the outer walls from the center along y.
+    pub boundary_y: f32,
     /// Distance of the free-ball marks from the center along x; 0 without marks.
     pub free_ball_x: f32,
     /// Distance of the free-ball marks from the center along y; 0 without marks.
@@ -117,12 +129,18 @@ pub(crate) mod tests {
         half_length: 4.5,
         half_width: 3.0,
         half_goal_width: 0.5,
+        goal_height: 0.16,
         area_depth: 1.0,
         half_area_width: 1.0,
         inner_area_depth: 0.0,
         half_inner_area_width: 0.0,
+        line_width: 0.01,
+        corner_leg: 0.0,
+        goal_wall_thickness: 0.02,
         center_circle_radius: 0.5,
         penalty_mark_distance: 6.0,
+        boundary_x: 4.8,
+        boundary_y: 3.3,
         free_ball_x: 0.0,
         free_ball_y: 0.0,
     };

@@ -16,12 +16,15 @@ pub struct Layout {
 }
 
 const BALL: [&str; 10] =
-    ["x", "y", "z", "v_x", "v_y", "v_z", "last_touch", "crossed", "crossed_x", "crossed_y"];
-const ROBOT: [&str; 9] = [
+    ["x", "y", "z", "v_x", "v_y", "v_z", "spin_x", "spin_y", "spin_z", "last_touch"];
+const ROBOT: [&str; 12] = [
     "x",
     "y",
+    "cos",
+    "sin",
     "v_x",
     "v_y",
+    "v_theta",
     "infrared",
     "touched_ball",
     "touched_opponent",
@@ -42,10 +45,6 @@ pub struct Ball {
     pub vertical_velocity: f32,
     /// Index of the last robot that touched the ball.
     pub last_touch: Option<usize>,
-    /// Line that the center crossed in the step, by its number among the crossings of a row.
-    pub crossed: Option<u8>,
-    /// Point of the crossing, m.
-    pub crossed_at: Vector,
 }
 
 impl Ball {
@@ -64,8 +63,12 @@ pub struct Robot {
     pub team: Team,
     /// Position of the center, m.
     pub position: Vector,
+    /// Direction that it faces, of length 1.
+    pub heading: Vector,
     /// Velocity, m/s.
     pub velocity: Vector,
+    /// Angular velocity, rad/s, counterclockwise.
+    pub angular_velocity: f32,
     /// Whether the ball is in its mouth.
     pub has_ball: bool,
     /// Whether it touched the ball in the step.
@@ -74,6 +77,24 @@ pub struct Robot {
     pub touched_opponent: bool,
     /// Closing speed of its hardest contact with a robot in the step, m/s.
     pub collision_speed: f32,
+}
+
+impl Robot {
+    /// A robot that stands somewhere, and touches nothing.
+    pub const fn at_rest(index: usize, team: Team, position: Vector) -> Self {
+        Self {
+            index,
+            team,
+            position,
+            heading: Vector::new(1.0, 0.0),
+            velocity: Vector::new(0.0, 0.0),
+            angular_velocity: 0.0,
+            has_ball: false,
+            touched_ball: false,
+            touched_opponent: false,
+            collision_speed: 0.0,
+        }
+    }
 }
 
 /// State of a match after a step, as the referee sees it.
@@ -107,6 +128,14 @@ impl Layout {
         Ok(layout)
     }
 
+    /// Number of robots of a team.
+    pub const fn team_size(&self, team: Team) -> usize {
+        match team {
+            Team::Blue => self.n_blue,
+            Team::Yellow => self.n_yellow,
+        }
+    }
+
     /// Number of robots of both teams.
     pub const fn robots(&self) -> usize {
         self.n_blue + self.n_yellow
@@ -134,6 +163,54 @@ impl Layout {
     }
 }
 
+/// Where a restart puts a robot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// Index of the robot.
+    pub robot: usize,
+    /// Position of the center, m.
+    pub position: Vector,
+    /// Point that it faces, m; `None` to keep its heading.
+    pub faces: Option<Vector>,
+}
+
+impl Layout {
+    /// Puts the ball at rest on the floor.
+    pub fn put_ball(&self, row: &mut [f32], position: Vector) {
+        let [x, y, rest @ .., _] = self.ball;
+        for column in rest {
+            row[column] = 0.0;
+        }
+        (row[x], row[y]) = (position.x, position.y);
+    }
+
+    /// Puts a robot at rest on the field.
+    pub fn put_robot(&self, row: &mut [f32], placed: &Placed) {
+        let first = self.ball_size + placed.robot * self.robot_size;
+        let [x, y, cos, sin, v_x, v_y, v_theta, .., absent] =
+            self.robot.map(|column| first + column);
+        (row[x], row[y]) = (placed.position.x, placed.position.y);
+        for column in [v_x, v_y, v_theta, absent] {
+            row[column] = 0.0;
+        }
+        let ahead = placed.faces.map_or(Vector::default(), |point| point - placed.position);
+        let length = ahead.length();
+        if length > 0.0 {
+            (row[cos], row[sin]) = (ahead.x / length, ahead.y / length);
+        }
+    }
+
+    /// Takes a robot off the field.
+    pub fn take_out(&self, row: &mut [f32], robot: usize) {
+        let first = self.ball_size + robot * self.robot_size;
+        let [_, _, _, _, v_x, v_y, v_theta, .., absent] = self.robot.map(|column| first + column);
+        for column in [v_x, v_y, v_theta] {
+            row[column] = 0.0;
+        }
+        row[absent] = 1.0;
+    }
+}
+
 fn find(
     names: &[&'static str],
     columns: &[&str],
@@ -151,7 +228,7 @@ fn find(
 impl Sight<'_> {
     /// The ball.
     pub fn ball(&self) -> Ball {
-        let [x, y, height, v_x, v_y, vertical_velocity, touch, crossed, crossed_x, crossed_y] =
+        let [x, y, height, v_x, v_y, vertical_velocity, .., touch] =
             self.layout.ball.map(|place| self.row[place]);
         Ball {
             position: Vector::new(x, y),
@@ -159,21 +236,21 @@ impl Sight<'_> {
             velocity: Vector::new(v_x, v_y),
             vertical_velocity,
             last_touch: index_of(touch),
-            crossed: index_of(crossed - 1.0).and_then(|line| u8::try_from(line + 1).ok()),
-            crossed_at: Vector::new(crossed_x, crossed_y),
         }
     }
 
     /// A robot; `None` for one that is absent.
     pub fn robot(&self, index: usize) -> Option<Robot> {
         let first = self.layout.ball_size + index * self.layout.robot_size;
-        let [x, y, v_x, v_y, mouth, ball, opponent, collision_speed, absent] =
+        let [x, y, cos, sin, v_x, v_y, v_theta, mouth, ball, opponent, collision_speed, absent] =
             self.layout.robot.map(|place| self.row[first + place]);
         let robot = Robot {
             index,
             team: self.layout.team_of(index),
             position: Vector::new(x, y),
+            heading: Vector::new(cos, sin),
             velocity: Vector::new(v_x, v_y),
+            angular_velocity: v_theta,
             has_ball: mouth > 0.5,
             touched_ball: ball > 0.5,
             touched_opponent: opponent > 0.5,
@@ -182,19 +259,38 @@ impl Sight<'_> {
         (absent < 0.5).then_some(robot)
     }
 
+    /// Team of a robot by its index.
+    pub const fn team_of(&self, robot: usize) -> Team {
+        self.layout.team_of(robot)
+    }
+
+    /// Index of the first robot of a team.
+    pub const fn first_of(&self, team: Team) -> usize {
+        match team {
+            Team::Blue => 0,
+            Team::Yellow => self.layout.n_blue,
+        }
+    }
+
+    /// Indices of the robots of a team, absent ones too.
+    pub const fn indices(&self, team: Team) -> std::ops::Range<usize> {
+        let first = self.first_of(team);
+        first..first + self.layout.team_size(team)
+    }
+
     /// All robots on the field, in the order of a row.
     pub fn robots(&self) -> impl Iterator<Item = Robot> {
         (0..self.layout.robots()).filter_map(|index| self.robot(index))
     }
 
-    /// The robots of a team on the field.
-    pub fn team(&self, team: Team) -> impl Iterator<Item = Robot> {
-        self.robots().filter(move |robot| robot.team == team)
+    /// Number of robots of a team on the field.
+    pub fn count(&self, team: Team) -> usize {
+        self.team(team).count()
     }
 
-    /// Team of the last robot that touched the ball.
-    pub fn last_team(&self) -> Option<Team> {
-        self.ball().last_touch.map(|robot| self.layout.team_of(robot))
+    /// The robots of a team on the field.
+    pub fn team(&self, team: Team) -> impl Iterator<Item = Robot> {
+        self.indices(team).filter_map(|index| self.robot(index))
     }
 }
 
@@ -225,18 +321,16 @@ mod tests {
     #[test]
     fn ball_and_robots_are_read_by_the_names_of_columns() {
         let layout = layout();
-        let row: Vec<f32> = numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 2.0, 6.0, 1.5, 0.5])
-            .chain(numbers([0.5, 0.6, 0.7, 0.8, 1.0, 0.0, 1.0, 1.25, 0.0]))
-            .chain(numbers([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
-            .chain(numbers([-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 0.0]))
+        let row: Vec<f32> = numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 2.0])
+            .chain(numbers([0.5, 0.6, 0.0, 1.0, 0.7, 0.8, 2.0, 1.0, 0.0, 1.0, 1.25, 0.0]))
+            .chain(numbers([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+            .chain(numbers([-1.0, -1.0, 1.0, 0.0, -1.0, -1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0]))
             .collect();
         let sight = layout.sight(&row).expect("a row of this layout");
         let ball = sight.ball();
         assert_eq!(ball.position, Vector::new(1.0, 2.0));
         assert!((ball.speed() - 5.0).abs() < 1e-6);
-        assert_eq!((ball.last_touch, ball.crossed), (Some(2), Some(6)));
-        assert_eq!(ball.crossed_at, Vector::new(1.5, 0.5));
-        assert_eq!(sight.last_team(), Some(Team::Yellow));
+        assert_eq!(ball.last_touch, Some(2));
         let blue = sight.robot(0).expect("on the field");
         assert_eq!(blue.velocity, Vector::new(0.7, 0.8));
         assert_eq!((blue.has_ball, blue.touched_ball, blue.touched_opponent), (true, false, true));
@@ -254,7 +348,7 @@ mod tests {
         let touch = columns(&BALL).iter().position(|name| *name == "last_touch");
         row[touch.expect("the ball has it")] = -1.0;
         let ball = layout.sight(&row).expect("a row of this layout").ball();
-        assert_eq!((ball.last_touch, ball.crossed), (None, None));
+        assert_eq!(ball.last_touch, None);
     }
 
     #[test]

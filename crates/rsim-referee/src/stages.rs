@@ -1,13 +1,13 @@
 //! Parts of a match: how long each lasts, and which follows (SSL rules, "Game Structure").
 
 use crate::codes::{Command, Stage};
-use crate::config::{Clock, Times};
+use crate::config::{Clock, RefereeConfig};
 use crate::game::Game;
 use crate::team::Team;
 
-impl Times {
+impl RefereeConfig {
     /// Duration of a stage, s; 0 for one that ends by events.
-    pub fn seconds(&self, stage: Stage) -> f32 {
+    pub const fn seconds(&self, stage: Stage) -> f32 {
         match stage {
             Stage::FirstHalf | Stage::SecondHalf => self.half_seconds,
             Stage::ExtraFirstHalf | Stage::ExtraSecondHalf => self.extra_half_seconds,
@@ -19,7 +19,7 @@ impl Times {
     pub fn after(&self, stage: Stage, is_draw: bool) -> Stage {
         match stage {
             Stage::FirstHalfPre => Stage::FirstHalf,
-            Stage::FirstHalf if self.halves > 1 => Stage::SecondHalfPre,
+            Stage::FirstHalf if self.halves > 1.0 => Stage::SecondHalfPre,
             Stage::HalfTime => Stage::SecondHalfPre,
             Stage::SecondHalfPre => Stage::SecondHalf,
             Stage::FirstHalf | Stage::SecondHalf | Stage::ExtraTimeBreak => {
@@ -33,45 +33,47 @@ impl Times {
             Stage::ExtraFirstHalf | Stage::ExtraHalfTime => Stage::ExtraSecondHalfPre,
             Stage::ExtraSecondHalfPre => Stage::ExtraSecondHalf,
             Stage::ExtraSecondHalf | Stage::ShootoutBreak => {
-                if is_draw && self.shootout_kicks > 0 {
-                    Stage::Shootout
-                } else {
-                    Stage::PostGame
-                }
+                if is_draw && self.shootout_kicks > 0.0 { Stage::Shootout } else { Stage::PostGame }
             }
             Stage::Shootout | Stage::PostGame => Stage::PostGame,
         }
     }
 
-    /// Whether the score ends the match early.
+    /// Whether the score ends the match early ("Early Termination At A Score Of 10").
+    #[allow(clippy::cast_precision_loss)] // few goals
     pub fn ends_early(&self, game: &Game) -> bool {
         let [blue, yellow] = Team::BOTH.map(|team| game.score[team]);
-        self.early_end_goals > 0
-            && blue.max(yellow) >= i32::from(self.early_end_goals)
-            && (blue - yellow).abs() >= i32::from(self.early_end_lead)
+        self.early_end_goals > 0.0
+            && game.stage < Stage::ShootoutBreak
+            && blue.max(yellow) as f32 >= self.early_end_goals
+            && (blue - yellow).abs() as f32 >= self.early_end_lead
     }
 
-    /// Whether the match clock counts a step with this command.
+    /// Whether the match clock counts a step.
     pub fn counts(&self, game: &Game) -> bool {
         let is_played = match game.command {
             // Until the kick the clock stands, but for a free kick.
             Command::NormalStart => game.in_play,
-            Command::ForceStart
-            | Command::FreeBall
-            | Command::DirectFree(_)
-            | Command::GoalKick(_) => true,
+            Command::ForceStart | Command::DirectFree(_) => true,
             Command::Halt
             | Command::Stop
             | Command::PrepareKickoff(_)
             | Command::PreparePenalty(_)
-            | Command::BallPlacement(_) => false,
+            | Command::BallPlacement(_)
+            | Command::FreeBall
+            | Command::GoalKick(_) => false,
         };
         game.stage.is_played() && (is_played || self.clock == Clock::Running)
     }
 }
 
+/// Whether a match is in its shoot-out.
+pub fn is_shootout(game: &Game) -> bool {
+    game.stage == Stage::Shootout
+}
+
 /// The team that kicks off in a stage: the teams take turns.
-pub fn kickoff_of(stage: Stage, first: Team) -> Team {
+pub const fn kickoff_of(stage: Stage, first: Team) -> Team {
     match stage {
         Stage::SecondHalfPre
         | Stage::SecondHalf
@@ -84,16 +86,15 @@ pub fn kickoff_of(stage: Stage, first: Team) -> Team {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::RefereeConfig;
 
-    fn times() -> Times {
-        RefereeConfig::preset("ssl_2026_b").expect("a preset").times
+    fn rules() -> RefereeConfig {
+        RefereeConfig::preset("ssl_2026_b").expect("a preset")
     }
 
-    fn stages(times: &Times, is_draw: bool) -> Vec<Stage> {
+    fn stages(rules: &RefereeConfig, is_draw: bool) -> Vec<Stage> {
         let mut stages = vec![Stage::FirstHalfPre];
         while *stages.last().expect("one") != Stage::PostGame {
-            stages.push(times.after(*stages.last().expect("one"), is_draw));
+            stages.push(rules.after(*stages.last().expect("one"), is_draw));
         }
         stages
     }
@@ -102,20 +103,20 @@ mod tests {
     fn a_match_that_is_won_ends_after_two_halves() {
         use Stage::{FirstHalf, FirstHalfPre, PostGame, SecondHalf, SecondHalfPre};
         let expected = [FirstHalfPre, FirstHalf, SecondHalfPre, SecondHalf, PostGame];
-        assert_eq!(stages(&times(), false), expected);
-        let one = Times { halves: 1, ..times() };
+        assert_eq!(stages(&rules(), false), expected);
+        let one = RefereeConfig { halves: 1.0, ..rules() };
         assert_eq!(stages(&one, false), [FirstHalfPre, FirstHalf, PostGame]);
     }
 
     #[test]
     fn a_draw_leads_to_extra_time_and_a_shootout_where_there_are_any() {
-        let drawn = stages(&times(), true);
+        let drawn = stages(&rules(), true);
         assert_eq!(drawn.len(), 10);
         assert_eq!(drawn[4..6], [Stage::ExtraFirstHalfPre, Stage::ExtraFirstHalf]);
         assert_eq!(drawn[8], Stage::Shootout);
-        let no_extra = Times { extra_half_seconds: 0.0, ..times() };
+        let no_extra = RefereeConfig { extra_half_seconds: 0.0, ..rules() };
         assert_eq!(stages(&no_extra, true)[4..], [Stage::Shootout, Stage::PostGame]);
-        let neither = Times { shootout_kicks: 0, ..no_extra };
+        let neither = RefereeConfig { shootout_kicks: 0.0, ..no_extra };
         assert_eq!(stages(&neither, true)[4..], [Stage::PostGame]);
     }
 
@@ -126,8 +127,8 @@ mod tests {
             [(9, 0, false), (10, 9, false), (10, 8, true), (0, 10, true)]
         {
             (game.score[Team::Blue], game.score[Team::Yellow]) = (blue, yellow);
-            assert_eq!(times().ends_early(&game), expected, "{blue} {yellow}");
-            assert!(!Times { early_end_goals: 0, ..times() }.ends_early(&game));
+            assert_eq!(rules().ends_early(&game), expected, "{blue} {yellow}");
+            assert!(!RefereeConfig { early_end_goals: 0.0, ..rules() }.ends_early(&game));
         }
     }
 
@@ -135,7 +136,7 @@ mod tests {
     fn the_clock_counts_play_and_free_kicks() {
         let mut game = Game::new(Team::Blue);
         game.stage = Stage::FirstHalf;
-        let running = Times { clock: Clock::Running, ..times() };
+        let running = RefereeConfig { clock: Clock::Running, ..rules() };
         for (command, in_play, expected) in [
             (Command::NormalStart, true, true),
             (Command::NormalStart, false, false),
@@ -145,7 +146,7 @@ mod tests {
         ] {
             game.give(command, None);
             game.in_play = in_play;
-            assert_eq!(times().counts(&game), expected, "{command:?}");
+            assert_eq!(rules().counts(&game), expected, "{command:?}");
             assert!(running.counts(&game));
         }
         game.stage = Stage::SecondHalfPre;

@@ -1,0 +1,130 @@
+//! Valid places of ball and robots at a restart.
+
+use crate::cards;
+use crate::config::League;
+use crate::flow::Arrangement;
+use crate::formation;
+use crate::game::Game;
+use crate::moment::Moment;
+use crate::positions::Positions;
+use crate::sight::{Layout, Placed, Robot};
+use crate::team::Team;
+use crate::vector::Vector;
+
+/// Distance from its place within which a ball at rest stays, m.
+const SAME_PLACE: f32 = 0.01;
+
+/// Whether all robots are where the present command allows them to be, with the ball at its place.
+pub(crate) fn is_arranged(game: &Game, moment: &Moment) -> bool {
+    let positions = Positions::new(game, moment, game.designated_position);
+    moment.now.robots().all(|robot| positions.allows(&robot, robot.position))
+}
+
+/// Changes the row of a restart as the referee arranges the bodies. Returns whether anything changed.
+pub(crate) fn arrange(
+    game: &mut Game,
+    moment: &Moment,
+    layout: &Layout,
+    arrangement: Arrangement,
+    row: &mut [f32],
+) -> bool {
+    let mut restart = Restart { layout, row, changed: false, settled: Vec::new() };
+    let ball = if arrangement == Arrangement::All {
+        restart.place_ball(moment, game.designated_position);
+        game.designated_position
+    } else {
+        moment.ball.position
+    };
+    restart.take_out(game, moment);
+    let positions = Positions::new(game, moment, ball);
+    let present = |robot: &Robot| !cards::is_removed(game, robot.index);
+    let mut robots: Vec<Robot> = moment.now.robots().filter(present).collect();
+    let by_table = arrangement == Arrangement::All && moment.config.league == League::Vsss;
+    let targets = if by_table { formation::places(game, moment) } else { Vec::new() };
+    let target_of = |robot: &Robot| {
+        targets.iter().find(|placed| placed.robot == robot.index).map(|placed| placed.position)
+    };
+    if by_table {
+        robots.sort_by_key(|robot| target_of(robot).is_none());
+        for robot in &robots {
+            let wanted = target_of(robot).unwrap_or(robot.position);
+            restart.place(&positions, robot, wanted);
+        }
+    } else if arrangement == Arrangement::All {
+        let is_valid = |robot: &Robot| positions.allows(robot, robot.position);
+        let (valid, mut invalid): (Vec<_>, Vec<_>) = robots.into_iter().partition(is_valid);
+        restart.settled.extend(valid.iter().map(|robot| robot.position));
+        // The nearest to the ball first, so that both teams have the same chances.
+        let distance = |robot: &Robot| robot.position.distance(ball);
+        invalid.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        for robot in &invalid {
+            restart.place(&positions, robot, robot.position);
+        }
+    } else {
+        restart.settled.extend(robots.iter().map(|robot| robot.position));
+    }
+    restart.bring_back(game, moment, &positions);
+    restart.changed
+}
+
+/// The row of a restart, and the robots that have their places in it.
+struct Restart<'a> {
+    layout: &'a Layout,
+    row: &'a mut [f32],
+    changed: bool,
+    settled: Vec<Vector>,
+}
+
+impl Restart<'_> {
+    /// Puts the ball at its place, unless it rests there.
+    fn place_ball(&mut self, moment: &Moment, place: Vector) {
+        let ball = moment.ball;
+        let rests = ball.speed() == 0.0 && ball.height == 0.0;
+        if !rests || ball.position.distance(place) > SAME_PLACE {
+            self.layout.put_ball(self.row, place);
+            self.changed = true;
+        }
+    }
+
+    /// Puts a robot at the valid place that is nearest to the one that is wanted.
+    fn place(&mut self, positions: &Positions, robot: &Robot, wanted: Vector) {
+        let position = positions.nearest(robot, wanted, &self.settled);
+        self.settled.push(position);
+        if position != robot.position || robot.velocity != Vector::default() {
+            let placed = Placed { robot: robot.index, position, faces: Some(positions.ball()) };
+            self.layout.put_robot(self.row, &placed);
+            self.changed = true;
+        }
+    }
+
+    /// Takes out the robots that a team has too many.
+    fn take_out(&mut self, game: &mut Game, moment: &Moment) {
+        for team in Team::BOTH {
+            for robot in cards::taken_out(game, moment, team) {
+                self.layout.take_out(self.row, robot.index);
+                game.removed_robots |= 1 << robot.index;
+                game.removal_steps_left[team] = -1;
+                self.changed = true;
+            }
+        }
+    }
+
+    /// Brings robots back whose cards have expired: to the touch line at the halfway line.
+    fn bring_back(&mut self, game: &mut Game, moment: &Moment, positions: &Positions) {
+        for team in Team::BOTH {
+            let most = cards::max_robots(game, moment, team);
+            let missing = most.saturating_sub(moment.now.count(team));
+            let removed = moment.now.indices(team).filter(|robot| cards::is_removed(game, *robot));
+            for index in removed.take(missing).collect::<Vec<_>>() {
+                let entry = Vector::new(0.0, moment.lines().half_width);
+                let robot = Robot::at_rest(index, team, entry);
+                let position = positions.nearest(&robot, entry, &self.settled);
+                self.settled.push(position);
+                let placed = Placed { robot: index, position, faces: Some(positions.ball()) };
+                self.layout.put_robot(self.row, &placed);
+                game.removed_robots &= !(1 << index);
+                self.changed = true;
+            }
+        }
+    }
+}

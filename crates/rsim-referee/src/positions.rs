@@ -1,0 +1,174 @@
+//! Where robots may stand before a kick: the distances of the rules, and room for their bodies.
+
+use crate::codes::Command;
+use crate::config::League;
+use crate::game::Game;
+use crate::moment::Moment;
+use crate::sight::Robot;
+use crate::team::Team;
+use crate::vector::Vector;
+
+/// Room between bodies that are placed, m: more than rounding.
+const ROOM: f32 = 0.001;
+/// Distance between the rings on which a free place is searched, m.
+const RING: f32 = 0.03;
+/// Most places on a ring.
+const MAX_ON_RING: u16 = 48;
+/// Rings that cover the largest field.
+const RINGS: u16 = 600;
+
+/// Where robots may stand, with the ball at a place.
+#[derive(Debug)]
+pub(crate) struct Positions<'a> {
+    moment: &'a Moment<'a>,
+    /// The command that decides it.
+    command: Command,
+    /// Whether all robots keep their distance from the ball, the kicking team's too.
+    is_stopped: bool,
+    ball: Vector,
+    /// The robot that takes the kick.
+    taker: Option<usize>,
+}
+
+impl<'a> Positions<'a> {
+    /// The positions that the present command allows, or in a stop the next one.
+    pub(crate) fn new(game: &Game, moment: &'a Moment<'a>, ball: Vector) -> Self {
+        let command = command_of_positions(game);
+        let is_stopped = matches!(game.command, Command::Stop | Command::Halt);
+        let taker = command.team().and_then(|team| nearest_to(moment, team, ball));
+        Self { moment, command, is_stopped, ball, taker }
+    }
+
+    /// The place of the ball.
+    pub(crate) const fn ball(&self) -> Vector {
+        self.ball
+    }
+
+    /// Whether a robot may stand at a place, whatever other robots do.
+    pub(crate) fn allows(&self, robot: &Robot, place: Vector) -> bool {
+        self.is_on_the_field(place)
+            && place.distance(self.ball) >= self.ball_distance(robot)
+            && (self.moment.config.league == League::Vsss || self.obeys_areas(robot, place))
+    }
+
+    /// The allowed place nearest to `wanted` that is clear of the robots that have their places.
+    pub(crate) fn nearest(&self, robot: &Robot, wanted: Vector, settled: &[Vector]) -> Vector {
+        let wanted = self.toward_allowed(robot, wanted);
+        let between = 2.0 * self.moment.pitch.robot_radius + ROOM;
+        let is_free = |place: &Vector| {
+            settled.iter().all(|other| other.distance(*place) >= between)
+                && self.allows(robot, *place)
+        };
+        // The first place of a ring lies toward the own goal, so that both teams have the same choices.
+        let home = robot.team.own_side();
+        (0..RINGS)
+            .flat_map(|ring| {
+                let places = (6 * ring).clamp(1, MAX_ON_RING);
+                (0..places).map(move |nth| {
+                    let angle = std::f32::consts::TAU * f32::from(nth) / f32::from(places);
+                    let out =
+                        Vector::new(angle.cos(), angle.sin()) * (home * RING * f32::from(ring));
+                    wanted + out
+                })
+            })
+            .find(is_free)
+            .unwrap_or(wanted)
+    }
+
+    /// A place that is within the bounds of a special role, before the search for a free one.
+    fn toward_allowed(&self, robot: &Robot, wanted: Vector) -> Vector {
+        let lines = self.moment.lines();
+        match self.command {
+            Command::PreparePenalty(attacker) if self.is_penalty_keeper(robot, attacker) => {
+                let half = lines.half_goal_width - self.moment.pitch.robot_radius;
+                Vector::new(lines.goal(robot.team).x, wanted.y.clamp(-half, half))
+            }
+            _ => wanted,
+        }
+    }
+
+    /// Distance that the center of a robot keeps from the ball.
+    fn ball_distance(&self, robot: &Robot) -> f32 {
+        let (config, pitch) = (self.moment.config, self.moment.pitch);
+        let touching = pitch.robot_radius + pitch.ball_radius + ROOM;
+        let is_kicking = self.command.team() == Some(robot.team);
+        if !self.is_stopped && is_kicking {
+            touching + config.placement_clearance
+        } else {
+            touching.max(pitch.robot_radius + config.ball_distance)
+        }
+    }
+
+    /// Whether a robot stands within the walls, and clear of the walls of the goals.
+    fn is_on_the_field(&self, place: Vector) -> bool {
+        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius + ROOM);
+        let behind_line = place.x.abs() + radius > lines.half_length;
+        let from_post = (place.y.abs() - lines.half_goal_width).abs();
+        let within = place.x.abs() <= lines.boundary_x - radius
+            && place.y.abs() <= lines.boundary_y - radius;
+        let in_corner = place.x.abs() + place.y.abs()
+            > lines.half_length + lines.half_width - lines.corner_leg - 2_f32.sqrt() * radius;
+        let is_in_goal = place.y.abs() < lines.half_goal_width;
+        let clear_of_goal = from_post >= radius + lines.goal_wall_thickness
+            && (!is_in_goal || place.x.abs() <= lines.half_length);
+        within && !(lines.corner_leg > 0.0 && in_corner) && (!behind_line || clear_of_goal)
+    }
+
+    /// Whether a robot keeps to the areas and halves of the rules of SSL.
+    fn obeys_areas(&self, robot: &Robot, place: Vector) -> bool {
+        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
+        let from_area = lines.distance_to_area(place, robot.team.opponent()) - radius;
+        match self.command {
+            Command::PrepareKickoff(team) => {
+                let in_own_half = robot.team.own_side() * place.x >= radius;
+                let from_circle = place.length() - radius - lines.center_circle_radius;
+                let is_kicker = self.taker == Some(robot.index) && robot.team == team;
+                if is_kicker {
+                    in_own_half || from_circle <= -2.0 * radius
+                } else {
+                    in_own_half && from_circle >= 0.0
+                }
+            }
+            Command::PreparePenalty(attacker) => self.obeys_penalty(robot, place, attacker),
+            _ => from_area >= self.moment.config.area_distance,
+        }
+    }
+
+    /// "Penalty Kick": the keeper on its line, the kicker anywhere, all others behind the ball.
+    fn obeys_penalty(&self, robot: &Robot, place: Vector, attacker: Team) -> bool {
+        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
+        if self.is_penalty_keeper(robot, attacker) {
+            let on_line = (place.x - lines.goal(robot.team).x).abs() <= radius;
+            return on_line && place.y.abs() <= lines.half_goal_width - radius + ROOM;
+        }
+        let behind = attacker.own_side() * (place.x - self.ball.x) - radius;
+        self.taker == Some(robot.index) && behind >= 0.0
+            || behind >= self.moment.config.penalty_distance
+    }
+
+    fn is_penalty_keeper(&self, robot: &Robot, attacker: Team) -> bool {
+        robot.team != attacker && robot.index == self.moment.keeper(robot.team)
+    }
+}
+
+/// The command that decides where robots may stand.
+pub(crate) fn command_of_positions(game: &Game) -> Command {
+    match game.command {
+        Command::Stop | Command::Halt | Command::BallPlacement(_) => {
+            game.next_command.unwrap_or(Command::ForceStart)
+        }
+        Command::NormalStart => game.kick.unwrap_or(Command::ForceStart),
+        command => command,
+    }
+}
+
+/// The robot of a team that is nearest to a place; the keeper only if there is no other.
+pub(crate) fn nearest_to(moment: &Moment, team: Team, place: Vector) -> Option<usize> {
+    let keeper = moment.keeper(team);
+    let rank = |robot: &Robot| (robot.index == keeper, robot.position.distance(place));
+    let nearest = moment.now.team(team).min_by(|a, b| {
+        let (a, b) = (rank(a), rank(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
+    nearest.map(|robot| robot.index)
+}

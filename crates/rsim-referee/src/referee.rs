@@ -1,0 +1,138 @@
+//! The referee of a match: judges a step, and restarts play.
+
+use crate::cards;
+use crate::codes::Command;
+use crate::config::{League, RefereeConfig};
+use crate::error::RefereeError;
+use crate::events::{Event, EventKind};
+use crate::flow::{self, Arrangement};
+use crate::game::Game;
+use crate::moment::Moment;
+use crate::pitch::Pitch;
+use crate::placing;
+use crate::rules::{self, Rule};
+use crate::ruling::{Ruling, Rulings};
+use crate::sight::Layout;
+use crate::team::Team;
+use crate::tracking;
+
+/// Referee of matches with the same rules, field and robots. It has no state of its own.
+#[derive(Debug, Clone)]
+pub struct Referee {
+    config: RefereeConfig,
+    pitch: Pitch,
+    layout: Layout,
+    rules: Vec<&'static Rule>,
+}
+
+/// Decisions of a step.
+#[derive(Debug, Clone, Default)]
+pub struct Decisions {
+    /// What happened, in the order of the rules.
+    pub events: Vec<Event>,
+    /// Whether play goes on from the row of the restart.
+    pub restarts: bool,
+    rulings: Rulings,
+}
+
+impl Referee {
+    /// A referee.
+    ///
+    /// # Errors
+    /// A number or a name in the configuration that cannot be.
+    pub fn new(config: RefereeConfig, pitch: Pitch, layout: Layout) -> Result<Self, RefereeError> {
+        config.validate()?;
+        let is_on = |rule: &&Rule| !config.off.iter().any(|name| name == rule.name);
+        let rules = rules::of_league(config.league).iter().filter(is_on).collect();
+        Ok(Self { config, pitch, layout, rules })
+    }
+
+    /// Numbers and switches of the rules.
+    pub const fn config(&self) -> &RefereeConfig {
+        &self.config
+    }
+
+    /// Field, sizes of bodies and time step.
+    pub const fn pitch(&self) -> &Pitch {
+        &self.pitch
+    }
+
+    /// Columns of a state row.
+    pub const fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Fits a match to the state from which play begins or goes on.
+    ///
+    /// # Errors
+    /// A row of another length.
+    pub fn begin(&self, row: &[f32], game: &mut Game) -> Result<(), RefereeError> {
+        let now = self.layout.sight(row)?;
+        let ball = now.ball().position;
+        (game.stuck_position, game.stuck_steps) = (ball, 0);
+        if game.kicking_team().is_some() {
+            game.kick_position = ball;
+        }
+        Ok(())
+    }
+
+    /// Judges a step: brings the state of the match up to its end, and returns the decisions. `restart` gets
+    /// the row from which play goes on, where the referee arranges the bodies.
+    ///
+    /// # Errors
+    /// Rows of another length. Nothing has changed.
+    pub fn judge(
+        &self,
+        before: &[f32],
+        after: &[f32],
+        game: &mut Game,
+        restart: &mut [f32],
+        decisions: &mut Decisions,
+    ) -> Result<(), RefereeError> {
+        let (before, now) = (self.layout.sight(before)?, self.layout.sight(after)?);
+        decisions.events.clear();
+        decisions.rulings.clear();
+        decisions.restarts = false;
+        let moment = Moment::new(&self.config, &self.pitch, before, now);
+        self.follow(game, &moment);
+        for rule in &self.rules {
+            (rule.judge)(game, &moment, &mut decisions.rulings);
+        }
+        remove_robots(game, &moment, &mut decisions.rulings);
+        for ruling in decisions.rulings.iter() {
+            decisions.events.push(ruling.event);
+            if ruling.is_foul {
+                cards::count_foul(game, &moment, ruling, &mut decisions.events);
+            }
+        }
+        let arrangement = flow::advance(game, &moment, &decisions.rulings);
+        if arrangement != Arrangement::None {
+            restart.copy_from_slice(after);
+            decisions.restarts =
+                placing::arrange(game, &moment, &self.layout, arrangement, restart);
+        }
+        Ok(())
+    }
+
+    fn follow(&self, game: &mut Game, moment: &Moment) {
+        tracking::follow(game, moment);
+        if self.config.league == League::Vsss {
+            rules::vsss::stuck_ball::follow(game, moment);
+        }
+    }
+}
+
+/// Stops play where a team has not taken its robots out in time.
+fn remove_robots(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
+    for team in Team::BOTH {
+        let is_over =
+            game.removal_steps_left[team] >= 0 && cards::pass_removal_time(game, moment, team);
+        if is_over && game.is_running() {
+            let place = moment.ball.position;
+            let kind = EventKind::TooManyRobots;
+            let ruling = Ruling::of_team(kind, Some(team), place);
+            let place = rules::ssl::kick_place(moment, place);
+            rulings.add(ruling.stops(Command::ForceStart, place));
+        }
+    }
+}
