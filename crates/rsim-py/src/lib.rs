@@ -10,6 +10,7 @@ mod config;
 mod ego_features;
 mod models;
 mod moments;
+mod referee;
 mod shaping;
 mod simulator;
 mod steering;
@@ -32,6 +33,8 @@ mod _core {
     #[pymodule_export]
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
+    use crate::referee::{Referee, referee_preset, referee_rules};
+    #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]
     use crate::simulator::Simulator;
@@ -45,6 +48,7 @@ mod _core {
     use pyo3::prelude::*;
     use pyo3::types::{PyDict, PyTuple};
     use rsim_core::columns;
+    use rsim_referee::game::Game;
 
     use crate::models::add_numbers;
 
@@ -61,6 +65,14 @@ mod _core {
         commands.set_item("differential", PyTuple::new(py, columns::DIFFERENTIAL_COLUMNS)?)?;
         commands.set_item("omni", PyTuple::new(py, columns::OMNI_COLUMNS)?)?;
         commands.set_item("omni_wheels", PyTuple::new(py, columns::OMNI_WHEELS_COLUMNS)?)?;
+        for (table, names) in crate::referee::names() {
+            let codes = PyDict::new(py);
+            for (name, code) in names {
+                codes.set_item(name, code)?;
+            }
+            module.add(table, codes)?;
+        }
+        module.add("GAME_COLUMNS", PyTuple::new(py, Game::columns())?)?;
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)?;

@@ -31,23 +31,23 @@ pub enum Command {
     GoalKick(Team),
 }
 
-/// All commands and their numbers.
-pub const COMMANDS: [(Command, u8); 15] = [
-    (Command::Halt, 0),
-    (Command::Stop, 1),
-    (Command::NormalStart, 2),
-    (Command::ForceStart, 3),
-    (Command::PrepareKickoff(Yellow), 4),
-    (Command::PrepareKickoff(Blue), 5),
-    (Command::PreparePenalty(Yellow), 6),
-    (Command::PreparePenalty(Blue), 7),
-    (Command::DirectFree(Yellow), 8),
-    (Command::DirectFree(Blue), 9),
-    (Command::BallPlacement(Yellow), 16),
-    (Command::BallPlacement(Blue), 17),
-    (Command::FreeBall, 100),
-    (Command::GoalKick(Yellow), 101),
-    (Command::GoalKick(Blue), 102),
+/// All commands, their numbers and their names.
+pub const COMMANDS: [(Command, u8, &str); 15] = [
+    (Command::Halt, 0, "HALT"),
+    (Command::Stop, 1, "STOP"),
+    (Command::NormalStart, 2, "NORMAL_START"),
+    (Command::ForceStart, 3, "FORCE_START"),
+    (Command::PrepareKickoff(Yellow), 4, "PREPARE_KICKOFF_YELLOW"),
+    (Command::PrepareKickoff(Blue), 5, "PREPARE_KICKOFF_BLUE"),
+    (Command::PreparePenalty(Yellow), 6, "PREPARE_PENALTY_YELLOW"),
+    (Command::PreparePenalty(Blue), 7, "PREPARE_PENALTY_BLUE"),
+    (Command::DirectFree(Yellow), 8, "DIRECT_FREE_YELLOW"),
+    (Command::DirectFree(Blue), 9, "DIRECT_FREE_BLUE"),
+    (Command::BallPlacement(Yellow), 16, "BALL_PLACEMENT_YELLOW"),
+    (Command::BallPlacement(Blue), 17, "BALL_PLACEMENT_BLUE"),
+    (Command::FreeBall, 100, "FREE_BALL"),
+    (Command::GoalKick(Yellow), 101, "GOAL_KICK_YELLOW"),
+    (Command::GoalKick(Blue), 102, "GOAL_KICK_BLUE"),
 ];
 
 impl Command {
@@ -56,13 +56,13 @@ impl Command {
     /// # Panics
     /// Never: all commands are listed.
     pub fn code(self) -> u8 {
-        let found = COMMANDS.iter().find(|(command, _)| *command == self);
+        let found = COMMANDS.iter().find(|(command, ..)| *command == self);
         found.expect("all commands are listed").1
     }
 
     /// Command of a number; `None` if there is none.
     pub fn of_code(code: u8) -> Option<Self> {
-        COMMANDS.iter().find(|(_, number)| *number == code).map(|(command, _)| *command)
+        COMMANDS.iter().find(|(_, number, _)| *number == code).map(|(command, ..)| *command)
     }
 
     /// The team whose command it is; `None` for a command to both.
@@ -131,6 +131,24 @@ impl Stage {
         Self::PostGame,
     ];
 
+    /// Names of all stages, in the order of their numbers.
+    pub const NAMES: [&'static str; 14] = [
+        "NORMAL_FIRST_HALF_PRE",
+        "NORMAL_FIRST_HALF",
+        "NORMAL_HALF_TIME",
+        "NORMAL_SECOND_HALF_PRE",
+        "NORMAL_SECOND_HALF",
+        "EXTRA_TIME_BREAK",
+        "EXTRA_FIRST_HALF_PRE",
+        "EXTRA_FIRST_HALF",
+        "EXTRA_HALF_TIME",
+        "EXTRA_SECOND_HALF_PRE",
+        "EXTRA_SECOND_HALF",
+        "PENALTY_SHOOTOUT_BREAK",
+        "PENALTY_SHOOTOUT",
+        "POST_GAME",
+    ];
+
     /// Number of the stage.
     pub const fn code(self) -> u8 {
         self as u8
@@ -156,7 +174,7 @@ mod tests {
 
     #[test]
     fn numbers_lead_back_to_commands_and_stages() {
-        for (command, code) in COMMANDS {
+        for (command, code, _) in COMMANDS {
             assert_eq!(command.code(), code);
             assert_eq!(Command::of_code(code), Some(command));
         }
@@ -169,7 +187,7 @@ mod tests {
 
     #[test]
     fn commands_of_a_team_name_it() {
-        let teams = COMMANDS.map(|(command, _)| command.team());
+        let teams = COMMANDS.map(|(command, ..)| command.team());
         assert_eq!(teams.iter().flatten().filter(|team| **team == Blue).count(), 5);
         assert_eq!(teams.iter().flatten().filter(|team| **team == Yellow).count(), 5);
     }

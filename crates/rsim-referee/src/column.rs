@@ -187,6 +187,59 @@ impl<T: Column, const N: usize> Column for [T; N] {
     }
 }
 
+/// Declares a struct whose fields are columns of a row.
+macro_rules! row {
+    ($(#[$of_struct:meta])* pub struct $row:ident { $($(#[$doc:meta])* $name:ident: $value:ty,)* }) => {
+        $(#[$of_struct])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $row { $($(#[$doc])* pub $name: $value,)* }
+
+        impl $row {
+            /// Names of the columns, in the order of a row.
+            pub fn columns() -> Vec<String> {
+                let mut names = Vec::new();
+                $(names.extend(
+                    <$value as $crate::column::Column>::suffixes().iter().map(|end| format!("{}{end}", stringify!($name))),
+                );)*
+                names
+            }
+
+            /// Reads a row.
+            ///
+            /// # Errors
+            /// If the row has another length, or a number that its column cannot have.
+            pub fn read(row: &[f32]) -> Result<Self, $crate::error::RefereeError> {
+                let rest = row;
+                $(let ($name, rest) = <$value as $crate::column::Column>::read(rest)
+                    .ok_or($crate::error::RefereeError::Column { name: stringify!($name) })?;)*
+                if rest.is_empty() {
+                    return Ok(Self { $($name,)* });
+                }
+                let size = Self::columns().len();
+                Err($crate::error::RefereeError::RowSize { expected: size, got: row.len() })
+            }
+
+            /// Writes the state to a row.
+            ///
+            /// # Panics
+            /// If the row is shorter.
+            pub fn write(&self, row: &mut [f32]) {
+                let rest = row;
+                $(let rest = $crate::column::Column::write(&self.$name, rest);)*
+                debug_assert!(rest.is_empty(), "the row is longer");
+            }
+
+            /// The state as a new row.
+            pub fn row(&self) -> Vec<f32> {
+                let mut row = vec![0.0; Self::columns().len()];
+                self.write(&mut row);
+                row
+            }
+        }
+    };
+}
+pub(crate) use row;
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,7 @@
 //! State of a match besides the bodies: one row of numbers in named columns.
 
 use crate::codes::{Command, Stage};
-use crate::column::{ByTeam, Column};
-use crate::error::RefereeError;
+use crate::column::{ByTeam, row};
 use crate::repeats::REPEATED;
 #[cfg(doc)]
 use crate::repeats::Repeated;
@@ -12,59 +11,7 @@ use crate::vector::Vector;
 /// Most yellow cards of a team that run at once; another one is a red card (SSL rules, "Red Card").
 pub const MAX_YELLOW_CARDS: usize = 2;
 
-/// Declares the struct of a match's state and its columns.
-macro_rules! game {
-    ($(#[$of_struct:meta])* pub struct Game { $($(#[$doc:meta])* $name:ident: $value:ty,)* }) => {
-        $(#[$of_struct])*
-        #[derive(Debug, Clone, PartialEq)]
-        pub struct Game { $($(#[$doc])* pub $name: $value,)* }
-
-        impl Game {
-            /// Names of the columns, in the order of a row.
-            pub fn columns() -> Vec<String> {
-                let mut names = Vec::new();
-                $(names.extend(
-                    <$value>::suffixes().iter().map(|end| format!("{}{end}", stringify!($name))),
-                );)*
-                names
-            }
-
-            /// Reads a row.
-            ///
-            /// # Errors
-            /// If the row has another length, or a number that its column cannot have.
-            pub fn read(row: &[f32]) -> Result<Self, RefereeError> {
-                let rest = row;
-                $(let ($name, rest) = <$value>::read(rest)
-                    .ok_or(RefereeError::Column { name: stringify!($name) })?;)*
-                if rest.is_empty() {
-                    return Ok(Self { $($name,)* });
-                }
-                let size = Self::columns().len();
-                Err(RefereeError::RowSize { expected: size, got: row.len() })
-            }
-
-            /// Writes the state to a row.
-            ///
-            /// # Panics
-            /// If the row is shorter.
-            pub fn write(&self, row: &mut [f32]) {
-                let rest = row;
-                $(let rest = self.$name.write(rest);)*
-                debug_assert!(rest.is_empty(), "the row is longer");
-            }
-
-            /// The state as a new row.
-            pub fn row(&self) -> Vec<f32> {
-                let mut row = vec![0.0; Self::columns().len()];
-                self.write(&mut row);
-                row
-            }
-        }
-    };
-}
-
-game! {
+row! {
     /// State of a match. Times are in control steps, and end at 0; -1 is none.
     pub struct Game {
         /// Command of the referee.
@@ -299,6 +246,7 @@ impl Game {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::RefereeError;
 
     #[test]
     fn a_match_comes_back_from_its_row() {

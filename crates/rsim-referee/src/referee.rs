@@ -7,12 +7,14 @@ use crate::error::RefereeError;
 use crate::events::{Event, EventKind};
 use crate::flow::{self, Arrangement};
 use crate::game::Game;
+use crate::line_up;
 use crate::moment::Moment;
 use crate::pitch::Pitch;
 use crate::placing;
 use crate::rules::{self, Rule};
 use crate::ruling::{Ruling, Rulings};
 use crate::sight::Layout;
+use crate::statistics::Statistics;
 use crate::team::Team;
 use crate::tracking;
 
@@ -76,6 +78,27 @@ impl Referee {
         Ok(())
     }
 
+    /// Puts all robots of a row that are present, and the ball, where a match begins.
+    ///
+    /// # Errors
+    /// A row of another length.
+    pub fn line_up(&self, row: &mut [f32]) -> Result<(), RefereeError> {
+        let copy = row.to_vec();
+        let now = self.layout.sight(&copy)?;
+        let moment = Moment::new(&self.config, &self.pitch, now, now);
+        let mut game = Game::new(Team::Blue);
+        self.layout.put_ball(row, game.designated_position);
+        for placed in line_up::kickoff(&game, &moment) {
+            self.layout.put_robot(row, &placed);
+        }
+        // Robots that have no place in the line-up, or not enough room, go to the nearest valid one.
+        let copy = row.to_vec();
+        let now = self.layout.sight(&copy)?;
+        let moment = Moment::new(&self.config, &self.pitch, now, now);
+        placing::arrange(&mut game, &moment, &self.layout, Arrangement::All, row);
+        Ok(())
+    }
+
     /// Judges a step: brings the state of the match up to its end, and returns the decisions. `restart` gets
     /// the row from which play goes on, where the referee arranges the bodies.
     ///
@@ -86,6 +109,7 @@ impl Referee {
         before: &[f32],
         after: &[f32],
         game: &mut Game,
+        statistics: &mut Statistics,
         restart: &mut [f32],
         decisions: &mut Decisions,
     ) -> Result<(), RefereeError> {
@@ -99,8 +123,10 @@ impl Referee {
             (rule.judge)(game, &moment, &mut decisions.rulings);
         }
         remove_robots(game, &moment, &mut decisions.rulings);
+        statistics.count(game, &moment);
         for ruling in decisions.rulings.iter() {
             decisions.events.push(ruling.event);
+            statistics.count_ruling(ruling);
             if ruling.is_foul {
                 cards::count_foul(game, &moment, ruling, &mut decisions.events);
             }
