@@ -4,14 +4,38 @@ Both are arrays (n, ...) by name. Copying worlds, saving and resuming work throu
 rule that adds a column has nothing else to do.
 """
 
-from collections.abc import ItemsView, Iterator, Mapping
+import re
+from collections.abc import ItemsView, Iterator, Mapping, Sequence
 from enum import IntEnum
 from typing import Final, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer._core import GAME_COLUMNS, MAX_EVENTS, STATISTICS_COLUMNS
 from rsoccer.arrays import Array, Floats, Mask
+
+
+_ENDS: Final = re.compile(r"(_(blue|yellow|x|y|\d+))+$")
+"""Ends of the names of columns that belong together."""
+
+
+def _places(columns: Sequence[str]) -> dict[str, int | slice]:
+    """Place of each column in a row, and of the columns whose names differ in their ends only."""
+    places: dict[str, int | slice] = {name: i for i, name in enumerate(columns)}
+    for i, name in enumerate(columns):
+        group = _ENDS.sub("", name)
+        if group != name:
+            before = places.get(group, slice(i, i))
+            places[group] = slice(before.start, i + 1) if isinstance(before, slice) else before
+    return places
+
+
+_COLUMNS: Final = {
+    "referee": _places(GAME_COLUMNS),
+    "statistics": _places(STATISTICS_COLUMNS),
+}
+"""Places of columns by the name of the row that has them."""
 
 BLUE: Final = 0
 """Index of team blue in events and scores."""
@@ -31,14 +55,132 @@ class EventKind(IntEnum):
     """An empty slot."""
     NO_PROGRESS_IN_GAME = 2
     """The ball is stuck; VSSS: a free ball."""
+    PLACEMENT_FAILED = 3
+    """The team did not place the ball in time."""
+    PLACEMENT_SUCCEEDED = 5
+    """The team placed the ball."""
     BALL_LEFT_FIELD_TOUCH_LINE = 6
     """The ball left the field over a touch line; the robot touched it last."""
     BALL_LEFT_FIELD_GOAL_LINE = 7
     """The ball left the field over a goal line; the robot touched it last."""
     GOAL = 8
     """A goal that counts: its team scored, its robot touched the ball last."""
+    AIMLESS_KICK = 11
+    """SSL division B: the robot kicked the ball from its own half over the far goal line."""
+    KEEPER_HELD_BALL = 13
+    """The ball was in the team's defense area for too long; VSSS: it is stuck there."""
+    ATTACKER_DOUBLE_TOUCHED_BALL = 14
+    """The robot that took the kick touched the ball again."""
+    ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA = 15
+    """The robot touched the ball in the area that it attacks; VSSS: two attackers were there."""
+    BOT_DRIBBLED_BALL_TOO_FAR = 17
+    """The robot dribbled the ball too far."""
+    BOT_KICKED_BALL_TOO_FAST = 18
+    """The robot kicked the ball too fast."""
+    ATTACKER_TOO_CLOSE_TO_DEFENSE_AREA = 19
+    """The robot was too near to the area that it attacks, in a stop or before a free kick."""
+    BOT_INTERFERED_PLACEMENT = 20
+    """The robot was in the way of a ball placement."""
+    BOT_CRASH_DRAWN = 21
+    """Two robots crashed at about the same speed: a foul of both teams."""
+    BOT_CRASH_UNIQUE = 22
+    """The robot crashed into a slower one."""
+    BOT_PUSHED_BOT = 24
+    """The robot pushed an opponent."""
+    BOT_TOO_FAST_IN_STOP = 28
+    """The robot was too fast in a stop."""
+    DEFENDER_TOO_CLOSE_TO_KICK_POINT = 29
+    """The robot was too near to the ball before the opponents' kick."""
+    DEFENDER_IN_DEFENSE_AREA = 31
+    """The robot touched the ball in its own area; VSSS: two defenders were there."""
+    MULTIPLE_CARDS = 32
+    """The team got a red card."""
+    MULTIPLE_FOULS = 34
+    """The team got a card for its fouls."""
+    TOO_MANY_ROBOTS = 38
+    """The team did not take its robots out in time."""
+    BOUNDARY_CROSSING = 41
+    """The robot kicked the ball over the walls."""
+    INVALID_GOAL = 42
+    """A goal of the team that does not count."""
+    PENALTY_KICK_FAILED = 43
+    """The penalty kick of the team ended without a goal."""
     PASS = 1000
     """A pass arrived: of its team, at its robot."""
+
+
+class Command(IntEnum):
+    """Command of the referee. Numbers below 100 are those of the SSL game controller.
+
+    Source: the enumeration `Referee.Command` of the game controller's messages.
+    """
+
+    HALT = 0
+    """All robots stop at once."""
+    STOP = 1
+    """Robots keep away from the ball and drive slowly."""
+    NORMAL_START = 2
+    """The kick that was prepared may be taken."""
+    FORCE_START = 3
+    """The ball is free for both teams."""
+    PREPARE_KICKOFF_YELLOW = 4
+    """Yellow prepares its kick-off."""
+    PREPARE_KICKOFF_BLUE = 5
+    """Blue prepares its kick-off."""
+    PREPARE_PENALTY_YELLOW = 6
+    """Yellow prepares its penalty kick."""
+    PREPARE_PENALTY_BLUE = 7
+    """Blue prepares its penalty kick."""
+    DIRECT_FREE_YELLOW = 8
+    """Yellow may take a free kick."""
+    DIRECT_FREE_BLUE = 9
+    """Blue may take a free kick."""
+    BALL_PLACEMENT_YELLOW = 16
+    """Yellow places the ball."""
+    BALL_PLACEMENT_BLUE = 17
+    """Blue places the ball."""
+    FREE_BALL = 100
+    """VSSS: a free ball is prepared."""
+    GOAL_KICK_YELLOW = 101
+    """VSSS: yellow's goal kick is prepared."""
+    GOAL_KICK_BLUE = 102
+    """VSSS: blue's goal kick is prepared."""
+
+
+class Stage(IntEnum):
+    """Part of a match, by the number of the SSL game controller.
+
+    Source: the enumeration `Referee.Stage` of the game controller's messages.
+    """
+
+    NORMAL_FIRST_HALF_PRE = 0
+    """Before the first kick-off."""
+    NORMAL_FIRST_HALF = 1
+    """First half."""
+    NORMAL_HALF_TIME = 2
+    """Break between the halves."""
+    NORMAL_SECOND_HALF_PRE = 3
+    """Before the kick-off of the second half."""
+    NORMAL_SECOND_HALF = 4
+    """Second half."""
+    EXTRA_TIME_BREAK = 5
+    """Break before extra time."""
+    EXTRA_FIRST_HALF_PRE = 6
+    """Before the first kick-off of extra time."""
+    EXTRA_FIRST_HALF = 7
+    """First half of extra time."""
+    EXTRA_HALF_TIME = 8
+    """Break between the halves of extra time."""
+    EXTRA_SECOND_HALF_PRE = 9
+    """Before the second kick-off of extra time."""
+    EXTRA_SECOND_HALF = 10
+    """Second half of extra time."""
+    PENALTY_SHOOTOUT_BREAK = 11
+    """Break before the shoot-out."""
+    PENALTY_SHOOTOUT = 12
+    """Alternating penalty kicks."""
+    POST_GAME = 13
+    """The match is over."""
 
 
 class Event(NamedTuple):
@@ -102,10 +244,45 @@ class NamedArrays(Mapping[str, Array]):
 
 
 class Game(NamedArrays):
-    """State of the game in n worlds: the score, and the columns of the task's rules."""
+    """State of the game in n worlds: the score, and the columns of the task's rules.
+
+    With a referee, `referee` holds its state: a row of numbers for each match, whose columns are
+    attributes by their names in `GAME_COLUMNS` too. `game.yellow_cards_blue` is (n,), and
+    `game.yellow_cards` (n, 2). So are the statistics of a match, by `STATISTICS_COLUMNS`.
+    """
 
     score: NDArray[np.int64]
     """(n, 2) goals of blue and of yellow in the episode."""
+    seconds_left: Floats
+    """(n,) playing time that the stage has left, s; needs a referee."""
+    may_touch: Mask
+    """(n, robots) whether the robot may touch the ball; needs a referee."""
+
+    def __getattr__(self, name: str) -> Array:
+        for row, columns in _COLUMNS.items():
+            if name in columns and row in self.__dict__:
+                return self[row][:, columns[name]]
+        return super().__getattr__(name)
+
+    @property
+    def command(self) -> NDArray[np.int64]:
+        """(n,) command of the referee, values of `Command`; needs a referee."""
+        return self._codes("command")
+
+    @property
+    def next_command(self) -> NDArray[np.int64]:
+        """(n,) command that follows, values of `Command`, -1 for none; needs a referee."""
+        return self._codes("next_command")
+
+    @property
+    def stage(self) -> NDArray[np.int64]:
+        """(n,) part of the match, values of `Stage`; needs a referee."""
+        return self._codes("stage")
+
+    def _codes(self, name: str) -> NDArray[np.int64]:
+        column = _COLUMNS["referee"][name]
+        codes: NDArray[np.int64] = self["referee"][:, column].astype(np.int64)
+        return codes
 
 
 class Events(NamedArrays):
@@ -115,7 +292,7 @@ class Events(NamedArrays):
     them, so that its last goal can be read.
     """
 
-    SLOTS: Final = 8
+    SLOTS: Final = MAX_EVENTS
     """Greatest number of events of one world in one step."""
 
     count: NDArray[np.int64]
@@ -173,6 +350,24 @@ class Events(NamedArrays):
         for name, value in values.items():
             self[name][worlds, slots] = value
         self.count[worlds] += 1
+
+    def extend(self, rows: Floats) -> None:
+        """Add events of some worlds.
+
+        Args:
+            rows: (k, 6) world, kind, team, robot, and position x, y (m), in the order of worlds.
+
+        Raises:
+            RuntimeError: a world without a free slot.
+        """
+        numbers = rows.astype(np.intp)
+        worlds = numbers[:, 0]
+        first = np.searchsorted(worlds, worlds)  # of the same world
+        nth = np.arange(len(rows)) - first
+        for turn in range(int(nth.max()) + 1):
+            chosen = nth == turn
+            world, kind, team, robot = numbers[chosen, :4].T
+            self.add(world, kind, team, robot, rows[chosen, 4:])
 
     def forget(self, worlds: NDArray[np.intp] | slice = slice(None)) -> None:
         """Remove the events of some worlds.

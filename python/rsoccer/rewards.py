@@ -4,7 +4,7 @@ Shaping terms are differences of a potential between two consecutive views (pote
 shaping), so a cycle of states adds up to zero and no memory is needed.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Final
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from rsoccer import _core
 from rsoccer._core import Field, Potential, SimConfig, mean_action_magnitude
 from rsoccer.arrays import Floats, Mask
-from rsoccer.game import BLUE, YELLOW, EventKind
+from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.task import Play
 
 BEHIND_BALL_DISTANCE: Final = 0.08
@@ -33,6 +33,26 @@ def goal(play: Play) -> Floats:
     goals = play.events.by_team(EventKind.GOAL)
     balance = (goals - goals[:, ::-1]).astype(np.float32)
     return balance[:, play.viewpoint.teams]
+
+
+def events_of_team(play: Play, kinds: Collection[int]) -> Floats:
+    """Return the number of events of the observer's team in the last step.
+
+    Args:
+        play: state of n worlds.
+        kinds: kinds of events. Those of no team, as a crash of equal robots, count for both.
+
+    Returns:
+        (n, observers).
+    """
+    events = play.events
+    counts = np.zeros((len(play.frame), 2), np.float32)
+    if np.count_nonzero(events.count):
+        matching = np.isin(events.kind, list(kinds))
+        for team in (BLUE, YELLOW):
+            of_team = (events.team == team) | (events.team == NOBODY)
+            counts[:, team] = (matching & of_team).sum(axis=1)
+    return counts[:, play.viewpoint.teams]
 
 
 def goal_score(play: Play) -> Floats:

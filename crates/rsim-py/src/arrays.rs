@@ -21,12 +21,12 @@ pub(crate) fn readable<'py, T: Element, D: ndarray::Dimension>(
 }
 
 /// Checks element type, shape, memory order and permission of an array, and borrows it for writing.
-pub(crate) fn writeable<'py, D: ndarray::Dimension>(
+pub(crate) fn writeable<'py, T: Element, D: ndarray::Dimension>(
     name: &str,
     value: &Bound<'py, PyAny>,
     shape: &[usize],
-) -> PyResult<PyReadwriteArray<'py, f32, D>> {
-    let array = checked::<f32, D>(name, value, shape)?;
+) -> PyResult<PyReadwriteArray<'py, T, D>> {
+    let array = checked::<T, D>(name, value, shape)?;
     if !array.is_c_contiguous() {
         return Err(PyValueError::new_err(format!("{name} must be C-contiguous")));
     }

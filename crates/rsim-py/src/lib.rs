@@ -48,7 +48,10 @@ mod _core {
     use pyo3::prelude::*;
     use pyo3::types::{PyDict, PyTuple};
     use rsim_core::columns;
+    use rsim_referee::events::EventKind;
+    use rsim_referee::features::FEATURES;
     use rsim_referee::game::Game;
+    use rsim_referee::statistics::{OFFENSES, Statistics};
 
     use crate::models::add_numbers;
 
@@ -73,6 +76,10 @@ mod _core {
             module.add(table, codes)?;
         }
         module.add("GAME_COLUMNS", PyTuple::new(py, Game::columns())?)?;
+        module.add("STATISTICS_COLUMNS", PyTuple::new(py, Statistics::columns())?)?;
+        module.add("OFFENSES", PyTuple::new(py, OFFENSES.map(EventKind::code))?)?;
+        module.add("GAME_FEATURES", PyTuple::new(py, FEATURES)?)?;
+        module.add("MAX_EVENTS", crate::referee::MAX_EVENTS)?;
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)?;

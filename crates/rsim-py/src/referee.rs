@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use numpy::{Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray};
+use numpy::{Ix1, Ix2, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use rsim_core::RobotModel;
@@ -10,17 +10,22 @@ use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use rsim_referee::codes::{COMMANDS, Stage};
 use rsim_referee::config::{League, RefereeConfig};
 use rsim_referee::events::{Event, EventKind};
+use rsim_referee::features::FEATURES;
 use rsim_referee::game::Game;
 use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::Layout;
+use rsim_referee::statistics::Statistics;
 use rsim_referee::{Decisions, Lines, RefereeError, Team, rules};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
-use crate::threads::Threads;
+use crate::threads::{Threads, write_rows};
 
 /// Most worlds whose steps the caller's thread judges alone.
 const ALONE: usize = 64;
+
+/// Most events of a world in a step that are listed; statistics count all.
+pub(crate) const MAX_EVENTS: usize = 32;
 
 /// Numbers of an event: world, kind, team, robot, x, y.
 const EVENT: usize = 6;
@@ -28,17 +33,22 @@ const EVENT: usize = 6;
 /// Referee of matches with the same rules, field and robots.
 #[pyclass(frozen, module = "rsoccer._core")]
 pub(crate) struct Referee {
-    referee: rsim_referee::Referee,
+    judge: rsim_referee::Referee,
     rules: String,
     config: SimConfig,
     row_size: usize,
     game_size: usize,
+    statistics_size: usize,
 }
+
+/// Worlds in which play restarts, and events (k, 6); `None` where there are none.
+type Judged<'py> = (Option<Bound<'py, PyArray1<bool>>>, Option<Bound<'py, PyArray2<f32>>>);
 
 /// Work of a thread: the matches of some worlds, one after the other.
 struct Portion<'a> {
     first: usize,
     game: &'a mut [f32],
+    statistics: &'a mut [f32],
     restart: &'a mut [f32],
     restarts: &'a mut [bool],
 }
@@ -53,17 +63,106 @@ impl Referee {
         let pitch = pitch(config);
         let row_size = layout.row_size();
         debug_assert_eq!(row_size, sim.row_size());
-        let referee = rsim_referee::Referee::new(decoded, pitch, layout).map_err(invalid)?;
+        let judge = rsim_referee::Referee::new(decoded, pitch, layout).map_err(invalid)?;
         let game_size = Game::columns().len();
-        Ok(Self { referee, rules, config: config.clone(), row_size, game_size })
+        let statistics_size = Statistics::columns().len();
+        let config = config.clone();
+        Ok(Self { judge, rules, config, row_size, game_size, statistics_size })
     }
 
     /// Returns the row of a match whose first kick-off a team has.
-    fn new_game<'py>(&self, py: Python<'py>, kickoff: usize) -> PyResult<Bound<'py, PyArray1<f32>>> {
+    #[staticmethod]
+    fn new_game(py: Python<'_>, kickoff: usize) -> PyResult<Bound<'_, PyArray1<f32>>> {
         let Some(team) = Team::BOTH.get(kickoff) else {
             return Err(PyValueError::new_err(format!("kickoff: expected 0 or 1, got {kickoff}")));
         };
         Ok(PyArray1::from_vec(py, Game::new(*team).row()))
+    }
+
+    /// Puts robots and ball where matches begin.
+    fn line_up(&self, rows: &Bound<'_, PyAny>) -> PyResult<()> {
+        let [n, _] = sizes::<2>("rows", rows)?;
+        let mut rows: PyReadwriteArray<'_, f32, Ix2> =
+            writeable("rows", rows, &[n, self.row_size])?;
+        for row in rows.as_slice_mut()?.chunks_exact_mut(self.row_size) {
+            self.judge.line_up(row).map_err(invalid)?;
+        }
+        Ok(())
+    }
+
+    /// Writes what tasks read of matches: goals, time left in the stage (s), and which robots may touch the
+    /// ball.
+    fn summarize(
+        &self,
+        game: &Bound<'_, PyAny>,
+        score: &Bound<'_, PyAny>,
+        seconds_left: &Bound<'_, PyAny>,
+        may_touch: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let [n, _] = sizes::<2>("game", game)?;
+        let layout = self.judge.layout();
+        let game: Rows = readable("game", game, &[n, self.game_size])?;
+        let mut score: PyReadwriteArray<'_, i64, Ix2> = writeable("score", score, &[n, 2])?;
+        let mut seconds: PyReadwriteArray<'_, f32, Ix1> =
+            writeable("seconds_left", seconds_left, &[n])?;
+        let mut may_touch: PyReadwriteArray<'_, bool, Ix2> =
+            writeable("may_touch", may_touch, &[n, layout.robots()])?;
+        let game = values(&game);
+        let scores = score.as_slice_mut()?.chunks_exact_mut(2);
+        let touches = may_touch.as_slice_mut()?.chunks_exact_mut(layout.robots());
+        let outputs = scores.zip(seconds.as_slice_mut()?).zip(touches);
+        for (row, ((score, seconds), may_touch)) in game.chunks_exact(self.game_size).zip(outputs) {
+            let game = Game::read(row).map_err(invalid)?;
+            for team in Team::BOTH {
+                score[team.index()] = i64::from(game.score[team]);
+            }
+            *seconds = self.judge.pitch().seconds(game.stage_steps_left).max(0.0);
+            for (robot, may_touch) in may_touch.iter_mut().enumerate() {
+                *may_touch = game.robot_may_touch(robot, layout.team_of(robot));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns what robots observe of the state of their matches.
+    #[pyo3(signature = (game, rows, observers, threads = None))]
+    fn features<'py>(
+        &self,
+        py: Python<'py>,
+        game: &Bound<'py, PyAny>,
+        rows: &Bound<'py, PyAny>,
+        observers: Vec<usize>,
+        threads: Option<&Threads>,
+    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let [n, _] = sizes::<2>("rows", rows)?;
+        let game: Rows = readable("game", game, &[n, self.game_size])?;
+        let rows: Rows = readable("rows", rows, &[n, self.row_size])?;
+        let robots = self.judge.layout().robots();
+        if let Some(robot) = observers.iter().find(|robot| **robot >= robots) {
+            return Err(PyValueError::new_err(format!(
+                "observers: expected robots below {robots}, got {robot}"
+            )));
+        }
+        let games = values(&game);
+        let games: Vec<Game> = games
+            .chunks_exact(self.game_size)
+            .map(Game::read)
+            .collect::<Result<_, _>>()
+            .map_err(invalid)?;
+        let rows = values(&rows);
+        let size = observers.len() * FEATURES.len();
+        let features = PyArray3::zeros(py, [n, observers.len(), FEATURES.len()], false);
+        {
+            let mut out = features.readwrite();
+            write_rows(py, threads, out.as_slice_mut()?, size, ALONE, |world, out| {
+                let row = &rows[world * self.row_size..][..self.row_size];
+                let Ok(sight) = self.judge.layout().sight(row) else { return };
+                for (robot, out) in observers.iter().zip(out.chunks_exact_mut(FEATURES.len())) {
+                    self.judge.features(&games[world], &sight, *robot, out);
+                }
+            });
+        }
+        Ok(features)
     }
 
     /// Fits matches to the states from which play begins or goes on.
@@ -76,36 +175,44 @@ impl Referee {
         let each = game.as_slice_mut()?.chunks_exact_mut(self.game_size);
         for (game_row, row) in each.zip(rows.chunks_exact(self.row_size)) {
             let mut game = Game::read(game_row).map_err(invalid)?;
-            self.referee.begin(row, &mut game).map_err(invalid)?;
+            self.judge.begin(row, &mut game).map_err(invalid)?;
             game.write(game_row);
         }
         Ok(())
     }
 
     /// Judges a step of all matches.
-    #[pyo3(signature = (before, after, game, restart, threads = None))]
+    #[pyo3(signature = (before, after, game, statistics, restart, threads = None))]
+    #[expect(clippy::too_many_arguments, reason = "the arrays of a step")]
     fn judge<'py>(
         &self,
         py: Python<'py>,
         before: &Bound<'py, PyAny>,
         after: &Bound<'py, PyAny>,
         game: &Bound<'py, PyAny>,
+        statistics: &Bound<'py, PyAny>,
         restart: &Bound<'py, PyAny>,
         threads: Option<&Threads>,
-    ) -> PyResult<(Option<Bound<'py, PyArray1<bool>>>, Option<Bound<'py, PyArray2<f32>>>)> {
+    ) -> PyResult<Judged<'py>> {
         let [n, _] = sizes::<2>("after", after)?;
         let before: Rows = readable("before", before, &[n, self.row_size])?;
         let after: Rows = readable("after", after, &[n, self.row_size])?;
         let mut game: PyReadwriteArray<'_, f32, Ix2> =
             writeable("game", game, &[n, self.game_size])?;
+        let mut statistics: PyReadwriteArray<'_, f32, Ix2> =
+            writeable("statistics", statistics, &[n, self.statistics_size])?;
         let mut restart: PyReadwriteArray<'_, f32, Ix2> =
             writeable("restart", restart, &[n, self.row_size])?;
         let (before, after) = (values(&before), values(&after));
-        let (game, restart) = (game.as_slice_mut()?, restart.as_slice_mut()?);
         let mut restarts = vec![false; n];
-        let found = py.detach(|| {
-            self.judge_all(&before, &after, game, restart, &mut restarts, threads)
-        });
+        let all = Portion {
+            first: 0,
+            game: game.as_slice_mut()?,
+            statistics: statistics.as_slice_mut()?,
+            restart: restart.as_slice_mut()?,
+            restarts: &mut restarts,
+        };
+        let found = py.detach(|| self.judge_all(&before, &after, all, threads));
         let events = found.map_err(invalid)?;
         let restarts = restarts.contains(&true).then(|| PyArray1::from_vec(py, restarts));
         let events = if events.is_empty() {
@@ -117,9 +224,7 @@ impl Referee {
         Ok((restarts, events))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> (Bound<'py, PyAny>, (SimConfig, String)) {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (SimConfig, String)) {
         let Self { config, rules, .. } = slf.get();
         (slf.get_type().into_any(), (config.clone(), rules.clone()))
     }
@@ -131,36 +236,35 @@ impl Referee {
         &self,
         before: &[f32],
         after: &[f32],
-        game: &mut [f32],
-        restart: &mut [f32],
-        restarts: &mut [bool],
+        all: Portion<'_>,
         threads: Option<&Threads>,
     ) -> Result<Vec<f32>, RefereeError> {
-        let n = restarts.len();
-        let alone = threads.is_none_or(|threads| threads.0.count() == 1) || n <= ALONE;
-        let size = if alone { n.max(1) } else { threads.map_or(n, |t| t.0.portion(n, 1, ALONE)) };
-        let portions = game
+        let n = all.restarts.len();
+        let threads = match threads {
+            Some(threads) if threads.0.count() > 1 && n > ALONE => &threads.0,
+            _ => return self.judge_portion(before, after, all),
+        };
+        let size = threads.portion(n, 1, ALONE);
+        let portions = all
+            .game
             .chunks_mut(size * self.game_size)
-            .zip(restart.chunks_mut(size * self.row_size))
-            .zip(restarts.chunks_mut(size))
+            .zip(all.statistics.chunks_mut(size * self.statistics_size))
+            .zip(all.restart.chunks_mut(size * self.row_size))
+            .zip(all.restarts.chunks_mut(size))
             .enumerate()
-            .map(|(nth, ((game, restart), restarts))| Portion {
+            .map(|(nth, (((game, statistics), restart), restarts))| Portion {
                 first: nth * size,
                 game,
+                statistics,
                 restart,
                 restarts,
             });
         let found = Mutex::new(Vec::new());
-        let judge = |portion: Portion<'_>| {
+        threads.share(portions, |portion| {
             let first = portion.first;
             let events = self.judge_portion(before, after, portion);
-            let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
-            found.push((first, events));
-        };
-        match threads {
-            Some(threads) if !alone => threads.0.share(portions, judge),
-            _ => portions.for_each(judge),
-        }
+            found.lock().unwrap_or_else(PoisonError::into_inner).push((first, events));
+        });
         let mut found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
         found.sort_unstable_by_key(|(first, _)| *first);
         let mut events = Vec::new();
@@ -178,18 +282,23 @@ impl Referee {
     ) -> Result<Vec<f32>, RefereeError> {
         let mut decisions = Decisions::default();
         let mut events = Vec::new();
-        let games = portion.game.chunks_exact_mut(self.game_size);
-        let restarts = portion.restart.chunks_exact_mut(self.row_size);
-        let each = games.zip(restarts).zip(portion.restarts);
-        for (world, ((game_row, restart), restarts)) in each.enumerate() {
+        let each = portion
+            .game
+            .chunks_exact_mut(self.game_size)
+            .zip(portion.statistics.chunks_exact_mut(self.statistics_size))
+            .zip(portion.restart.chunks_exact_mut(self.row_size))
+            .zip(portion.restarts);
+        for (world, (((game_row, statistics_row), restart), restarts)) in each.enumerate() {
             let world = portion.first + world;
             let row = world * self.row_size..(world + 1) * self.row_size;
-            let mut game = Game::read(game_row)?;
             let (before, after) = (&before[row.clone()], &after[row]);
-            self.referee.judge(before, after, &mut game, restart, &mut decisions)?;
+            let mut game = Game::read(game_row)?;
+            let mut statistics = Statistics::read(statistics_row)?;
+            self.judge.judge(before, after, &mut game, &mut statistics, restart, &mut decisions)?;
             game.write(game_row);
+            statistics.write(statistics_row);
             *restarts = decisions.restarts;
-            for event in &decisions.events {
+            for event in decisions.events.iter().take(MAX_EVENTS) {
                 events.extend(numbers(world, event));
             }
         }
@@ -279,7 +388,11 @@ pub(crate) fn names() -> [(&'static str, Vec<(&'static str, u16)>); 3] {
     let commands = COMMANDS.iter().map(|(_, code, name)| (*name, u16::from(*code)));
     let stages = (0..).zip(Stage::NAMES).map(|(code, name)| (name, code));
     let events = EventKind::ALL.iter().map(|(_, code, name)| (*name, *code));
-    [("COMMANDS", commands.collect()), ("STAGES", stages.collect()), ("EVENT_KINDS", events.collect())]
+    [
+        ("COMMANDS", commands.collect()),
+        ("STAGES", stages.collect()),
+        ("EVENT_KINDS", events.collect()),
+    ]
 }
 
 fn invalid(error: RefereeError) -> PyErr {

@@ -10,6 +10,7 @@ pub mod config;
 mod crossing;
 mod error;
 pub mod events;
+pub mod features;
 mod flow;
 mod formation;
 pub mod game;

@@ -1,4 +1,4 @@
-//! Statistics of a match, as a broadcast shows them: shots, possession, distances, fouls.
+//! Statistics of a match, as a broadcast shows them: shots, possession, distances, offenses.
 
 use crate::column::{ByTeam, row};
 use crate::events::EventKind;
@@ -7,8 +7,8 @@ use crate::moment::Moment;
 use crate::ruling::Ruling;
 use crate::team::Team;
 
-/// Kinds of fouls that are counted apart.
-pub const FOULS: [EventKind; 15] = [
+/// Kinds of offenses that are counted apart.
+pub const OFFENSES: [EventKind; 15] = [
     EventKind::KeeperHeldBall,
     EventKind::AttackerDoubleTouchedBall,
     EventKind::AttackerTouchedBallInDefenseArea,
@@ -42,8 +42,8 @@ row! {
         shots: ByTeam<i32>,
         /// Way of all robots of the team, m.
         distance: ByTeam<f32>,
-        /// Offenses of the team, by the kinds in [`FOULS`].
-        fouls: ByTeam<[i32; FOULS.len()]>,
+        /// Offenses of the team, by the kinds in [`OFFENSES`].
+        offenses: ByTeam<[i32; OFFENSES.len()]>,
     }
 }
 
@@ -68,10 +68,10 @@ impl Statistics {
 
     /// Counts an offense.
     pub fn count_ruling(&mut self, ruling: &Ruling) {
-        let Some(nth) = FOULS.iter().position(|kind| *kind == ruling.event.kind) else { return };
+        let Some(nth) = OFFENSES.iter().position(|kind| *kind == ruling.event.kind) else { return };
         for team in Team::BOTH {
             if ruling.event.team.is_none_or(|at_fault| at_fault == team) {
-                self.fouls[team][nth] += 1;
+                self.offenses[team][nth] += 1;
             }
         }
     }

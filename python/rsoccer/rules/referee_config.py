@@ -1,0 +1,101 @@
+"""Numbers and switches of the rules of a whole match."""
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+from rsoccer._core import referee_preset
+
+PRESETS: Final = ("ssl_2026_a", "ssl_2026_b", "vsss_3v3", "vsss_5v5")
+"""Names of the presets."""
+
+
+class RefereeConfig(Mapping[str, Any]):
+    """Numbers and switches of the rules of a whole match, from a preset and replaced values.
+
+    The rules of the leagues are the presets "ssl_2026_a" and "ssl_2026_b" (divisions A and B of
+    the Small Size League) and "vsss_3v3" and "vsss_5v5". The page of the referee's rules lists all
+    names with units and sources. Names are attributes too. `off` names rules that are not judged,
+    such as "BOT_PUSHED_BOT".
+
+    Example:
+        >>> from rsoccer.referee import RefereeConfig
+        >>> rules = RefereeConfig("ssl_2026_b", half_seconds=60, off=["BOT_PUSHED_BOT"])
+        >>> rules.dribble_distance
+        1.0
+    """
+
+    def __init__(self, preset: str, **values: Any) -> None:  # noqa: ANN401  (checked here)
+        """Take a preset, and replace some of its values.
+
+        Args:
+            preset: name of a preset.
+            **values: values that replace those of the preset: numbers, names of choices, or for
+                `off` a list of names of rules.
+
+        Raises:
+            TypeError: a value of another type.
+            ValueError: an unknown preset, name or choice, or a number below 0.
+        """
+        if preset not in PRESETS:
+            raise ValueError(f"preset: expected one of {PRESETS}, got {preset!r}")
+        self.preset = preset
+        self._values: dict[str, Any] = json.loads(referee_preset(preset))
+        for name, value in values.items():
+            if name not in self._values:
+                known = ", ".join(self._values)
+                raise ValueError(f"referee: expected one of {known}, got {name!r}")
+            self._values[name] = _like(name, value, self._values[name])
+
+    def replaced(self, **values: Any) -> "RefereeConfig":  # noqa: ANN401  (checked here)
+        """Return a configuration with some values replaced.
+
+        Args:
+            **values: as for a new one.
+        """
+        return RefereeConfig(self.preset, **{**self._values, **values})
+
+    def to_json(self) -> str:
+        """Return all values as JSON."""
+        return json.dumps(self._values)
+
+    def __getattr__(self, name: str) -> Any:  # noqa: ANN401  (a value)
+        if not name.startswith("_") and name in self._values:
+            return self._values[name]
+        raise AttributeError(f"RefereeConfig has no {name!r}")
+
+    def __getitem__(self, name: str) -> Any:  # noqa: ANN401  (a value)
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __repr__(self) -> str:
+        values = json.loads(referee_preset(self.preset))
+        changed = [f"{k}={v!r}" for k, v in self._values.items() if v != values[k]]
+        return f"RefereeConfig({', '.join([repr(self.preset), *changed])})"
+
+    def __hash__(self) -> int:
+        return hash(self.to_json())
+
+
+def _like(name: str, value: object, old: object) -> object:
+    """A value of the kind of the one that it replaces."""
+    if isinstance(old, bool):
+        if isinstance(value, bool):
+            return value
+        raise TypeError(f"{name}: expected True or False, got {value!r}")
+    if isinstance(old, float):
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            return float(value)
+        raise TypeError(f"{name}: expected a number, got {value!r}")
+    if isinstance(old, list):
+        if isinstance(value, list | tuple) and all(isinstance(part, str) for part in value):
+            return list(value)
+        raise TypeError(f"{name}: expected a list of names of rules, got {value!r}")
+    if isinstance(value, str):
+        return value
+    raise TypeError(f"{name}: expected a text, got {value!r}")

@@ -1,0 +1,221 @@
+"""Base class of the match tasks of both leagues: the referee, what robots see of it, metrics."""
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
+from functools import cached_property
+from typing import Any, ClassVar, Final
+
+import numpy as np
+
+from rsoccer import checks, rewards
+from rsoccer._core import GAME_FEATURES, OFFENSES
+from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.frame import Frame
+from rsoccer.game import EventKind, Stage
+from rsoccer.reflection import Reflection, Symmetry
+from rsoccer.rng import WorldRng
+from rsoccer.rules import Passes, Rule
+from rsoccer.rules.referee import Referee
+from rsoccer.rules.referee_config import RefereeConfig
+from rsoccer.task import Play
+from rsoccer.tasks.soccer import Soccer
+
+GAME_BLOCK: Final = "game"
+"""Name of the observation block with the state of the match."""
+GAME_LIMIT: Final = 3.0
+"""Bound of that block: times up to 30 s, in units of 10 s."""
+CLOCKS: Final = ("stopped", "running")
+"""Values of the option `clock`."""
+PLACEMENTS: Final = ("teleport", "robots")
+"""Values of the option `placement`."""
+TEAMS: Final = ("blue", "yellow")
+
+
+@dataclass(frozen=True)
+class Match(Soccer):
+    """Base class of whole matches under a referee.
+
+    Both teams learn, all robots are agents. A match has halves, and play is stopped and restarted
+    as the rules say; a goal pays, and play goes on. The end of the match is a termination.
+
+    The observation has two more blocks than `Soccer`: `presence`, since robots are taken out for
+    cards, and `game` (27 numbers): what play is in from the side of the robot's team, what a stop
+    waits for, whether the robot may touch the ball, the time to act (10 s), the place of the next
+    kick relative to the robot (half lengths of the field), the score difference (5 goals), the
+    share of the half that is left, and the shares of both teams' robots that are on the field.
+    `rsoccer._core.GAME_FEATURES` names all numbers.
+
+    Initial state: both teams lined up for the kick-off, which one of them has by chance.
+
+    Reward terms, unweighted:
+
+    ============  ==================================================================  ========
+    Term          Meaning                                                             Unit
+    ============  ==================================================================  ========
+    goal          1 for a goal of the robot's team, -1 for a goal against it          goals
+    ball_to_goal  progress of the ball toward the attacked goal and away from the     m
+                  own goal, for each team's robot nearest to the ball
+    approach      progress toward the ball, for robots that may touch it: of each     m
+                  robot in VSSS, of the nearest one of its team in SSL
+    energy        negative mean magnitude of the action                               steps
+    fouls         -1 for each foul of the robot's team                                fouls
+    cards         -1 for each card of the robot's team                                cards
+    ============  ==================================================================  ========
+
+    Termination: the end of the match. Truncation: after `max_steps`.
+
+    Metrics: `goal_score`, goals of blue less those of yellow; for each team, such as `blue_goals`:
+    `goals`, `shots` (balls that leave a robot toward the mouth of the goal), `passes` that arrive,
+    `possession` (share of the time in play), `distance` (m, of all robots), `fouls`, `yellow_cards`
+    and `red_cards`; `in_play`, time with the ball in play, s.
+    """
+
+    max_steps: int = 200_000
+    """Control steps of 25 ms until truncation, at least 1; 200,000 are 83 minutes, more than a
+    match lasts."""
+    half_seconds: float = 300.0
+    """Playing time of a half, s, above 0."""
+    halves: int = 2
+    """Number of halves, 1 or 2."""
+    clock: str = "stopped"
+    """Time that counts: "stopped" (only while a team may play the ball, as the leagues have it) or
+    "running" (all time)."""
+    knockout: bool = False
+    """True: a draw leads to extra time and a shoot-out."""
+    referee: Mapping[str, Any] = dataclass_field(default_factory=dict)
+    """Numbers and switches of the rules that differ from the league's, see `RefereeConfig`."""
+
+    OBSERVES_PRESENCE: ClassVar[bool] = True
+    """Robots are taken out for cards."""
+    success = "goal_score"
+    """Metric that measures the success of an episode."""
+
+    def __post_init__(self) -> None:
+        """Validate the options."""
+        super().__post_init__()
+        checks.number_in_range("half_seconds", self.half_seconds, 1e-3, 1e5)
+        if checks.integer("halves", self.halves, 1) > 2:
+            raise ValueError(f"halves: expected 1 or 2, got {self.halves}")
+        if self.clock not in CLOCKS:
+            raise ValueError(f"clock: expected one of {CLOCKS}, got {self.clock!r}")
+        checks.boolean("knockout", self.knockout)
+        if not isinstance(self.referee, Mapping):
+            raise TypeError(f"referee: expected values by name, got {self.referee!r}")
+        _ = self.rules  # raises for wrong numbers
+
+    @property
+    @abstractmethod
+    def preset(self) -> str:
+        """Name of the rules' preset."""
+
+    @cached_property
+    def referee_config(self) -> RefereeConfig:
+        """Numbers and switches of the rules, with those of the options."""
+        values: dict[str, Any] = {
+            "half_seconds": self.half_seconds,
+            "halves": self.halves,
+            "clock": self.clock,
+        }
+        if not self.knockout:
+            values |= {"extra_half_seconds": 0.0, "shootout_kicks": 0.0}
+        return RefereeConfig(self.preset, **{**values, **self.referee})
+
+    @cached_property
+    def rules(self) -> Sequence[Rule]:
+        """The referee, and the definition of a pass."""
+        return self._referee, Passes(self.min_pass_length)
+
+    @property
+    @abstractmethod
+    def min_pass_length(self) -> float:
+        """Least length of a pass, m."""
+
+    @cached_property
+    def _referee(self) -> Referee:
+        return Referee(self.config, self.referee_config)
+
+    def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
+        """Line both teams up for the first kick-off."""
+        frame = Frame.empty(len(rng), self.n_blue, self.n_yellow)
+        self._referee.core.line_up(frame.rows)
+        return frame
+
+    def frame_to_observations(self, play: Play) -> dict[str, Floats]:
+        """Compute the blocks of `Soccer` and the block `game`, each (n, observers, ...)."""
+        game = self._referee.core.features(
+            play.game.referee, play.sensed.rows, play.observers.tolist(), play.threads
+        )
+        return super().frame_to_observations(play) | {GAME_BLOCK: game}
+
+    def observation_limits(self) -> dict[str, float]:
+        """Return the bounds of all blocks."""
+        return super().observation_limits() | {GAME_BLOCK: GAME_LIMIT}
+
+    @property
+    def symmetry(self) -> Symmetry | None:
+        """Return the reflections of actions and of all blocks."""
+        symmetry = super().symmetry
+        if symmetry is None:
+            return None
+        signs = [-1 if name == "designated_y" else 1 for name in GAME_FEATURES]
+        return Symmetry(symmetry.action, {**symmetry.blocks, GAME_BLOCK: Reflection.of(signs)})
+
+    def calculate_reward_and_done(self, play: Play) -> tuple[dict[str, Floats], Mask]:
+        """Compute the reward terms of the class's table; the end of the match terminates."""
+        may_touch = play.game.may_touch[:, play.observers].astype(np.float32)
+        nearest = rewards.nearest_to_ball(play)
+        field = self.config.field
+        terms = {
+            "goal": rewards.goal(play),
+            "ball_to_goal": rewards.ball_to_goal(play, field) * nearest,
+            "approach": self.approach(play, nearest) * may_touch,
+            "energy": rewards.energy(play),
+            "fouls": -rewards.events_of_team(play, OFFENSES),
+            "cards": -rewards.events_of_team(play, (EventKind.MULTIPLE_FOULS,)),
+        }
+        done: Mask = play.game.stage == Stage.POST_GAME
+        return rewards.weighted_terms(terms, self.term_weights), done
+
+    @abstractmethod
+    def approach(self, play: Play, nearest: Mask) -> Floats:
+        """Return the shaping term that pulls robots to the ball, (n, observers) meters.
+
+        Args:
+            play: state of n worlds.
+            nearest: (n, observers) whether the robot is its team's nearest to the ball.
+        """
+
+    def metrics(self, play: Play) -> dict[str, Floats]:
+        """Compute the metrics of the class's documentation, each (n,)."""
+        game = play.game
+        in_play = game.in_play_steps
+        named = {"goal_score": rewards.goal_score(play)}
+        parts = {
+            "goals": game.score,
+            "shots": game.shots,
+            "passes": game.passes,
+            "possession": game.possession_steps / np.maximum(in_play, 1.0)[:, None],
+            "distance": game.distance,
+            "fouls": game.offenses.reshape(len(in_play), len(TEAMS), -1).sum(axis=2),
+            "yellow_cards": game.yellow_cards,
+            "red_cards": game.red_cards,
+        }
+        for name, values in parts.items():
+            for team, team_name in enumerate(TEAMS):
+                named[f"{team_name}_{name}"] = values[:, team]
+        named["in_play"] = in_play * np.float32(self.config.time_step)
+        return named
+
+    def offenses(self, play: Play) -> dict[str, Array]:
+        """Return the offenses since the match began, by kind.
+
+        Args:
+            play: state of n worlds.
+
+        Returns:
+            (n, 2) of blue and of yellow, by the names of their events.
+        """
+        counts = play.game.offenses.reshape(len(play.frame), len(TEAMS), -1)
+        return {EventKind(kind).name: counts[:, :, nth] for nth, kind in enumerate(OFFENSES)}
