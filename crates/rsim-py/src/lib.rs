@@ -8,6 +8,7 @@ mod arrays;
 mod bounds;
 mod config;
 mod ego_features;
+mod match_arrays;
 mod models;
 mod moments;
 mod referee;
@@ -51,7 +52,7 @@ mod _core {
     use rsim_referee::events::EventKind;
     use rsim_referee::features::FEATURES;
     use rsim_referee::game::Game;
-    use rsim_referee::statistics::{OFFENSES, Statistics};
+    use rsim_referee::statistics::{OFFENSES, Statistics, offense_columns};
 
     use crate::models::add_numbers;
 
@@ -76,7 +77,10 @@ mod _core {
             module.add(table, codes)?;
         }
         module.add("GAME_COLUMNS", PyTuple::new(py, Game::columns())?)?;
-        module.add("STATISTICS_COLUMNS", PyTuple::new(py, Statistics::columns())?)?;
+        module.add(
+            "STATISTICS_COLUMNS",
+            PyTuple::new(py, [Statistics::columns(), offense_columns()].concat())?,
+        )?;
         module.add("OFFENSES", PyTuple::new(py, OFFENSES.map(EventKind::code))?)?;
         module.add("GAME_FEATURES", PyTuple::new(py, FEATURES)?)?;
         module.add("MAX_EVENTS", crate::referee::MAX_EVENTS)?;

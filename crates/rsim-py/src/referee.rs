@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use numpy::{Ix1, Ix2, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray};
+use numpy::{Ix2, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadwriteArray};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use rsim_core::RobotModel;
@@ -14,11 +14,12 @@ use rsim_referee::features::FEATURES;
 use rsim_referee::game::Game;
 use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::Layout;
-use rsim_referee::statistics::Statistics;
+use rsim_referee::statistics::{Statistics, count_offense, offense_columns};
 use rsim_referee::{Decisions, Lines, RefereeError, Team, rules};
 
 use crate::arrays::{Rows, readable, sizes, values, writeable};
 use crate::config::SimConfig;
+use crate::match_arrays::{MatchArrays, Matches, Sizes};
 use crate::threads::{Threads, write_rows};
 
 /// Most worlds whose steps the caller's thread judges alone.
@@ -36,19 +37,17 @@ pub(crate) struct Referee {
     judge: rsim_referee::Referee,
     rules: String,
     config: SimConfig,
-    row_size: usize,
-    game_size: usize,
-    statistics_size: usize,
+    sizes: Sizes,
 }
 
 /// Worlds in which play restarts, and events (k, 6); `None` where there are none.
 type Judged<'py> = (Option<Bound<'py, PyArray1<bool>>>, Option<Bound<'py, PyArray2<f32>>>);
 
-/// Work of a thread: the matches of some worlds, one after the other.
+/// Work of a thread: some matches, and what is decided of them.
 struct Portion<'a> {
+    /// Index of the first world.
     first: usize,
-    game: &'a mut [f32],
-    statistics: &'a mut [f32],
+    matches: Matches<'a>,
     restart: &'a mut [f32],
     restarts: &'a mut [bool],
 }
@@ -59,15 +58,18 @@ impl Referee {
     fn new(config: &SimConfig, rules: String) -> PyResult<Self> {
         let decoded: RefereeConfig = serde_json::from_str(&rules)
             .map_err(|error| PyValueError::new_err(format!("rules: {error}")))?;
-        let (sim, layout) = (&config.0, layout(config)?);
+        let layout = layout(config)?;
         let pitch = pitch(config);
-        let row_size = layout.row_size();
-        debug_assert_eq!(row_size, sim.row_size());
+        let counted = Statistics::columns().len();
+        let sizes = Sizes {
+            game: Game::columns().len(),
+            counted,
+            statistics: counted + offense_columns().len(),
+            robots: layout.robots(),
+            row: layout.row_size(),
+        };
         let judge = rsim_referee::Referee::new(decoded, pitch, layout).map_err(invalid)?;
-        let game_size = Game::columns().len();
-        let statistics_size = Statistics::columns().len();
-        let config = config.clone();
-        Ok(Self { judge, rules, config, row_size, game_size, statistics_size })
+        Ok(Self { judge, rules, config: config.clone(), sizes })
     }
 
     /// Returns the row of a match whose first kick-off a team has.
@@ -83,43 +85,9 @@ impl Referee {
     fn line_up(&self, rows: &Bound<'_, PyAny>) -> PyResult<()> {
         let [n, _] = sizes::<2>("rows", rows)?;
         let mut rows: PyReadwriteArray<'_, f32, Ix2> =
-            writeable("rows", rows, &[n, self.row_size])?;
-        for row in rows.as_slice_mut()?.chunks_exact_mut(self.row_size) {
+            writeable("rows", rows, &[n, self.sizes.row])?;
+        for row in rows.as_slice_mut()?.chunks_exact_mut(self.sizes.row) {
             self.judge.line_up(row).map_err(invalid)?;
-        }
-        Ok(())
-    }
-
-    /// Writes what tasks read of matches: goals, time left in the stage (s), and which robots may touch the
-    /// ball.
-    fn summarize(
-        &self,
-        game: &Bound<'_, PyAny>,
-        score: &Bound<'_, PyAny>,
-        seconds_left: &Bound<'_, PyAny>,
-        may_touch: &Bound<'_, PyAny>,
-    ) -> PyResult<()> {
-        let [n, _] = sizes::<2>("game", game)?;
-        let layout = self.judge.layout();
-        let game: Rows = readable("game", game, &[n, self.game_size])?;
-        let mut score: PyReadwriteArray<'_, i64, Ix2> = writeable("score", score, &[n, 2])?;
-        let mut seconds: PyReadwriteArray<'_, f32, Ix1> =
-            writeable("seconds_left", seconds_left, &[n])?;
-        let mut may_touch: PyReadwriteArray<'_, bool, Ix2> =
-            writeable("may_touch", may_touch, &[n, layout.robots()])?;
-        let game = values(&game);
-        let scores = score.as_slice_mut()?.chunks_exact_mut(2);
-        let touches = may_touch.as_slice_mut()?.chunks_exact_mut(layout.robots());
-        let outputs = scores.zip(seconds.as_slice_mut()?).zip(touches);
-        for (row, ((score, seconds), may_touch)) in game.chunks_exact(self.game_size).zip(outputs) {
-            let game = Game::read(row).map_err(invalid)?;
-            for team in Team::BOTH {
-                score[team.index()] = i64::from(game.score[team]);
-            }
-            *seconds = self.judge.pitch().seconds(game.stage_steps_left).max(0.0);
-            for (robot, may_touch) in may_touch.iter_mut().enumerate() {
-                *may_touch = game.robot_may_touch(robot, layout.team_of(robot));
-            }
         }
         Ok(())
     }
@@ -135,8 +103,8 @@ impl Referee {
         threads: Option<&Threads>,
     ) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let [n, _] = sizes::<2>("rows", rows)?;
-        let game: Rows = readable("game", game, &[n, self.game_size])?;
-        let rows: Rows = readable("rows", rows, &[n, self.row_size])?;
+        let game: Rows = readable("game", game, &[n, self.sizes.game])?;
+        let rows: Rows = readable("rows", rows, &[n, self.sizes.row])?;
         let robots = self.judge.layout().robots();
         if let Some(robot) = observers.iter().find(|robot| **robot >= robots) {
             return Err(PyValueError::new_err(format!(
@@ -145,7 +113,7 @@ impl Referee {
         }
         let games = values(&game);
         let games: Vec<Game> = games
-            .chunks_exact(self.game_size)
+            .chunks_exact(self.sizes.game)
             .map(Game::read)
             .collect::<Result<_, _>>()
             .map_err(invalid)?;
@@ -155,10 +123,10 @@ impl Referee {
         {
             let mut out = features.readwrite();
             write_rows(py, threads, out.as_slice_mut()?, size, ALONE, |world, out| {
-                let row = &rows[world * self.row_size..][..self.row_size];
-                let Ok(sight) = self.judge.layout().sight(row) else { return };
+                let row = &rows[world * self.sizes.row..][..self.sizes.row];
+                let Ok(features) = self.judge.features(&games[world], row) else { return };
                 for (robot, out) in observers.iter().zip(out.chunks_exact_mut(FEATURES.len())) {
-                    self.judge.features(&games[world], &sight, *robot, out);
+                    features.write(*robot, out);
                 }
             });
         }
@@ -166,49 +134,42 @@ impl Referee {
     }
 
     /// Fits matches to the states from which play begins or goes on.
-    fn begin(&self, rows: &Bound<'_, PyAny>, game: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn begin(&self, rows: &Bound<'_, PyAny>, matches: MatchArrays<'_>) -> PyResult<()> {
         let [n, _] = sizes::<2>("rows", rows)?;
-        let rows: Rows = readable("rows", rows, &[n, self.row_size])?;
-        let mut game: PyReadwriteArray<'_, f32, Ix2> =
-            writeable("game", game, &[n, self.game_size])?;
+        let rows: Rows = readable("rows", rows, &[n, self.sizes.row])?;
+        let mut borrowed = matches.borrow(n, &self.sizes)?;
         let rows = values(&rows);
-        let each = game.as_slice_mut()?.chunks_exact_mut(self.game_size);
-        for (game_row, row) in each.zip(rows.chunks_exact(self.row_size)) {
-            let mut game = Game::read(game_row).map_err(invalid)?;
+        let each = borrowed.matches()?.split(1, &self.sizes);
+        for (mut one, row) in each.zip(rows.chunks_exact(self.sizes.row)) {
+            let mut game = one.read().map_err(invalid)?;
             self.judge.begin(row, &mut game).map_err(invalid)?;
-            game.write(game_row);
+            one.write(&game, &self.judge);
         }
         Ok(())
     }
 
     /// Judges a step of all matches.
-    #[pyo3(signature = (before, after, game, statistics, restart, threads = None))]
-    #[expect(clippy::too_many_arguments, reason = "the arrays of a step")]
+    #[pyo3(signature = (before, after, matches, restart, threads = None))]
     fn judge<'py>(
         &self,
         py: Python<'py>,
         before: &Bound<'py, PyAny>,
         after: &Bound<'py, PyAny>,
-        game: &Bound<'py, PyAny>,
-        statistics: &Bound<'py, PyAny>,
+        matches: MatchArrays<'py>,
         restart: &Bound<'py, PyAny>,
         threads: Option<&Threads>,
     ) -> PyResult<Judged<'py>> {
         let [n, _] = sizes::<2>("after", after)?;
-        let before: Rows = readable("before", before, &[n, self.row_size])?;
-        let after: Rows = readable("after", after, &[n, self.row_size])?;
-        let mut game: PyReadwriteArray<'_, f32, Ix2> =
-            writeable("game", game, &[n, self.game_size])?;
-        let mut statistics: PyReadwriteArray<'_, f32, Ix2> =
-            writeable("statistics", statistics, &[n, self.statistics_size])?;
+        let before: Rows = readable("before", before, &[n, self.sizes.row])?;
+        let after: Rows = readable("after", after, &[n, self.sizes.row])?;
+        let mut borrowed = matches.borrow(n, &self.sizes)?;
         let mut restart: PyReadwriteArray<'_, f32, Ix2> =
-            writeable("restart", restart, &[n, self.row_size])?;
+            writeable("restart", restart, &[n, self.sizes.row])?;
         let (before, after) = (values(&before), values(&after));
         let mut restarts = vec![false; n];
         let all = Portion {
             first: 0,
-            game: game.as_slice_mut()?,
-            statistics: statistics.as_slice_mut()?,
+            matches: borrowed.matches()?,
             restart: restart.as_slice_mut()?,
             restarts: &mut restarts,
         };
@@ -245,17 +206,14 @@ impl Referee {
             _ => return self.judge_portion(before, after, all),
         };
         let size = threads.portion(n, 1, ALONE);
-        let portions = all
-            .game
-            .chunks_mut(size * self.game_size)
-            .zip(all.statistics.chunks_mut(size * self.statistics_size))
-            .zip(all.restart.chunks_mut(size * self.row_size))
+        let matches = all.matches.split(size, &self.sizes);
+        let portions = matches
+            .zip(all.restart.chunks_mut(size * self.sizes.row))
             .zip(all.restarts.chunks_mut(size))
             .enumerate()
-            .map(|(nth, (((game, statistics), restart), restarts))| Portion {
+            .map(|(nth, ((matches, restart), restarts))| Portion {
                 first: nth * size,
-                game,
-                statistics,
+                matches,
                 restart,
                 restarts,
             });
@@ -283,20 +241,21 @@ impl Referee {
         let mut decisions = Decisions::default();
         let mut events = Vec::new();
         let each = portion
-            .game
-            .chunks_exact_mut(self.game_size)
-            .zip(portion.statistics.chunks_exact_mut(self.statistics_size))
-            .zip(portion.restart.chunks_exact_mut(self.row_size))
+            .matches
+            .split(1, &self.sizes)
+            .zip(portion.restart.chunks_exact_mut(self.sizes.row))
             .zip(portion.restarts);
-        for (world, (((game_row, statistics_row), restart), restarts)) in each.enumerate() {
+        for (world, ((mut one, restart), restarts)) in each.enumerate() {
             let world = portion.first + world;
-            let row = world * self.row_size..(world + 1) * self.row_size;
+            let row = world * self.sizes.row..(world + 1) * self.sizes.row;
             let (before, after) = (&before[row.clone()], &after[row]);
-            let mut game = Game::read(game_row)?;
-            let mut statistics = Statistics::read(statistics_row)?;
+            let mut game = one.read()?;
+            let (columns, offenses) = one.statistics.split_at_mut(self.sizes.counted);
+            let mut statistics = Statistics::read(columns)?;
             self.judge.judge(before, after, &mut game, &mut statistics, restart, &mut decisions)?;
-            game.write(game_row);
-            statistics.write(statistics_row);
+            statistics.write(columns);
+            decisions.rulings.iter().for_each(|ruling| count_offense(offenses, ruling));
+            one.write(&game, &self.judge);
             *restarts = decisions.restarts;
             for event in decisions.events.iter().take(MAX_EVENTS) {
                 events.extend(numbers(world, event));

@@ -25,11 +25,13 @@ impl Column for f32 {
         single()
     }
 
+    #[inline]
     fn read(row: &[f32]) -> Option<(Self, &[f32])> {
         let (first, rest) = row.split_first()?;
         Some((*first, rest))
     }
 
+    #[inline]
     fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
         let (first, rest) = row.split_at_mut(1);
         first[0] = *self;
@@ -42,14 +44,17 @@ impl Column for i32 {
         single()
     }
 
-    #[allow(clippy::cast_possible_truncation)] // a whole number in range
+    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)] // compared below
+    #[allow(clippy::float_cmp)] // whole numbers below 2^24 are exact
+    #[inline]
     fn read(row: &[f32]) -> Option<(Self, &[f32])> {
         let (first, rest) = row.split_first()?;
-        let is_whole = first.fract() == 0.0 && first.abs() < 16_777_216.0;
-        is_whole.then_some((*first as Self, rest))
+        let number = *first as Self; // cheaper than `fract`
+        (number as f32 == *first && number.abs() < 1 << 24).then_some((number, rest))
     }
 
     #[allow(clippy::cast_precision_loss)] // a whole number below 2^24
+    #[inline]
     fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
         (*self as f32).write(row)
     }
@@ -63,13 +68,15 @@ macro_rules! as_number {
                 single()
             }
 
-            fn read(row: &[f32]) -> Option<(Self, &[f32])> {
+            #[inline]
+    fn read(row: &[f32]) -> Option<(Self, &[f32])> {
                 let (number, rest) = i32::read(row)?;
                 let from: fn(i32) -> Option<Self> = $from;
                 Some((from(number)?, rest))
             }
 
-            fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
+            #[inline]
+    fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
                 let to: fn(&Self) -> i32 = $to;
                 to(self).write(row)
             }
@@ -111,11 +118,13 @@ impl Column for Vector {
         ["_x", "_y"].map(str::to_owned).to_vec()
     }
 
+    #[inline]
     fn read(row: &[f32]) -> Option<(Self, &[f32])> {
         let [x, y, rest @ ..] = row else { return None };
         Some((Self::new(*x, *y), rest))
     }
 
+    #[inline]
     fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
         self.y.write(self.x.write(row))
     }
@@ -155,12 +164,14 @@ impl<T: Column> Column for ByTeam<T> {
             .collect()
     }
 
+    #[inline]
     fn read(row: &[f32]) -> Option<(Self, &[f32])> {
         let (blue, rest) = T::read(row)?;
         let (yellow, rest) = T::read(rest)?;
         Some((Self([blue, yellow]), rest))
     }
 
+    #[inline]
     fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
         self.0.iter().fold(row, |rest, value| value.write(rest))
     }
@@ -172,6 +183,7 @@ impl<T: Column, const N: usize> Column for [T; N] {
         (0..N).flat_map(|nth| ends.iter().map(move |end| format!("_{nth}{end}"))).collect()
     }
 
+    #[inline]
     fn read(mut row: &[f32]) -> Option<(Self, &[f32])> {
         let mut values = [(); N].map(|()| None);
         for value in &mut values {
@@ -182,6 +194,7 @@ impl<T: Column, const N: usize> Column for [T; N] {
         Some((values.map(|value| value.expect("all were read")), row))
     }
 
+    #[inline]
     fn write<'a>(&self, row: &'a mut [f32]) -> &'a mut [f32] {
         self.iter().fold(row, |rest, value| value.write(rest))
     }

@@ -1,6 +1,7 @@
 //! What a robot observes of the state of a match, from the side of its team.
 
 use crate::codes::Command;
+use crate::error::RefereeError;
 use crate::game::Game;
 use crate::referee::Referee;
 use crate::sight::Sight;
@@ -55,28 +56,39 @@ const ACTION_SECONDS: f32 = 10.0;
 /// Goals for which `score_difference` is 1.
 const MANY_GOALS: f32 = 5.0;
 
+/// A match as its robots observe it.
+#[derive(Debug)]
+pub struct Features<'a> {
+    game: &'a Game,
+    sight: Sight<'a>,
+    seconds_to_act: f32,
+    share_left: f32,
+    /// Share of each team's robots that are on the field.
+    robots: [f32; 2],
+    /// Half the distance between the goal lines, m.
+    half_length: f32,
+}
+
 impl Referee {
-    /// Writes the features of a robot.
-    pub fn features(&self, game: &Game, sight: &Sight, robot: usize, out: &mut [f32]) {
-        let team = sight.team_of(robot);
-        out.fill(0.0);
-        out[command_feature(game, team)] = 1.0;
-        if matches!(game.command, Command::Halt | Command::Stop | Command::BallPlacement(_)) {
-            if let Some(next) = game.next_command.and_then(|next| kick_feature(next, team)) {
-                out[NEXT + next] = 1.0;
-            }
-        }
-        out[MAY_TOUCH] = if game.robot_may_touch(robot, team) { 1.0 } else { 0.0 };
-        out[MAY_TOUCH + 1] = self.seconds_to_act(game) / ACTION_SECONDS;
-        let place = self.designated_offset(game, sight, robot, team);
-        (out[MAY_TOUCH + 2], out[MAY_TOUCH + 3]) = (place.x, place.y);
-        let lead = game.score[team] - game.score[team.opponent()];
-        out[MAY_TOUCH + 4] = (number(lead) / MANY_GOALS).clamp(-1.0, 1.0);
-        out[MAY_TOUCH + 5] = self.share_left(game);
-        for (nth, team) in [team, team.opponent()].into_iter().enumerate() {
-            let all = self.layout().team_size(team).max(1);
-            out[MAY_TOUCH + 6 + nth] = share(sight.count(team), all);
-        }
+    /// Prepares what the robots of a match observe.
+    ///
+    /// # Errors
+    /// A row of another length.
+    pub fn features<'a>(
+        &'a self,
+        game: &'a Game,
+        row: &'a [f32],
+    ) -> Result<Features<'a>, RefereeError> {
+        let sight = self.layout().sight(row)?;
+        Ok(Features {
+            game,
+            sight,
+            seconds_to_act: self.seconds_to_act(game),
+            share_left: self.share_left(game),
+            robots: Team::BOTH
+                .map(|team| share(sight.count(team), self.layout().team_size(team).max(1))),
+            half_length: self.pitch().lines.half_length,
+        })
     }
 
     /// Time until the present command ends or a kick has to be taken, s; 0 while the ball is in play.
@@ -99,15 +111,6 @@ impl Referee {
         (limit - self.pitch().seconds(game.command_steps)).max(0.0)
     }
 
-    /// Offset from the robot to the place of the next kick, in the coordinates of its team.
-    fn designated_offset(&self, game: &Game, sight: &Sight, robot: usize, team: Team) -> Vector {
-        let Some(robot) = sight.robot(robot).filter(|_| !game.in_play) else {
-            return Vector::default();
-        };
-        let scale = -team.own_side() / self.pitch().lines.half_length;
-        (game.designated_position - robot.position) * scale
-    }
-
     /// Share of the half that is left; 1 before it begins.
     fn share_left(&self, game: &Game) -> f32 {
         let all = self.config().seconds(game.stage);
@@ -116,6 +119,41 @@ impl Referee {
         } else {
             1.0
         }
+    }
+}
+
+impl Features<'_> {
+    /// Writes the features of a robot.
+    pub fn write(&self, robot: usize, out: &mut [f32]) {
+        let (game, team) = (self.game, self.sight.team_of(robot));
+        out.fill(0.0);
+        out[command_feature(game, team)] = 1.0;
+        if matches!(game.command, Command::Halt | Command::Stop | Command::BallPlacement(_)) {
+            if let Some(next) = game.next_command.and_then(|next| kick_feature(next, team)) {
+                out[NEXT + next] = 1.0;
+            }
+        }
+        let place = self.designated_offset(robot, team);
+        let lead = game.score[team] - game.score[team.opponent()];
+        out[MAY_TOUCH..].copy_from_slice(&[
+            if game.robot_may_touch(robot, team) { 1.0 } else { 0.0 },
+            self.seconds_to_act / ACTION_SECONDS,
+            place.x,
+            place.y,
+            (number(lead) / MANY_GOALS).clamp(-1.0, 1.0),
+            self.share_left,
+            self.robots[team.index()],
+            self.robots[team.opponent().index()],
+        ]);
+    }
+
+    /// Offset from the robot to the place of the next kick, in the coordinates of its team.
+    fn designated_offset(&self, robot: usize, team: Team) -> Vector {
+        let Some(robot) = self.sight.robot(robot).filter(|_| !self.game.in_play) else {
+            return Vector::default();
+        };
+        let scale = -team.own_side() / self.half_length;
+        (self.game.designated_position - robot.position) * scale
     }
 }
 

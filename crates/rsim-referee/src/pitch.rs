@@ -19,10 +19,10 @@ pub struct Pitch {
 }
 
 impl Pitch {
-    /// Control steps in a time, s; rounded.
+    /// Control steps in a time of at least 0 s; rounded.
     #[allow(clippy::cast_possible_truncation)] // far below 2^31
     pub fn steps(&self, seconds: f32) -> i32 {
-        (seconds / self.time_step).round() as i32
+        (seconds / self.time_step + 0.5) as i32
     }
 
     /// Seconds in control steps.

@@ -34,7 +34,8 @@ pub struct Decisions {
     pub events: Vec<Event>,
     /// Whether play goes on from the row of the restart.
     pub restarts: bool,
-    rulings: Rulings,
+    /// What the rules decided, of which the events are a part.
+    pub rulings: Rulings,
 }
 
 impl Referee {
@@ -126,7 +127,6 @@ impl Referee {
         statistics.count(game, &moment);
         for ruling in decisions.rulings.iter() {
             decisions.events.push(ruling.event);
-            statistics.count_ruling(ruling);
             if ruling.is_foul {
                 cards::count_foul(game, &moment, ruling, &mut decisions.events);
             }

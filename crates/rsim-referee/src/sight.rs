@@ -240,6 +240,7 @@ impl Sight<'_> {
     }
 
     /// A robot; `None` for one that is absent.
+    #[inline]
     pub fn robot(&self, index: usize) -> Option<Robot> {
         let first = self.layout.ball_size + index * self.layout.robot_size;
         let [x, y, cos, sin, v_x, v_y, v_theta, mouth, ball, opponent, collision_speed, absent] =
@@ -297,7 +298,7 @@ impl Sight<'_> {
 /// Index in a column that has -1 for none.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small whole number
 fn index_of(value: f32) -> Option<usize> {
-    (value > -0.5).then(|| value.round() as usize)
+    (value > -0.5).then_some((value + 0.5) as usize)
 }
 
 #[cfg(test)]

@@ -42,8 +42,6 @@ row! {
         shots: ByTeam<i32>,
         /// Way of all robots of the team, m.
         distance: ByTeam<f32>,
-        /// Offenses of the team, by the kinds in [`OFFENSES`].
-        offenses: ByTeam<[i32; OFFENSES.len()]>,
     }
 }
 
@@ -65,16 +63,23 @@ impl Statistics {
             }
         }
     }
+}
 
-    /// Counts an offense.
-    pub fn count_ruling(&mut self, ruling: &Ruling) {
-        let Some(nth) = OFFENSES.iter().position(|kind| *kind == ruling.event.kind) else { return };
-        for team in Team::BOTH {
-            if ruling.event.team.is_none_or(|at_fault| at_fault == team) {
-                self.offenses[team][nth] += 1;
-            }
+/// Counts an offense in a row of numbers of blue and of yellow, by the kinds in [`OFFENSES`].
+pub fn count_offense(row: &mut [f32], ruling: &Ruling) {
+    let Some(nth) = OFFENSES.iter().position(|kind| *kind == ruling.event.kind) else { return };
+    for (team, counts) in Team::BOTH.into_iter().zip(row.chunks_exact_mut(OFFENSES.len())) {
+        if ruling.event.team.is_none_or(|at_fault| at_fault == team) {
+            counts[nth] += 1.0;
         }
     }
+}
+
+/// Names of the columns of offenses.
+pub fn offense_columns() -> Vec<String> {
+    let kinds =
+        |team: &'static str| (0..OFFENSES.len()).map(move |nth| format!("offenses_{team}_{nth}"));
+    ["blue", "yellow"].into_iter().flat_map(kinds).collect()
 }
 
 /// Way of the robots of a team in the step, m.

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rsoccer import _core
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Array
-from rsoccer.game import BLUE, YELLOW
+from rsoccer.game import BLUE, YELLOW, Game
 from rsoccer.play import Play
 from rsoccer.rules.base import Restart, Rule
 from rsoccer.rules.referee_config import RefereeConfig
@@ -64,19 +64,17 @@ class Referee(Rule):
         if len(new):
             kickoffs = (play.rng.uniform(0.0, 2.0) >= 1.0).astype(np.intp)
             game.referee[new] = _NEW_GAMES[kickoffs[new]]
-        rows = game.referee[worlds]
-        self.core.begin(play.frame.rows[worlds], rows)
-        game.referee[worlds] = rows
-        self._summarize(play)
+        some = game.take(worlds)
+        self.core.begin(play.frame.rows[worlds], _arrays(some))
+        game.put(worlds, some)
 
     def judge(self, play: Play) -> Restart | None:
         """Judge the step of each match."""
         game, rows = play.game, play.frame.rows
         restart = np.empty_like(rows)
         restarts, events = self.core.judge(
-            play.last_frame.rows, rows, game.referee, game.statistics, restart, play.threads
+            play.last_frame.rows, rows, _arrays(game), restart, play.threads
         )
-        self._summarize(play)
         if events is not None:
             play.events.extend(events)
         if restarts is None:
@@ -84,7 +82,7 @@ class Referee(Rule):
         worlds = np.flatnonzero(restarts)
         return Restart(worlds, rows=restart[worlds])
 
-    def _summarize(self, play: Play) -> None:
-        """Write score, time left and permissions from the state of the matches."""
-        game = play.game
-        self.core.summarize(game.referee, game.score, game.seconds_left, game.may_touch)
+
+def _arrays(game: Game) -> tuple[Array, ...]:
+    """The arrays that the core changes."""
+    return game.referee, game.statistics, game.score, game.seconds_left, game.may_touch
