@@ -15,18 +15,27 @@ from numpy.typing import NDArray
 __all__ = [
     "BALL_COLUMNS",
     "BALL_PARAMETERS",
+    "COMMANDS",
     "COMMAND_COLUMNS",
     "CROSSINGS",
+    "EVENT_KINDS",
+    "GAME_COLUMNS",
+    "GAME_FEATURES",
+    "MAX_EVENTS",
     "MAX_PLACED_ANGULAR_VELOCITY",
     "MAX_PLACED_HEIGHT",
     "MAX_PLACED_SPEED",
     "MAX_PLACED_SPIN",
+    "OFFENSES",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
+    "STAGES",
+    "STATISTICS_COLUMNS",
     "BallModel",
     "EgoFeatures",
     "Field",
     "Potential",
+    "Referee",
     "RobotModel",
     "SimConfig",
     "Simulator",
@@ -41,7 +50,33 @@ __all__ = [
     "nearest_to_ball",
     "normalized",
     "pooled_moments",
+    "referee_preset",
+    "referee_rules",
 ]
+
+COMMANDS: dict[str, int]
+"""Numbers of the referee's commands by name; below 100 those of the SSL game controller."""
+
+STAGES: dict[str, int]
+"""Numbers of the parts of a match by name, those of the SSL game controller."""
+
+EVENT_KINDS: dict[str, int]
+"""Numbers of the kinds of events by name, those of the SSL game controller."""
+
+OFFENSES: tuple[int, ...]
+"""Kinds of events that are offenses, in the order of the columns `offenses` of the statistics."""
+
+MAX_EVENTS: int
+"""Greatest number of events that are listed for one match in one step."""
+
+GAME_COLUMNS: tuple[str, ...]
+"""Names of the columns of a match's state under a referee. Times are in control steps."""
+
+STATISTICS_COLUMNS: tuple[str, ...]
+"""Names of the columns of a match's statistics, since it began."""
+
+GAME_FEATURES: tuple[str, ...]
+"""Names of the numbers that a robot observes of a match's state."""
 
 MAX_PLACED_ANGULAR_VELOCITY: float
 """Maximum angular velocity with which a robot can be placed, rad/s."""
@@ -735,6 +770,111 @@ class SimConfig:
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
+class Referee:
+    """Referee of matches with the same rules, field and robots.
+
+    A match is a row of numbers with the columns `GAME_COLUMNS`. `matches` is a tuple of arrays of n
+    matches that methods change in place: state (n, game) and statistics (n, statistics) float32,
+    score (n, 2) int64, playing time left in the stage (n,) float32 in seconds, and whether each
+    robot may touch the ball (n, robots) bool.
+
+    Args:
+        config: Field, ball, robots and time step.
+        rules: Numbers and switches of the rules as JSON, such as `referee_preset` returns.
+
+    Raises:
+        ValueError: `rules` is no JSON of a configuration, has a number that is not finite or below
+            0, or names a rule that does not exist.
+    """
+
+    def __new__(cls, config: SimConfig, rules: str) -> Referee: ...
+    @staticmethod
+    def new_game(kickoff: int) -> NDArray[np.float32]:
+        """Return the state of a match that begins.
+
+        Args:
+            kickoff: Team with the first kick-off: 0 for blue, 1 for yellow.
+
+        Returns:
+            (game,) numbers.
+
+        Raises:
+            ValueError: `kickoff` is neither 0 nor 1.
+        """
+
+    def line_up(self, rows: NDArray[np.float32]) -> None:
+        """Put the ball, and all robots that are not absent, where matches begin.
+
+        Args:
+            rows: (n, row) state rows, changed in place.
+
+        Raises:
+            TypeError: `rows` has another type.
+            ValueError: `rows` has another shape.
+        """
+
+    def begin(self, rows: NDArray[np.float32], matches: tuple[NDArray[np.generic], ...]) -> None:
+        """Fit matches to the states from which play begins or goes on.
+
+        Args:
+            rows: (n, row) state rows.
+            matches: Arrays of the matches, changed in place.
+
+        Raises:
+            TypeError: An array has another type.
+            ValueError: An array has another shape, or a number that its column cannot have.
+        """
+
+    def judge(
+        self,
+        before: NDArray[np.float32],
+        after: NDArray[np.float32],
+        matches: tuple[NDArray[np.generic], ...],
+        restart: NDArray[np.float32],
+        threads: Threads | None = None,
+    ) -> tuple[NDArray[np.bool_] | None, NDArray[np.float32] | None]:
+        """Judge a step of each match.
+
+        Args:
+            before: (n, row) state rows before the step.
+            after: (n, row) state rows after it.
+            matches: Arrays of the matches, changed in place.
+            restart: (n, row) output: state rows from which play goes on where it restarts.
+            threads: Threads that share the work; None for the caller's alone.
+
+        Returns:
+            Matches in which play restarts, (n,), and events (k, 6) in the order of matches: match,
+            kind, team, robot (-1 for none), position x and y in meters. None where there are none.
+
+        Raises:
+            TypeError: An array has another type.
+            ValueError: An array has another shape, or a number that its column cannot have.
+        """
+
+    def features(
+        self,
+        game: NDArray[np.float32],
+        rows: NDArray[np.float32],
+        observers: Sequence[int],
+        threads: Threads | None = None,
+    ) -> NDArray[np.float32]:
+        """Return what robots observe of the state of their matches.
+
+        Args:
+            game: (n, game) states of matches.
+            rows: (n, row) state rows.
+            observers: Indices of robots.
+            threads: Threads that share the work; None for the caller's alone.
+
+        Returns:
+            (n, observers, features), with the names `GAME_FEATURES`.
+
+        Raises:
+            TypeError: An array has another type.
+            ValueError: An array has another shape or a wrong number, or there is no such robot.
+        """
+
+@final
 class Steering:
     """Commands of omnidirectional robots from actions.
 
@@ -1357,3 +1497,27 @@ class Simulator:
     def __getnewargs__(self) -> tuple[SimConfig, int, int]: ...
     def __getstate__(self) -> bytes: ...
     def __setstate__(self, state: bytes) -> None: ...
+
+def referee_preset(name: str) -> str:
+    """Return the numbers and switches of a preset of the rules, as JSON.
+
+    Args:
+        name: "ssl_2026_a", "ssl_2026_b", "vsss_3v3" or "vsss_5v5".
+
+    Raises:
+        KeyError: There is no such preset.
+    """
+
+def referee_rules(league: str) -> list[list[str]]:
+    """Return the rules of a league in the order in which they are judged.
+
+    Args:
+        league: "ssl" or "vsss".
+
+    Returns:
+        For each rule the name of its event, the paragraph of its source, what it says, and its
+        function.
+
+    Raises:
+        ValueError: There is no such league.
+    """

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from rsoccer._core import GAME_COLUMNS, MAX_EVENTS, STATISTICS_COLUMNS
 from rsoccer.arrays import Array, Floats, Mask
 
-
 _ENDS: Final = re.compile(r"(_(blue|yellow|x|y|\d+))+$")
 """Ends of the names of columns that belong together."""
 
