@@ -45,7 +45,7 @@ PARTS: Final = {
     "free motion": ("engine/contact_free", "bodies.rs:move_freely"),
     "wheels": ("drive/",),
     "loads": (),
-    "ball": ("ball/rolling", "ball/impact", "tick/ball_contacts", "tick/flight"),
+    "ball": ("ball/rolling", "ball/impact", "tick/ball_contacts", "tick/bounce", "tick/flight"),
     "handling": ("ball/mouth", "ball/kicks", "tick/handling"),
     "robot contacts": ("tick/robot_contacts",),
     "events": ("state/touch", "state/crossing"),

@@ -26,6 +26,7 @@ mod mouth;
 mod omni;
 mod placement;
 mod pressing;
+mod pushed_rows;
 mod records;
 mod reposition;
 mod restart;

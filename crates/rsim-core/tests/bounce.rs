@@ -3,7 +3,7 @@
 #![allow(clippy::float_cmp)] // flags, zeros and equal results are exact
 
 use rsim_core::columns::{ball_column, robot_column};
-use rsim_core::scenes::{self, Driver, Scene, lone_ball, robots};
+use rsim_core::scenes::{self, Driver, Scene, deepest_ball, lone_ball, robots};
 use rsim_core::{BallModel, Body, Drive, OmniDrive, RobotModel, SimConfig};
 
 /// A floor without friction, so that only the bounce changes the ball.
@@ -172,6 +172,69 @@ fn a_ball_turns_a_round_robot_by_its_friction_at_every_speed_and_tick() {
                 let error = (turned.abs() / expected - 1.0).abs();
                 let label = format!("{speed} m/s, {aside} m aside, ticks of {tick} s");
                 assert!(error < 0.03, "{label}: {turned} rad/s, friction gives {expected}");
+            }
+        }
+    }
+}
+
+/// A ball that bounces at the time `contact` of its tick: its places along the normal, m, from the place of the
+/// contact, and where it would be with the speed of the bounce from then on.
+fn places_after(scene: &Scene, at: [f32; 2], toward: [f32; 2], speed: f32) -> Vec<[f32; 2]> {
+    let along = |x: f32, y: f32| x * toward[0] + y * toward[1];
+    let (tick, v_x) = (scene.config.tick, ball_column("v_x"));
+    let way = along(at[0] - scene.start[0], at[1] - scene.start[1]);
+    let contact = way / speed;
+    let rows = scene.every_tick(contact + 0.03);
+    let places = rows.iter().enumerate().filter_map(|(nth, row)| {
+        let since = nth as f32 * tick - contact;
+        let back = along(row[v_x], row[v_x + 1]);
+        (since > 0.0).then(|| [along(row[0] - at[0], row[1] - at[1]), back * since])
+    });
+    places.collect()
+}
+
+/// It stayed at the wall or robot until the tick ended, and was up to 12 mm behind.
+#[test]
+fn a_ball_lost_the_rest_of_the_tick_of_its_bounce() {
+    for speed in [0.5, 2.0, 5.0] {
+        for nth in 0..8_u8 {
+            let away = 0.05 + 0.005 * speed * f32::from(nth) / 8.0;
+            let config = slippery(&BallModel::VSS_RSIM, 0);
+            let wall = [0.0, config.field.max_y() - config.ball.radius];
+            let at_wall = lone_ball(config, [0.0, wall[1] - away], [0.0, speed]);
+            let robot = at_robot(&BallModel::VSS_RSIM, 0.0, speed);
+            let front = RobotModel::SSL_GENERIC.front_distance() + robot.config.ball.radius;
+            let mut at_robot = robot;
+            at_robot.set_ball([front + away, 0.0], [-speed, 0.0]);
+            for (scene, at, toward) in
+                [(at_wall, wall, [0.0, 1.0]), (at_robot, [front, 0.0], [-1.0, 0.0])]
+            {
+                let places = places_after(&scene, at, toward, speed);
+                assert!(places.len() > 2 && places[2][0] < 0.0, "{speed} m/s: {places:?}");
+                for [place, expected] in places {
+                    let label = format!("{} at {speed} m/s, {away} m away", scene.name);
+                    assert!((place - expected).abs() < 5e-4, "{label}: {place}, not {expected} m");
+                }
+            }
+        }
+    }
+}
+
+/// Between a wall and a robot there is less space than a ball makes on its way back in a tick.
+#[test]
+fn a_ball_that_bounces_enters_no_other_body() {
+    for space in [0.5e-3, 2e-3, 5e-3] {
+        for degrees in [0.0_f32, 30.0, 60.0] {
+            let config = SimConfig { tick: 0.005, ..scenes::vss(1, 0) };
+            let (half, radius) = (RobotModel::VSS_440RPM.front_distance(), config.ball.radius);
+            let wall = config.field.max_y();
+            let poses = [[0.0, wall - 2.0 * radius - space - half, 90.0]];
+            let mut scene = Scene::at("slot", config, &poses, Driver::STILL);
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            scene.set_ball([-0.02, wall - radius - 0.8 * space], [5.0 * sin, 5.0 * cos]);
+            for row in scene.every_tick(0.1) {
+                let deep = deepest_ball(&scene.config, &row).max(row[1] + radius - wall);
+                assert!(deep < 1e-3, "{space} m, {degrees} degrees: {deep} m deep: {row:?}");
             }
         }
     }

@@ -49,12 +49,14 @@ fn passed_and_touched(scene: &Scene) -> (bool, bool) {
     let rows = scene.every_tick(0.12);
     let (v_x, v_y) = (scene.start[3], scene.start[4]);
     let speed = v_x.hypot(v_y);
-    let way = |row: &[f32]| (row[0] * v_x + row[1] * v_y) / speed;
     let model = &scene.config.blue[0];
     let beyond = inner(model) + scene.config.ball.radius;
+    // From the robot: a ball may follow one that it has hit.
     let through = |row: &Vec<f32>| {
-        let aside = (row[1] * v_x - row[0] * v_y) / speed;
-        way(row) > beyond && aside.abs() < inner(model)
+        let robot = robots(row).next().expect("a robot");
+        let (x, y) = (row[0] - robot[0], row[1] - robot[1]);
+        let (way, aside) = ((x * v_x + y * v_y) / speed, (y * v_x - x * v_y) / speed);
+        way > beyond && aside.abs() < inner(model)
     };
     let touched =
         |row: &Vec<f32>| robots(row).any(|robot| robot[robot_column("touched_ball")] > 0.0);

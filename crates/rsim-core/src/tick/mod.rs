@@ -2,6 +2,7 @@
 //! solved, touches and crossings are recorded.
 
 mod ball_contacts;
+mod bounce;
 mod commands;
 mod flight;
 mod handling;
@@ -15,6 +16,7 @@ use crate::engine::{BallPhase, BallRules, NonFinite, RobotContact, Scratch, Sque
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::state::{Setup, State};
+use crate::tick::bounce::FreeWay;
 use crate::tick::flight::Flight;
 use crate::tick::squeeze::Squeeze;
 pub(crate) use commands::StepCommands;
@@ -87,8 +89,7 @@ impl Tick<'_> {
     ///
     /// The engine moves the ball with its *mean* velocity over `length`; afterwards the ball gets the
     /// difference to the *end* velocity added to the engine's result. So the path is exact for any
-    /// tick, and a push changes nothing about the law. After a bounce the law starts anew from there,
-    /// for half a tick on average.
+    /// tick, and a push changes nothing about the law. After a bounce the law starts anew from the contact.
     fn roll(
         &self,
         state: &mut State,
@@ -120,7 +121,8 @@ impl Tick<'_> {
             &mut now,
             scratch,
         ) {
-            now = now.after(ball, length / 2.0).1;
+            let free = FreeWay { start: before.position, velocity: mean, time: length };
+            now = bounce::go_on(state, self.setup, self.parameters, &free, now);
         } else {
             now.velocity += end.velocity - mean;
         }
