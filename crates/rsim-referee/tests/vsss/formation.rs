@@ -128,6 +128,27 @@ fn robots_stand_where_the_tables_of_the_league_say() {
 }
 
 #[test]
+fn a_match_is_lined_up_for_its_first_kick_off() {
+    for size in Size::BOTH {
+        let mut scene = scattered(size, [5, 5], 8, 0.2);
+        scene.roll([0.3, 0.2], [1.0, 0.0]);
+        let present = scene.robots().len();
+        scene.referee.line_up(&mut scene.row).expect("its row");
+        let kickoff = Command::PrepareKickoff(Team::Blue);
+        assert_eq!((scene.ball_position(), scene.robots().len()), (Vector::default(), present));
+        for team in Team::BOTH {
+            let places = expected(kickoff, size, Vector::default(), team);
+            let robots = scene.robots().into_iter().filter(|robot| robot.team == team);
+            for (robot, place) in robots.zip(places) {
+                assert!(robot.position.distance(place) < 1e-6, "{robot:?}");
+                assert!(robot.heading.dot(robot.position) < 0.0, "it faces the ball");
+            }
+        }
+        assert_valid(&scene);
+    }
+}
+
+#[test]
 fn smaller_teams_have_the_first_places() {
     for size in Size::BOTH {
         for (command, ball) in kicks(size) {

@@ -6,6 +6,7 @@ use rsim_referee::events::{Event, EventKind};
 use rsim_referee::game::Game;
 use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::{Layout, Robot};
+use rsim_referee::statistics::Statistics;
 use rsim_referee::{Decisions, Referee, Team, Vector};
 
 use crate::pitches::{Size, TIME_STEP};
@@ -38,6 +39,7 @@ pub(crate) struct Scene {
     pub(crate) row: Vec<f32>,
     /// Whether the last step ended with a restart.
     pub(crate) restarts: bool,
+    statistics: Statistics,
     decisions: Decisions,
 }
 
@@ -61,6 +63,7 @@ impl Scene {
             before: row.clone(),
             row,
             restarts: false,
+            statistics: Statistics::default(),
             decisions: Decisions::default(),
         }
     }
@@ -141,7 +144,14 @@ impl Scene {
     pub(crate) fn step(&mut self) -> Vec<Event> {
         let mut restart = vec![f32::NAN; self.row.len()];
         self.referee
-            .judge(&self.before, &self.row, &mut self.game, &mut restart, &mut self.decisions)
+            .judge(
+                &self.before,
+                &self.row,
+                &mut self.game,
+                &mut self.statistics,
+                &mut restart,
+                &mut self.decisions,
+            )
             .expect("rows of this layout");
         self.restarts = self.decisions.restarts;
         if self.restarts {

@@ -25,6 +25,8 @@ const DECELERATION: f32 = 0.5;
 /// A match with bodies that wander: robots to the ball or anywhere, the ball where it is kicked.
 struct Walk {
     scene: Scene,
+    /// The match as a row.
+    row: Vec<f32>,
     random: Random,
     /// Where each robot of blue and of yellow is going; `None` to the ball.
     targets: Vec<Option<Vector>>,
@@ -45,6 +47,7 @@ impl Walk {
         // Lively matches, and some in which the ball often lies: with many robots around it, or with few.
         let [chases, kicks] = [[0.4, 0.002], [0.4, 0.1], [0.02, 0.3]][usize::from(seed % 3)];
         Self {
+            row: scene.game.row(),
             scene,
             random: Random::new(u64::from(seed)),
             targets: vec![None; robots[0] + robots[1]],
@@ -103,7 +106,8 @@ impl Walk {
     /// Ends a step, and checks what follows from its beginning. Returns its events.
     fn step(&mut self) -> Vec<Event> {
         let before = self.scene.game.clone();
-        self.scene.game = Game::read(&before.row()).expect("its own row");
+        before.write(&mut self.row);
+        self.scene.game = Game::read(&self.row).expect("its own row");
         assert_eq!(self.scene.game, before, "a match comes back from its row");
         if before.in_play || self.random.happens(0.3) {
             self.wander();
