@@ -29,8 +29,7 @@ pub(crate) fn advance(game: &mut Game, moment: &Moment, rulings: &Rulings) -> Ar
     if let Some(then) = rulings.stop() {
         return stop(game, moment, rulings, then);
     }
-    let is_time_up = game.stage.is_played() && game.stage_steps_left <= 0;
-    if is_time_up && moment.config.half_end == HalfEnd::AtOnce && game.penalty_taker().is_none() {
+    if moment.config.half_end == HalfEnd::AtOnce && is_over(game, moment) {
         return end_stage(game, moment);
     }
     match game.command {
@@ -93,11 +92,21 @@ fn stop(game: &mut Game, moment: &Moment, rulings: &Rulings, then: Continuation)
             None => finish(game),
         };
     }
-    let is_time_up = game.stage.is_played() && game.stage_steps_left <= 0;
-    if is_time_up && !matches!(game.next_command, Some(Command::PreparePenalty(_))) {
+    if is_over(game, moment) {
         return end_stage(game, moment);
     }
     arranged_in_stop(moment)
+}
+
+/// Whether the time of the stage is up. In SSL a penalty kick is still taken; after one of VSSS play just goes
+/// on, and the league's referee does not wait for it.
+fn is_over(game: &Game, moment: &Moment) -> bool {
+    let is_penalty =
+        |command: &Option<Command>| matches!(command, Some(Command::PreparePenalty(_)));
+    let awaits_penalty = game.penalty_taker().is_some()
+        || [Some(game.command), game.next_command].iter().any(is_penalty);
+    let is_time_up = game.stage.is_played() && game.stage_steps_left <= 0;
+    is_time_up && !(awaits_penalty && moment.config.league == League::Ssl)
 }
 
 /// In a stop robots are put in valid places where the ball is teleported; in VSSS they are when the next
@@ -156,6 +165,7 @@ fn end_stage(game: &mut Game, moment: &Moment) -> Arrangement {
     game.stage = stage;
     game.stage_steps_left = 0;
     game.placement_failures = ByTeam::default(); // "for the rest of the game half"
+    game.wait_steps = moment.steps(moment.config.stop_seconds);
     if stage == Stage::Shootout {
         let first = game.first_kickoff;
         return prepare_penalty(game, moment, first);
@@ -163,14 +173,13 @@ fn end_stage(game: &mut Game, moment: &Moment) -> Arrangement {
     let kickoff = Command::PrepareKickoff(kickoff_of(stage, game.first_kickoff));
     game.give(Command::Stop, Some(kickoff));
     game.designated_position = Vector::default();
-    game.wait_steps = moment.steps(moment.config.stop_seconds);
     arranged_in_stop(moment)
 }
 
+/// Decides that the present stop is followed by a penalty kick.
 fn prepare_penalty(game: &mut Game, moment: &Moment, team: Team) -> Arrangement {
     game.give(Command::Stop, Some(Command::PreparePenalty(team)));
     game.designated_position = moment.lines().penalty_mark(team);
-    game.wait_steps = moment.steps(moment.config.stop_seconds);
     arranged_in_stop(moment)
 }
 

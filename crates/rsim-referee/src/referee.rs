@@ -115,6 +115,7 @@ impl Referee {
         decisions: &mut Decisions,
     ) -> Result<(), RefereeError> {
         let (before, now) = (self.layout.sight(before)?, self.layout.sight(after)?);
+        self.layout.sight(restart)?;
         decisions.events.clear();
         decisions.rulings.clear();
         decisions.restarts = false;
@@ -142,8 +143,9 @@ impl Referee {
 
     fn follow(&self, game: &mut Game, moment: &Moment) {
         tracking::follow(game, moment);
-        if self.config.league == League::Vsss {
-            rules::vsss::stuck_ball::follow(game, moment);
+        match self.config.league {
+            League::Ssl => tracking::follow_progress(game, moment),
+            League::Vsss => rules::vsss::stuck_ball::follow(game, moment),
         }
     }
 }

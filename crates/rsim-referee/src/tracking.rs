@@ -20,7 +20,6 @@ pub(crate) fn follow(game: &mut Game, moment: &Moment) {
     }
     follow_touches(game, moment);
     follow_dribbling(game, moment);
-    follow_progress(game, moment);
 }
 
 /// Follows who touched the ball last, where, and how high it has been since.
@@ -58,8 +57,8 @@ fn follow_dribbling(game: &mut Game, moment: &Moment) {
     game.dribble_start = moment.ball.position;
 }
 
-/// Follows for how long the ball makes no progress, and for how long it is in an area.
-fn follow_progress(game: &mut Game, moment: &Moment) {
+/// SSL: follows for how long the ball makes no progress, and for how long it is in an area.
+pub(crate) fn follow_progress(game: &mut Game, moment: &Moment) {
     let ball = moment.ball.position;
     let moved = ball.distance(game.stuck_position) > moment.config.no_progress_distance;
     if moved || !game.in_play {
