@@ -12,6 +12,9 @@ use crate::stages::{is_shootout, kickoff_of};
 use crate::team::Team;
 use crate::vector::Vector;
 
+/// Interferences after which the referee ends a ball placement at the next one.
+const MAX_INTERFERENCES: f32 = 3.0;
+
 /// What the referee does with the bodies at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Arrangement {
@@ -29,8 +32,7 @@ pub(crate) fn advance(game: &mut Game, moment: &Moment, rulings: &Rulings) -> Ar
     if let Some(then) = rulings.stop() {
         return stop(game, moment, rulings, then);
     }
-    let is_time_up = game.stage.is_played() && game.stage_steps_left <= 0;
-    if is_time_up && moment.config.half_end == HalfEnd::AtOnce && game.penalty_taker().is_none() {
+    if is_stage_over(game, moment) {
         return end_stage(game, moment);
     }
     match game.command {
@@ -52,6 +54,18 @@ fn pass_time(game: &mut Game, moment: &Moment) {
         game.stage_steps_left -= 1;
         crate::cards::pass_playing_time(game);
     }
+}
+
+/// Whether the time of a half is up, and play stands or may be interrupted. A penalty kick is still taken.
+fn is_stage_over(game: &Game, moment: &Moment) -> bool {
+    let is_penalty = |command| matches!(command, Some(Command::PreparePenalty(_)));
+    let awaits_penalty = game.penalty_taker().is_some()
+        || is_penalty(Some(game.command))
+        || is_penalty(game.next_command);
+    game.stage.is_played()
+        && game.stage_steps_left <= 0
+        && !awaits_penalty
+        && (moment.config.half_end == HalfEnd::AtOnce || !game.is_running())
 }
 
 /// Stops play, or decides anew how it goes on while it is stopped. A kick-off or penalty kick that is due
@@ -81,9 +95,6 @@ fn stop(game: &mut Game, moment: &Moment, rulings: &Rulings, then: Continuation)
     let shootout_kick = (was_running && was_penalty && is_shootout(game)).then_some(game.kick);
     game.kick = None;
     game.forget_play();
-    if was_running {
-        game.fast_robots = 0;
-    }
     if is_goal && moment.config.ends_early(game) {
         return finish(game);
     }
@@ -93,8 +104,7 @@ fn stop(game: &mut Game, moment: &Moment, rulings: &Rulings, then: Continuation)
             None => finish(game),
         };
     }
-    let is_time_up = game.stage.is_played() && game.stage_steps_left <= 0;
-    if is_time_up && !matches!(game.next_command, Some(Command::PreparePenalty(_))) {
+    if is_stage_over(game, moment) {
         return end_stage(game, moment);
     }
     arranged_in_stop(moment)
@@ -141,7 +151,6 @@ fn awarded(game: &Game, moment: &Moment, rulings: &Rulings, command: Command) ->
 #[allow(clippy::cast_precision_loss)] // few failures
 fn may_place(game: &Game, moment: &Moment, team: Team) -> bool {
     (game.placement_failures[team] as f32) < moment.config.placement_failures
-        && !game.has_failed_placement[team]
 }
 
 /// Ends a stage whose time is up.
@@ -192,17 +201,33 @@ fn after_halt(game: &mut Game, moment: &Moment) -> Arrangement {
 
 fn after_stop(game: &mut Game, moment: &Moment) -> Arrangement {
     match game.next_command {
-        Some(next) if game.command_steps >= game.wait_steps => begin(game, moment, next),
+        Some(next)
+            if game.command_steps >= game.wait_steps && !waits_for_robots(game, moment, next) =>
+        {
+            begin(game, moment, next)
+        }
         _ => Arrangement::None,
     }
 }
 
+/// Whether robots still have time to leave a ball that needs no placement.
+fn waits_for_robots(game: &Game, moment: &Moment, next: Command) -> bool {
+    let most = game.wait_steps + moment.steps(moment.config.max_prepare_seconds);
+    is_placed_by_robots(moment, next)
+        && !needs_placement(game, moment)
+        && game.command_steps < most
+        && !crate::placing::is_arranged(game, moment, moment.ball.position)
+}
+
+/// Whether robots place the ball before a command.
+fn is_placed_by_robots(moment: &Moment, next: Command) -> bool {
+    moment.config.placement == Placement::Robots
+        && matches!(next, Command::DirectFree(_) | Command::ForceStart)
+}
+
 /// Begins the command with which play goes on, or the ball placement before it.
 fn begin(game: &mut Game, moment: &Moment, next: Command) -> Arrangement {
-    let by_robots = moment.config.placement == Placement::Robots;
-    let is_placed_by_robots =
-        by_robots && matches!(next, Command::DirectFree(_) | Command::ForceStart);
-    if !is_placed_by_robots {
+    if !is_placed_by_robots(moment, next) {
         allow(game, moment, next);
         return Arrangement::All;
     }
@@ -232,13 +257,18 @@ fn needs_placement(game: &Game, moment: &Moment) -> bool {
         || ball.speed() >= config.stuck_speed
 }
 
-/// The team that places the ball: the one in favor, or for a force start the teams in turns, unless it has
-/// failed. `None` if no team may.
+/// The team that places the ball: the one in favor, or for a force start the teams in turns. After it has
+/// failed the others try. `None` where the referee places it.
 fn placing_team(game: &mut Game, moment: &Moment, next: Command) -> Option<Team> {
-    let first = next.team().unwrap_or_else(|| {
-        game.neutral_placements += 1;
-        if game.neutral_placements % 2 == 1 { Team::Blue } else { Team::Yellow }
-    });
+    let failed = Team::BOTH.into_iter().find(|team| game.has_failed_placement[*team]);
+    if let Some(failed) = failed {
+        return Some(failed.opponent()).filter(|team| may_place(game, moment, *team));
+    }
+    if let Some(favored) = next.team() {
+        return Some(favored).filter(|team| may_place(game, moment, *team));
+    }
+    game.neutral_placements += 1;
+    let first = if game.neutral_placements % 2 == 1 { Team::Blue } else { Team::Yellow };
     [first, first.opponent()].into_iter().find(|team| may_place(game, moment, *team))
 }
 
@@ -251,8 +281,13 @@ fn after_placement(
     let Some(next) = game.next_command else { return Arrangement::None };
     if rulings.has(EventKind::PlacementSucceeded) {
         game.placement_failures[placing] = (game.placement_failures[placing] - 1).max(0);
+        game.designated_position = moment.ball.position;
         allow(game, moment, next);
         return Arrangement::Robots;
+    }
+    if is_hopeless(game, moment) {
+        allow(game, moment, next);
+        return Arrangement::All;
     }
     if !rulings.has(EventKind::PlacementFailed) {
         return Arrangement::None;
@@ -272,9 +307,19 @@ fn after_placement(
     Arrangement::Robots
 }
 
+/// Whether the others have interfered so often that the referee places the ball ("Ball Placement
+/// Interference", last note).
+fn is_hopeless(game: &Game, moment: &Moment) -> bool {
+    let config = moment.config;
+    let seconds = config.placement_seconds + MAX_INTERFERENCES * config.interference_seconds;
+    game.wait_steps > moment.steps(seconds)
+}
+
 /// Gives a command that prepares or allows a kick.
 fn allow(game: &mut Game, moment: &Moment, command: Command) {
     game.forget_play();
+    game.fast_robots = 0;
+    game.has_failed_placement = ByTeam::default();
     game.kick = Some(command);
     game.kick_position = game.designated_position;
     let is_prepared = matches!(
@@ -305,7 +350,8 @@ fn after_preparation(game: &mut Game, moment: &Moment) -> Arrangement {
     let [least, most] = [moment.config.prepare_seconds, moment.config.max_prepare_seconds]
         .map(|seconds| moment.steps(seconds));
     let is_over = game.command_steps >= most;
-    let is_ready = game.command_steps >= least && crate::placing::is_arranged(game, moment);
+    let is_ready = game.command_steps >= least
+        && crate::placing::is_arranged(game, moment, game.designated_position);
     if !is_over && !is_ready {
         return Arrangement::None;
     }
@@ -342,5 +388,4 @@ fn put_in_play(game: &mut Game) {
     game.in_play = true;
     game.close_fouls = ByTeam::default();
     game.close_steps = ByTeam::default();
-    game.has_failed_placement = ByTeam::default();
 }

@@ -47,7 +47,7 @@ impl<'a> Positions<'a> {
     /// Whether a robot may stand at a place, whatever other robots do.
     pub(crate) fn allows(&self, robot: &Robot, place: Vector) -> bool {
         self.is_on_the_field(place)
-            && place.distance(self.ball) >= self.ball_distance(robot)
+            && place.distance(self.ball) - self.moment.pitch.robot_radius >= self.ball_gap(robot)
             && (self.moment.config.league == League::Vsss || self.obeys_areas(robot, place))
     }
 
@@ -87,15 +87,15 @@ impl<'a> Positions<'a> {
         }
     }
 
-    /// Distance that the center of a robot keeps from the ball.
-    fn ball_distance(&self, robot: &Robot) -> f32 {
-        let (config, pitch) = (self.moment.config, self.moment.pitch);
-        let touching = pitch.robot_radius + pitch.ball_radius + ROOM;
+    /// Distance that the hull of a robot keeps from the center of the ball.
+    fn ball_gap(&self, robot: &Robot) -> f32 {
+        let config = self.moment.config;
+        let touching = self.moment.pitch.ball_radius + ROOM;
         let is_kicking = self.command.team() == Some(robot.team);
         if !self.is_stopped && is_kicking {
             touching + config.placement_clearance
         } else {
-            touching.max(pitch.robot_radius + config.ball_distance)
+            touching.max(config.ball_distance)
         }
     }
 
