@@ -106,8 +106,6 @@ pub fn pass_removal_time(game: &mut Game, moment: &Moment, team: Team) -> bool {
         game.removal_steps_left[team] = -1;
         return false;
     }
-    if game.removal_steps_left[team] > 0 {
-        game.removal_steps_left[team] -= 1;
-    }
-    game.removal_steps_left[team] <= 0
+    game.removal_steps_left[team] = (game.removal_steps_left[team] - 1).max(0);
+    game.removal_steps_left[team] == 0
 }

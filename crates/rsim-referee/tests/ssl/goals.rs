@@ -82,6 +82,23 @@ fn beside_and_above_the_goal_and_before_the_line_is_no_goal() {
     }
 }
 
+#[test]
+fn the_height_of_a_shot_is_that_over_the_line() {
+    for (before, after, is_goal) in [(0.0, 0.4, false), (0.4, 0.0, false), (0.3, 0.0, true)] {
+        for mut scene in views(B) {
+            touch_before_goal(&mut scene, (Them, 2));
+            scene.ball(4.5 + BEYOND - 0.1, 0.0);
+            scene.ball_height(before);
+            scene.settle();
+            scene.ball(4.5 + BEYOND + 0.1, 0.0);
+            scene.ball_height(after);
+            scene.step();
+            let shots = [Goal, InvalidGoal].map(|kind| scene.count_of(kind));
+            assert_eq!(shots.iter().sum::<usize>(), usize::from(is_goal), "{before} {after}");
+        }
+    }
+}
+
 /// A robot touches the ball, which then is at a height, and enters the goal from the floor.
 fn shoot_high(scene: &mut Scene, shooter: Bot, height: f32) {
     touch_before_goal(scene, shooter);
