@@ -4,12 +4,11 @@ use crate::codes::Command;
 use crate::config::League;
 use crate::game::Game;
 use crate::moment::Moment;
+use crate::pitch::ROOM;
 use crate::sight::Robot;
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// Room between bodies that are placed, m: more than rounding.
-const ROOM: f32 = 0.001;
 /// Distance between the rings on which a free place is searched, m.
 const RING: f32 = 0.03;
 /// Most places on a ring.
@@ -46,7 +45,7 @@ impl<'a> Positions<'a> {
 
     /// Whether a robot may stand at a place, whatever other robots do.
     pub(crate) fn allows(&self, robot: &Robot, place: Vector) -> bool {
-        self.is_on_the_field(place)
+        self.moment.pitch.has_room(place)
             && place.distance(self.ball) - self.moment.pitch.robot_radius >= self.ball_gap(robot)
             && (self.moment.config.league == League::Vsss || self.obeys_areas(robot, place))
     }
@@ -99,21 +98,6 @@ impl<'a> Positions<'a> {
         }
     }
 
-    /// Whether a robot stands within the walls, and clear of the walls of the goals.
-    fn is_on_the_field(&self, place: Vector) -> bool {
-        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius + ROOM);
-        let behind_line = place.x.abs() + radius > lines.half_length;
-        let from_post = (place.y.abs() - lines.half_goal_width).abs();
-        let within = place.x.abs() <= lines.boundary_x - radius
-            && place.y.abs() <= lines.boundary_y - radius;
-        let in_corner = place.x.abs() + place.y.abs()
-            > lines.half_length + lines.half_width - lines.corner_leg - 2_f32.sqrt() * radius;
-        let is_in_goal = place.y.abs() < lines.half_goal_width;
-        let clear_of_goal = from_post >= radius + lines.goal_wall_thickness
-            && (!is_in_goal || place.x.abs() <= lines.half_length);
-        within && !(lines.corner_leg > 0.0 && in_corner) && (!behind_line || clear_of_goal)
-    }
-
     /// Whether a robot keeps to the areas and halves of the rules of SSL.
     fn obeys_areas(&self, robot: &Robot, place: Vector) -> bool {
         let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
@@ -139,7 +123,7 @@ impl<'a> Positions<'a> {
         let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
         if self.is_penalty_keeper(robot, attacker) {
             let on_line = (place.x - lines.goal(robot.team).x).abs() <= radius;
-            return on_line && place.y.abs() <= lines.half_goal_width - radius + ROOM;
+            return on_line && place.y.abs() <= lines.half_goal_width - radius;
         }
         let behind = attacker.own_side() * (place.x - self.ball.x) - radius;
         self.taker == Some(robot.index) && behind >= 0.0
