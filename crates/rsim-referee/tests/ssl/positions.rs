@@ -160,3 +160,69 @@ fn before_a_penalty_kick_the_keepers_line_and_the_room_behind_the_ball_hold_all(
         }
     }
 }
+
+#[test]
+fn a_ball_that_rests_at_its_place_stays_and_others_are_put_there() {
+    for (x, height, speed, is_put) in [
+        (0.005, 0.0, 0.0, false),
+        (0.02, 0.0, 0.0, true),
+        (0.0, 0.1, 0.0, true),
+        (0.0, 0.0, 0.5, true),
+    ] {
+        for mut scene in views(B) {
+            scene.ball(x, -2.5);
+            scene.ball_height(height);
+            scene.ball_velocity(speed, 0.0, 0.0);
+            scene.stop(DirectFree, Us, (0.0, -2.5));
+            scene.game.wait_steps = 1;
+            scene.step();
+            assert_eq!(scene.restarted, is_put, "{x} {height} {speed}");
+            let ball = scene.sight().ball();
+            assert!(ball.speed() == 0.0 && ball.height == 0.0);
+            expect_near(scene.ball_at(), (if is_put { 0.0 } else { x }, -2.5));
+        }
+    }
+}
+
+/// Two of our robots were taken out, and their cards are over; a third team mate stands where they enter.
+fn bring_back(scene: &mut Scene, guards: &[f32]) -> Vec<(f32, f32)> {
+    let team = scene.team(Us);
+    scene.game.yellow_steps_left[team] = [1000, 1000];
+    scene.stop(DirectFree, Us, (2.0, -1.0));
+    scene.run(2.1, |scene| scene.count(Us) == 4);
+    scene.game.yellow_steps_left[team] = [0, 0];
+    for (number, x) in guards.iter().enumerate() {
+        for y in [2.95, -2.95] {
+            let side = if y > 0.0 { Us } else { Them };
+            scene.robot((side, number + 1), *x, y);
+        }
+    }
+    let present: Vec<bool> = (0..6).map(|n| scene.robot_at((Us, n)).is_some()).collect();
+    scene.stop(DirectFree, Us, (2.0, -1.0));
+    scene.wait(2.0);
+    assert_eq!(scene.count(Us), 6);
+    (0..6).filter(|n| !present[*n]).map(|n| at(scene, (Us, n))).collect()
+}
+
+#[test]
+fn robots_come_back_beside_each_other_and_beside_those_who_are_there() {
+    for guards in [&[][..], &[0.0]] {
+        for mut scene in views(B) {
+            // Those that are farthest from the ball are taken out, so that the guards stay.
+            for number in 1..6_u8 {
+                let x = if number < 4 { 2.0 } else { -3.0 };
+                scene.robot((Us, usize::from(number)), x, 0.4 * f32::from(number) - 2.0);
+            }
+            let entered = bring_back(&mut scene, guards);
+            for (x, y) in &entered {
+                assert!(x.abs() < 0.5 && y.abs() > 2.4, "{entered:?}");
+            }
+            let robots = scene.robots();
+            for (nth, robot) in robots.iter().enumerate() {
+                for other in &robots[nth + 1..] {
+                    assert!(robot.position.distance(other.position) >= 0.18);
+                }
+            }
+        }
+    }
+}
