@@ -5,8 +5,8 @@ use rsim_referee::codes::Command::{
     self, BallPlacement, DirectFree, ForceStart, PrepareKickoff, Stop,
 };
 use rsim_referee::events::EventKind::{
-    BallLeftFieldTouchLine, BotInterferedPlacement, DefenderTooCloseToKickPoint, PlacementFailed,
-    PlacementSucceeded,
+    AimlessKick, BallLeftFieldGoalLine, BallLeftFieldTouchLine, BotInterferedPlacement,
+    DefenderTooCloseToKickPoint, PlacementFailed, PlacementSucceeded,
 };
 
 use crate::scene::{A, B, Division, Scene, Side, Them, Us, expect_near, views_with_placement};
@@ -306,6 +306,27 @@ fn after_five_failures_a_team_gets_no_free_kick_for_a_ball_out() {
                 scene.expect_command(DirectFree, kicking);
                 expect_near(scene.ball_at(), (1.0, 4.3));
             }
+        }
+    }
+}
+
+#[test]
+fn so_it_is_over_goal_lines_and_after_aimless_kicks() {
+    // They play the ball over their own goal line, or from their half over ours.
+    for (from_x, line_x, kind) in [(-4.0, 4.5, BallLeftFieldGoalLine), (1.0, -4.5, AimlessKick)] {
+        for mut scene in views_with_placement(B) {
+            let team = scene.team(Us);
+            scene.game.placement_failures[team] = 5;
+            scene.ball(from_x, 2.0);
+            scene.settle();
+            scene.touch((Them, 4));
+            scene.step();
+            scene.ball(line_x * 0.98, 2.0);
+            scene.step();
+            scene.ball(line_x * 1.02, 2.0);
+            scene.step();
+            scene.only(kind);
+            assert_eq!(scene.game.next_command, Some(DirectFree(scene.team(Them))));
         }
     }
 }

@@ -184,7 +184,7 @@ fn a_ball_that_rests_at_its_place_stays_and_others_are_put_there() {
     }
 }
 
-/// Two of our robots were taken out, and their cards are over; a third team mate stands where they enter.
+/// Two of our robots were taken out, and their cards are over. Guards stand where they enter.
 fn bring_back(scene: &mut Scene, guards: &[f32]) -> Vec<(f32, f32)> {
     let team = scene.team(Us);
     scene.game.yellow_steps_left[team] = [1000, 1000];
