@@ -14,9 +14,9 @@ use crate::vector::Vector;
 /// Distance from its place within which a ball at rest stays, m.
 const SAME_PLACE: f32 = 0.01;
 
-/// Whether all robots are where the present command allows them to be, with the ball at its place.
-pub(crate) fn is_arranged(game: &Game, moment: &Moment) -> bool {
-    let positions = Positions::new(game, moment, game.designated_position);
+/// Whether all robots are where the present command allows them to be, with the ball at a place.
+pub(crate) fn is_arranged(game: &Game, moment: &Moment, ball: Vector) -> bool {
+    let positions = Positions::new(game, moment, ball);
     moment.now.robots().all(|robot| positions.allows(&robot, robot.position))
 }
 

@@ -4,13 +4,11 @@ use crate::codes::Command;
 use crate::config::League;
 use crate::game::Game;
 use crate::moment::Moment;
-use crate::pitch::Pitch;
+use crate::pitch::{Pitch, ROOM};
 use crate::sight::Robot;
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// Room between bodies that are placed, m: more than rounding.
-const ROOM: f32 = 0.001;
 /// Distance between the rings on which a free place is searched, m.
 const RING: f32 = 0.03;
 /// Most places on a ring.
@@ -47,8 +45,8 @@ impl<'a> Positions<'a> {
 
     /// Whether a robot may stand at a place, whatever other robots do.
     pub(crate) fn allows(&self, robot: &Robot, place: Vector) -> bool {
-        self.is_on_the_field(place)
-            && place.distance(self.ball) >= self.ball_distance(robot)
+        self.moment.pitch.has_room(place)
+            && place.distance(self.ball) - self.moment.pitch.robot_radius >= self.ball_gap(robot)
             && (self.moment.config.league == League::Vsss || self.obeys_areas(robot, place))
     }
 
@@ -92,38 +90,16 @@ impl<'a> Positions<'a> {
         }
     }
 
-    /// Distance that the center of a robot keeps from the ball.
-    fn ball_distance(&self, robot: &Robot) -> f32 {
-        let (config, pitch) = (self.moment.config, self.moment.pitch);
-        let touching = clear_of_ball(pitch);
+    /// Distance that the hull of a robot keeps from the center of the ball.
+    fn ball_gap(&self, robot: &Robot) -> f32 {
+        let config = self.moment.config;
+        let touching = self.moment.pitch.ball_radius + ROOM;
         let is_kicking = self.command.team() == Some(robot.team);
         if !self.is_stopped && is_kicking {
             touching + config.placement_clearance
         } else {
-            touching.max(pitch.robot_radius + config.ball_distance)
+            touching.max(config.ball_distance)
         }
-    }
-
-    /// Whether a robot stands within the walls, and clear of the blocks in the corners and of the goals.
-    fn is_on_the_field(&self, place: Vector) -> bool {
-        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius + ROOM);
-        let in_corner = place.x.abs() + place.y.abs()
-            > lines.half_length + lines.half_width - lines.corner_leg - 2_f32.sqrt() * radius;
-        place.y.abs() <= lines.boundary_y - radius
-            && !(lines.corner_leg > 0.0 && in_corner)
-            && self.is_clear_of_goals(place, radius)
-    }
-
-    /// Whether a robot stands before the goal line, in the mouth of a goal, or beside a goal that stands free.
-    /// The goals of a table are pockets in its wall.
-    fn is_clear_of_goals(&self, place: Vector, radius: f32) -> bool {
-        let (lines, x, y) = (self.moment.lines(), place.x.abs(), place.y.abs());
-        let from_post = (y - lines.half_goal_width).abs() - lines.goal_wall_thickness;
-        let in_mouth = y < lines.half_goal_width && x <= lines.half_length;
-        let beside_goal = y > lines.half_goal_width
-            && lines.goal_wall_thickness > 0.0
-            && x <= lines.boundary_x - radius;
-        x + radius <= lines.half_length || from_post >= radius && (in_mouth || beside_goal)
     }
 
     /// Whether a robot keeps to the areas and halves of the rules of SSL.
@@ -151,7 +127,7 @@ impl<'a> Positions<'a> {
         let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
         if self.is_penalty_keeper(robot, attacker) {
             let on_line = (place.x - lines.goal(robot.team).x).abs() <= radius;
-            return on_line && place.y.abs() <= lines.half_goal_width - radius + ROOM;
+            return on_line && place.y.abs() <= lines.half_goal_width - radius;
         }
         let behind = attacker.own_side() * (place.x - self.ball.x) - radius;
         self.taker == Some(robot.index) && behind >= 0.0

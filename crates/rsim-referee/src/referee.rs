@@ -150,17 +150,20 @@ impl Referee {
     }
 }
 
-/// Stops play where a team has not taken its robots out in time.
+/// Stops play where a team has not taken its robots out in time, but for a penalty kick.
 fn remove_robots(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     for team in Team::BOTH {
         let is_over =
             game.removal_steps_left[team] >= 0 && cards::pass_removal_time(game, moment, team);
-        if is_over && game.is_running() {
+        if is_over && game.is_running() && game.penalty_taker().is_none() {
             let place = moment.ball.position;
-            let kind = EventKind::TooManyRobots;
-            let ruling = Ruling::of_team(kind, Some(team), place);
-            let place = rules::ssl::kick_place(moment, place);
-            rulings.add(ruling.stops(Command::ForceStart, place));
+            let ruling = Ruling::of_team(EventKind::TooManyRobots, Some(team), place);
+            // A kick that was not taken yet is repeated.
+            let (command, place) = match game.kick.filter(|_| !game.in_play) {
+                Some(kick) => (kick, game.designated_position),
+                None => (Command::ForceStart, rules::ssl::kick_place(moment, place)),
+            };
+            rulings.add(ruling.stops(command, place));
         }
     }
 }

@@ -40,14 +40,13 @@ fn follow_touches(game: &mut Game, moment: &Moment) {
     }
 }
 
-/// Follows which robot has the ball, and where it began to have it.
+/// Follows which robot has the ball, and where it began to have it. A ball that was kicked away in the step has
+/// been dribbled up to its start only.
 fn follow_dribbling(game: &mut Game, moment: &Moment) {
     let reach = moment.pitch.ball_radius + SEPARATION;
     let has_ball = |index: usize| {
         moment.now.robot(index).is_some_and(|robot| {
-            robot.touched_ball
-                || robot.has_ball
-                || moment.hull_distance(&robot, moment.ball.position) < reach
+            robot.has_ball || moment.hull_distance(&robot, moment.ball.position) < reach
         })
     };
     if game.dribbler.is_some_and(has_ball) {
