@@ -21,7 +21,8 @@ def test_a_ball_over_a_touch_line_is_a_throw_in() -> None:
         scene = play_scene("ssl", {"ball": (1.0, 2.9, 0.0, 2.0), "last_touch": robot})
         (event,) = scene.events
         assert (event.kind, event.robot) == (EventKind.BALL_LEFT_FIELD_TOUCH_LINE, robot)
-        assert (event.team, event.seconds) == (robot.split("_")[0], pytest.approx(0.075))
+        assert event.team == robot.split("_")[0]
+        assert event.seconds == pytest.approx(0.075)
         assert scene.command == Command.STOP and scene.next_command == Command[following]
         assert scene.commands == ((0.0, Command.FORCE_START), (event.seconds, Command.STOP))
         assert scene.restart is not None
@@ -112,5 +113,5 @@ def test_rules_are_listed_with_sources() -> None:
         entries = rules(league)
         assert len({entry.name for entry in entries}) == len(entries) > 5
         assert all(entry.source and entry.summary and "::" in entry.function for entry in entries)
-    with pytest.raises(ValueError, match="league: expected 'ssl' or 'vsss', got 'x'"):
+    with pytest.raises(ValueError, match="league: expected 'ssl' or 'vsss'"):
         rules("x")

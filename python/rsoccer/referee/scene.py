@@ -69,9 +69,9 @@ def play_scene(
     Args:
         league: rules: "ssl" (division B), "vsss" (three a side), the name of a preset, or a
             `RefereeConfig`.
-        start: how the scene begins. "ball": x, y, and optionally v_x, v_y, z, v_z (m, m/s); "robots":
-            by name x, y, and optionally heading (radians), v_x, v_y, v_theta. Robots that are not
-            named are absent. All else is the state of the match, by the names of
+        start: how the scene begins. "ball": x, y, and optionally v_x, v_y, z, v_z (m, m/s);
+            "robots": by name x, y, and optionally heading (radians), v_x, v_y, v_theta. Robots that
+            are not named are absent. All else is the state of the match, by the names of
             `rsoccer._core.GAME_COLUMNS` or without their ends: "command" and "next_command" (names
             of `Command`; "FORCE_START" by default), "kick" (the command that prepared a
             "NORMAL_START"), "stage", "seconds_left" (of the stage, 300), "score" (blue, yellow),

@@ -23,7 +23,12 @@ FIELDS: Final = {
 _ROBOT: Final = re.compile(r"(blue|yellow)_(\d+)")
 _BALL: Final = ("x", "y", "v_x", "v_y", "z", "v_z")
 _BODY: Final = ("x", "y", "heading", "v_x", "v_y", "v_theta")
-_CODES: Final = {"command": Command, "next_command": Command, "kick": Command, "stage": Stage}
+_CODES: Final[dict[str, type[Command] | type[Stage]]] = {
+    "command": Command,
+    "next_command": Command,
+    "kick": Command,
+    "stage": Stage,
+}
 _ROBOTS: Final = ("last_touch", "kick_taker", "dribbler", "pusher", "pushed")
 _OWN: Final = ("ball", "robots", "seconds_left")
 
@@ -111,7 +116,11 @@ def game_of(start: Mapping[str, Any], config: SimConfig, time_step: float) -> Ga
     """
     row = Referee.new_game(BLUE)
     game = Game({"referee": row[None]})
-    values = {"stage": "NORMAL_FIRST_HALF", "seconds_left": 300.0, "command": "FORCE_START"}
+    values: dict[str, Any] = {
+        "stage": "NORMAL_FIRST_HALF",
+        "seconds_left": 300.0,
+        "command": "FORCE_START",
+    }
     values |= {name: value for name, value in start.items() if name not in ("ball", "robots")}
     command = _code("command", values["command"], Command)
     values.setdefault("next_command", None)
