@@ -6,11 +6,13 @@ SOLVERS: Final[dict[str, str]] = {
     "SSLContestedPossession-v0": "strike",
     "SSLDribbling-v0": "weave",
     "SSLGoToBall-v0": "fetch",
+    "SSLMatch-v0": "strike",
     "SSLPassEndurance-v1": "passer",
     "SSLPassEnduranceMulti-v1": "passer",
     "SSLSelfPlay-v0": "strike",
     "SSLStaticDefenders-v0": "strike",
     "VSS-v0": "scripted",
+    "VSSMatch-v0": "scripted",
     "VSSMulti-v0": "scripted",
     "VSSSelfPlay-v0": "scripted",
 }

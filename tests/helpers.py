@@ -62,11 +62,18 @@ def touches(frame: Frame, config: SimConfig) -> int:
     return int(to_ball.sum()) + int(np.triu(to_robots, 1).sum())
 
 
+def body_columns(task: Task) -> slice:
+    """Columns of an observation with positions and velocities: others are at their limits."""
+    blocks = task.layout.blocks
+    others = [blocks[name].columns.start for name in ("presence", "action") if name in blocks]
+    return slice(0, min(others))
+
+
 def pushing(rng: np.random.Generator, matches: Matches) -> Floats:
     """Random actions (n, agents, action), mostly forward, so that robots meet."""
     shape = (matches.worlds, len(matches.agents), matches.action_size)
     actions = rng.uniform(-0.3, 1.0, shape).astype(np.float32)
-    if matches.action_size == 5:  # SSL: turns are small and kicks rare, so that the ball stays near
+    if matches.action_size >= 5:  # SSL: turns are small and kicks rare, so that the ball stays near
         actions[..., 2] *= 0.2
         actions[..., 3] -= 0.95
     return actions

@@ -50,8 +50,8 @@ def constructors(name: str) -> list[Callable[..., object]]:
 @every_task
 def test_an_unknown_option_is_named_with_the_valid_ones(name: str) -> None:
     for make in constructors(name):
-        with pytest.raises(TypeError, match=rf"{name}: got .* argument .referee.; .*.max_steps."):
-            make(referee=True)
+        with pytest.raises(TypeError, match=rf"{name}: got .* argument .umpire.; .*.max_steps."):
+            make(umpire=True)
 
 
 @pytest.mark.parametrize(("name", "option"), with_option("scenario"))

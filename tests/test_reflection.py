@@ -15,9 +15,10 @@ from rsoccer.arrays import Array, Floats, Mask
 from rsoccer.global_state import StateEncoder
 from rsoccer.reflection import Reflection, Symmetry, add_blocks
 from rsoccer.task import Play, Task
-from rsoccer.tasks import SslDribbling, VssSelfPlay
+from rsoccer.tasks import SslDribbling, VssMatch, VssSelfPlay
 from rsoccer.tasks.courses import PAPER, Course
 from rsoccer.testing.reflection_check import reflected
+from tests.games import begin_play
 from tests.helpers import same
 from tests.parallel_matches import TASKS
 
@@ -43,7 +44,14 @@ def reflected_actions(actions: Floats) -> Floats:
     """Actions with left and right swapped: wheels, or lateral velocity and angular velocity."""
     if actions.shape[-1] == 2:
         return np.ascontiguousarray(actions[..., ::-1])
-    return actions * np.array([1, -1, -1, 1, 1], np.float32)
+    return actions * np.array([1, -1, -1, 1, 1, 1], np.float32)[: actions.shape[-1]]
+
+
+def first_rows(task: Task) -> Floats | None:
+    """Initial states of a task's own; for matches of VSSS robots, which line up at walls, others."""
+    if not isinstance(task, VssMatch):
+        return None
+    return VssSelfPlay().get_initial_positions_frame(rsoccer.WorldRng.seeded(1, WORLDS)).rows
 
 
 def free_of_contact(frame: Frame, task: Task) -> Mask:
@@ -70,8 +78,10 @@ def test_the_reflected_match_is_the_same(name: str) -> None:
         Matches(each, WORLDS, seed=1, controllers={"all": LEARN}, autoreset="disabled")
         for each in (task, mirrored(task))
     )
-    ours.reset()
+    ours.reset(rows=first_rows(task))
     theirs.reset(rows=reflected(ours.frame).rows)
+    for matches in (ours, theirs):
+        begin_play(matches)
     rng, playing = np.random.default_rng(0), np.ones(WORLDS, np.bool_)
     shape = (WORLDS, len(ours.agents), ours.action_size)
     observed: list[list[Floats]] = [[], []]

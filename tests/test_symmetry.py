@@ -8,6 +8,7 @@ from rsoccer import LEARN, Frame, Matches
 from rsoccer.arrays import Floats
 from rsoccer.rng import WorldRng
 from rsoccer.tasks import VssSelfPlay
+from tests.games import begin_play
 from tests.helpers import Crowd, touches
 from tests.parallel_matches import VSS_TASKS
 from tests.test_view import rotated
@@ -28,6 +29,8 @@ def both(rows: Floats, worlds: int, name: str = "VSSSelfPlay-v0") -> tuple[Match
     )
     ours.reset(rows=rows)
     theirs.reset(rows=rotated(Frame(rows, 3, 3)).rows)
+    for matches in (ours, theirs):
+        begin_play(matches)
     return ours, theirs
 
 

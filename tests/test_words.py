@@ -53,9 +53,10 @@ OF_OTHERS = {
     " params=loss.critic_network_params": "TorchRL",
     "target_params=loss.target_critic_network_params": "TorchRL",
     "(SSL: defense area)": "the rules of the SSL",
-    '"ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA"': "the game controller",
-    '"ATTACKER_TOO_CLOSE_TO_DEFENSE_AREA"': "the game controller",
-    '"DEFENDER_IN_DEFENSE_AREA"': "the game controller",
+    "Opponent Defense Area": "the rules of the SSL",
+    "ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA": "the game controller",
+    "ATTACKER_TOO_CLOSE_TO_DEFENSE_AREA": "the game controller",
+    "DEFENDER_IN_DEFENSE_AREA": "the game controller",
 }
 """Phrases with a replaced word in a name that is not the project's, and whose name it is."""
 

@@ -67,7 +67,7 @@ class EventKind(IntEnum):
     AIMLESS_KICK = 11
     """SSL division B: the robot kicked the ball from its own half over the far goal line."""
     KEEPER_HELD_BALL = 13
-    """The ball was in the team's defense area for too long; VSSS: it is stuck there."""
+    """The ball was in the team's goal area for too long; VSSS: it is stuck there."""
     ATTACKER_DOUBLE_TOUCHED_BALL = 14
     """The robot that took the kick touched the ball again."""
     ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA = 15

@@ -15,7 +15,8 @@ from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, TASKS, play_episode, random_actions, shot_at
 
-FIXED_STARTS = {"SSLDribbling-v0"}
+FIXED_STARTS = {"SSLDribbling-v0", "SSLMatch-v0", "VSSMatch-v0"}
+"""Tasks that begin alike for some seeds: matches do for those with the same first kick-off."""
 
 
 class Unseeded(SoccerParallelEnv):
@@ -51,7 +52,7 @@ def test_a_seed_determines_the_episodes_of_every_task(name: str) -> None:
     episodes = [[play_episode(match, seed) for seed in (3, None)] for match in (fresh, used)]
     assert episodes[0] == episodes[1]
     assert episodes[0][0] != episodes[0][1], "the streams did not continue: both episodes are equal"
-    other = play_episode(parallel_env(name), 5)[0]
+    other = play_episode(parallel_env(name, max_cycles=1), 5)[0]
     assert (other == episodes[0][0][0]) == (name in FIXED_STARTS)
 
 

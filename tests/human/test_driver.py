@@ -65,12 +65,13 @@ SSL_DISCRETE_CASES = [
 
 def cases() -> Iterator[tuple[str, bool, Controls, list[float]]]:
     for name in rsoccer.list_tasks():
-        differential = make_task(name).action_size == 2
+        size = make_task(name).action_size
         for discrete in (False, True):
             ssl = SSL_DISCRETE_CASES if discrete else SSL_CASES
             vss = VSS_DISCRETE_CASES if discrete else VSS_CASES
-            for controls, action in vss if differential else ssl:
-                yield name, discrete, controls, action
+            for controls, action in vss if size == 2 else ssl:
+                chip = [1.0 if controls.chip and not discrete else -1.0][: size - len(action)]
+                yield name, discrete, controls, action + chip
 
 
 @pytest.mark.parametrize(("name", "discrete", "controls", "expected"), list(cases()))

@@ -11,8 +11,8 @@ from rsoccer._core import Field, Steering
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
 from rsoccer.tasks import SslContestedPossession, SslGoToBall, SslSelfPlay, SslStaticDefenders
-from rsoccer.tasks.ssl import DISCRETE_ACTIONS, VELOCITY_FRAMES, Ssl
-from tests.helpers import pushing
+from rsoccer.tasks.ssl import VELOCITY_FRAMES, Ssl
+from tests.helpers import body_columns, pushing
 from tests.tasks import steering_reference
 from tests.tasks.ssl_scenes import make, scene
 
@@ -183,12 +183,14 @@ def test_yellow_plays_in_coordinates_rotated_by_180_degrees() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_discrete_agents_choose_from_a_table(name: str) -> None:
     match = rsoccer.parallel_env(name, discrete=True)
+    table = match.task.action_table
+    assert table is not None
     match.reset(seed=0)
     for agent in match.agents:
-        assert match.action_space(agent).n == len(DISCRETE_ACTIONS)  # type: ignore[union-attr]
-    match.step({agent: np.array(len(DISCRETE_ACTIONS) - 1) for agent in match.agents})
+        assert match.action_space(agent).n == len(table)  # type: ignore[union-attr]
+    match.step({agent: np.array(len(table) - 1) for agent in match.agents})
     last = match._matches.play.actions[0, 0]
-    assert last.tolist() == DISCRETE_ACTIONS[-1].tolist()
+    assert last.tolist() == table[-1].tolist()
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -198,8 +200,7 @@ def test_observations_are_rarely_clipped(name: str) -> None:
     rng = np.random.default_rng(0)
     observed = np.concatenate([matches.step(pushing(rng, matches)).observations for _ in range(80)])
     high = matches.observation_high
-    states = slice(0, matches.task.layout.blocks["action"].columns.start)
-    assert (np.abs(observed) >= high - 1e-6)[..., states].mean() < 1e-3
+    assert (np.abs(observed) >= high - 1e-6)[..., body_columns(matches.task)].mean() < 1e-3
     assert 0.1 < observed.std() < 1.5
     assert np.isfinite(observed).all()
 

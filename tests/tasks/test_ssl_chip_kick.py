@@ -71,7 +71,7 @@ def test_commands_of_a_chip_are_at_45_degrees_and_have_the_speed_of_the_kick() -
 
 @pytest.mark.parametrize("name", NAMES)
 def test_only_the_option_changes_actions_and_layout(name: str) -> None:
-    plain, chips = make_task(name), make_task(name, chip_kick=True)
+    plain, chips = make_task(name, chip_kick=False), make_task(name, chip_kick=True)
     assert (plain.action_size, chips.action_size) == (5, 6)
     assert "chip" not in plain.layout.text
     assert chips.layout.text.endswith("; chip kick")

@@ -24,7 +24,7 @@ struct Roll<'a> {
     start: f32,
 }
 
-/// What a ball did along a row.
+/// Motion of a ball along a row.
 #[derive(Debug, Clone, Copy)]
 struct Outcome {
     /// Speed across the row before it met it, m/s.

@@ -285,7 +285,7 @@ fn layout(config: &SimConfig) -> PyResult<Layout> {
     Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, sim.blue.len(), sim.yellow.len()).map_err(invalid)
 }
 
-/// What the rules know of a configuration.
+/// Numbers of a configuration that the rules read.
 fn pitch(config: &SimConfig) -> Pitch {
     let sim = &config.0;
     let field = &sim.field;

@@ -148,7 +148,7 @@ config! {
         penalty_seconds, "s";
         /// Time of a ball that makes no progress.
         no_progress_seconds, "s";
-        /// Time for which the ball may be in a defense area.
+        /// Time for which the ball may be in a goal area.
         held_ball_seconds, "s";
         /// Time of a ball placement.
         placement_seconds, "s";
@@ -174,7 +174,7 @@ config! {
         no_progress_distance, "m";
         /// Distance of robots from the ball before a kick of the opponents, and in a stop.
         ball_distance, "m";
-        /// Distance of robots from the opponents' defense area before a kick.
+        /// Distance of robots from the opponents' goal area before a kick.
         area_distance, "m";
         /// Way over which a robot may push an opponent.
         push_distance, "m";
@@ -188,11 +188,11 @@ config! {
         placement_clearance, "m";
         /// Distance of the ball from its place from which it has to be placed.
         placement_distance, "m";
-        /// Distance of the ball from defense areas below which it has to be placed.
+        /// Distance of the ball from goal areas below which it has to be placed.
         placement_area_distance, "m";
         /// Distance of the ball from the lines for a free kick, a throw-in and a corner kick.
         kick_line_distance, "m";
-        /// Distance of the ball from the defense areas for a free kick.
+        /// Distance of the ball from the goal areas for a free kick.
         kick_area_distance, "m";
         /// Distance of the ball from the goal line for a goal kick.
         goal_kick_distance, "m";

@@ -1,4 +1,4 @@
-//! What a robot observes of the state of a match, from the side of its team.
+//! Numbers that a robot observes of the state of a match, from the side of its team.
 
 use crate::codes::Command;
 use crate::error::RefereeError;

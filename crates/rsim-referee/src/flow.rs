@@ -14,7 +14,7 @@ use crate::stages::{is_shootout, kickoff_of};
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// What the referee does with the bodies at the end of a step.
+/// Change of the bodies by the referee at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Arrangement {
     /// Nothing.

@@ -63,7 +63,7 @@ impl<'a> Moment<'a> {
         self.now.first_of(team)
     }
 
-    /// Where the ball was when its last toucher touched it in the step: at the start of the step for one
+    /// Place of the ball when its last toucher touched it in the step: at the start of the step for one
     /// that began to touch it, so before its kick.
     pub fn touch_position(&self, toucher: &Robot) -> Vector {
         let touched_before =

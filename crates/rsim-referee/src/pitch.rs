@@ -1,4 +1,4 @@
-//! What the rules know of the world besides its state: field, sizes of bodies, time step.
+//! Constants of the world that the rules read: field, sizes of bodies, time step.
 
 use serde::{Deserialize, Serialize};
 

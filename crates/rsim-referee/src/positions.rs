@@ -1,4 +1,4 @@
-//! Where robots may stand before a kick: the distances of the rules, and room for their bodies.
+//! Places in which robots may stand before a kick: the distances of the rules, and room for their bodies.
 
 use crate::codes::Command;
 use crate::config::League;
@@ -16,7 +16,7 @@ const MAX_ON_RING: u16 = 48;
 /// Rings that cover the largest field.
 const RINGS: u16 = 600;
 
-/// Where robots may stand, with the ball at a place.
+/// Places in which robots may stand, with the ball at a place.
 #[derive(Debug)]
 pub(crate) struct Positions<'a> {
     moment: &'a Moment<'a>,

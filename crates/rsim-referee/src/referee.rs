@@ -30,11 +30,11 @@ pub struct Referee {
 /// Decisions of a step.
 #[derive(Debug, Clone, Default)]
 pub struct Decisions {
-    /// What happened, in the order of the rules.
+    /// Events, in the order of the rules.
     pub events: Vec<Event>,
     /// Whether play goes on from the row of the restart.
     pub restarts: bool,
-    /// What the rules decided, of which the events are a part.
+    /// Decisions of the rules, of which the events are a part.
     pub rulings: Rulings,
 }
 

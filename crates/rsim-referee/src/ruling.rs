@@ -5,7 +5,7 @@ use crate::events::{Event, EventKind};
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// How play goes on after a stop.
+/// Command and place with which play goes on after a stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuation {
     /// Command with which it goes on.
@@ -17,9 +17,9 @@ pub struct Continuation {
 /// The decision of a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruling {
-    /// What happened.
+    /// The event.
     pub event: Event,
-    /// How play goes on if it stops; `None` if it does not stop.
+    /// Continuation if play stops; `None` if it does not stop.
     pub then: Option<Continuation>,
     /// Whether it counts for cards of the team, or of both teams where it names none.
     pub is_foul: bool,
@@ -75,7 +75,7 @@ impl Rulings {
         self.list.iter()
     }
 
-    /// How play goes on after the first ruling that stops it.
+    /// Continuation after the first ruling that stops play.
     pub fn stop(&self) -> Option<Continuation> {
         self.list.iter().find_map(|ruling| ruling.then)
     }

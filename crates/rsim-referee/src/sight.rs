@@ -163,7 +163,7 @@ impl Layout {
     }
 }
 
-/// Where a restart puts a robot.
+/// Pose in which a restart puts a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed {
     /// Index of the robot.

@@ -1,4 +1,4 @@
-//! What the referee follows from step to step: touches, heights, dribbling, times.
+//! Quantities that the referee follows from step to step: touches, heights, dribbling, times.
 
 use crate::game::Game;
 use crate::moment::Moment;

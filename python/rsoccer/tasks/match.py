@@ -47,6 +47,8 @@ class Match(Soccer):
     share of the half that is left, and the shares of both teams' robots that are on the field.
     `rsoccer._core.GAME_FEATURES` names all numbers.
 
+    Goal of the task: score more goals than the other team, in the goal at +x (blue) or -x (yellow).
+
     Initial state: both teams lined up for the kick-off, which one of them has by chance.
 
     Reward terms, unweighted:
@@ -66,10 +68,13 @@ class Match(Soccer):
 
     Termination: the end of the match. Truncation: after `max_steps`.
 
-    Metrics: `goal_score`, goals of blue less those of yellow; for each team, such as `blue_goals`:
-    `goals`, `shots` (balls that leave a robot toward the mouth of the goal), `passes` that arrive,
-    `possession` (share of the time in play), `distance` (m, of all robots), `fouls`, `yellow_cards`
-    and `red_cards`; `in_play`, time with the ball in play, s.
+    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals; `blue_shots`,
+    balls that leave a robot toward the mouth of the goal; `blue_passes`, passes that arrive;
+    `blue_possession`, share of the time in play in which the team touched the ball last;
+    `blue_distance`, way of all robots, m; `blue_fouls`, fouls; `blue_yellow_cards`, yellow cards;
+    `blue_red_cards`, red cards; `yellow_goals`, `yellow_shots`, `yellow_passes`,
+    `yellow_possession`, `yellow_distance`, `yellow_fouls`, `yellow_yellow_cards`,
+    `yellow_red_cards`, the same of yellow; `in_play`, time with the ball in play, s.
     """
 
     max_steps: int = 200_000
@@ -94,7 +99,6 @@ class Match(Soccer):
 
     def __post_init__(self) -> None:
         """Validate the options."""
-        super().__post_init__()
         checks.number_in_range("half_seconds", self.half_seconds, 1e-3, 1e5)
         if checks.integer("halves", self.halves, 1) > 2:
             raise ValueError(f"halves: expected 1 or 2, got {self.halves}")
@@ -103,6 +107,7 @@ class Match(Soccer):
         checks.boolean("knockout", self.knockout)
         if not isinstance(self.referee, Mapping):
             raise TypeError(f"referee: expected values by name, got {self.referee!r}")
+        super().__post_init__()
         _ = self.rules  # raises for wrong numbers
 
     @property
@@ -204,7 +209,7 @@ class Match(Soccer):
         }
         for name, values in parts.items():
             for team, team_name in enumerate(TEAMS):
-                named[f"{team_name}_{name}"] = values[:, team]
+                named[f"{team_name}_{name}"] = values[:, team].astype(np.float32)
         named["in_play"] = in_play * np.float32(self.config.time_step)
         return named
 

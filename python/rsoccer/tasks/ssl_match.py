@@ -40,7 +40,7 @@ class SslMatch(Match, Ssl):
     """Robot model with an omnidirectional drive: a preset's name, a .json file or a
     `RobotModel`."""
     placement: str = "teleport"
-    """How the ball comes to the place of the next kick: "teleport" (at once, with the robots that
+    """Way of the ball to the place of the next kick: "teleport" (at once, with the robots that
     stand too near) or "robots" (a team carries it there)."""
     chip_kick: bool = True
     """True: actions have a sixth number, above 0 for a chip kick."""

@@ -9,31 +9,31 @@ from rsoccer._core import Field, RobotModel
 from rsoccer.arrays import Floats, Mask
 from rsoccer.task import Play
 from rsoccer.tasks.match import Match
-from rsoccer.tasks.vss import Vss
+from rsoccer.tasks.vss_base import VssBase
 
 MIN_PASS_LENGTH: Final = 0.2
 """Least length of a pass, m: more than two robots side by side."""
 
 
 @dataclass(frozen=True)
-class VssMatch(Match, Vss):
+class VssMatch(Match, VssBase):
     """Match of two VSSS teams under the league's referee, in which all robots learn.
 
-    Actions are those of `Vss`; observations, rewards, end and metrics those of `Match`. On a field
+    Actions are those of `VssBase`; observations, rewards, end and metrics those of `Match`. On a field
     with two areas, as "vss_5v5", the rules are those of five a side.
 
     Source: the league's referee (VSSSLeague/VSSReferee) for rules and positions.
     """
 
-    n_blue: int = 3
-    """Robots of team blue, 1 to 5."""
     n_yellow: int = 3
     """Robots of team yellow, 1 to 5."""
-    field: str | Field = Vss.field
+    field: str | Field = VssBase.field
     """VSSS field: "vss_3v3", "vss_5v5", a .json file or a `Field`, for any team sizes."""
-    robot: str | RobotModel = Vss.robot
+    robot: str | RobotModel = VssBase.robot
     """Robot model with a differential drive: a preset's name, a .json file or a `RobotModel`."""
 
+    FEWEST_YELLOW: ClassVar[int] = 1
+    """Fewest robots of team yellow."""
     REWARD_WEIGHTS: ClassVar[Mapping[str, float]] = {
         "goal": 10.0,
         "ball_to_goal": 10.0,

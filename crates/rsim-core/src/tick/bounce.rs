@@ -13,7 +13,7 @@ use crate::state::{Setup, State};
 
 /// The way of the ball in a tick if it met nothing.
 pub(super) struct FreeWay {
-    /// Where it begins, m.
+    /// Its beginning, m.
     pub(super) start: Vector,
     /// m/s.
     pub(super) velocity: Vector,
@@ -54,7 +54,7 @@ pub(super) fn go_on(
     end
 }
 
-/// How far the ball can move in a direction without coming nearer to a body than to touch it, m, at most `length`.
+/// Way that the ball can move in a direction without coming nearer to a body than to touch it, m, at most `length`.
 ///
 /// The distance to a convex body does not shrink on a way that leads away from its nearest point, and nowhere by more
 /// than the length of the way.

@@ -14,7 +14,7 @@ use crate::ruling::Rulings;
 pub struct Rule {
     /// Name of its event, and of its switch.
     pub name: &'static str,
-    /// What it says, in short.
+    /// Its content, in short.
     pub summary: &'static str,
     /// Paragraph of the source.
     pub source: &'static str,

@@ -1,4 +1,4 @@
-//! Touches of the ball in the defense areas (SSL rules, "Multiple Defenders", "Attacker Touched Ball In
+//! Touches of the ball in the goal areas (SSL rules, "Multiple Defenders", "Attacker Touched Ball In
 //! Opponent Defense Area", "Keeper Held Ball").
 
 use crate::codes::Command;
@@ -50,7 +50,7 @@ pub(crate) fn commit(foul: Repeated, game: &mut Game, moment: &Moment, team: Tea
     foul.commit(game, team, repeat, moment.steps(PAUSE_SECONDS))
 }
 
-/// The ball stays in the defense area of a team.
+/// The ball stays in the goal area of a team.
 pub fn keeper_held_ball(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let limit = moment.steps(moment.config.held_ball_seconds);
     for team in Team::BOTH {

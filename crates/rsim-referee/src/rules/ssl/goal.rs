@@ -40,7 +40,7 @@ pub fn invalid_goal(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     }
 }
 
-/// A goal for the team that attacks it, whoever touched the ball last.
+/// A goal for the team that attacks it, with any robot as the last toucher.
 pub fn goal(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some((scorer, position)) = scored(game, moment) else { return };
     if !rulings.has(EventKind::InvalidGoal) {

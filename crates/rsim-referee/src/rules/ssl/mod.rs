@@ -49,7 +49,7 @@ pub const RULES: &[Rule] = table! {
     "BOT_DRIBBLED_BALL_TOO_FAR", dribbling::excessive_dribbling, "Excessive Dribbling",
         "A robot dribbles the ball farther than 1 m.";
     "KEEPER_HELD_BALL", areas::keeper_held_ball, "Keeper Held Ball",
-        "The ball stays in a defense area for too long.";
+        "The ball stays in a goal area for too long.";
     "BOT_PUSHED_BOT", pushing::pushing, "Pushing",
         "A robot pushes an opponent.";
     "ATTACKER_TOO_CLOSE_TO_DEFENSE_AREA", stop::too_close_to_area,
