@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from rsoccer.game import BLUE, NOBODY, YELLOW, Command
 from rsoccer.render import palette
@@ -46,15 +46,16 @@ _KICKS_WITH_DISTANCE: Final = (
 )
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
 
-_TEAM_COLORS: Final = {
+TEAM_COLORS: Final = {
     BLUE: palette.mix(palette.BLUE, palette.WHITE, 0.55),
     YELLOW: palette.YELLOW,
     NOBODY: palette.WHITE,
 }
+"""Colors of marks by team, which stand out on the floor."""
 
 
 def area_shapes(field: Field) -> tuple[Shape, ...]:
-    """Return both areas in the colors of the teams that defend them.
+    """Return the areas in the colors of the teams that defend them.
 
     Args:
         field: the field.
@@ -82,6 +83,38 @@ def _area(field: Field) -> tuple[Point, ...]:
     return ((back, y), (front, y), *arc, (front, -y), (back, -y))
 
 
+class FloorMarks(NamedTuple):
+    """What the floor shows around the ball, and of the next kick."""
+
+    kept_off: str
+    """Floor that opponents of the team keep off, or all robots: "disc" around the ball, "stadium"
+    between the ball and its place, or "" for none."""
+    team: int
+    """Team for which they do: `BLUE`, `YELLOW` or `NOBODY`."""
+    kick: int | None
+    """Team that has the next kick; None if its place is not shown."""
+
+
+def floor_marks(state: RefereeState) -> FloorMarks:
+    """Return what the floor shows; nothing while the ball is in play.
+
+    Args:
+        state: state of the referee.
+    """
+    if state.in_play or state.is_over:
+        return FloorMarks("", NOBODY, None)
+    if state.command in (Command.HALT, Command.STOP):
+        is_disc = state.command is Command.STOP and state.ball_distance > 0
+        return FloorMarks("disc" if is_disc else "", NOBODY, team_of(state.next_command))
+    # A command to start play does not say which kick is taken.
+    kick = state.kick if state.command is Command.NORMAL_START else state.command
+    team, kept_off = team_of(kick), ""
+    if state.ball_distance > 0:
+        is_disc = kick in _KICKS_WITH_DISTANCE
+        kept_off = "stadium" if kick in _PLACEMENTS else "disc" if is_disc else ""
+    return FloorMarks(kept_off, team, team)
+
+
 def referee_shapes(field: Field, state: RefereeState, ball: Point) -> tuple[Shape, ...]:
     """Return the marks of the referee while play is stopped or a kick is due.
 
@@ -91,41 +124,18 @@ def referee_shapes(field: Field, state: RefereeState, ball: Point) -> tuple[Shap
         ball: position of the ball, m.
 
     Returns:
-        The floor that robots keep off, and the place of the next kick; nothing while the ball is
-        in play.
+        The floor that robots keep off, and the place of the next kick.
     """
-    if state.in_play or state.is_over:
-        return ()
-    color = _TEAM_COLORS[_team_of_kick(state)]
-    return (
-        *_kept_off(field, state, ball, color),
-        *_position(field, state.designated_position, color),
-    )
-
-
-def _team_of_kick(state: RefereeState) -> int:
-    """The team that places the ball, or has the next kick."""
-    if state.command in (Command.HALT, Command.STOP):
-        return team_of(state.next_command)
-    return team_of(_kick(state))
-
-
-def _kick(state: RefereeState) -> Command | None:
-    """The kick that is due: a command to start play says it no more."""
-    return state.kick if state.command is Command.NORMAL_START else state.command
-
-
-def _kept_off(field: Field, state: RefereeState, ball: Point, color: Color) -> tuple[Shape, ...]:
-    """The floor around the ball that opponents keep off, or all robots in a stop."""
-    if not state.ball_distance:
-        return ()
-    if state.command in _PLACEMENTS:
-        return _stadium(field, ball, state.designated_position, state.ball_distance, color)
-    if state.command is Command.STOP:
-        return _disc(field, ball, state.ball_distance, palette.WHITE)
-    if _kick(state) in _KICKS_WITH_DISTANCE:
-        return _disc(field, ball, state.ball_distance, color)
-    return ()
+    marks, place, radius = floor_marks(state), state.designated_position, state.ball_distance
+    color = TEAM_COLORS[marks.team]
+    shapes: tuple[Shape, ...] = ()
+    if marks.kept_off == "stadium":
+        shapes = _stadium(field, ball, place, radius, color)
+    elif marks.kept_off == "disc":
+        shapes = _disc(field, ball, radius, color)
+    if marks.kick is None:
+        return shapes
+    return (*shapes, *_position(field, place, TEAM_COLORS[marks.kick]))
 
 
 def _disc(field: Field, center: Point, radius: float, color: Color) -> tuple[Shape, ...]:
