@@ -54,6 +54,19 @@ TEAM_COLORS: Final = {
 """Colors of marks by team, which stand out on the floor."""
 
 
+def area_outlines(field: Field) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
+    """Return the outlines of the areas of blue and of yellow.
+
+    Args:
+        field: the field.
+
+    Returns:
+        Points of each, m.
+    """
+    area = _area(field)
+    return tuple((-x, y) for x, y in area), area
+
+
 def area_shapes(field: Field) -> tuple[Shape, ...]:
     """Return the areas in the colors of the teams that defend them.
 
@@ -63,9 +76,10 @@ def area_shapes(field: Field) -> tuple[Shape, ...]:
     Returns:
         A translucent surface for each area.
     """
+    colors = (palette.BLUE, palette.YELLOW)
     return tuple(
-        Polygon(tuple((side * x, y) for x, y in _area(field)), palette.fade(color, AREA_TINT))
-        for side, color in ((-1, palette.BLUE), (1, palette.YELLOW))
+        Polygon(outline, palette.fade(color, AREA_TINT))
+        for outline, color in zip(area_outlines(field), colors, strict=True)
     )
 
 

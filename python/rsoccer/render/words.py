@@ -173,19 +173,19 @@ _EVENTS: Final = {
     "placement_failed": "Placement failed",
     "placement_succeeded": "Ball placed",
     "aimless_kick": "Aimless kick",
-    "keeper_held_ball": "Ball held in the area",
+    "keeper_held_ball": "Ball held in area",
     "attacker_double_touched_ball": "Double touch",
-    "attacker_touched_ball_in_defense_area": "Attacker in the area",
+    "attacker_touched_ball_in_defense_area": "Attacker in area",
     "bot_dribbled_ball_too_far": "Dribbled too far",
     "bot_kicked_ball_too_fast": "Kicked too fast",
-    "attacker_too_close_to_defense_area": "Too close to the area",
+    "attacker_too_close_to_defense_area": "Too close to area",
     "bot_interfered_placement": "Placement interference",
     "bot_crash_drawn": "Crash, both teams",
     "bot_crash_unique": "Crash",
     "bot_pushed_bot": "Pushing",
-    "bot_too_fast_in_stop": "Too fast in a stop",
-    "defender_too_close_to_kick_point": "Too close to the ball",
-    "defender_in_defense_area": "Defender in the area",
+    "bot_too_fast_in_stop": "Too fast in stop",
+    "defender_too_close_to_kick_point": "Too close to ball",
+    "defender_in_defense_area": "Defender in area",
     "too_many_robots": "Too many robots",
     "boundary_crossing": "Ball over the walls",
     "invalid_goal": "Goal does not count",
@@ -194,9 +194,9 @@ _EVENTS: Final = {
 """Texts of events by name."""
 _VSSS_EVENTS: Final = {
     "free_ball": "Free ball",
-    "keeper_held_ball": "Stuck in the area",
-    "attacker_touched_ball_in_defense_area": "Two attackers in the area",
-    "defender_in_defense_area": "Two defenders in the area",
+    "keeper_held_ball": "Stuck in area",
+    "attacker_touched_ball_in_defense_area": "Two attackers in area",
+    "defender_in_defense_area": "Two defenders in area",
 }
 """Texts that differ in VSSS."""
 
@@ -265,7 +265,7 @@ def announcement(field: Field, name: str, robot: str, detail: str) -> Words:
     teams = [SIDES.index(team) for team in (detail, side) if team in SIDES]
     parts = [event_texts(field)[name], *(_team_text(team) for team in teams[:1])]
     if len(set(teams)) > 1:  # an own goal
-        parts[-1] += ","
+        parts[-1] += ", off"
         parts.append(_team_text(teams[1]))
     if number:
         parts.append(f"#{number}")
