@@ -25,6 +25,8 @@ const TURN_BRAKING: f32 = 30.0;
 const LEAVING_GAIN: f32 = 6.0;
 /// Deceleration with which a robot plans to come to a limit, m/s².
 const LIMIT_BRAKING: f32 = 3.0;
+/// Speed toward a limit by the distance that is left, 1/s: half a step's way is left after a step.
+const LIMIT_GAIN: f32 = 20.0;
 /// Distance from other robots that ways keep, m.
 const OWN_ROOM: f32 = 0.03;
 const THEIR_ROOM: f32 = 0.06;
@@ -73,7 +75,7 @@ impl Driving<'_> {
         let wanted = way.unit_or(Vector::default()) * speed + order.moving;
         let mut velocity = wanted.limited(order.max_speed.min(bounds.max_speed));
         for limit in bounds.limits(robot.position, self.pitch) {
-            velocity = kept_off(velocity, &limit);
+            velocity = kept_off(velocity, &limit, LIMIT_BRAKING.min(0.8 * order.acceleration));
         }
         velocity = self.kept_off_robots(robot, velocity, order);
         let change = order.acceleration * self.config.time_step;
@@ -150,12 +152,12 @@ impl Driving<'_> {
 }
 
 /// The velocity that comes no nearer to a limit than braking allows, and leaves what is beyond it.
-fn kept_off(velocity: Vector, limit: &Limit) -> Vector {
+fn kept_off(velocity: Vector, limit: &Limit, braking: f32) -> Vector {
     let away = velocity.dot(limit.away);
     let least = if limit.distance < 0.0 {
         (-limit.distance * LEAVING_GAIN).min(1.0)
     } else {
-        -(2.0 * LIMIT_BRAKING * limit.distance).sqrt()
+        -(2.0 * braking * limit.distance).sqrt().min(LIMIT_GAIN * limit.distance)
     };
     if away < least { velocity + limit.away * (least - away) } else { velocity }
 }
@@ -212,10 +214,10 @@ mod tests {
     fn limits_are_approached_slowly_and_left() {
         let away = Vector::new(1.0, 0.0);
         let toward = Vector::new(-3.0, 0.5);
-        let near = kept_off(toward, &Limit { distance: 0.01, away });
+        let near = kept_off(toward, &Limit { distance: 0.01, away }, 3.0);
         assert!(near.x > -0.3 && (near.y - 0.5).abs() < 1e-6, "{near:?}");
-        let beyond = kept_off(toward, &Limit { distance: -0.1, away });
+        let beyond = kept_off(toward, &Limit { distance: -0.1, away }, 3.0);
         assert!(beyond.x > 0.5, "{beyond:?}");
-        assert_eq!(kept_off(toward, &Limit { distance: 5.0, away }), toward);
+        assert_eq!(kept_off(toward, &Limit { distance: 5.0, away }, 3.0), toward);
     }
 }

@@ -33,6 +33,14 @@ const TURNING: f32 = 5.0;
 const MAX_SINE: [f32; 2] = [0.025, 0.08];
 /// Angular velocity for a kick, rad/s.
 const MAX_KICK_TURNING: f32 = 1.5;
+/// Time after which a robot in a crowd kicks high where it faces, s.
+const STUCK: f32 = 0.7;
+/// Speed of the ball in such a crowd, m/s.
+const STUCK_SPEED: f32 = 0.5;
+/// Least x of the heading for such a kick.
+const STUCK_HEADING: f32 = -0.3;
+/// Speed of such a kick, m/s.
+const STUCK_KICK: f32 = 3.5;
 /// Gap between hull and ball at which a robot still has it, m.
 const GAP: f32 = 0.03;
 
@@ -113,6 +121,11 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     }
     if is_good || is_pressed {
         release(s, memory, robot, &kick, &mut order);
+    }
+    let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
+    if is_stuck && robot.heading.x > STUCK_HEADING {
+        let ahead = Kick { at: ball + robot.heading, speed: STUCK_KICK, chip: true, ..kick };
+        order.kick = kick_command(s, &ahead, 0.0);
     }
     order
 }

@@ -36,8 +36,8 @@ const KICKED: f32 = 0.3;
 const AIM_SECONDS: f32 = 1.0;
 /// Distance from the ball within which a robot reacts at once, m.
 const CLOSE: f32 = 0.6;
-/// Distance of a robot that may not touch the ball from it, m.
-const BARRED_DISTANCE: f32 = 0.3;
+/// Distance from the ball of robots that leave it to a mate, m.
+const MATE_DISTANCE: f32 = 0.3;
 
 /// A scripted side: the same for all matches, and without state of its own.
 #[derive(Debug, Clone)]
@@ -137,8 +137,10 @@ impl ScriptedTeam {
             let max_speed = self.skill.speed * self.config.robot.max_speed;
             let mut bounds =
                 Bounds::new(phase, part, ends, max_speed, self.config.robot.radius);
-            if situation.barred == Some(player.index) {
-                bounds.distance = bounds.distance.max(BARRED_DISTANCE);
+            let leaves_ball = phase.mode == Mode::Play && part == Part::Other
+                || situation.barred == Some(player.index);
+            if leaves_ball {
+                bounds.distance = bounds.distance.max(MATE_DISTANCE);
             }
             let order = &orders[player.index];
             let command = driving.command(player, order, &bounds);

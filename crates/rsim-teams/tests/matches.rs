@@ -40,3 +40,57 @@ fn report() {
     }
     println!("wins {wins:?}");
 }
+
+#[test]
+#[ignore = "a tool"]
+fn trace() {
+    let number = |name: &str, default: f32| {
+        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
+    };
+    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
+    let (from, to) = (number("FROM", 0.0) as u32, number("TO", 400.0) as u32);
+    let every = number("EVERY", 4.0) as u32;
+    let placement =
+        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
+    let robots = number("ROBOTS", 6.0) as usize;
+    let mut arena = Arena::new(
+        SimConfig::ssl(robots, robots),
+        skills,
+        number("HALF", 60.0),
+        placement,
+        number("SEED", 0.0) as u32,
+    );
+    let mut last = None;
+    for step in 0..to {
+        if arena.ended {
+            break;
+        }
+        let events = arena.step();
+        if step < from {
+            continue;
+        }
+        if last != Some(arena.game.command) {
+            println!("{step} {:?} next {:?} at {:?}", arena.game.command, arena.game.next_command, arena.game.designated_position);
+            last = Some(arena.game.command);
+        }
+        for event in events {
+            println!("{step} !! {:?} {:?} {:?} {:?}", event.kind, event.team, event.robot, event.position);
+        }
+        if step % every == 0 {
+            let row = &arena.row;
+            print!("{step} {} ball {:.2} {:.2} z{:.2} v {:.2} {:.2} |", arena.game.in_play, row[0], row[1], row[2], row[3], row[4]);
+            for robot in 0..2 * robots {
+                let r = &row[14 + robot * 12..][..12];
+                let mark = if r[7] > 0.5 { "*" } else { "" };
+                print!(" {}{:.2},{:.2}{mark}", if robot == robots { "|| " } else { "" }, r[0], r[1]);
+            }
+            println!();
+            if std::env::var("COMMANDS").is_ok() {
+                let [blue, _] = &arena.memories;
+                let names = arena.sides[0].memory_columns();
+                let at = |name: &str| blue[names.iter().position(|n| n == name).expect("a column")];
+                println!("    taker {} carrier {} receiver {} aimer {} aim {:.2},{:.2} value {:.2} rec {} attacks {}", at("taker"), at("carrier"), at("receiver"), at("aimer"), at("aim_x"), at("aim_y"), at("aim_value"), at("aim_receiver"), at("attacks"));
+            }
+        }
+    }
+}
