@@ -147,20 +147,22 @@ fn pass(s: &Situation, from: Vector, mate: &Player) -> Option<Kick> {
 
 /// The best high kick out of danger.
 fn clearance(s: &Situation, from: Vector) -> Kick {
-    let mut best: Option<Kick> = None;
+    let mut best =
+        Kick { at: from + CLEARANCES[0], speed: 2.0, chip: false, receiver: None, value: 0.0 };
     for direction in CLEARANCES {
         let end = from + direction * CLEARANCE;
-        let is_inside = s.pitch.lines.is_inside(end, -0.2);
+        if !s.pitch.lines.is_inside(end, -0.2) {
+            continue;
+        }
         let flies = CLEARANCE_SPEED * CLEARANCE_SPEED / GRAVITY - LOW;
         let lane = Lane { start: from, end, speed: CLEARANCE_SPEED, flies };
         let clear = chance(margin(&lane, &s.view.others, s.body()));
-        let value = CLEARANCE_VALUE * clear * if is_inside { 1.0 } else { 0.3 };
-        if best.is_none_or(|best| value > best.value) {
-            best =
-                Some(Kick { at: end, speed: CLEARANCE_SPEED, chip: true, receiver: None, value });
+        let value = CLEARANCE_VALUE * clear;
+        if value > best.value {
+            best = Kick { at: end, speed: CLEARANCE_SPEED, chip: true, receiver: None, value };
         }
     }
-    best.unwrap_or(Kick { at: from, speed: 0.0, chip: false, receiver: None, value: 0.0 })
+    best
 }
 
 /// The kick as the robot makes it: its direction is off by the error of the team's skill.

@@ -16,8 +16,10 @@ const AREA_DISTANCE: f32 = 0.2;
 const PENALTY_DISTANCE: f32 = 1.0;
 /// Room to the limits of the rules, m.
 const ROOM: f32 = 0.04;
-/// Room to areas and walls in play, m.
+/// Room to the own area and to walls, m.
 const PLAY_ROOM: f32 = 0.02;
+/// Room to the opponents' area, in which a touch of the ball is a foul, m.
+const TOUCH_ROOM: f32 = 0.05;
 
 /// Part that a robot takes in a restart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +71,7 @@ impl Bounds {
             max_speed,
             avoided: [ball; 2],
             distance: 0.0,
-            their_area: radius + PLAY_ROOM,
+            their_area: radius + TOUCH_ROOM,
             own_area: (part != Part::Keeper).then_some(radius + PLAY_ROOM),
             x: [f32::NEG_INFINITY, f32::INFINITY],
         };
@@ -135,7 +137,24 @@ impl Bounds {
             }
             place.x = place.x.clamp(self.x[0], self.x[1]);
         }
-        pitch.within_walls(place, radius + PLAY_ROOM)
+        let walled = pitch.within_walls(place, radius + PLAY_ROOM);
+        if self.from_avoided(walled).distance > -1e-3 {
+            return walled;
+        }
+        // Between the ball and a wall there is no room: it moves along the wall.
+        let nearest = self.nearest_avoided(walled);
+        let along = if walled.y == place.y {
+            Vector::new(0.0, walled.y - nearest.y)
+        } else {
+            Vector::new(walled.x - nearest.x, 0.0)
+        };
+        let inward = (nearest * -1.0).unit_or(Vector::new(-1.0, 0.0));
+        let moved = walled + along.unit_or(inward) * self.distance;
+        if moved == pitch.within_walls(moved, radius + PLAY_ROOM) {
+            moved
+        } else {
+            nearest + inward * self.distance
+        }
     }
 
     /// Limits at a place.
@@ -158,14 +177,20 @@ impl Bounds {
         if self.distance <= 0.0 {
             return Limit { distance: f32::INFINITY, away: Vector::new(1.0, 0.0) };
         }
+        let nearest = self.nearest_avoided(place);
+        let along = self.avoided[1] - self.avoided[0];
+        let aside = along.left().unit_or(Vector::new(-1.0, 0.0));
+        let away = (place - nearest).unit_or(aside);
+        Limit { distance: place.distance(nearest) - self.distance, away }
+    }
+
+    /// The place on the avoided way that is nearest to a place.
+    fn nearest_avoided(&self, place: Vector) -> Vector {
         let [start, end] = self.avoided;
         let along = end - start;
         let square = along.dot(along);
         let share = if square > 0.0 { (place - start).dot(along) / square } else { 0.0 };
-        let nearest = start + along * share.clamp(0.0, 1.0);
-        let aside = along.left().unit_or(Vector::new(-1.0, 0.0));
-        let away = (place - nearest).unit_or(aside);
-        Limit { distance: place.distance(nearest) - self.distance, away }
+        start + along * share.clamp(0.0, 1.0)
     }
 }
 
@@ -188,6 +213,20 @@ mod tests {
         let place = bounds.allowed(Vector::new(2.6, 1.0), &pitch(), RADIUS);
         assert!(place.distance(ball) > 0.5 + RADIUS, "{place:?}");
         assert!(pitch().distance_to(Area::Theirs, place) > 0.2 + RADIUS, "{place:?}");
+    }
+
+    #[test]
+    fn places_between_ball_and_wall_move_along_the_wall() {
+        for (ball, wanted) in [
+            (Vector::new(2.4, -2.8), Vector::new(2.6, -3.2)),
+            (Vector::new(-4.3, 2.8), Vector::new(-4.7, 3.2)),
+            (Vector::new(4.6, -0.9), Vector::new(4.7, -1.0)),
+        ] {
+            let bounds = bounds(Mode::Kick, Restart::Free, false, Part::Keeper, ball);
+            let place = bounds.allowed(wanted, &pitch(), RADIUS);
+            assert!(place.distance(ball) > 0.5 + RADIUS, "{ball:?}: {place:?}");
+            assert!(place.x.abs() < 4.8 - RADIUS && place.y.abs() < 3.3 - RADIUS, "{place:?}");
+        }
     }
 
     #[test]

@@ -32,8 +32,10 @@ const OWN_ROOM: f32 = 0.03;
 const THEIR_ROOM: f32 = 0.06;
 /// Distance within which other robots limit the speed, m.
 const NEAR: f32 = 1.5;
-/// Closing speed that is allowed in contact, m/s; 1.5 would be a crash.
-const CONTACT_SPEED: f32 = 0.1;
+/// Gap at which robots do not close any more, m.
+const CONTACT_GAP: f32 = 0.02;
+/// Share of the speed of a robot in contact at which it is followed.
+const FOLLOWING: f32 = 0.6;
 /// Deceleration with which a robot plans to meet another one, m/s².
 const MEETING_BRAKING: f32 = 2.5;
 /// Time for which others are expected to go on, s.
@@ -77,7 +79,7 @@ impl Driving<'_> {
         for limit in bounds.limits(robot.position, self.pitch) {
             velocity = kept_off(velocity, &limit, LIMIT_BRAKING.min(0.8 * order.acceleration));
         }
-        velocity = self.kept_off_robots(robot, velocity, order);
+        velocity = self.kept_off_robots(robot, velocity);
         let change = order.acceleration * self.config.time_step;
         robot.velocity + (velocity - robot.velocity).limited(change)
     }
@@ -116,7 +118,7 @@ impl Driving<'_> {
     }
 
     /// The velocity with its part toward near robots limited, so that they do not crash or push.
-    fn kept_off_robots(&self, robot: &Player, mut velocity: Vector, order: &Order) -> Vector {
+    fn kept_off_robots(&self, robot: &Player, mut velocity: Vector) -> Vector {
         let diameter = 2.0 * self.config.robot.radius;
         let own = self.view.own.iter().filter(|other| other.index != robot.index);
         let own = own.map(|other| (other, 2.0));
@@ -128,16 +130,18 @@ impl Driving<'_> {
                 continue;
             }
             let ahead = to.unit_or(Vector::new(1.0, 0.0));
-            let gap = (distance - diameter).max(0.0);
-            let closing =
-                easing * CONTACT_SPEED + (2.0 * MEETING_BRAKING * easing * gap).sqrt();
-            let allowed = (closing + other.velocity.dot(ahead)).max(0.0);
+            let gap = distance - diameter;
+            let closing = (2.0 * MEETING_BRAKING * easing * (gap - CONTACT_GAP).max(0.0)).sqrt();
+            let leaving = other.velocity.dot(ahead);
+            // In contact it is slower than the other, so that it does not push it along.
+            let followed = if gap < CONTACT_GAP { leaving.min(FOLLOWING * leaving) } else { leaving };
+            let allowed = (closing + followed).max(0.0);
             let toward = velocity.dot(ahead);
             if toward > allowed {
                 velocity = velocity - ahead * (toward - allowed);
             }
         }
-        velocity.limited(order.max_speed.max(CONTACT_SPEED))
+        velocity
     }
 
     fn turning(&self, robot: &Player, order: &Order) -> f32 {

@@ -39,6 +39,8 @@ const STUCK: f32 = 0.7;
 const STUCK_SPEED: f32 = 0.5;
 /// Least x of the heading for such a kick.
 const STUCK_HEADING: f32 = -0.3;
+/// Way that such a kick needs within the field, m.
+const STUCK_WAY: f32 = 2.0;
 /// Speed of such a kick, m/s.
 const STUCK_KICK: f32 = 3.5;
 /// Gap between hull and ball at which a robot still has it, m.
@@ -113,6 +115,9 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
         straight: true,
         ..Order::to(robot.position, facing)
     };
+    // A robot that came fast brakes as hard as it has to: then the ball rolls away from it.
+    let left = (MAX_DRIBBLE - way).max(0.05);
+    order.acceleration = ACCELERATION.max(robot.velocity.dot(robot.velocity) / (2.0 * left));
     if way > MAX_DRIBBLE {
         return give_up(robot, order);
     }
@@ -124,7 +129,9 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     }
     let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
     if is_stuck && robot.heading.x > STUCK_HEADING {
-        let ahead = Kick { at: ball + robot.heading, speed: STUCK_KICK, chip: true, ..kick };
+        let at = ball + robot.heading * STUCK_WAY;
+        let chip = s.pitch.lines.is_inside(at, 0.0);
+        let ahead = Kick { at, speed: STUCK_KICK, chip, ..kick };
         order.kick = kick_command(s, &ahead, 0.0);
     }
     order

@@ -75,6 +75,15 @@ fn trace() {
         }
         for event in events {
             println!("{step} !! {:?} {:?} {:?} {:?}", event.kind, event.team, event.robot, event.position);
+            if let Some(robot) = event.robot {
+                let nth = usize::from(robot >= robots);
+                let names = arena.sides[0].memory_columns();
+                let kept = &arena.memories[nth];
+                let at = |name: &str| kept[names.iter().position(|n| n == name).expect("a column")];
+                println!("      taker {} carrier {} start {:.2},{:.2} steps {} receiver {}", at("taker"), at("carrier"), at("carry_start_x"), at("carry_start_y"), at("carry_steps"), at("receiver"));
+                println!("      {:?}", &arena.row[14 + robot * 12..][..12]);
+                println!("      ball {:?} dribbler {:?} {:?}", &arena.row[..6], arena.game.dribbler, arena.game.dribble_start);
+            }
         }
         if step % every == 0 {
             let row = &arena.row;
