@@ -8,7 +8,7 @@ use crate::rolling::{BallPath, INTERVAL};
 use crate::view::{Player, Players};
 
 /// Time that a robot needs beside driving, s.
-const DELAY: f32 = 0.1;
+const DELAY: f32 = 0.2;
 /// Distance beyond the lines at which a ball is out of reach, m.
 const OUT: f32 = 0.05;
 

@@ -14,7 +14,7 @@ use crate::view::{Player, View};
 /// Share of the maximum deceleration with which robots plan to brake.
 const BRAKING: f32 = 0.7;
 /// Speed by the distance that is left, 1/s: the last centimeters.
-const POSITION_GAIN: f32 = 7.0;
+const POSITION_GAIN: f32 = 9.0;
 /// Angular velocity by the angle that is left, 1/s.
 const TURN_GAIN: f32 = 9.0;
 /// Angular velocity without the ball, rad/s.
@@ -151,7 +151,11 @@ impl Driving<'_> {
             .min(order.turning)
             .min(self.config.robot.max_angular_velocity);
         let speed = (TURN_GAIN * angle.abs()).min(by_braking).min(limit);
-        speed.copysign(angle)
+        let change = order.turn_acceleration * self.config.time_step;
+        speed.copysign(angle).clamp(
+            robot.angular_velocity - change,
+            robot.angular_velocity + change,
+        )
     }
 }
 

@@ -3,7 +3,7 @@
 use rsim_referee::Vector;
 
 /// Acceleration without a limit of its own, m/s².
-pub(crate) const FREELY: f32 = 100.0;
+pub(crate) const FREELY: f32 = 1000.0;
 /// Angular velocity without a limit of its own, rad/s.
 pub(crate) const QUICKLY: f32 = 100.0;
 
@@ -22,6 +22,8 @@ pub(crate) struct Order {
     pub(crate) acceleration: f32,
     /// rad/s.
     pub(crate) turning: f32,
+    /// rad/s².
+    pub(crate) turn_acceleration: f32,
     /// Speed of a kick along the heading and upward, m/s; 0 for none.
     pub(crate) kick: [f32; 2],
     /// Speed of the dribbler, 0 to 1.
@@ -42,6 +44,7 @@ impl Order {
             max_speed: f32::INFINITY,
             acceleration: FREELY,
             turning: QUICKLY,
+            turn_acceleration: FREELY,
             kick: [0.0; 2],
             dribbler: 0.0,
             ball_distance: 0.2,

@@ -6,6 +6,7 @@ use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::phase::Restart;
 use crate::plane::Plane;
+use crate::possession;
 use crate::situation::Situation;
 use crate::view::Player;
 
@@ -23,6 +24,8 @@ const ACCELERATION: f32 = 1.2;
 const BRAKING: f32 = 0.6;
 /// Speed over the last centimeters, m/s.
 const LAST_SPEED: f32 = 0.12;
+/// Angular acceleration with the ball, rad/s².
+const TURN_ACCELERATION: f32 = 10.0;
 /// Angular velocity with the ball, rad/s.
 const TURNING: f32 = 2.5;
 /// Cosine of the angle to the place within which the robot drives ahead.
@@ -70,7 +73,8 @@ fn carry(s: &Situation, robot: &Player) -> Order {
     let direction = to_place.unit_or(robot.heading);
     let order = Order {
         acceleration: ACCELERATION,
-        turning: TURNING,
+        turning: TURNING.min(possession::turning(s, robot)),
+        turn_acceleration: TURN_ACCELERATION,
         dribbler: 1.0,
         ball_distance: 0.0,
         straight: true,

@@ -23,8 +23,12 @@ const PRESSED: f32 = 0.35;
 const DRIBBLE: f32 = 0.6;
 /// Way at which it gives the ball up, m.
 const MAX_DRIBBLE: f32 = 0.8;
-/// Acceleration with the ball, m/s²: the dribbler holds it up to 2.6.
-const ACCELERATION: f32 = 2.0;
+/// Acceleration with the ball, m/s²: the dribbler holds it up to 2.6, and along its back-spin up to 5.6.
+const ACCELERATION: f32 = 2.5;
+/// Acceleration of the ball to the side, in a turn, m/s².
+const SIDE_ACCELERATION: f32 = 1.8;
+/// Angular acceleration with the ball, rad/s²: 1.4 m/s² at the ball.
+const TURN_ACCELERATION: f32 = 15.0;
 /// Speed with the ball, m/s.
 const SPEED: f32 = 1.0;
 /// Angular velocity with the ball, rad/s: TIGERs turn at 5.
@@ -109,7 +113,8 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let mut order = Order {
         max_speed: SPEED,
         acceleration: ACCELERATION,
-        turning: TURNING * s.skill.turning,
+        turning: turning(s, robot),
+        turn_acceleration: TURN_ACCELERATION,
         dribbler: 1.0,
         ball_distance: 0.0,
         straight: true,
@@ -135,6 +140,14 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
         order.kick = kick_command(s, &ahead, 0.0);
     }
     order
+}
+
+/// Angular velocity at which the ball stays in the mouth of a robot that drives, rad/s.
+pub(crate) fn turning(s: &Situation, robot: &Player) -> f32 {
+    // w² r + w v is the acceleration of the ball in the turn.
+    let (r, v) = (s.config.mouth(), robot.velocity.length());
+    let held = ((v * v + 4.0 * r * SIDE_ACCELERATION).sqrt() - v) / (2.0 * r);
+    held.min(TURNING * s.skill.turning)
 }
 
 /// Lets go of a ball that has been dribbled far: a weak kick ahead, or none backward.

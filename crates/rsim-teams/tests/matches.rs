@@ -103,3 +103,71 @@ fn trace() {
         }
     }
 }
+
+#[test]
+#[ignore = "a tool"]
+fn story() {
+    let number = |name: &str, default: f32| {
+        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
+    };
+    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
+    let placement =
+        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
+    let mut arena = Arena::new(
+        SimConfig::ssl(6, 6), skills, number("HALF", 60.0), placement, number("SEED", 0.0) as u32);
+    let names = arena.sides[0].memory_columns();
+    let place = |name: &str| names.iter().position(|n| n == name).expect("a column");
+    let mut last = [-1.0; 2];
+    let mut command = None;
+    while !arena.ended {
+        let old = arena.memories.clone();
+        let before = arena.row.clone();
+        let events = arena.step();
+        let step = arena.counts.steps;
+        if command != Some(arena.game.command) {
+            command = Some(arena.game.command);
+            println!("{step} {:?} {:?}", arena.game.command, arena.game.designated_position);
+        }
+        for event in events {
+            println!("{step} !! {:?} {:?} {:?}", event.kind, event.team, event.robot);
+        }
+        for nth in 0..2 {
+            let at = |name: &str| arena.memories[nth][place(name)];
+            let was = |name: &str| old[nth][place(name)];
+            if at("carrier") != last[nth] {
+                println!("{step} team {nth} carrier {} at {:.2},{:.2} after {} steps", at("carrier"), before[0], before[1], was("carry_steps"));
+                last[nth] = at("carrier");
+            }
+            if at("pass_steps") == 100.0 {
+                println!("{step} team {nth} KICK by {} at {:.2},{:.2} to {:.2},{:.2} speed {:.1} chip {} receiver {} value {:.2} after {} steps", at("carrier"), before[0], before[1], was("aim_x"), was("aim_y"), was("aim_speed"), was("aim_chip"), at("receiver"), was("aim_value"), was("carry_steps"));
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "a tool"]
+fn watch() {
+    let number = |name: &str, default: f32| {
+        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
+    };
+    let placement =
+        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
+    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
+    let mut arena = Arena::new(
+        SimConfig::ssl(6, 6), skills, number("HALF", 60.0), placement, number("SEED", 0.0) as u32);
+    let robot = number("ROBOT", 0.0) as usize;
+    let (from, to) = (number("FROM", 0.0) as u32, number("TO", 400.0) as u32);
+    while arena.counts.steps < to && !arena.ended {
+        arena.step();
+        let step = arena.counts.steps;
+        if step >= from {
+            let r = &arena.row[14 + robot * 12..][..12];
+            let b = &arena.row;
+            let c = &arena.last_commands()[robot * 6..][..6];
+            println!("{step} ball {:.3},{:.3} v {:.2},{:.2} | robot {:.3},{:.3} h {:.2},{:.2} v {:.2},{:.2} w {:.1} ir {} t {} | gap {:.3} cmd {:.2} {:.2} {:.1} k {:.1} {:.1} d {}",
+                b[0], b[1], b[3], b[4], r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8],
+                ((r[0]-b[0]).powi(2) + (r[1]-b[1]).powi(2)).sqrt(), c[0], c[1], c[2], c[3], c[4], c[5]);
+        }
+    }
+}

@@ -230,6 +230,10 @@ impl Arena {
         }
     }
 
+    pub(crate) fn last_commands(&self) -> &[f32] {
+        &self.commands
+    }
+
     pub(crate) fn run(&mut self) {
         while !self.ended {
             self.step();
