@@ -2,6 +2,7 @@
 
 use rsim_referee::Vector;
 
+use crate::aim;
 use crate::intercept::Meeting;
 use crate::order::Order;
 use crate::plane::Plane;
@@ -23,6 +24,13 @@ const MAX_ASIDE: f32 = 0.025;
 /// Room to the ball while driving around it, m.
 const BALL_ROOM: f32 = 0.03;
 
+/// Cosine of the angle between a coming ball's way back and the direction of a kick at first touch.
+const MAX_REDIRECTION: f32 = 0.35;
+/// Share of the ball's speed across the front that a kick keeps.
+const KEPT_ACROSS: f32 = 0.35;
+/// Value of a shot that is made at first touch.
+const FIRST_TOUCH_VALUE: f32 = 0.2;
+
 /// Order to take the ball, facing `direction` (a unit vector) where that does not matter for time.
 pub(crate) fn take(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> Order {
     let ball = &s.view.ball;
@@ -43,8 +51,22 @@ fn receive(s: &Situation, robot: &Player, meeting: Meeting) -> Order {
     // A robot that is there in time waits where it is; others go where they meet it.
     let aside = robot.position.distance(foot);
     let waits = aside < 0.25 && s.pitch.lines.is_inside(foot, 0.0);
-    let center = if waits { foot } else { meeting.place + ahead * s.config.mouth() };
-    Order { dribbler: 1.0, ball_distance: 0.0, ..Order::to(center, ahead * -1.0) }
+    let mouth = s.config.mouth();
+    let touch = if waits { foot - ahead * mouth } else { meeting.place };
+    let order = Order { ball_distance: 0.0, ..Order::to(touch + ahead * mouth, ahead * -1.0) };
+    let kick = aim::shot(s, touch);
+    let direction = (kick.at - touch).unit_or(ahead);
+    if kick.value < FIRST_TOUCH_VALUE || direction.dot(ahead) > -MAX_REDIRECTION {
+        return Order { dribbler: 1.0, ..order };
+    }
+    // The kick keeps part of the speed across the front, so the front turns a little the other way.
+    let kick = aim::with_error(s, kick, touch, robot.index);
+    let direction = (kick.at - touch).unit_or(ahead);
+    let across = KEPT_ACROSS * s.view.ball.velocity.dot(direction.left()) / kick.speed;
+    let heading = (direction - direction.left() * across).unit_or(direction);
+    let is_facing = robot.heading.dot(heading) > 0.98;
+    let shoots = [if is_facing { kick.speed - 0.3 } else { 0.0 }, 0.0];
+    Order { target: touch - heading * mouth, facing: heading, kick: shoots, ..order }
 }
 
 /// Drives behind a slow or leaving ball, then into it.

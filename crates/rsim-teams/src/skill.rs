@@ -7,7 +7,7 @@ pub(crate) struct Skill {
     pub(crate) reaction_steps: i32,
     /// Standard deviation of the direction of a kick, rad.
     pub(crate) aim_error: f32,
-    /// Share of the robot's maximum speed that it uses.
+    /// Share of the robot's maximum speed that it uses, and of its acceleration when it gets faster.
     pub(crate) speed: f32,
     /// Speed and acceleration of turns, as a share of those of a skilled team.
     pub(crate) turning: f32,
