@@ -6,7 +6,7 @@ use crate::aim::{self, Kick, MAX_BALL_SPEED};
 use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::plane::Plane;
-use crate::situation::Situation;
+use crate::situation::{KEEPER, Situation};
 use crate::view::Player;
 
 /// Control steps after which a kick is chosen anew.
@@ -15,8 +15,8 @@ const CHOICE_STEPS: i32 = 5;
 const HYSTERESIS: f32 = 1.2;
 /// Value of a kick that is made at once.
 const GOOD_VALUE: f32 = 0.4;
-/// Time after which any kick is made, s.
-const PATIENCE: f32 = 2.0;
+/// Time after which any kick is made, and the same by the keeper, s.
+const PATIENCE: [f32; 2] = [1.8, 0.6];
 /// Distance of an opponent from the ball that hurries, m.
 const PRESSED: f32 = 0.35;
 /// Way that a robot dribbles, m; the rules allow 1.
@@ -25,6 +25,8 @@ const DRIBBLE: f32 = 0.6;
 const MAX_DRIBBLE: f32 = 0.8;
 /// Acceleration with the ball, m/s²: the dribbler holds it up to 2.6, and along its back-spin up to 5.6.
 const ACCELERATION: f32 = 2.5;
+/// Deceleration with the ball, m/s².
+const DECELERATION: f32 = 4.0;
 /// Acceleration of the ball to the side, in a turn, m/s².
 const SIDE_ACCELERATION: f32 = 1.8;
 /// Angular acceleration with the ball, rad/s²: 1.4 m/s² at the ball.
@@ -107,7 +109,9 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let waited = memory.carry_steps as f32 * s.config.time_step;
     let is_pressed = s.nearest_opponent(ball) < PRESSED;
     let hurry = if is_pressed { 0.5 } else { 1.0 };
-    let is_good = kick.value >= GOOD_VALUE * hurry * (1.0 - waited / PATIENCE);
+    let is_keeper = robot.index == KEEPER;
+    let patience = PATIENCE[usize::from(is_keeper)];
+    let is_good = kick.value >= GOOD_VALUE * hurry * (1.0 - waited / patience);
     let way = ball.distance(memory.carry_start);
     let facing = kick.at - ball;
     let mut order = Order {
@@ -122,11 +126,12 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     };
     // A robot that came fast brakes as hard as it has to: then the ball rolls away from it.
     let left = (MAX_DRIBBLE - way).max(0.05);
-    order.acceleration = ACCELERATION.max(robot.velocity.dot(robot.velocity) / (2.0 * left));
+    let limit = if is_good { DECELERATION } else { ACCELERATION };
+    order.acceleration = limit.max(robot.velocity.dot(robot.velocity) / (2.0 * left));
     if way > MAX_DRIBBLE {
         return give_up(robot, order);
     }
-    if !is_good {
+    if !is_good && !is_keeper {
         order.target = dribble_target(s, memory, robot);
     }
     if is_good || is_pressed {

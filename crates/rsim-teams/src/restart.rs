@@ -19,6 +19,8 @@ const STANDOFF: f32 = 0.13;
 const PRESS_DEPTH: f32 = 0.05;
 /// Speed into the ball, m/s.
 const KICK_APPROACH: f32 = 0.5;
+/// Gap between mouth and ball below which the kick happens within the step, m.
+const TOUCHING: f32 = 0.025;
 /// Error to the side for the final approach, m.
 const MAX_ASIDE: f32 = 0.012;
 /// Sine of the heading's error for the final approach.
@@ -46,7 +48,7 @@ pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) 
         return Order { ball_distance: mouth + 0.1, ..Order::to(behind, direction) };
     }
     let ahead = robot.velocity.dot(robot.heading);
-    if robot.has_ball {
+    if robot.has_ball || own.x < mouth + TOUCHING {
         memory.receiver = kick.receiver;
         memory.pass_steps = 100;
     }

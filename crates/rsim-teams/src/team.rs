@@ -3,6 +3,7 @@
 use rsim_referee::game::Game;
 use rsim_referee::{Team, Vector};
 
+use crate::aim;
 use crate::approach;
 use crate::bounds::{Bounds, Part};
 use crate::config::{MAX_ROBOTS, TeamConfig};
@@ -36,6 +37,10 @@ const KICKED: f32 = 0.3;
 const AIM_SECONDS: f32 = 1.0;
 /// Distance from the ball within which a robot reacts at once, m.
 const CLOSE: f32 = 0.6;
+/// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
+/// ball, with time and without.
+const AIMED_WITH_TIME: f32 = -0.3;
+const AIMED: f32 = 0.6;
 /// Distance from the ball of robots that leave it to a mate, m.
 const MATE_DISTANCE: f32 = 0.3;
 
@@ -277,9 +282,13 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
     let rival = s.others.first(|_| true).map_or(f32::INFINITY, |(_, meeting)| meeting.time);
-    let goal = (s.pitch.their_goal() - meeting.place).unit_or(Vector::new(1.0, 0.0));
-    let has_time = rival > meeting.time + 0.5 && goal.dot(to_ball) > -0.3;
-    approach::take(s, robot, meeting, if has_time { goal } else { to_ball })
+    let place = meeting.place;
+    let kick = possession::chosen(s, &mut memory.team, robot.index, || {
+        aim::best_kick(s, place, robot.index)
+    });
+    let aim = (kick.at - place).unit_or(Vector::new(1.0, 0.0));
+    let least = if rival > meeting.time + 0.5 { AIMED_WITH_TIME } else { AIMED };
+    approach::take(s, robot, meeting, if aim.dot(to_ball) > least { aim } else { to_ball })
 }
 
 /// Place of the robot nearest to the ball where it may not play it: between ball and goal.
