@@ -276,8 +276,11 @@ fn taker_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
 
 /// Takes the ball, or plays it.
 fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
-    if memory.team.carrier == Some(robot.index) {
+    if possession::controls(s, robot) {
         return possession::play(s, &mut memory.team, robot);
+    }
+    if possession::is_too_far(s, &memory.team, robot) {
+        return possession::stand(robot);
     }
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
