@@ -14,7 +14,7 @@ const CHOICE_STEPS: i32 = 5;
 /// Value by which a new kick has to be better than the one chosen, as a factor.
 const HYSTERESIS: f32 = 1.2;
 /// Value of a kick that is made at once.
-const GOOD_VALUE: f32 = 0.4;
+const GOOD_VALUE: f32 = 0.3;
 /// Time after which any kick is made, and the same by the keeper, s.
 const PATIENCE: [f32; 2] = [1.8, 0.6];
 /// Distance of an opponent from the ball that hurries, m.
