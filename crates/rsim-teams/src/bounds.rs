@@ -16,6 +16,8 @@ const AREA_DISTANCE: f32 = 0.2;
 const PENALTY_DISTANCE: f32 = 1.0;
 /// Room to the limits of the rules, m.
 const ROOM: f32 = 0.04;
+/// Room to the distance from the ball, m: in the step of a kick the ball moves up to 0.16.
+const BALL_ROOM: f32 = 0.17;
 /// Room to the own area and to walls, m.
 const PLAY_ROOM: f32 = 0.02;
 /// Room to the opponents' area, in which a touch of the ball is a foul, m.
@@ -87,7 +89,9 @@ impl Bounds {
                 bounds.avoided = [ball, place];
                 bounds.distance = if is_taker { 0.0 } else { from_ball };
             }
-            Mode::Prepare | Mode::Kick if !phase.ours => bounds.distance = from_ball,
+            Mode::Prepare | Mode::Kick if !phase.ours => {
+                bounds.distance = BALL_DISTANCE + radius + BALL_ROOM;
+            }
             Mode::Prepare | Mode::Kick => {}
         }
         match phase.restart {
@@ -102,7 +106,7 @@ impl Bounds {
         let is_kicker = phase.ours && part == Part::Taker && phase.mode != Mode::Stop;
         if !is_kicker {
             // The center circle has the radius of the distance from the ball.
-            self.distance = BALL_DISTANCE + radius + ROOM;
+            self.distance = BALL_DISTANCE + radius + BALL_ROOM;
             self.avoided = [Vector::default(); 2];
             self.x[1] = -(radius + ROOM);
         }

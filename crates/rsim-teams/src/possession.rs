@@ -161,12 +161,23 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     }
     let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
     if is_stuck && robot.heading.x > STUCK_HEADING {
-        let at = ball + robot.heading * STUCK_WAY;
-        let chip = s.pitch.lines.is_inside(at, 0.0);
-        let ahead = Kick { at, speed: STUCK_KICK, chip, ..kick };
+        let ahead = stuck_kick(s, robot, kick);
         order.kick = kick_command(s, &ahead, 0.0);
     }
     order
+}
+
+/// A kick in the direction that a robot in a crowd faces: a shot, or over the others.
+fn stuck_kick(s: &Situation, robot: &Player, kick: Kick) -> Kick {
+    let (ball, goal) = (s.ball(), s.pitch.their_goal());
+    let share = (goal.x - ball.x) / robot.heading.x;
+    let y = ball.y + robot.heading.y * share;
+    let is_shot = robot.heading.x > 0.0 && y.abs() < s.pitch.lines.half_goal_width;
+    let at = ball + robot.heading * STUCK_WAY;
+    if is_shot {
+        return Kick { at: goal, speed: MAX_BALL_SPEED, chip: false, ..kick };
+    }
+    Kick { at, speed: STUCK_KICK, chip: s.pitch.lines.is_inside(at, 0.0), ..kick }
 }
 
 /// Angular velocity at which the ball stays in the mouth of a robot that drives, rad/s.
