@@ -205,8 +205,8 @@ mod tests {
         let skill = Skill::new(1.0, 0.025);
         let driving =
             Driving { config: &scene.config, pitch: &pitch, skill: &skill, view: &view };
-        let phase = Phase { mode: Mode::Play, restart: Restart::Free, ours: false };
-        let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, 0.09);
+        let phase = Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
+        let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, &pitch, 0.09);
         driving.command(&view.own[0], order, &bounds)
     }
 

@@ -141,9 +141,10 @@ impl ScriptedTeam {
         for player in view.own.iter() {
             let part = part_of(player, memory.team.taker);
             let ends = [view.ball.position, situation.place];
+            let radius = self.config.robot.radius;
             let max_speed = self.skill.speed * self.config.robot.max_speed;
             let mut bounds =
-                Bounds::new(phase, part, ends, max_speed, self.config.robot.radius);
+                Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
