@@ -107,7 +107,7 @@ fn best_goal_place(s: &Situation, from: Vector, places: &[f32]) -> (Vector, f32)
 pub(crate) fn value_at(s: &Situation, place: Vector) -> f32 {
     let half_length = s.pitch.lines.half_length;
     let progress = (place.x + half_length) / (2.0 * half_length);
-    0.7 * best_goal_place(s, place, &FEW_PLACES).1 + 0.12 * progress
+    0.55 * best_goal_place(s, place, &FEW_PLACES).1 + 0.12 * progress
 }
 
 /// The better of the flat and the high pass to a mate; none if it is unlikely to arrive.

@@ -13,8 +13,6 @@ use crate::view::Player;
 const RECEIVED_SPEED: f32 = 0.5;
 /// Distance between mouth and ball before the final approach, m.
 const STANDOFF: f32 = 0.09;
-/// Distance beyond contact at which the final approach aims, m.
-const PRESS_DEPTH: f32 = 0.03;
 /// Speed into the ball, m/s.
 const PRESS_SPEED: f32 = 0.35;
 /// Cosine of the heading's error for the final approach.
@@ -81,7 +79,7 @@ fn fetch(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> 
         && own.y.abs() < MAX_ASIDE + 0.3 * (own.x - mouth).max(0.0)
         && robot.heading.dot(direction) > FACING_COSINE;
     if near && is_aligned {
-        let target = at - direction * (mouth - PRESS_DEPTH);
+        let target = at - direction * mouth;
         return Order {
             moving: ball.velocity + direction * PRESS_SPEED,
             dribbler: 1.0,
@@ -92,5 +90,6 @@ fn fetch(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> 
     }
     let target = at - direction * (mouth + STANDOFF);
     let moving = if near { ball.velocity } else { Vector::default() };
-    Order { moving, ball_distance: mouth + BALL_ROOM, ..Order::to(target, direction) }
+    let dribbler = if near { 1.0 } else { 0.0 };
+    Order { moving, dribbler, ball_distance: mouth + BALL_ROOM, ..Order::to(target, direction) }
 }

@@ -14,8 +14,12 @@ const BALL_DISTANCE: f32 = 0.5;
 const AREA_DISTANCE: f32 = 0.2;
 /// Distance behind the ball of robots that take no part in a penalty kick, m.
 const PENALTY_DISTANCE: f32 = 1.0;
+/// Distance from the ball from which a robot may cross the way of a placement, m.
+const FAR: f32 = 1.2;
 /// Room to the limits of the rules, m.
 const ROOM: f32 = 0.04;
+/// Room to the distance from the ball, m: in the step of a kick the ball moves up to 0.16.
+const BALL_ROOM: f32 = 0.17;
 /// Room to the own area and to walls, m.
 const PLAY_ROOM: f32 = 0.02;
 /// Room to the opponents' area, in which a touch of the ball is a foul, m.
@@ -47,6 +51,8 @@ pub(crate) struct Bounds {
     pub(crate) own_area: Option<f32>,
     /// Limits of x, m.
     pub(crate) x: [f32; 2],
+    /// Maximum of the absolute x and y, m.
+    walls: Vector,
 }
 
 /// A limit near a robot.
@@ -59,12 +65,13 @@ pub(crate) struct Limit {
 }
 
 impl Bounds {
-    /// Bounds of a robot with a radius, for the ball at `ball` that has to be at `place`.
+    /// Bounds of a robot with a radius, for a kick or placement with the ball at `ball` that has to be at `place`.
     pub(crate) fn new(
         phase: Phase,
         part: Part,
         [ball, place]: [Vector; 2],
         max_speed: f32,
+        pitch: &Pitch,
         radius: f32,
     ) -> Self {
         let mut bounds = Self {
@@ -74,6 +81,7 @@ impl Bounds {
             their_area: radius + TOUCH_ROOM,
             own_area: (part != Part::Keeper).then_some(radius + PLAY_ROOM),
             x: [f32::NEG_INFINITY, f32::INFINITY],
+            walls: pitch.within_walls(Vector::new(100.0, 100.0), radius + PLAY_ROOM),
         };
         let from_ball = BALL_DISTANCE + radius + ROOM;
         let is_taker = part == Part::Taker;
@@ -85,9 +93,17 @@ impl Bounds {
             }
             Mode::Place => {
                 bounds.avoided = [ball, place];
-                bounds.distance = if is_taker { 0.0 } else { from_ball };
+                bounds.distance = from_ball + ROOM;
+                if is_taker && phase.ours {
+                    // It takes the ball wherever it lies.
+                    bounds.distance = 0.0;
+                    (bounds.own_area, bounds.their_area) = (None, f32::NEG_INFINITY);
+                    return bounds;
+                }
             }
-            Mode::Prepare | Mode::Kick if !phase.ours => bounds.distance = from_ball,
+            Mode::Prepare | Mode::Kick if !phase.ours => {
+                bounds.distance = BALL_DISTANCE + radius + BALL_ROOM;
+            }
             Mode::Prepare | Mode::Kick => {}
         }
         match phase.restart {
@@ -102,7 +118,7 @@ impl Bounds {
         let is_kicker = phase.ours && part == Part::Taker && phase.mode != Mode::Stop;
         if !is_kicker {
             // The center circle has the radius of the distance from the ball.
-            self.distance = BALL_DISTANCE + radius + ROOM;
+            self.distance = BALL_DISTANCE + radius + BALL_ROOM;
             self.avoided = [Vector::default(); 2];
             self.x[1] = -(radius + ROOM);
         }
@@ -133,28 +149,11 @@ impl Bounds {
             place = pitch.outside(Area::Theirs, place, self.their_area);
             let limit = self.from_avoided(place);
             if limit.distance < 0.0 {
-                place = place + limit.away * -limit.distance;
+                place = self.nearest_avoided(place) + limit.away * self.distance;
             }
             place.x = place.x.clamp(self.x[0], self.x[1]);
         }
-        let walled = pitch.within_walls(place, radius + PLAY_ROOM);
-        if self.from_avoided(walled).distance > -1e-3 {
-            return walled;
-        }
-        // Between the ball and a wall there is no room: it moves along the wall.
-        let nearest = self.nearest_avoided(walled);
-        let along = if walled.y == place.y {
-            Vector::new(0.0, walled.y - nearest.y)
-        } else {
-            Vector::new(walled.x - nearest.x, 0.0)
-        };
-        let inward = (nearest * -1.0).unit_or(Vector::new(-1.0, 0.0));
-        let moved = walled + along.unit_or(inward) * self.distance;
-        if moved == pitch.within_walls(moved, radius + PLAY_ROOM) {
-            moved
-        } else {
-            nearest + inward * self.distance
-        }
+        pitch.within_walls(place, radius + PLAY_ROOM)
     }
 
     /// Limits at a place.
@@ -178,10 +177,35 @@ impl Bounds {
             return Limit { distance: f32::INFINITY, away: Vector::new(1.0, 0.0) };
         }
         let nearest = self.nearest_avoided(place);
-        let along = self.avoided[1] - self.avoided[0];
-        let aside = along.left().unit_or(Vector::new(-1.0, 0.0));
+        let aside = (self.avoided[1] - self.avoided[0]).left().unit_or(Vector::new(-1.0, 0.0));
         let away = (place - nearest).unit_or(aside);
+        let away = if self.is_within_walls(nearest + away * self.distance) {
+            away
+        } else {
+            self.along_wall(place, nearest, away)
+        };
         Limit { distance: place.distance(nearest) - self.distance, away }
+    }
+
+    /// Direction in which a robot gets away that has no room before a wall: along the wall, or past the way
+    /// where the ball is far.
+    fn along_wall(&self, place: Vector, nearest: Vector, away: Vector) -> Vector {
+        let is_beside = (nearest + away * self.distance).y.abs() > self.walls.y;
+        let offset = place - nearest;
+        let along =
+            if is_beside { Vector::new(offset.x, 0.0) } else { Vector::new(0.0, offset.y) };
+        let inward = (nearest * -1.0).unit_or(Vector::new(-1.0, 0.0));
+        let along = along.unit_or(inward);
+        let is_far = place.distance(self.avoided[0]) > FAR;
+        if is_far || !self.is_within_walls(nearest + along * self.distance) {
+            inward
+        } else {
+            along
+        }
+    }
+
+    fn is_within_walls(&self, place: Vector) -> bool {
+        place.x.abs() <= self.walls.x && place.y.abs() <= self.walls.y
     }
 
     /// The place on the avoided way that is nearest to a place.
@@ -202,7 +226,8 @@ mod tests {
     const RADIUS: f32 = 0.09;
 
     fn bounds(mode: Mode, restart: Restart, ours: bool, part: Part, ball: Vector) -> Bounds {
-        Bounds::new(Phase { mode, restart, ours }, part, [ball; 2], 3.0, RADIUS)
+        let phase = Phase { mode, restart, ours, kicks_next: false };
+        Bounds::new(phase, part, [ball; 2], 3.0, &pitch(), RADIUS)
     }
 
     #[test]
@@ -257,8 +282,8 @@ mod tests {
     #[test]
     fn opponents_leave_the_way_of_a_placement() {
         let ends = [Vector::new(-1.0, 0.0), Vector::new(1.0, 0.0)];
-        let phase = Phase { mode: Mode::Place, restart: Restart::Free, ours: false };
-        let bounds = Bounds::new(phase, Part::Other, ends, 3.0, RADIUS);
+        let phase = Phase { mode: Mode::Place, restart: Restart::Free, ours: false, kicks_next: false };
+        let bounds = Bounds::new(phase, Part::Other, ends, 3.0, &pitch(), RADIUS);
         let place = bounds.allowed(Vector::new(0.3, 0.1), &pitch(), RADIUS);
         assert!(place.y > 0.5 + RADIUS, "{place:?}");
         let limit = bounds.limits(Vector::new(0.3, 0.1), &pitch())[2];

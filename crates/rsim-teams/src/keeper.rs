@@ -16,6 +16,8 @@ const POST_ROOM: f32 = 0.15;
 const OFF_LINE: f32 = 0.9;
 /// Distance from the goal line, m, so that it stays clear of the posts.
 const LINE_ROOM: f32 = 0.1;
+/// Time until the ball is there in which the keeper hurries, s.
+const HURRY: f32 = 0.5;
 /// Depth within its area at which the ball is the keeper's, m.
 const DEPTH: f32 = 0.0;
 /// Speed of a ball that the keeper goes for, m/s.
@@ -59,10 +61,11 @@ fn save(s: &Situation, keeper: &Player, crossing: Vector) -> Vector {
     let along = (keeper.position - ball).dot(ahead).clamp(0.0, way.length());
     let mut foot = ball + ahead * along;
     foot.x = foot.x.max(s.pitch.own_goal().x + 0.5 * LINE_ROOM);
-    // It drives through the foot, so that it does not brake before the ball is there.
+    // In a hurry it drives through the foot, so that it does not brake before the ball is there.
     let to = foot - keeper.position;
     let room = to.length();
-    if room > 0.05 { foot + to * (0.15 / room) } else { foot }
+    let time = along / s.path.speed.max(SHOT_SPEED);
+    if room > 0.05 && time < HURRY { foot + to * (0.15 / room) } else { foot }
 }
 
 /// The place that covers the goal against a shot from a place.

@@ -76,8 +76,12 @@ impl Driving<'_> {
         let speed = (2.0 * braking * length).sqrt().min(POSITION_GAIN * length);
         let wanted = way.unit_or(Vector::default()) * speed + order.moving;
         let mut velocity = wanted.limited(order.max_speed.min(bounds.max_speed));
+        let braking = LIMIT_BRAKING.min(0.8 * order.acceleration);
         for limit in bounds.limits(robot.position, self.pitch) {
-            velocity = kept_off(velocity, &limit, LIMIT_BRAKING.min(0.8 * order.acceleration));
+            velocity = kept_off(velocity, &limit, braking);
+        }
+        for limit in self.walls(robot.position) {
+            velocity = kept_off(velocity, &limit, braking);
         }
         velocity = self.kept_off_robots(robot, velocity);
         let is_faster = velocity.length() > robot.velocity.length();
@@ -88,6 +92,18 @@ impl Driving<'_> {
         };
         let change = order.acceleration.min(own) * self.config.time_step;
         robot.velocity + (velocity - robot.velocity).limited(change)
+    }
+
+    /// The walls beside a robot.
+    fn walls(&self, place: Vector) -> [Limit; 2] {
+        let lines = &self.pitch.lines;
+        let radius = self.config.robot.radius;
+        let x = Vector::new(-place.x.signum(), 0.0);
+        let y = Vector::new(0.0, -place.y.signum());
+        [
+            Limit { distance: lines.boundary_x - place.x.abs() - radius, away: x },
+            Limit { distance: lines.boundary_y - place.y.abs() - radius, away: y },
+        ]
     }
 
     fn obstacles(
@@ -189,8 +205,8 @@ mod tests {
         let skill = Skill::new(1.0, 0.025);
         let driving =
             Driving { config: &scene.config, pitch: &pitch, skill: &skill, view: &view };
-        let phase = Phase { mode: Mode::Play, restart: Restart::Free, ours: false };
-        let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, 0.09);
+        let phase = Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
+        let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, &pitch, 0.09);
         driving.command(&view.own[0], order, &bounds)
     }
 

@@ -13,6 +13,9 @@ const ROOM: f32 = 0.03;
 /// Detour that a way is worth which comes too near to something, m for each m.
 const BLOCKED_COST: f32 = 10.0;
 
+/// The same for a corner at which the robot must not be.
+const FORBIDDEN_COST: f32 = 100.0;
+
 /// A disc in which the center of a robot must not be.
 #[derive(Debug, Clone, Copy, Default)]
 struct Disc {
@@ -110,7 +113,8 @@ fn around_disc(
     let cost = |corner: Vector| {
         let too_near = obstacles.missing(from, corner) + obstacles.missing(corner, to);
         let length = from.distance(corner) + corner.distance(to);
-        length + BLOCKED_COST * (too_near + obstacles.forbidden(corner, pitch).max(0.0))
+        let forbidden = obstacles.forbidden(corner, pitch).max(0.0);
+        length + BLOCKED_COST * too_near + FORBIDDEN_COST * forbidden
     };
     let [left, right] = [disc.center + aside, disc.center - aside];
     if cost(left) <= cost(right) { left } else { right }

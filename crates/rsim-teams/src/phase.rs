@@ -41,6 +41,8 @@ pub(crate) struct Phase {
     pub(crate) restart: Restart,
     /// Whether the kick, or the placement, is the team's.
     pub(crate) ours: bool,
+    /// Whether the team kicks after the stop or the placement.
+    pub(crate) kicks_next: bool,
 }
 
 impl Phase {
@@ -66,7 +68,8 @@ impl Phase {
             _ => Restart::Free,
         };
         let ours = kick.and_then(Command::team) == Some(team);
-        Self { mode, restart, ours }
+        let kicks_next = game.next_command == Some(Command::DirectFree(team));
+        Self { mode, restart, ours, kicks_next }
     }
 
 }

@@ -1,10 +1,11 @@
 //! The robot that places the ball: takes it, carries it, leaves it.
 
+use rsim_referee::Vector;
+
 use crate::approach;
 use crate::intercept::Meeting;
 use crate::memory::TeamMemory;
 use crate::order::Order;
-use crate::phase::Restart;
 use crate::plane::Plane;
 use crate::possession;
 use crate::situation::Situation;
@@ -32,6 +33,10 @@ const TURNING: f32 = 2.5;
 const FACING_COSINE: f32 = 0.995;
 /// Distance from the lines beyond which the ball is pulled back into the field, m.
 const BEYOND: f32 = 0.05;
+/// Distance from the lines at which a robot waits for a ball beyond them, m.
+const INNER: f32 = 0.3;
+/// Room between a robot and walls, m.
+const WALL_ROOM: f32 = 0.015;
 /// Gap between hull and ball that is left before an own free kick, and before another command, m.
 const LEFT: [f32; 2] = [0.12, 0.56];
 /// Gap between hull and ball at which the robot still has it, m.
@@ -58,12 +63,31 @@ pub(crate) fn place(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> O
 /// Takes the ball, from the side from which it can go on.
 fn fetch(s: &Situation, robot: &Player) -> Order {
     let ball = s.ball();
-    let inner = s.pitch.inside(ball, 0.3);
-    let is_outside = !s.pitch.lines.is_inside(ball, BEYOND);
-    let direction = if is_outside { ball - inner } else { s.place - ball };
-    let direction = direction.unit_or(robot.heading);
+    let direction = if s.pitch.lines.is_inside(ball, BEYOND) {
+        (s.place - ball).unit_or(robot.heading)
+    } else {
+        outward(s, ball)
+    };
     let meeting = Meeting { place: ball, ..s.own.of(robot.index).unwrap_or_default() };
     approach::take(s, robot, meeting, direction)
+}
+
+/// Direction in which a robot can get a ball beyond the lines into its mouth, clear of walls and goals.
+fn outward(s: &Situation, ball: Vector) -> Vector {
+    let lines = &s.pitch.lines;
+    let mouth = s.config.mouth();
+    let room = s.config.robot.radius + WALL_ROOM;
+    let inner = s.pitch.inside(ball, INNER);
+    let straight = (ball - inner).unit_or(Vector::new(1.0, 0.0));
+    let mut center = s.pitch.within_walls(ball - straight * mouth, room);
+    if ball.x.abs() > lines.half_length {
+        let [within, beside] =
+            [lines.half_goal_width - room, lines.half_goal_width + lines.goal_wall_thickness + room];
+        let y = center.y.abs();
+        let clear = if ball.y.abs() < lines.half_goal_width { y.min(within) } else { y.max(beside) };
+        center.y = clear.copysign(ball.y);
+    }
+    (ball - center).unit_or(straight)
 }
 
 /// Drives with the ball: backward from beyond the lines, then ahead to its place.
@@ -101,8 +125,7 @@ fn carry(s: &Situation, robot: &Player) -> Order {
 /// Drives straight back from a placed ball, once it rests.
 fn leave(s: &Situation, robot: &Player) -> Order {
     let ball = s.ball();
-    let is_ours = s.phase.ours && s.phase.restart == Restart::Free;
-    let gap = LEFT[usize::from(!is_ours)];
+    let gap = LEFT[usize::from(!s.phase.kicks_next)];
     let away = (robot.position - ball).unit_or(robot.heading * -1.0);
     let touches = robot.position.distance(ball) < s.body();
     let distance = s.body() + gap;

@@ -14,7 +14,7 @@ const CHOICE_STEPS: i32 = 5;
 /// Value by which a new kick has to be better than the one chosen, as a factor.
 const HYSTERESIS: f32 = 1.2;
 /// Value of a kick that is made at once.
-const GOOD_VALUE: f32 = 0.4;
+const GOOD_VALUE: f32 = 0.3;
 /// Time after which any kick is made, and the same by the keeper, s.
 const PATIENCE: [f32; 2] = [1.8, 0.6];
 /// Distance of an opponent from the ball that hurries, m.
@@ -26,7 +26,7 @@ const MAX_DRIBBLE: f32 = 0.8;
 /// Acceleration with the ball, m/s²: the dribbler holds it up to 2.6, and along its back-spin up to 5.6.
 const ACCELERATION: f32 = 2.5;
 /// Deceleration with the ball, m/s².
-const DECELERATION: f32 = 4.0;
+const DECELERATION: f32 = 3.2;
 /// Acceleration of the ball to the side, in a turn, m/s².
 const SIDE_ACCELERATION: f32 = 1.8;
 /// Angular acceleration with the ball, rad/s²: 1.4 m/s² at the ball.
@@ -49,6 +49,10 @@ const STUCK_HEADING: f32 = -0.3;
 const STUCK_WAY: f32 = 2.0;
 /// Speed of such a kick, m/s.
 const STUCK_KICK: f32 = 3.5;
+/// Gap before the mouth at which a robot still controls the ball, m.
+const CONTROL_GAP: f32 = 0.025;
+/// Distance to the side at which it does, m.
+const CONTROL_ASIDE: f32 = 0.035;
 /// Gap between hull and ball at which a robot still has it, m.
 const GAP: f32 = 0.03;
 
@@ -66,6 +70,24 @@ pub(crate) fn follow(s: &Situation, memory: &mut TeamMemory) {
     memory.carrier = s.view.own.iter().find(|player| has(player, 0.0)).map(|player| player.index);
     memory.carry_start = ball;
     memory.carry_steps = 0;
+}
+
+/// Whether a robot has moved the ball so far that it must not go on.
+pub(crate) fn is_too_far(s: &Situation, memory: &TeamMemory, robot: &Player) -> bool {
+    let way = s.ball().distance(memory.carry_start);
+    memory.carrier == Some(robot.index) && way > MAX_DRIBBLE
+}
+
+/// Order of a robot that lets the ball roll away.
+pub(crate) fn stand(robot: &Player) -> Order {
+    Order { straight: true, ball_distance: 0.0, ..Order::to(robot.position, robot.heading) }
+}
+
+/// Whether a robot has the ball before its mouth.
+pub(crate) fn controls(s: &Situation, robot: &Player) -> bool {
+    let own = (s.ball() - robot.position).seen_from(robot.heading);
+    let is_near = own.x < s.config.mouth() + CONTROL_GAP && own.y.abs() < CONTROL_ASIDE;
+    robot.has_ball || own.x > 0.0 && is_near
 }
 
 /// The kick that a robot with the ball at `from` aims at. It is chosen anew every few steps.
@@ -128,7 +150,7 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let left = (MAX_DRIBBLE - way).max(0.05);
     let limit = if is_good { DECELERATION } else { ACCELERATION };
     order.acceleration = limit.max(robot.velocity.dot(robot.velocity) / (2.0 * left));
-    if way > MAX_DRIBBLE {
+    if is_too_far(s, memory, robot) {
         return give_up(robot, order);
     }
     if !is_good && !is_keeper {
@@ -139,12 +161,23 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     }
     let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
     if is_stuck && robot.heading.x > STUCK_HEADING {
-        let at = ball + robot.heading * STUCK_WAY;
-        let chip = s.pitch.lines.is_inside(at, 0.0);
-        let ahead = Kick { at, speed: STUCK_KICK, chip, ..kick };
+        let ahead = stuck_kick(s, robot, kick);
         order.kick = kick_command(s, &ahead, 0.0);
     }
     order
+}
+
+/// A kick in the direction that a robot in a crowd faces: a shot, or over the others.
+fn stuck_kick(s: &Situation, robot: &Player, kick: Kick) -> Kick {
+    let (ball, goal) = (s.ball(), s.pitch.their_goal());
+    let share = (goal.x - ball.x) / robot.heading.x;
+    let y = ball.y + robot.heading.y * share;
+    let is_shot = robot.heading.x > 0.0 && y.abs() < s.pitch.lines.half_goal_width;
+    let at = ball + robot.heading * STUCK_WAY;
+    if is_shot {
+        return Kick { at: goal, speed: MAX_BALL_SPEED, chip: false, ..kick };
+    }
+    Kick { at, speed: STUCK_KICK, chip: s.pitch.lines.is_inside(at, 0.0), ..kick }
 }
 
 /// Angular velocity at which the ball stays in the mouth of a robot that drives, rad/s.

@@ -15,12 +15,12 @@ pub(crate) struct Skill {
     pub(crate) pass_threshold: f32,
 }
 
-/// Longest reaction time, s: twice that of people.
-const MAX_REACTION: f32 = 0.4;
-/// Largest standard deviation of the direction of a kick, rad: at 4 m it misses a goal 1 m wide as often as not.
-const MAX_AIM_ERROR: f32 = 0.16;
+/// Longest reaction time, s: more than twice that of people.
+const MAX_REACTION: f32 = 0.5;
+/// Largest standard deviation of the direction of a kick, rad: at 3 m it misses a goal 1 m wide as often as not.
+const MAX_AIM_ERROR: f32 = 0.2;
 /// Smallest share of the maximum speed.
-const MIN_SPEED: f32 = 0.35;
+const MIN_SPEED: f32 = 0.3;
 /// Smallest share of the speed of turns.
 const MIN_TURNING: f32 = 0.4;
 /// Share of the maximum speed that a skilled team uses: what remains is for corrections.
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn more_skill_is_faster_and_more_accurate() {
         let [low, middle, high] = [0.0, 0.5, 1.0].map(|skill| Skill::new(skill, 0.025));
-        assert_eq!((low.reaction_steps, high.reaction_steps), (16, 1));
+        assert_eq!((low.reaction_steps, high.reaction_steps), (20, 1));
         for (worse, better) in [(low, middle), (middle, high)] {
             assert!(worse.reaction_steps > better.reaction_steps);
             assert!(worse.aim_error > better.aim_error && worse.speed < better.speed);

@@ -37,6 +37,8 @@ const KICKED: f32 = 0.3;
 const AIM_SECONDS: f32 = 1.0;
 /// Distance from the ball within which a robot reacts at once, m.
 const CLOSE: f32 = 0.6;
+/// Distance from the ball of the robot that blocks a kick of the opponents, m.
+const BLOCK_DISTANCE: f32 = 0.8;
 /// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
 /// ball, with time and without.
 const AIMED_WITH_TIME: f32 = -0.3;
@@ -139,9 +141,10 @@ impl ScriptedTeam {
         for player in view.own.iter() {
             let part = part_of(player, memory.team.taker);
             let ends = [view.ball.position, situation.place];
+            let radius = self.config.robot.radius;
             let max_speed = self.skill.speed * self.config.robot.max_speed;
             let mut bounds =
-                Bounds::new(phase, part, ends, max_speed, self.config.robot.radius);
+                Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
@@ -276,8 +279,11 @@ fn taker_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
 
 /// Takes the ball, or plays it.
 fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
-    if memory.team.carrier == Some(robot.index) {
+    if possession::controls(s, robot) {
         return possession::play(s, &mut memory.team, robot);
+    }
+    if possession::is_too_far(s, &memory.team, robot) {
+        return possession::stand(robot);
     }
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
@@ -287,7 +293,13 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
         aim::best_kick(s, place, robot.index)
     });
     let aim = (kick.at - place).unit_or(Vector::new(1.0, 0.0));
-    let least = if rival > meeting.time + 0.5 { AIMED_WITH_TIME } else { AIMED };
+    let least = if robot.index == KEEPER {
+        -1.0 // it never drives the ball toward its goal
+    } else if rival > meeting.time + 0.5 {
+        AIMED_WITH_TIME
+    } else {
+        AIMED
+    };
     approach::take(s, robot, meeting, if aim.dot(to_ball) > least { aim } else { to_ball })
 }
 
@@ -295,5 +307,5 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
 fn block_place(s: &Situation) -> Vector {
     let ball = s.ball();
     let to_goal = (s.pitch.own_goal() - ball).unit_or(Vector::new(-1.0, 0.0));
-    ball + to_goal * 0.7
+    ball + to_goal * BLOCK_DISTANCE
 }

@@ -129,7 +129,7 @@ fn story() {
             println!("{step} {:?} {:?}", arena.game.command, arena.game.designated_position);
         }
         for event in events {
-            println!("{step} !! {:?} {:?} {:?}", event.kind, event.team, event.robot);
+            println!("{step} !! {:?} {:?} {:?} heights {:?} fouls {:?} yellow {:?} removal {:?} ball v {:?}", event.kind, event.team, event.robot, arena.game.height_since_touch, arena.game.foul_steps, arena.game.yellow_steps_left, arena.game.removal_steps_left, &before[..6]);
         }
         for nth in 0..2 {
             let at = |name: &str| arena.memories[nth][place(name)];

@@ -9,7 +9,7 @@ use rsim_referee::events::{Event, EventKind};
 use rsim_referee::game::Game;
 use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::Layout;
-use rsim_referee::statistics::{FOULS, Statistics};
+use rsim_referee::statistics::{OFFENSES, Statistics};
 use rsim_referee::{Decisions, Lines, Referee, Team};
 use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, ScriptedTeam, TeamConfig};
 
@@ -18,7 +18,7 @@ use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, ScriptedTeam, TeamC
 pub(crate) struct Counts {
     pub(crate) events: std::collections::BTreeMap<&'static str, [u32; 2]>,
     pub(crate) passes: [u32; 2],
-    pub(crate) kicks: [u32; 2],
+    pub(crate) fouls: [u32; 2],
     pub(crate) in_play: u32,
     pub(crate) steps: u32,
     pub(crate) acting_seconds: f64,
@@ -204,6 +204,8 @@ impl Arena {
             for team in Team::BOTH {
                 if event.team.is_none_or(|own| own == team) {
                     counts[team.index()] += 1;
+                    self.counts.fouls[team.index()] +=
+                        u32::from(OFFENSES.contains(&event.kind));
                 }
             }
         }
@@ -240,8 +242,8 @@ impl Arena {
         }
     }
 
-    pub(crate) fn fouls(&self) -> [i32; 2] {
-        Team::BOTH.map(|team| self.statistics.fouls[team].iter().sum())
+    pub(crate) fn fouls(&self) -> [u32; 2] {
+        self.counts.fouls
     }
 
     pub(crate) fn is(&self, command: Command) -> bool {
@@ -250,7 +252,5 @@ impl Arena {
 }
 
 pub(crate) fn name(kind: EventKind) -> &'static str {
-    let all: Vec<String> = FOULS.iter().map(|kind| format!("{kind:?}")).collect();
-    drop(all);
     Box::leak(format!("{kind:?}").into_boxed_str())
 }
