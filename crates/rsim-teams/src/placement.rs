@@ -81,10 +81,13 @@ fn outward(s: &Situation, ball: Vector) -> Vector {
     let straight = (ball - inner).unit_or(Vector::new(1.0, 0.0));
     let mut center = s.pitch.within_walls(ball - straight * mouth, room);
     if ball.x.abs() > lines.half_length {
-        let [within, beside] =
-            [lines.half_goal_width - room, lines.half_goal_width + lines.goal_wall_thickness + room];
+        let [within, beside] = [
+            lines.half_goal_width - room,
+            lines.half_goal_width + lines.goal_wall_thickness + room,
+        ];
         let y = center.y.abs();
-        let clear = if ball.y.abs() < lines.half_goal_width { y.min(within) } else { y.max(beside) };
+        let clear =
+            if ball.y.abs() < lines.half_goal_width { y.min(within) } else { y.max(beside) };
         center.y = clear.copysign(ball.y);
     }
     (ball - center).unit_or(straight)
@@ -113,7 +116,7 @@ fn carry(s: &Situation, robot: &Player) -> Order {
     if robot.heading.dot(direction) < FACING_COSINE && to_place.length() > PLACED {
         return Order { facing: direction, ..order };
     }
-    let speed = (2.0 * BRAKING * to_place.length()).sqrt().min(SPEED).max(LAST_SPEED);
+    let speed = (2.0 * BRAKING * to_place.length()).sqrt().clamp(LAST_SPEED, SPEED);
     Order {
         target: robot.position + to_place,
         facing: if to_place.length() > 0.2 { direction } else { robot.heading },
@@ -129,11 +132,8 @@ fn leave(s: &Situation, robot: &Player) -> Order {
     let away = (robot.position - ball).unit_or(robot.heading * -1.0);
     let touches = robot.position.distance(ball) < s.body();
     let distance = s.body() + gap;
-    let target = if touches && s.path.speed > RESTING {
-        robot.position
-    } else {
-        ball + away * distance
-    };
+    let target =
+        if touches && s.path.speed > RESTING { robot.position } else { ball + away * distance };
     let order = Order::to(target, away * -1.0);
     Order { max_speed: 0.8, acceleration: 1.5, ball_distance: 0.0, straight: true, ..order }
 }

@@ -29,7 +29,8 @@ use crate::view::{Player, View};
 
 /// Names of the columns of a command: velocity forward and to the left (m/s), angular velocity (rad/s), speed
 /// of a kick along the heading and upward (m/s), dribbler (0 to 1).
-pub const COMMAND_COLUMNS: [&str; 6] = ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
+pub const COMMAND_COLUMNS: [&str; 6] =
+    ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
 /// Change of the ball's velocity in a step by which a kick is told from friction, m/s.
 const KICKED: f32 = 0.3;
@@ -76,7 +77,7 @@ impl ScriptedTeam {
     /// # Errors
     /// A memory of another length.
     pub fn begin(&self, memory: &mut [f32], seed: u32) -> Result<(), TeamsError> {
-        self.check("memory", self.memory_columns().len(), memory.len())?;
+        check_size("memory", self.memory_columns().len(), memory.len())?;
         Memory::new(seed).write(memory, self.robots());
         Ok(())
     }
@@ -96,7 +97,7 @@ impl ScriptedTeam {
     ) -> Result<(), TeamsError> {
         let layout = &self.config.layout;
         let size = layout.team_size(team) * COMMAND_COLUMNS.len();
-        self.check("commands", size, commands.len())?;
+        check_size("commands", size, commands.len())?;
         let sight = layout.sight(row)?;
         let first = [0, layout.team_size(Team::Blue)];
         let view = View::new(&sight, team, first);
@@ -111,10 +112,6 @@ impl ScriptedTeam {
     fn robots(&self) -> usize {
         let [blue, yellow] = Team::BOTH.map(|team| self.config.layout.team_size(team));
         blue.max(yellow)
-    }
-
-    fn check(&self, name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
-        if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
     }
 
     fn decide(
@@ -143,8 +140,7 @@ impl ScriptedTeam {
             let ends = [view.ball.position, situation.place];
             let radius = self.config.robot.radius;
             let max_speed = self.skill.speed * self.config.robot.max_speed;
-            let mut bounds =
-                Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
+            let mut bounds = Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
@@ -231,9 +227,8 @@ fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
     let runners = (0..MAX_ROBOTS).filter(|index| is_runner(*index)).fold(0, |all, i| all | 1 << i);
     for player in s.view.own.iter().filter(|player| free >> player.index & 1 == 1) {
         let Some(job) = jobs[player.index] else { continue };
-        let target = job.place.unwrap_or_else(|| {
-            support::spot(s, player, runners, &mut memory.robots)
-        });
+        let target =
+            job.place.unwrap_or_else(|| support::spot(s, player, runners, &mut memory.robots));
         memory.robots[player.index].job = job.number;
         let order = Order::to(target, s.ball() - player.position);
         orders[player.index] = reacting(s, memory, player, order);
@@ -308,4 +303,8 @@ fn block_place(s: &Situation) -> Vector {
     let ball = s.ball();
     let to_goal = (s.pitch.own_goal() - ball).unit_or(Vector::new(-1.0, 0.0));
     ball + to_goal * BLOCK_DISTANCE
+}
+
+fn check_size(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
+    if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
 }

@@ -1,9 +1,9 @@
 //! A match of two sides: physics, referee, and what is counted.
 
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use rsim_core::SimConfig;
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use rsim_core::{Drive, RobotModel, World};
-use rsim_referee::codes::{Command, Stage};
+use rsim_referee::codes::Stage;
 use rsim_referee::config::{Placement, RefereeConfig};
 use rsim_referee::events::{Event, EventKind};
 use rsim_referee::game::Game;
@@ -137,7 +137,8 @@ impl Arena {
         let sides = skills.map(|skill| side(&config, skill));
         let mut memories = [(); 2].map(|()| vec![0.0; sides[0].memory_columns().len()]);
         for (nth, (side, memory)) in sides.iter().zip(&mut memories).enumerate() {
-            side.begin(memory, seed * 2 + nth as u32).expect("a memory");
+            side.begin(memory, seed * 2 + u32::try_from(nth).expect("two sides"))
+                .expect("a memory");
         }
         let commands = vec![0.0; config.command_size()];
         Self {
@@ -204,8 +205,7 @@ impl Arena {
             for team in Team::BOTH {
                 if event.team.is_none_or(|own| own == team) {
                     counts[team.index()] += 1;
-                    self.counts.fouls[team.index()] +=
-                        u32::from(OFFENSES.contains(&event.kind));
+                    self.counts.fouls[team.index()] += u32::from(OFFENSES.contains(&event.kind));
                 }
             }
         }
@@ -218,8 +218,10 @@ impl Arena {
         if touched < 0.0 {
             return;
         }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small whole number
         let robot = touched as usize;
-        let column = BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len() + robot_column("touched_ball");
+        let column =
+            BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len() + robot_column("touched_ball");
         if self.row[column] > 0.5 {
             let n_blue = self.config.blue.len();
             let team = usize::from(robot >= n_blue);
@@ -244,10 +246,6 @@ impl Arena {
 
     pub(crate) fn fouls(&self) -> [u32; 2] {
         self.counts.fouls
-    }
-
-    pub(crate) fn is(&self, command: Command) -> bool {
-        self.game.command == command
     }
 }
 
