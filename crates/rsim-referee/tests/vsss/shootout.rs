@@ -152,6 +152,33 @@ fn a_kick_fails_after_ten_seconds() {
 }
 
 #[test]
+fn a_goal_in_the_last_step_of_a_kick_counts() {
+    each(|size, taker| {
+        let mut scene = kick(size, taker);
+        scene.roll(seen_by(taker, [0.3, 0.1]), [1.0, 0.0]);
+        assert_eq!(scene.run(9.975), []);
+        take(&mut scene, taker, true);
+        assert_eq!(scene.game.score[taker], 1);
+        assert_eq!(scene.game.shootout_kicks[taker], 1);
+    });
+}
+
+#[test]
+fn a_kick_does_not_fail_before_it_may_be_taken() {
+    each(|size, taker| {
+        let mut scene = kick(size, taker);
+        take(&mut scene, taker, false);
+        let other = taker.opponent();
+        scene.wait_for(Command::PreparePenalty(other));
+        scene.roll(seen_by(other, [-0.1, 0.3]), [1.0, 0.0]);
+        assert_eq!(scene.run(4.0), []);
+        assert_eq!(scene.game.command, Command::NormalStart);
+        let mark = scene.referee.pitch().lines.penalty_mark(other);
+        assert!(scene.ball_position().distance(mark) < 1e-6, "the ball is put back");
+    });
+}
+
+#[test]
 fn crowds_are_not_judged_in_the_shoot_out() {
     each(|size, taker| {
         let mut scene = kick(size, taker);
