@@ -15,10 +15,11 @@ fn kick(size: Size, first: Team) -> Scene {
     let config = RefereeConfig { half_seconds: 1.0, extra_half_seconds: 0.0, ..size.config() };
     let mut scene = Scene::with(config, size.pitch(), [size.robots(); 2]);
     scene.game = Game::new(first);
-    while scene.game.stage != Stage::Shootout {
+    for _ in 0..steps(14.0) {
         scene.roll([0.0, 0.0], [1.0, 0.0]);
         assert_eq!(scene.step(), []);
     }
+    assert_eq!(scene.game.stage, Stage::Shootout);
     assert_eq!(scene.game.next_command, Some(Command::PreparePenalty(first)));
     begin_kick(&mut scene, first);
     scene
