@@ -68,13 +68,15 @@ class Match(Soccer):
 
     Termination: the end of the match. Truncation: after `max_steps`.
 
-    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals; `blue_shots`,
-    balls that leave a robot toward the mouth of the goal; `blue_passes`, passes that arrive;
-    `blue_possession`, share of the time in play in which the team touched the ball last;
-    `blue_distance`, way of all robots, m; `blue_fouls`, fouls; `blue_yellow_cards`, yellow cards;
-    `blue_red_cards`, red cards; `yellow_goals`, `yellow_shots`, `yellow_passes`,
-    `yellow_possession`, `yellow_distance`, `yellow_fouls`, `yellow_yellow_cards`,
-    `yellow_red_cards`, the same of yellow; `in_play`, time with the ball in play, s.
+    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals of
+    blue; `yellow_goals`, those of yellow; `blue_shots`, balls that leave a robot of blue toward the
+    mouth of the goal; `yellow_shots`, those of yellow; `blue_passes`, passes of blue that arrive;
+    `yellow_passes`, those of yellow; `blue_possession`, share of the time in play in which blue
+    touched the ball last; `yellow_possession`, that of yellow; `blue_distance`, way of all robots
+    of blue, m; `yellow_distance`, that of yellow; `blue_fouls`, fouls of blue; `yellow_fouls`,
+    those of yellow; `blue_yellow_cards`, yellow cards of blue; `yellow_yellow_cards`, those of
+    yellow; `blue_red_cards`, red cards of blue; `yellow_red_cards`, those of yellow; `in_play`,
+    time with the ball in play, s.
     """
 
     max_steps: int = 200_000
