@@ -22,6 +22,7 @@ LAYERS = [
     {"senses"},
     {"play"},
     {"rules"},
+    {"referee"},
     {"task_definition"},
     {"encoded_blocks", "new_play"},
     {"observation_layout"},

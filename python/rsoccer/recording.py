@@ -13,9 +13,11 @@ from rsoccer.controllers import Controllers
 from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.matches import Matches
 from rsoccer.matches.policy_match import policy_match
+from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
+from rsoccer.render.referee_state import referee_of, referee_state
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.video import MIN_WIDTH, write_video
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
@@ -123,7 +125,11 @@ def _film(
     """An empty image, and those of the match, at whose end its simulator is closed."""
     with closed_after(matches, simulator):
         config = matches.task.config
-        renderer = Renderer(config, default_width(config, MIN_WIDTH) if width is None else width)
+        renderer = Renderer(
+            config,
+            default_width(config, MIN_WIDTH) if width is None else width,
+            has_referee=referee_of(matches.task) is not None,
+        )
         yield np.empty((0, 0, 3), np.uint8)
         yield from _images(matches, renderer, seconds, names)
 
@@ -132,29 +138,37 @@ def _images(
     matches: Matches, renderer: Renderer, seconds: float, names: tuple[str, str]
 ) -> Iterator[Image]:
     """An image for each control step, and a pause at each goal."""
-    time_step = matches.task.config.time_step
+    task, time_step = matches.task, matches.task.config.time_step
     actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
     blue = yellow = 0
-    effects = Effects(matches.task.config)
+    effects, announcer = Effects(task.config), Announcer(task.config.field)
     matches.reset()
-    row = matches.frame.rows[0]
-    yield renderer.draw(row, names=names, extras=task_overlay(matches.task, matches.play))
+    yield renderer.draw(
+        matches.frame.rows[0],
+        names=names,
+        referee=referee_state(task, matches.play),
+        extras=task_overlay(task, matches.play),
+    )
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
             matches.reset()
             effects.clear()
+            announcer.clear()
         matches.step(actions)
-        goals = matches.play.events.by_team(EventKind.GOAL)[0].tolist()
+        play, clock = matches.play, step * time_step
+        goals = play.events.by_team(EventKind.GOAL)[0].tolist()
         blue, yellow, scored = blue + goals[BLUE], yellow + goals[YELLOW], any(goals)
         image = renderer.draw(
             matches.frame.rows[0],
             score=(blue, yellow),
-            clock=step * time_step,
+            clock=clock,
             names=names,
             caption="goal" if scored else "",
+            referee=referee_state(task, play),
+            announcement=announcer.update(named_events(task, play.events.of_world(0)), clock),
             extras=(
-                *task_overlay(matches.task, matches.play),
-                *effects.update(matches.frame.rows[0], step * time_step, matches.play.commands[0]),
+                *task_overlay(task, play),
+                *effects.update(matches.frame.rows[0], clock, play.commands[0]),
             ),
         )
         for _ in range(math.ceil(GOAL_PAUSE / time_step) if scored else 1):

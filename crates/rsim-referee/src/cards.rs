@@ -15,7 +15,7 @@ pub fn count_foul(game: &mut Game, moment: &Moment, ruling: &Ruling, events: &mu
             continue;
         }
         game.fouls[team] += 1;
-        if ruling.then.is_none() {
+        if is_non_stopping(ruling.event.kind) {
             game.foul_steps[team] = 0;
         }
         if is_multiple(game.fouls[team], moment.config.fouls_per_card) {
@@ -26,6 +26,18 @@ pub fn count_foul(game: &mut Game, moment: &Moment, ruling: &Ruling, events: &mu
             }
         }
     }
+}
+
+/// Whether an event is one of the fouls under "Non Stopping Fouls". Fouls while the ball is out of play do not
+/// stop play either, but are none of them.
+pub const fn is_non_stopping(kind: EventKind) -> bool {
+    matches!(
+        kind,
+        EventKind::AttackerTouchedBallInDefenseArea
+            | EventKind::BotKickedBallTooFast
+            | EventKind::BotCrashUnique
+            | EventKind::BotCrashDrawn
+    )
 }
 
 #[allow(clippy::cast_possible_truncation)] // a small whole number
@@ -94,8 +106,6 @@ pub fn pass_removal_time(game: &mut Game, moment: &Moment, team: Team) -> bool {
         game.removal_steps_left[team] = -1;
         return false;
     }
-    if game.removal_steps_left[team] > 0 {
-        game.removal_steps_left[team] -= 1;
-    }
-    game.removal_steps_left[team] <= 0
+    game.removal_steps_left[team] = (game.removal_steps_left[team] - 1).max(0);
+    game.removal_steps_left[team] == 0
 }

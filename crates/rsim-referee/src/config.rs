@@ -39,7 +39,7 @@ pub enum Placement {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HalfEnd {
-    /// At once, but for a penalty kick, which is still taken.
+    /// At once, but for a penalty kick of SSL, which is still taken.
     AtOnce,
     /// At the next stop, as the game controller does.
     NextStop,

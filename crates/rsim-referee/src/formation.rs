@@ -4,8 +4,8 @@
 use crate::codes::Command;
 use crate::game::Game;
 use crate::moment::Moment;
-use crate::positions::{command_of_positions, nearest_to};
-use crate::sight::Placed;
+use crate::positions::{clear_of_ball, command_of_positions};
+use crate::sight::Robot;
 use crate::team::Team;
 use crate::vector::Vector;
 
@@ -20,6 +20,9 @@ struct Table {
 
 /// Distance along x between the ball of a free ball and the robots beside it, m, at three and five a side.
 const BESIDE_FREE_BALL: [f32; 2] = [0.20, 0.25];
+
+/// More than the rounding of a distance, m.
+const ROUNDING: f32 = 1e-5;
 
 const KICKOFF_3: Table = Table {
     kicking: &[(0.675, 0.0), (0.2, 0.0), (0.4, 0.0)],
@@ -45,7 +48,7 @@ const GOAL_KICK_5: Table = Table {
     kicking: &[(1.03, 0.0), (-0.45, 0.45), (0.4, -0.5), (-0.2, -0.4), (-0.4, 0.2)],
     receiving: &[(1.03, 0.0), (0.15, 0.0), (0.6, -0.6), (0.5, -0.3), (0.2, 0.4)],
 };
-/// Of a free ball, without the robots beside the ball. The team that attacks in the half has the kick.
+/// Of a free ball, without the robot of each team beside the ball.
 const FREE_BALL_3: Table =
     Table { kicking: &[(0.675, 0.0), (-0.1, -0.2)], receiving: &[(0.675, 0.0), (0.3, -0.1)] };
 const FREE_BALL_5: Table = Table {
@@ -53,43 +56,70 @@ const FREE_BALL_5: Table = Table {
     receiving: &[(1.03, 0.0), (0.3, -0.5), (-0.4, 0.0), (0.4, -0.1)],
 };
 
-/// Positions of the robots for the present kick, or the next one. Robots that the table does not have are
+/// Places of robots for the present kick, or the next one, by their indices. The first robot of a team is its
+/// keeper, the second one stands beside the ball of a free ball. Robots that the table does not have are
 /// missing.
-pub(crate) fn places(game: &Game, moment: &Moment) -> Vec<Placed> {
-    let is_large = moment.lines().inner_area_depth > 0.0;
-    let choose = |small, large| if is_large { large } else { small };
+pub(crate) fn places(
+    game: &Game,
+    moment: &Moment,
+    ball: Vector,
+    robots: &[Robot],
+) -> Vec<(usize, Vector)> {
     let command = command_of_positions(game);
-    let ball = game.designated_position;
-    let (table, kicking) = match command {
-        Command::PrepareKickoff(team) => (choose(&KICKOFF_3, &KICKOFF_5), team),
-        Command::PreparePenalty(team) => (choose(&PENALTY_3, &PENALTY_5), team),
-        Command::GoalKick(team) => (choose(&GOAL_KICK_3, &GOAL_KICK_5), team),
-        Command::FreeBall => {
-            let attacker = if ball.x < 0.0 { Team::Yellow } else { Team::Blue };
-            (choose(&FREE_BALL_3, &FREE_BALL_5), attacker)
-        }
-        _ => return Vec::new(),
-    };
-    // The tables are for a ball at +y, where the league mirrors them.
-    let mirrors = matches!(command, Command::FreeBall)
-        || matches!(command, Command::GoalKick(_)) && !is_large;
-    let aside = if mirrors && ball.y < 0.0 { -1.0 } else { 1.0 };
+    let is_large = moment.lines().inner_area_depth > 0.0;
+    let Some((table, kicking)) = table_of(command, is_large, ball) else { return Vec::new() };
+    let aside = if is_mirrored(command, is_large, ball) { -1.0 } else { 1.0 };
     let mut placed = Vec::new();
     for team in Team::BOTH {
+        let home = team.own_side();
         let positions = if team == kicking { table.kicking } else { table.receiving };
-        let mut robots: Vec<usize> = moment.now.team(team).map(|robot| robot.index).collect();
+        let mut positions: Vec<Vector> =
+            positions.iter().map(|(x, y)| Vector::new(home * x, aside * y)).collect();
         if command == Command::FreeBall {
-            if let Some(taker) = nearest_to(moment, team, ball) {
-                robots.retain(|robot| *robot != taker);
-                let beside = team.own_side() * BESIDE_FREE_BALL[usize::from(is_large)];
-                let position = Vector::new(ball.x + beside, ball.y);
-                placed.push(Placed { robot: taker, position, faces: Some(ball) });
-            }
+            let beside = home * BESIDE_FREE_BALL[usize::from(is_large)];
+            positions.insert(1, Vector::new(ball.x + beside, ball.y));
         }
-        for (robot, (x, y)) in robots.into_iter().zip(positions) {
-            let position = Vector::new(team.own_side() * x, aside * y);
-            placed.push(Placed { robot, position, faces: Some(ball) });
-        }
+        let members = robots.iter().filter(|robot| robot.team == team);
+        placed.extend(
+            members
+                .zip(positions)
+                .map(|(robot, place)| (robot.index, away_from_ball(moment, place, ball))),
+        );
     }
     placed
+}
+
+/// The table of a command, and the team that has the kick. Of a free ball it is the one that attacks in the
+/// half. `None` for a command without a table.
+fn table_of(command: Command, is_large: bool, ball: Vector) -> Option<(&'static Table, Team)> {
+    let choose = |small, large| if is_large { large } else { small };
+    match command {
+        Command::PrepareKickoff(team) => Some((choose(&KICKOFF_3, &KICKOFF_5), team)),
+        Command::PreparePenalty(team) => Some((choose(&PENALTY_3, &PENALTY_5), team)),
+        Command::GoalKick(team) => Some((choose(&GOAL_KICK_3, &GOAL_KICK_5), team)),
+        Command::FreeBall => {
+            let attacker = if ball.x < 0.0 { Team::Yellow } else { Team::Blue };
+            Some((choose(&FREE_BALL_3, &FREE_BALL_5), attacker))
+        }
+        _ => None,
+    }
+}
+
+/// Whether the positions are those of the table with the opposite y. The tables are for a ball at +y. At a
+/// goal kick the league mirrors the keeper alone; here both sides of the field are alike.
+fn is_mirrored(command: Command, is_large: bool, ball: Vector) -> bool {
+    let has_sides =
+        command == Command::FreeBall || matches!(command, Command::GoalKick(_)) && !is_large;
+    has_sides && ball.y < 0.0
+}
+
+/// The place, or one in the same direction from the ball that is just clear of it: the kicker of a penalty
+/// stands nearer than a robot that may turn there.
+fn away_from_ball(moment: &Moment, place: Vector, ball: Vector) -> Vector {
+    let from_ball = place - ball;
+    let (distance, clear) = (from_ball.length(), clear_of_ball(moment.pitch) + ROUNDING);
+    if distance >= clear || distance == 0.0 {
+        return place;
+    }
+    ball + from_ball * (clear / distance)
 }

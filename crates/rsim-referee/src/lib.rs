@@ -3,6 +3,7 @@
 //! It knows rows of columns by name, its own row of state and its configuration: no physics, no
 //! Python, no threads and no clock.
 
+mod ball_placement;
 pub mod cards;
 pub mod codes;
 pub mod column;
@@ -14,6 +15,7 @@ pub mod features;
 mod flow;
 mod formation;
 pub mod game;
+mod kick;
 mod line_up;
 mod lines;
 pub mod moment;

@@ -28,9 +28,15 @@ const SSL: [(f32, f32); 11] = [
 /// Positions of all robots that are present, for a kick-off.
 pub(crate) fn kickoff(game: &Game, moment: &Moment) -> Vec<Placed> {
     match moment.config.league {
-        League::Vsss => formation::places(game, moment),
+        League::Vsss => vsss(game, moment),
         League::Ssl => Team::BOTH.into_iter().flat_map(|team| ssl(moment, team)).collect(),
     }
+}
+
+fn vsss(game: &Game, moment: &Moment) -> Vec<Placed> {
+    let (ball, robots) = (game.designated_position, moment.now.robots().collect::<Vec<_>>());
+    let places = formation::places(game, moment, ball, &robots).into_iter();
+    places.map(|(robot, position)| Placed { robot, position, faces: Some(ball) }).collect()
 }
 
 fn ssl(moment: &Moment, team: Team) -> Vec<Placed> {

@@ -67,10 +67,11 @@ impl Lines {
         }
     }
 
-    /// Whether a place lies in the smaller area in front of the goal that `defender` defends.
+    /// Whether a place lies in the smaller area in front of the goal that `defender` defends; its lines do
+    /// not belong to it. The area goes on behind the goal line.
     pub fn is_in_inner_area(&self, place: Vector, defender: Team) -> bool {
-        self.half_length - defender.own_side() * place.x <= self.inner_area_depth
-            && place.y.abs() <= self.half_inner_area_width
+        self.half_length - defender.own_side() * place.x < self.inner_area_depth
+            && place.y.abs() < self.half_inner_area_width
     }
 
     /// Mark of the penalty kick of a team.
@@ -79,9 +80,10 @@ impl Lines {
         Vector::new(goal.x - goal.x.signum() * self.penalty_mark_distance, 0.0)
     }
 
-    /// The free-ball mark of the quarter that a place is in.
+    /// The free-ball mark of the quarter that a place is in; the middle lines belong to -x and -y.
     pub fn free_ball_mark(&self, place: Vector) -> Vector {
-        Vector::new(self.free_ball_x.copysign(place.x), self.free_ball_y.copysign(place.y))
+        let side = |coordinate: f32| if coordinate > 0.0 { 1.0 } else { -1.0 };
+        Vector::new(side(place.x) * self.free_ball_x, side(place.y) * self.free_ball_y)
     }
 
     /// The valid place nearest to `place` for a ball that is kicked: at least `from_lines` inside the lines

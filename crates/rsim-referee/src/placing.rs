@@ -14,9 +14,9 @@ use crate::vector::Vector;
 /// Distance from its place within which a ball at rest stays, m.
 const SAME_PLACE: f32 = 0.01;
 
-/// Whether all robots are where the present command allows them to be, with the ball at its place.
-pub(crate) fn is_arranged(game: &Game, moment: &Moment) -> bool {
-    let positions = Positions::new(game, moment, game.designated_position);
+/// Whether all robots are where the present command allows them to be, with the ball at a place.
+pub(crate) fn is_arranged(game: &Game, moment: &Moment, ball: Vector) -> bool {
+    let positions = Positions::new(game, moment, ball);
     moment.now.robots().all(|robot| positions.allows(&robot, robot.position))
 }
 
@@ -29,39 +29,21 @@ pub(crate) fn arrange(
     row: &mut [f32],
 ) -> bool {
     let mut restart = Restart { layout, row, changed: false, settled: Vec::new() };
-    let ball = if arrangement == Arrangement::All {
-        restart.place_ball(moment, game.designated_position);
-        game.designated_position
-    } else {
-        moment.ball.position
+    let ball = match arrangement {
+        Arrangement::All => restart.place_ball(moment, game.designated_position),
+        Arrangement::Robots | Arrangement::None => moment.ball.position,
     };
     restart.take_out(game, moment);
     let positions = Positions::new(game, moment, ball);
     let present = |robot: &Robot| !cards::is_removed(game, robot.index);
-    let mut robots: Vec<Robot> = moment.now.robots().filter(present).collect();
-    let by_table = arrangement == Arrangement::All && moment.config.league == League::Vsss;
-    let targets = if by_table { formation::places(game, moment) } else { Vec::new() };
-    let target_of = |robot: &Robot| {
-        targets.iter().find(|placed| placed.robot == robot.index).map(|placed| placed.position)
-    };
-    if by_table {
-        robots.sort_by_key(|robot| target_of(robot).is_none());
-        for robot in &robots {
-            let wanted = target_of(robot).unwrap_or(robot.position);
-            restart.place(&positions, robot, wanted);
+    let robots: Vec<Robot> = moment.now.robots().filter(present).collect();
+    match (arrangement, moment.config.league) {
+        (Arrangement::All, League::Ssl) => restart.place_invalid(&positions, robots),
+        (Arrangement::All, League::Vsss) => {
+            let table = formation::places(game, moment, ball, &robots);
+            restart.place_by_table(&positions, robots, &table);
         }
-    } else if arrangement == Arrangement::All {
-        let is_valid = |robot: &Robot| positions.allows(robot, robot.position);
-        let (valid, mut invalid): (Vec<_>, Vec<_>) = robots.into_iter().partition(is_valid);
-        restart.settled.extend(valid.iter().map(|robot| robot.position));
-        // The nearest to the ball first, so that both teams have the same chances.
-        let distance = |robot: &Robot| robot.position.distance(ball);
-        invalid.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-        for robot in &invalid {
-            restart.place(&positions, robot, robot.position);
-        }
-    } else {
-        restart.settled.extend(robots.iter().map(|robot| robot.position));
+        _ => restart.settled.extend(robots.iter().map(|robot| robot.position)),
     }
     restart.bring_back(game, moment, &positions);
     restart.changed
@@ -76,13 +58,51 @@ struct Restart<'a> {
 }
 
 impl Restart<'_> {
-    /// Puts the ball at its place, unless it rests there.
-    fn place_ball(&mut self, moment: &Moment, place: Vector) {
+    /// Puts the ball at its place, unless it rests there. Returns where it is.
+    fn place_ball(&mut self, moment: &Moment, place: Vector) -> Vector {
         let ball = moment.ball;
         let rests = ball.speed() == 0.0 && ball.height == 0.0;
-        if !rests || ball.position.distance(place) > SAME_PLACE {
-            self.layout.put_ball(self.row, place);
-            self.changed = true;
+        if rests && ball.position.distance(place) <= SAME_PLACE {
+            return ball.position;
+        }
+        self.layout.put_ball(self.row, place);
+        self.changed = true;
+        place
+    }
+
+    /// Puts the robots in forbidden places in valid ones. The others stay.
+    fn place_invalid(&mut self, positions: &Positions, robots: Vec<Robot>) {
+        let is_valid = |robot: &Robot| positions.allows(robot, robot.position);
+        let (valid, invalid): (Vec<_>, Vec<_>) = robots.into_iter().partition(is_valid);
+        self.settled.extend(valid.iter().map(|robot| robot.position));
+        self.place_near(positions, invalid);
+    }
+
+    /// Puts the robots in their places of a table, and those for which it has none in the places nearest to
+    /// where they are.
+    fn place_by_table(
+        &mut self,
+        positions: &Positions,
+        robots: Vec<Robot>,
+        table: &[(usize, Vector)],
+    ) {
+        let place_of = |robot: &Robot| table.iter().find(|(index, _)| *index == robot.index);
+        let (listed, others): (Vec<_>, Vec<_>) =
+            robots.into_iter().partition(|robot| place_of(robot).is_some());
+        for robot in &listed {
+            let wanted = place_of(robot).map_or(robot.position, |(_, place)| *place);
+            self.place(positions, robot, wanted);
+        }
+        self.place_near(positions, others);
+    }
+
+    /// Puts robots in the valid places nearest to where they are. The nearest to the ball come first, so that
+    /// both teams have the same chances.
+    fn place_near(&mut self, positions: &Positions, mut robots: Vec<Robot>) {
+        let distance = |robot: &Robot| robot.position.distance(positions.ball());
+        robots.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        for robot in &robots {
+            self.place(positions, robot, robot.position);
         }
     }
 
@@ -90,7 +110,8 @@ impl Restart<'_> {
     fn place(&mut self, positions: &Positions, robot: &Robot, wanted: Vector) {
         let position = positions.nearest(robot, wanted, &self.settled);
         self.settled.push(position);
-        if position != robot.position || robot.velocity != Vector::default() {
+        let rests = robot.velocity == Vector::default() && robot.angular_velocity == 0.0;
+        if position != robot.position || !rests {
             let placed = Placed { robot: robot.index, position, faces: Some(positions.ball()) };
             self.layout.put_robot(self.row, &placed);
             self.changed = true;

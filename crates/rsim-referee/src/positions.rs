@@ -4,12 +4,11 @@ use crate::codes::Command;
 use crate::config::League;
 use crate::game::Game;
 use crate::moment::Moment;
+use crate::pitch::{Pitch, ROOM};
 use crate::sight::Robot;
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// Room between bodies that are placed, m: more than rounding.
-const ROOM: f32 = 0.001;
 /// Distance between the rings on which a free place is searched, m.
 const RING: f32 = 0.03;
 /// Most places on a ring.
@@ -46,8 +45,8 @@ impl<'a> Positions<'a> {
 
     /// Whether a robot may stand at a place, whatever other robots do.
     pub(crate) fn allows(&self, robot: &Robot, place: Vector) -> bool {
-        self.is_on_the_field(place)
-            && place.distance(self.ball) >= self.ball_distance(robot)
+        self.moment.pitch.has_room(place)
+            && place.distance(self.ball) - self.moment.pitch.robot_radius >= self.ball_gap(robot)
             && (self.moment.config.league == League::Vsss || self.obeys_areas(robot, place))
     }
 
@@ -59,16 +58,17 @@ impl<'a> Positions<'a> {
             settled.iter().all(|other| other.distance(*place) >= between)
                 && self.allows(robot, *place)
         };
-        // The first place of a ring lies toward the own goal, so that both teams have the same choices.
+        // The first place of a ring lies toward the own goal and the next ones toward the middle, so that the
+        // choice is the same for both teams and on both sides.
         let home = robot.team.own_side();
+        let inward = if wanted.y == 0.0 { home } else { -wanted.y.signum() };
         (0..RINGS)
             .flat_map(|ring| {
                 let places = (6 * ring).clamp(1, MAX_ON_RING);
                 (0..places).map(move |nth| {
                     let angle = std::f32::consts::TAU * f32::from(nth) / f32::from(places);
-                    let out =
-                        Vector::new(angle.cos(), angle.sin()) * (home * RING * f32::from(ring));
-                    wanted + out
+                    let out = Vector::new(home * libm::cosf(angle), inward * libm::sinf(angle));
+                    wanted + out * (RING * f32::from(ring))
                 })
             })
             .find(is_free)
@@ -79,7 +79,10 @@ impl<'a> Positions<'a> {
     fn toward_allowed(&self, robot: &Robot, wanted: Vector) -> Vector {
         let lines = self.moment.lines();
         match self.command {
-            Command::PreparePenalty(attacker) if self.is_penalty_keeper(robot, attacker) => {
+            Command::PreparePenalty(attacker)
+                if self.moment.config.league == League::Ssl
+                    && self.is_penalty_keeper(robot, attacker) =>
+            {
                 let half = lines.half_goal_width - self.moment.pitch.robot_radius;
                 Vector::new(lines.goal(robot.team).x, wanted.y.clamp(-half, half))
             }
@@ -87,31 +90,16 @@ impl<'a> Positions<'a> {
         }
     }
 
-    /// Distance that the center of a robot keeps from the ball.
-    fn ball_distance(&self, robot: &Robot) -> f32 {
-        let (config, pitch) = (self.moment.config, self.moment.pitch);
-        let touching = pitch.robot_radius + pitch.ball_radius + ROOM;
+    /// Distance that the hull of a robot keeps from the center of the ball.
+    fn ball_gap(&self, robot: &Robot) -> f32 {
+        let config = self.moment.config;
+        let touching = self.moment.pitch.ball_radius + ROOM;
         let is_kicking = self.command.team() == Some(robot.team);
         if !self.is_stopped && is_kicking {
             touching + config.placement_clearance
         } else {
-            touching.max(pitch.robot_radius + config.ball_distance)
+            touching.max(config.ball_distance)
         }
-    }
-
-    /// Whether a robot stands within the walls, and clear of the walls of the goals.
-    fn is_on_the_field(&self, place: Vector) -> bool {
-        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius + ROOM);
-        let behind_line = place.x.abs() + radius > lines.half_length;
-        let from_post = (place.y.abs() - lines.half_goal_width).abs();
-        let within = place.x.abs() <= lines.boundary_x - radius
-            && place.y.abs() <= lines.boundary_y - radius;
-        let in_corner = place.x.abs() + place.y.abs()
-            > lines.half_length + lines.half_width - lines.corner_leg - 2_f32.sqrt() * radius;
-        let is_in_goal = place.y.abs() < lines.half_goal_width;
-        let clear_of_goal = from_post >= radius + lines.goal_wall_thickness
-            && (!is_in_goal || place.x.abs() <= lines.half_length);
-        within && !(lines.corner_leg > 0.0 && in_corner) && (!behind_line || clear_of_goal)
     }
 
     /// Whether a robot keeps to the areas and halves of the rules of SSL.
@@ -139,7 +127,7 @@ impl<'a> Positions<'a> {
         let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
         if self.is_penalty_keeper(robot, attacker) {
             let on_line = (place.x - lines.goal(robot.team).x).abs() <= radius;
-            return on_line && place.y.abs() <= lines.half_goal_width - radius + ROOM;
+            return on_line && place.y.abs() <= lines.half_goal_width - radius;
         }
         let behind = attacker.own_side() * (place.x - self.ball.x) - radius;
         self.taker == Some(robot.index) && behind >= 0.0
@@ -149,6 +137,11 @@ impl<'a> Positions<'a> {
     fn is_penalty_keeper(&self, robot: &Robot, attacker: Team) -> bool {
         robot.team != attacker && robot.index == self.moment.keeper(robot.team)
     }
+}
+
+/// Distance between the centers of ball and robot from which they do not touch, m.
+pub(crate) fn clear_of_ball(pitch: &Pitch) -> f32 {
+    pitch.robot_radius + pitch.ball_radius + ROOM
 }
 
 /// The command that decides where robots may stand.
@@ -163,7 +156,7 @@ pub(crate) fn command_of_positions(game: &Game) -> Command {
 }
 
 /// The robot of a team that is nearest to a place; the keeper only if there is no other.
-pub(crate) fn nearest_to(moment: &Moment, team: Team, place: Vector) -> Option<usize> {
+fn nearest_to(moment: &Moment, team: Team, place: Vector) -> Option<usize> {
     let keeper = moment.keeper(team);
     let rank = |robot: &Robot| (robot.index == keeper, robot.position.distance(place));
     let nearest = moment.now.team(team).min_by(|a, b| {

@@ -90,7 +90,9 @@ impl RefereeConfig {
     }
 
     /// VSSS, three a side. Source: the league's referee, VSSSLeague/VSSReferee 2862742 (2022-03-12),
-    /// `src/constants/constants.json` and `referee/checkers`. Numbers of rules that only SSL has are 0.
+    /// `src/constants/constants.json` and `referee/checkers`. Numbers of rules that only SSL has are 0. Two
+    /// numbers of the shoot-out are SSL's, since the league's referee leaves its end to people: the kicks of
+    /// a team, and the time of a kick.
     fn vsss_3v3() -> Self {
         Self {
             half_seconds: 300.0,
@@ -101,6 +103,7 @@ impl RefereeConfig {
             goal_stop_seconds: 8.0,
             prepare_seconds: 4.0,
             max_prepare_seconds: 4.0,
+            penalty_seconds: 10.0,
             no_progress_seconds: 5.0,
             held_ball_seconds: 3.0,
             contest_distance: 1.5 * 0.075, // robot lengths

@@ -115,6 +115,7 @@ impl Referee {
         decisions: &mut Decisions,
     ) -> Result<(), RefereeError> {
         let (before, now) = (self.layout.sight(before)?, self.layout.sight(after)?);
+        self.layout.sight(restart)?;
         decisions.events.clear();
         decisions.rulings.clear();
         decisions.restarts = false;
@@ -142,23 +143,27 @@ impl Referee {
 
     fn follow(&self, game: &mut Game, moment: &Moment) {
         tracking::follow(game, moment);
-        if self.config.league == League::Vsss {
-            rules::vsss::stuck_ball::follow(game, moment);
+        match self.config.league {
+            League::Ssl => tracking::follow_progress(game, moment),
+            League::Vsss => rules::vsss::stuck_ball::follow(game, moment),
         }
     }
 }
 
-/// Stops play where a team has not taken its robots out in time.
+/// Stops play where a team has not taken its robots out in time, but for a penalty kick.
 fn remove_robots(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     for team in Team::BOTH {
         let is_over =
             game.removal_steps_left[team] >= 0 && cards::pass_removal_time(game, moment, team);
-        if is_over && game.is_running() {
+        if is_over && game.is_running() && game.penalty_taker().is_none() {
             let place = moment.ball.position;
-            let kind = EventKind::TooManyRobots;
-            let ruling = Ruling::of_team(kind, Some(team), place);
-            let place = rules::ssl::kick_place(moment, place);
-            rulings.add(ruling.stops(Command::ForceStart, place));
+            let ruling = Ruling::of_team(EventKind::TooManyRobots, Some(team), place);
+            // A kick that was not taken yet is repeated.
+            let (command, place) = match game.kick.filter(|_| !game.in_play) {
+                Some(kick) => (kick, game.designated_position),
+                None => (Command::ForceStart, rules::ssl::kick_place(moment, place)),
+            };
+            rulings.add(ruling.stops(command, place));
         }
     }
 }

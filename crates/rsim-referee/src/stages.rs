@@ -52,9 +52,7 @@ impl RefereeConfig {
     /// Whether the match clock counts a step.
     pub fn counts(&self, game: &Game) -> bool {
         let is_played = match game.command {
-            // Until the kick the clock stands, but for a free kick.
-            Command::NormalStart => game.in_play,
-            Command::ForceStart | Command::DirectFree(_) => true,
+            Command::NormalStart | Command::ForceStart | Command::DirectFree(_) => true,
             Command::Halt
             | Command::Stop
             | Command::PrepareKickoff(_)
@@ -133,13 +131,14 @@ mod tests {
     }
 
     #[test]
-    fn the_clock_counts_play_and_free_kicks() {
+    fn the_clock_counts_while_a_team_may_play_the_ball() {
         let mut game = Game::new(Team::Blue);
         game.stage = Stage::FirstHalf;
         let running = RefereeConfig { clock: Clock::Running, ..rules() };
         for (command, in_play, expected) in [
             (Command::NormalStart, true, true),
-            (Command::NormalStart, false, false),
+            (Command::NormalStart, false, true),
+            (Command::PrepareKickoff(Team::Blue), false, false),
             (Command::DirectFree(Team::Blue), false, true),
             (Command::Stop, true, false),
             (Command::BallPlacement(Team::Blue), true, false),

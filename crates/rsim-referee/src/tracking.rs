@@ -20,7 +20,6 @@ pub(crate) fn follow(game: &mut Game, moment: &Moment) {
     }
     follow_touches(game, moment);
     follow_dribbling(game, moment);
-    follow_progress(game, moment);
 }
 
 /// Follows who touched the ball last, where, and how high it has been since.
@@ -41,14 +40,13 @@ fn follow_touches(game: &mut Game, moment: &Moment) {
     }
 }
 
-/// Follows which robot has the ball, and where it began to have it.
+/// Follows which robot has the ball, and where it began to have it. A ball that was kicked away in the step has
+/// been dribbled up to its start only.
 fn follow_dribbling(game: &mut Game, moment: &Moment) {
     let reach = moment.pitch.ball_radius + SEPARATION;
     let has_ball = |index: usize| {
         moment.now.robot(index).is_some_and(|robot| {
-            robot.touched_ball
-                || robot.has_ball
-                || moment.hull_distance(&robot, moment.ball.position) < reach
+            robot.has_ball || moment.hull_distance(&robot, moment.ball.position) < reach
         })
     };
     if game.dribbler.is_some_and(has_ball) {
@@ -58,8 +56,8 @@ fn follow_dribbling(game: &mut Game, moment: &Moment) {
     game.dribble_start = moment.ball.position;
 }
 
-/// Follows for how long the ball makes no progress, and for how long it is in an area.
-fn follow_progress(game: &mut Game, moment: &Moment) {
+/// SSL: follows for how long the ball makes no progress, and for how long it is in an area.
+pub(crate) fn follow_progress(game: &mut Game, moment: &Moment) {
     let ball = moment.ball.position;
     let moved = ball.distance(game.stuck_position) > moment.config.no_progress_distance;
     if moved || !game.in_play {

@@ -14,6 +14,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.task import Task
 
 if TYPE_CHECKING:
+    from rsoccer.render.announcer import Announcer
     from rsoccer.render.effects import Effects
     from rsoccer.render.window import Window
 
@@ -47,6 +48,7 @@ class Viewer:
         self._mode, self._modes, self._fps = mode, modes, frames_per_second(task)
         self._window: Window | None = None
         self._effects: dict[int, Effects] = {}
+        self._announcers: dict[int, Announcer] = {}
         self.closed = False
 
     def render(self, matches: EnvMatches) -> Image | None:
@@ -95,19 +97,27 @@ class Viewer:
         self.check_open("render")
         if not matches.begun:
             raise RuntimeError("render before reset: call reset() to begin an episode")
+        from rsoccer.render.announcer import Announcer, named_events
         from rsoccer.render.effects import Effects
         from rsoccer.render.image import draw_image
         from rsoccer.render.overlay import task_overlay
+        from rsoccer.render.referee_state import referee_state
 
-        config, row, clock = matches.task.config, matches.frame.rows[world], matches.clock(world)
+        task, play = matches.task, matches.play
+        config, row, clock = task.config, matches.frame.rows[world], matches.clock(world)
         effects = self._effects.setdefault(world, Effects(config))
-        events = effects.update(row, clock, matches.play.commands[world])
+        announcer = self._announcers.setdefault(world, Announcer(config.field))
         return draw_image(
             config,
             row,
             score=matches.score(world),
             clock=clock,
-            extras=(*task_overlay(matches.task, matches.play, world), *events),
+            referee=referee_state(task, play, world),
+            announcement=announcer.update(named_events(task, play.events.of_world(world)), clock),
+            extras=(
+                *task_overlay(task, play, world),
+                *effects.update(row, clock, play.commands[world]),
+            ),
         )
 
     def png(self, matches: EnvMatches) -> bytes | None:

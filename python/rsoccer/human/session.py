@@ -15,13 +15,16 @@ from rsoccer.human.controls import Controls
 from rsoccer.human.devices import Devices
 from rsoccer.human.driver import Driver, human_controllers
 from rsoccer.matches import Matches
+from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
+from rsoccer.render.referee_state import referee_of, referee_state
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Shape
 from rsoccer.render.video import MIN_WIDTH
 from rsoccer.render.window import Window
+from rsoccer.render.words import NOTHING
 from rsoccer.sources import SensingSource, SimulatorSource, is_shared
 from rsoccer.task import Task
 
@@ -93,9 +96,12 @@ class Session:
         config = task.config
         self.window = Window(task.name, listener=self.devices.handle_event)
         self._renderer = Renderer(
-            config, default_width(config, MIN_WIDTH) if width is None else width
+            config,
+            default_width(config, MIN_WIDTH) if width is None else width,
+            has_referee=referee_of(task) is not None,
         )
         self._effects = Effects(config)
+        self._announcer = Announcer(config.field)
         self.matches = Matches(
             task,
             seed=seed,
@@ -106,6 +112,7 @@ class Session:
         )
         self._closes_matches = not is_shared(simulator)
         self._events: tuple[Shape, ...] = ()
+        self._announcement = NOTHING
         self._names = names
         self._caption = ""
         self._caption_left = 0.0  # seconds until the caption ends
@@ -150,7 +157,9 @@ class Session:
         """Begin a new episode; the score stays."""
         self.matches.reset()
         self._effects.clear()
+        self._announcer.clear()
         self._events = ()
+        self._announcement = NOTHING
         self._caption = ""
         self._debt = 0.0
 
@@ -188,6 +197,8 @@ class Session:
         self._events = self._effects.update(
             matches.frame.rows[0], self.clock, matches.play.commands[0]
         )
+        events = named_events(matches.task, matches.play.events.of_world(0))
+        self._announcement = self._announcer.update(events, self.clock)
         blue, yellow = matches.play.events.by_team(EventKind.GOAL)[0].tolist()
         self.score = self.score[0] + blue, self.score[1] + yellow
         if blue or yellow:
@@ -215,6 +226,8 @@ class Session:
             clock=self.clock,
             names=self._names,
             caption=self._caption,
+            referee=referee_state(self.matches.task, self.matches.play),
+            announcement=self._announcement,
             extras=(
                 *task_overlay(self.matches.task, self.matches.play),
                 *self._events,

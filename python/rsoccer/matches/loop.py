@@ -369,10 +369,16 @@ class Matches:
         except ModuleNotFoundError:
             return None
         from rsoccer.render.overlay import task_overlay
+        from rsoccer.render.referee_state import referee_state
 
-        clock = float(self.play.steps[0]) * self.task.config.time_step
-        row, extras = self.frame.rows[0], task_overlay(self.task, self.play)
-        return Picture(draw_image(self.task.config, row, clock=clock, extras=extras)).to_png()
+        image = draw_image(
+            self.task.config,
+            self.frame.rows[0],
+            clock=float(self.play.steps[0]) * self.task.config.time_step,
+            referee=referee_state(self.task, self.play),
+            extras=task_overlay(self.task, self.play),
+        )
+        return Picture(image).to_png()
 
     def _step(self, actions: Floats) -> Outcome:
         """Advance by one control step, with actions that have been checked."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -17,9 +17,11 @@ from rsoccer.render.robot import robot_outlines
 from rsoccer.render.scene import background_shapes, foreground_shapes
 from rsoccer.render.scoreboard import Board, scene_bounds
 from rsoccer.render.shapes import Shape
+from rsoccer.render.words import NOTHING, Words
 
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
+    from rsoccer.render.referee_state import RefereeState
 
 Image: TypeAlias = NDArray[np.uint8]
 """(height, width, 3), red, green and blue, 0 to 255."""
@@ -61,17 +63,22 @@ class Renderer:
 
     Attributes:
         config: the configuration.
+        has_referee: whether images show the state of a referee.
         width: width of the images, pixels; even.
         height: height of the images, pixels; even.
     """
 
-    def __init__(self, config: SimConfig, width: int | None = None) -> None:
+    def __init__(
+        self, config: SimConfig, width: int | None = None, *, has_referee: bool = False
+    ) -> None:
         """Draw the background: field and empty score board.
 
         Args:
             config: the configuration of the rows to draw.
             width: width of the images, 64 to 4096 pixels, rounded to an even number; the height
                 follows from the field. By default `default_width`.
+            has_referee: whether images show the state of a referee: they are higher, for the words
+                under the field.
 
         Raises:
             ValueError: the width is out of range.
@@ -80,18 +87,18 @@ class Renderer:
         width = default_width(config) if width is None else width
         if not low <= width <= high:
             raise ValueError(f"width: expected {low} to {high} pixels, got {width}")
-        bounds = scene_bounds(config.field)
-        self.config = config
+        bounds = scene_bounds(config.field, ticker=has_referee)
+        self.config, self.has_referee = config, has_referee
         self.width = 2 * round(width / 2)
         self.height = 2 * round(self.width * bounds.height / bounds.width / 2)
         camera = Camera(self.width / bounds.width, bounds.left, bounds.top)
         self._rasterizer = Rasterizer(camera)
         self._background = pygame.Surface((self.width, self.height), 0, 32)
-        self._rasterizer.draw(self._background, background_shapes(config))
+        self._rasterizer.draw(self._background, background_shapes(config, referee=has_referee))
 
-    def __reduce__(self) -> tuple[type[Renderer], tuple[SimConfig, int]]:
+    def __reduce__(self) -> tuple[partial[Renderer], tuple[SimConfig, int]]:
         # Surfaces do not pickle; an environment that holds a renderer must.
-        return (Renderer, (self.config, self.width))
+        return (partial(Renderer, has_referee=self.has_referee), (self.config, self.width))
 
     def draw(
         self,
@@ -101,6 +108,8 @@ class Renderer:
         clock: float = 0.0,
         names: tuple[str, str] = ("BLUE", "YELLOW"),
         caption: str = "",
+        referee: RefereeState | None = None,
+        announcement: Words = NOTHING,
         extras: Sequence[Shape] = (),
         overlay: Sequence[Shape] = (),
     ) -> Image:
@@ -112,6 +121,9 @@ class Renderer:
             clock: seconds of play.
             names: names of blue and of yellow on the score board.
             caption: large text across the field; none if empty.
+            referee: state of the referee, whose score and clock are shown; exactly where the
+                renderer `has_referee`.
+            announcement: what has just happened, shown with a referee.
             extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
             overlay: further shapes above all others.
 
@@ -119,9 +131,14 @@ class Renderer:
             A new image (height, width, 3), uint8.
 
         Raises:
-            ValueError: the row has another shape or is not finite.
+            ValueError: the row has another shape or is not finite, or the state of a referee is
+                missing or not expected.
         """
-        board = Board(score, clock, names, caption)
+        if (referee is not None) is not self.has_referee:
+            raise ValueError(
+                f"referee: expected {'a state' if self.has_referee else 'None'}, got {referee}"
+            )
+        board = Board(score, clock, names, caption, referee, announcement)
         canvas = self._background.copy()
         self._rasterizer.draw(canvas, foreground_shapes(self.config, row, board, extras))
         self._rasterizer.draw(canvas, overlay)
@@ -136,6 +153,8 @@ def draw_image(
     clock: float = 0.0,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     caption: str = "",
+    referee: RefereeState | None = None,
+    announcement: Words = NOTHING,
     extras: Sequence[Shape] = (),
     width: int | None = None,
 ) -> Image:
@@ -148,6 +167,8 @@ def draw_image(
         clock: seconds of play.
         names: names of blue and of yellow on the score board.
         caption: large text across the field; none if empty.
+        referee: state of the referee, whose score and clock are shown; None without one.
+        announcement: what has just happened, shown with a referee.
         extras: further shapes on the floor, such as those of `rsoccer.render.overlay`.
         width: width of the image, 64 to 4096 pixels; by default `default_width`.
 
@@ -157,14 +178,23 @@ def draw_image(
     Raises:
         ValueError: the width is out of range, or the row has another shape or is not finite.
     """
-    renderer = _renderer(config, width)
-    return renderer.draw(row, score=score, clock=clock, names=names, caption=caption, extras=extras)
+    renderer = _renderer(config, width, referee is not None)
+    return renderer.draw(
+        row,
+        score=score,
+        clock=clock,
+        names=names,
+        caption=caption,
+        referee=referee,
+        announcement=announcement,
+        extras=extras,
+    )
 
 
 @lru_cache(maxsize=4)
-def _renderer(config: SimConfig, width: int | None) -> Renderer:
+def _renderer(config: SimConfig, width: int | None, has_referee: bool) -> Renderer:
     """A renderer, cached: the background costs more than the rest of the picture."""
-    return Renderer(config, width)
+    return Renderer(config, width, has_referee=has_referee)
 
 
 def _pixels(canvas: pygame.Surface) -> Image:

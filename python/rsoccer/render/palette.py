@@ -31,6 +31,8 @@ SELECTED: Color = (120, 226, 255, 255)
 KICK: Color = (255, 238, 150, 235)
 DRIBBLER: Color = (196, 205, 215, 255)
 DRIBBLER_LIT: Color = (88, 255, 168, 255)
+YELLOW_CARD: Color = (255, 214, 46, 255)
+RED_CARD: Color = (226, 54, 54, 255)
 
 PENDING: Color = (255, 92, 190, 255)
 DONE: Color = (126, 242, 176, 255)

@@ -20,7 +20,9 @@ from rsoccer.render.ball import (
     shadow_shapes,
     trail_shapes,
 )
+from rsoccer.render.match_board import match_board_shapes
 from rsoccer.render.pitch import pitch_shapes
+from rsoccer.render.referee_floor import area_shapes, may_touch_shapes, referee_shapes
 from rsoccer.render.robot import label_shapes, robot_outlines, robot_shapes
 from rsoccer.render.scoreboard import (
     Board,
@@ -29,7 +31,9 @@ from rsoccer.render.scoreboard import (
     scene_bounds,
     score_shapes,
 )
-from rsoccer.render.shapes import Color, Polygon, Pose, Shape, rectangle
+from rsoccer.render.shapes import Color, Point, Polygon, Pose, Shape, rectangle
+from rsoccer.render.ticker import ticker_shapes
+from rsoccer.render.words import command_words
 
 if TYPE_CHECKING:
     from rsoccer._core import RobotModel, SimConfig
@@ -40,19 +44,22 @@ LABELED_BELOW = 0.0095
 """Height of the number on a robot below which the robot has a label, in the same fraction."""
 
 
-def background_shapes(config: SimConfig) -> tuple[Shape, ...]:
+def background_shapes(config: SimConfig, *, referee: bool = False) -> tuple[Shape, ...]:
     """Return the field and the empty score board.
 
     Args:
         config: the configuration.
+        referee: whether a referee leads the match: both areas are tinted, and there is a ticker.
 
     Returns:
         Shapes in the order of drawing.
     """
-    bounds = scene_bounds(config.field)
+    field = config.field
+    bounds = scene_bounds(field, ticker=referee)
     corners = rectangle(bounds.left, bounds.bottom, bounds.right, bounds.top)
     backdrop = Polygon(corners, palette.BACKDROP)
-    return (backdrop, *pitch_shapes(config.field), *board_shapes(config.field))
+    areas = area_shapes(field) if referee else ()
+    return (backdrop, *pitch_shapes(field), *areas, *board_shapes(field))
 
 
 def foreground_shapes(
@@ -82,9 +89,11 @@ def foreground_shapes(
         (blue, frame.blue, palette.BLUE),
         (yellow, frame.yellow, palette.YELLOW),
     )
+    poses = [*_poses(frame.blue), *_poses(frame.yellow)]
     robots = tuple(shape for team in teams for shape in _team_shapes(*team, picture_width))
     labels = tuple(shape for team in teams for shape in _team_labels(*team, picture_width))
     return (
+        *_floor_shapes(config, board, ball, poses),
         *extras,
         *labels,
         *trail_shapes(radius, ball, velocity),
@@ -92,8 +101,34 @@ def foreground_shapes(
         *shadow_shapes(radius, ball, height),
         *robots,
         *ball_shapes(radius, ball, height),
-        *score_shapes(config.field, board),
+        *_texts(config, board, poses),
         *caption_shapes(config.field, board.caption),
+    )
+
+
+def _floor_shapes(
+    config: SimConfig, board: Board, ball: Point, poses: Sequence[Pose | None]
+) -> tuple[Shape, ...]:
+    """Marks of the referee, if there is one."""
+    if board.referee is None:
+        return ()
+    sizes = [robot_outlines(model).size for model in config.robots]
+    return (
+        *referee_shapes(config.field, board.referee, ball),
+        *may_touch_shapes(board.referee, poses, sizes),
+    )
+
+
+def _texts(config: SimConfig, board: Board, poses: Sequence[Pose | None]) -> tuple[Shape, ...]:
+    """Texts of the score board, and of the ticker under a referee."""
+    field, state = config.field, board.referee
+    if state is None:
+        return score_shapes(field, board)
+    present = [pose is not None for pose in poses]
+    teams = present[: config.n_blue], present[config.n_blue :]
+    return (
+        *match_board_shapes(field, board, state, teams),
+        *ticker_shapes(field, command_words(state), board.announcement),
     )
 
 

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from rsoccer.render import palette
 from rsoccer.render.pitch import arena_bounds
 from rsoccer.render.shapes import Bounds, Point, Polygon, Shape, Text, arc_points, rounded_rectangle
+from rsoccer.render.words import NOTHING, Words
 
 if TYPE_CHECKING:
     from rsoccer._core import Field
+    from rsoccer.render.referee_state import RefereeState
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,12 +25,16 @@ class Board:
         clock: seconds of play.
         names: names of the teams.
         caption: large text over the field; none if empty.
+        referee: state of the referee, which has score and clock of its own; None without one.
+        announcement: what has just happened; shown with a referee.
     """
 
     score: tuple[int, int] = (0, 0)
     clock: float = 0.0
     names: tuple[str, str] = ("BLUE", "YELLOW")
     caption: str = ""
+    referee: RefereeState | None = None
+    announcement: Words = NOTHING
 
 
 GOAL_PAUSE = 0.8
@@ -38,23 +44,27 @@ WIDTH = 0.6
 HEIGHT = 0.056
 """Height of the board, as a fraction of the picture's width."""
 SPACE = 0.014
-"""Empty height above the board, as a fraction of the picture's width."""
+"""Empty height above the board and under the ticker, as a fraction of the picture's width."""
+TICKER_HEIGHT = 0.04
+"""Height of the ticker under the arena, as a fraction of the picture's width."""
 PLATE = 0.44
 """Half width of the dark plate in the middle, with score and clock, as a fraction of half the
 board's width."""
 
 
-def scene_bounds(field: Field) -> Bounds:
+def scene_bounds(field: Field, *, ticker: bool = False) -> Bounds:
     """Return the bounds of a picture: the arena with the board above it.
 
     Args:
         field: the field.
+        ticker: whether there is a ticker under the arena, as in matches with a referee.
 
     Returns:
         The rectangle, meters.
     """
     arena = arena_bounds(field)
-    return Bounds(arena.left, arena.bottom, arena.right, arena.top + (HEIGHT + SPACE) * arena.width)
+    bottom = arena.bottom - (TICKER_HEIGHT + SPACE) * arena.width * ticker
+    return Bounds(arena.left, bottom, arena.right, arena.top + (HEIGHT + SPACE) * arena.width)
 
 
 def board_shapes(field: Field) -> tuple[Shape, ...]:
@@ -66,7 +76,7 @@ def board_shapes(field: Field) -> tuple[Shape, ...]:
     Returns:
         The plate and its two colored ends.
     """
-    bounds = _board_bounds(field)
+    bounds = board_bounds(field)
     radius, edge = 0.22 * bounds.height, PLATE * bounds.right
     plate = rounded_rectangle(bounds.left, bounds.bottom, bounds.right, bounds.top, radius)
     yellow = _end_panel(edge, bounds.bottom, bounds.right, bounds.top, radius)
@@ -88,7 +98,7 @@ def score_shapes(field: Field, board: Board) -> tuple[Shape, ...]:
     Returns:
         Names, goals and clock.
     """
-    bounds = _board_bounds(field)
+    bounds = board_bounds(field)
     y, height, half = (bounds.top + bounds.bottom) / 2, bounds.height, bounds.right
     name_x, name_width = (1 + PLATE) / 2 * half, 0.86 * (1 - PLATE) * half
     goals_x, goals_width = 0.7 * PLATE * half, 0.45 * PLATE * half
@@ -151,8 +161,12 @@ def _end_panel(
     )
 
 
-def _board_bounds(field: Field) -> Bounds:
-    """Bounds of the board: centered above the arena."""
+def board_bounds(field: Field) -> Bounds:
+    """Return the bounds of the board: centered above the arena.
+
+    Args:
+        field: the field.
+    """
     arena = arena_bounds(field)
     half = WIDTH * arena.width / 2
     return Bounds(-half, arena.top, half, arena.top + HEIGHT * arena.width)

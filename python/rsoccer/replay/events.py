@@ -11,23 +11,16 @@ from rsoccer import game
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.game import EventKind
-from rsoccer.view import SIDES
+from rsoccer.render.words import EVENT_NAMES, announced, event_name, side_of
 
 if TYPE_CHECKING:
     from rsoccer._core import SimConfig
 
-KINDS: Final = ("goal", "out", "free_ball", "pass", "kick", "touch", "end")
-"""Kinds of events."""
+KINDS: Final = EVENT_NAMES
+"""Kinds of events: "goal", "out", "free_ball", "pass", "kick", "touch" and "end"; with a referee
+also cards, and the other kinds of `EventKind` in lower case."""
 KICK_GAIN: Final = 0.4
 """Least gain of the ball's speed in a step that counts as a kick, m/s."""
-
-_NAMES: Final = {
-    EventKind.GOAL: "goal",
-    EventKind.BALL_LEFT_FIELD_GOAL_LINE: "out",
-    EventKind.BALL_LEFT_FIELD_TOUCH_LINE: "out",
-    EventKind.NO_PROGRESS_IN_GAME: "free_ball",
-    EventKind.PASS: "pass",
-}
 
 
 class Event(NamedTuple):
@@ -41,8 +34,8 @@ class Event(NamedTuple):
     """Robot that touched the ball last, that kicks or touches it or receives a pass; empty if
     none."""
     detail: str
-    """Team that scored or passed, line that was crossed (one of `CROSSINGS`), or kind of end:
-    "terminated" or "truncated"; else empty."""
+    """Team that scored, passed or is at fault, line that was crossed (one of `CROSSINGS`), or kind
+    of end: "terminated" or "truncated"; else empty."""
 
 
 def game_events(robots: Sequence[str], index: int, events: Sequence[game.Event]) -> list[Event]:
@@ -54,8 +47,8 @@ def game_events(robots: Sequence[str], index: int, events: Sequence[game.Event])
         events: events of the step, as `Events.of_world` returns them.
     """
     return [
-        Event(index, _NAMES[event.kind], _name(robots, event.robot), _detail(event))
-        for event in events
+        Event(index, event_name(event.kind), _name(robots, event.robot), _detail(event))
+        for event in announced(events)
     ]
 
 
@@ -92,7 +85,7 @@ def _detail(event: game.Event) -> str:
         return "goal_line_right" if x > 0 else "goal_line_left"
     if event.kind is EventKind.BALL_LEFT_FIELD_TOUCH_LINE:
         return "touch_line_left" if y > 0 else "touch_line_right"
-    return "" if event.team == game.NOBODY else SIDES[event.team]
+    return side_of(event.team)
 
 
 def _kicking(config: SimConfig, frame: Frame, commands: Floats) -> Mask:

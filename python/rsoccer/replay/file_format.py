@@ -7,17 +7,17 @@ Keys of the header:
 | `package`, `physics` | versions of the package (text) and of its physics (number) |
 | `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
 | `config` | the configuration, JSON of `SimConfig.to_json` |
-| `columns` | names of the stored columns: `ball`, `robot`, `command` |
-| `steps` | steps of the columns of the sections `rows` and `commands`, and of each reward term |
+| `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee` |
+| `steps` | steps of the columns of `rows`, `commands` and `referee`, and of each reward term |
 | `frames`, `observers` | number of frames, names of the robots that are paid |
 | `episodes` | for each start, stop, end and metrics |
 | `events` | for each frame, kind, robot and detail |
 | `marker_sets`, `markers` | sets of markers; pairs of a frame and the set from there on |
 | `snapshots` | for each its frame, and name, type and shape of its arrays |
 
-Sections: `rows`, `commands` and `term:<name>` hold columns as `rsoccer.replay.quantized` writes
-them; `snapshot:<frame>` holds the arrays of a snapshot one after the other, exact to the last bit.
-The state row of such a frame is taken from there.
+Sections: `rows`, `commands`, `term:<name>` and, of a match with a referee, `referee` hold columns
+as `rsoccer.replay.quantized` writes them; `snapshot:<frame>` holds the arrays of a snapshot one
+after the other, exact to the last bit. The state row of such a frame is taken from there.
 """
 
 from __future__ import annotations
@@ -31,7 +31,14 @@ import numpy as np
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.frame import robot_names
-from rsoccer.replay import container, header_values, marker_sets, quantized, snapshot_arrays
+from rsoccer.replay import (
+    container,
+    header_values,
+    marker_sets,
+    quantized,
+    referee_columns,
+    snapshot_arrays,
+)
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.header_values import get
 from rsoccer.replay.recorded import Recorded
@@ -63,6 +70,9 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     }
     for name, term in replay.terms.items():
         sections[f"term:{name}"] = quantized.encode(f"term {name!r}", term, term_steps[name])
+    referee_steps = [] if replay.referee is None else referee_columns.steps(config)
+    if replay.referee is not None:
+        sections["referee"] = quantized.encode("referee", replay.referee, referee_steps)
     header = {
         "package": replay.package,
         "physics": replay.physics,
@@ -71,8 +81,13 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
         "controllers": dict(replay.controllers),
         "names": list(replay.names),
         "config": config.to_json(),
-        "columns": _columns(config),
-        "steps": {"rows": row_steps, "commands": command_steps, "terms": term_steps},
+        "columns": _columns(config, has_referee=replay.referee is not None),
+        "steps": {
+            "rows": row_steps,
+            "commands": command_steps,
+            "terms": term_steps,
+            "referee": referee_steps,
+        },
         "frames": len(replay),
         "observers": list(replay.observers),
         "episodes": [asdict(episode) for episode in replay.episodes],
@@ -83,12 +98,13 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     return container.pack(header, sections | snapshot_arrays.written(kept))
 
 
-def _columns(config: SimConfig) -> dict[str, list[str]]:
-    """Names of the stored columns."""
+def _columns(config: SimConfig, *, has_referee: bool) -> dict[str, list[str]]:
+    """Names of the stored columns; none of a referee where there is none."""
     return {
         "ball": list(quantized.BALL_STORED),
         "robot": list(quantized.ROBOT_STORED),
         "command": list(config.command_columns),
+        "referee": list(referee_columns.names(config)) if has_referee else [],
     }
 
 
@@ -109,7 +125,8 @@ def from_bytes(content: bytes) -> Recorded:
     """
     header, sections = container.unpack(content)
     config = header_values.config(get(header, "config", str))
-    if header.get("columns") != _columns(config):
+    has_referee = "referee" in sections
+    if header.get("columns") != _columns(config, has_referee=has_referee):
         raise ReplayError("columns: expected those of this package, got others")
     frames = get(header, "frames", int)
     episodes = header_values.episodes(get(header, "episodes", list), frames)
@@ -137,6 +154,7 @@ def from_bytes(content: bytes) -> Recorded:
         observers=observers,
         terms=_terms(steps.get("terms"), sections, frames, len(observers)),
         markers=marker_sets.read(header, frames),
+        referee=_referee(sections, frames, steps, config) if has_referee else None,
         episodes=episodes,
         events=tuple(header_values.event(entry, frames, robots) for entry in events),
         snapshots=snapshots,
@@ -155,6 +173,16 @@ def _section(
     if name not in sections:
         raise ReplayError(f"sections: expected {name!r:.80}, got none of that name")
     return quantized.decode(name, sections[name], frames, checked)
+
+
+def _referee(
+    sections: Mapping[str, bytes], frames: int, steps: Mapping[str, object], config: SimConfig
+) -> Doubles:
+    """State of the referee (frames, columns)."""
+    columns = len(referee_columns.names(config))
+    values = _section(sections, "referee", frames, steps.get("referee"), columns)
+    referee_columns.check(values)
+    return values
 
 
 def _terms(

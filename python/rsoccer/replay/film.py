@@ -26,13 +26,16 @@ def film_replay(replay: Recorded, width: int | None = None) -> tuple[Iterator[Im
         ValueError: the width is out of range.
     """
     width = default_width(replay.config, MIN_WIDTH) if width is None else width
-    return _images(replay, Renderer(replay.config, width)), 1.0 / replay.config.time_step
+    renderer = Renderer(replay.config, width, has_referee=replay.referee is not None)
+    return _images(replay, renderer), 1.0 / replay.config.time_step
 
 
 def _images(replay: Recorded, renderer: Renderer) -> Iterator[Image]:
     """An image for the first state and each control step, and a pause at each goal."""
     goals = {event.frame for event in replay.events if event.kind == "goal"}
     pause = math.ceil(GOAL_PAUSE / replay.config.time_step)
+    states = replay.referee_states
+    announcements = replay.announcements
     for frame, row in enumerate(replay.rows):
         if frame and replay.starts[frame]:
             continue
@@ -43,6 +46,8 @@ def _images(replay: Recorded, renderer: Renderer) -> Iterator[Image]:
             clock=float(replay.clock[frame]),
             names=replay.names,
             caption="goal" if frame in goals else "",
+            referee=None if states is None else states[frame],
+            announcement=announcements[frame],
             extras=marker_shapes(replay.config.field, replay.markers[frame]),
         )
         for _ in range(pause if frame in goals else 1):

@@ -23,16 +23,19 @@ from rsoccer.render.robot import robot_outlines
 from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.render.shapes import Arc, Circle, Color, Line, Point, Polygon, Shape
 from rsoccer.replay import file_format
+from rsoccer.replay.match_page import match
 from rsoccer.replay.recorded import Recorded
 
 SCRIPTS: Final = ("reader.js", "field.js", "charts.js", "player.js")
 """Scripts of the page, in their order."""
+MATCH_SCRIPTS: Final = ("match.js", "match_floor.js")
+"""Further scripts of the page of a match with a referee."""
 FRAME_HEIGHT: Final = 620
 """Height of the page in a notebook, pixels."""
 _COLORS: Final = (
     *("BLUE", "YELLOW", "ORANGE", "WHITE", "INK", "WALL", "WALL_EDGE", "TABLE", "CARPET", "BOARD"),
     *("SHADOW", "TIRE", "HIGHLIGHT", "HALO", "TRAIL", "DRIBBLER", "DRIBBLER_LIT"),
-    *("CAPTION_BAND", "PENDING", "DONE"),
+    *("CAPTION_BAND", "PENDING", "DONE", "YELLOW_CARD", "RED_CARD"),
 )
 _PART: Final = re.compile(r"\{\{(\w+)\}\}")
 _DIGITS: Final = 5  # of coordinates, hundredths of a millimeter
@@ -50,13 +53,16 @@ def to_html(replay: Recorded) -> str:
     Raises:
         ReplayError: the replay has numbers that are not finite.
     """
+    more = match(replay)
+    scripts = SCRIPTS if more is None else (*MATCH_SCRIPTS, *SCRIPTS)
     content = base64.b64encode(file_format.to_bytes(replay, snapshots=False)).decode()
     parts = {
         "title": html.escape(f"{replay.task}: {' - '.join(filter(None, replay.names))}"),
         "colors": "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS),
-        "style": _web("style.css"),
-        "script": "\n".join(map(_web, SCRIPTS)),
-        "scene": json.dumps(scene(replay.config), separators=(",", ":")).replace("<", "\\u003c"),
+        "style": _web("style.css") + ("" if more is None else _web("match.css")),
+        "script": "\n".join(map(_web, scripts)),
+        "scene": _json(scene(replay.config)),
+        "match": _json(more),
         "replay": content,
     }
     return _PART.sub(lambda match: parts[match[1]], _web("page.html"))
@@ -109,6 +115,11 @@ def scene(config: SimConfig) -> dict[str, Any]:
         "goalPause": GOAL_PAUSE,
         "colors": {_name(color): _css(color) for color in _COLORS},
     }
+
+
+def _json(value: object) -> str:
+    """JSON that can stand in a page."""
+    return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _outlines(model: RobotModel) -> dict[str, Any]:

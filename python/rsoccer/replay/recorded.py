@@ -14,6 +14,9 @@ from rsoccer._core import SimConfig
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.frame import Frame, robot_names
 from rsoccer.markers import Marker
+from rsoccer.render.announcer import Announcer
+from rsoccer.render.referee_state import RefereeState
+from rsoccer.render.words import Words
 from rsoccer.replay.events import Event
 from rsoccer.view import SIDES
 
@@ -59,6 +62,9 @@ class Recorded:
     """(f, observers) weighted reward terms by name; 0 in initial states"""
     markers: tuple[tuple[Marker, ...], ...]
     """(f,) markers that the task shows on the floor"""
+    referee: Doubles | None
+    """(f, column) state of the referee, columns of `rsoccer.render.referee_state`; None without
+    one"""
     episodes: tuple[Episode, ...]
     """episodes in the order of play; their frames are all frames"""
     events: tuple[Event, ...]
@@ -109,6 +115,28 @@ class Recorded:
             if event.kind == "goal":
                 goals[event.frame, SIDES.index(event.detail)] += 1
         return np.cumsum(goals, axis=0)
+
+    @property
+    def referee_states(self) -> tuple[RefereeState, ...] | None:
+        """(f,) state of the referee by name; None without one."""
+        if self.referee is None:
+            return None
+        time_step = self.config.time_step
+        return tuple(RefereeState.of_row(row, time_step) for row in self.referee)
+
+    @property
+    def announcements(self) -> tuple[Words, ...]:
+        """(f,) what has just happened, in words."""
+        events: dict[int, list[Event]] = {}
+        for event in self.events:
+            events.setdefault(event.frame, []).append(event)
+        announcer, announced = Announcer(self.config.field), []
+        for frame, clock in enumerate(self.clock.tolist()):
+            if self.starts[frame]:
+                announcer.clear()
+            happened = ((e.kind, e.robot, e.detail) for e in events.get(frame, ()))
+            announced.append(announcer.update(happened, clock))
+        return tuple(announced)
 
     @property
     def rewards(self) -> Floats:

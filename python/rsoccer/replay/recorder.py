@@ -8,12 +8,13 @@ import numpy as np
 
 from rsoccer import checks
 from rsoccer._core import build_info
-from rsoccer.arrays import Array, Floats
+from rsoccer.arrays import Array, Doubles, Floats
 from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
 from rsoccer.registry import options_of
+from rsoccer.render.referee_state import referee_row
 from rsoccer.replay.events import Event, ball_events, game_events
 from rsoccer.replay.recorded import Episode
 from rsoccer.replay.replay import Replay
@@ -92,6 +93,7 @@ class Recorder:
         self._commands: list[Floats] = []
         self._terms: list[Mapping[str, Floats]] = []
         self._markers: list[tuple[Marker, ...]] = []
+        self._referee: list[Doubles] = []
         self._events: list[Event] = []
         self._episodes: list[Episode] = []
         self._snapshots: dict[int, Mapping[str, Array]] = {}
@@ -169,6 +171,7 @@ class Recorder:
             observers=observers,
             terms=terms,
             markers=tuple(self._markers),
+            referee=np.stack(self._referee) if self._referee else None,
             episodes=(*self._episodes, *last),
             events=tuple(self._events),
             snapshots=dict(self._snapshots),
@@ -189,6 +192,9 @@ class Recorder:
         self._commands.append(commands)
         self._terms.append(terms)
         self._markers.append(matches.task.markers(play, self.world))
+        referee = referee_row(matches.task, play, self.world)
+        if referee is not None:
+            self._referee.append(referee)
         if self._interval is not None and self.seconds >= self._next_snapshot - 1e-9:
             self._snapshots[len(self._rows) - 1] = matches.state_dict()
             self._next_snapshot = self.seconds + self._interval

@@ -30,6 +30,8 @@ class Timeline {
     this.canvas = canvas;
     this.replay = replay;
     this.scene = scene;
+    this.match = null; // what a referee decided
+    this.labels = 0; // height of the names of parts of a match, under the track
     this.static = null;
   }
 
@@ -50,7 +52,8 @@ class Timeline {
 
   /** Draw; the parts that stay are kept as a picture. */
   draw(time) {
-    const { context, width, height } = prepare(this.canvas);
+    const { context, width, height: all } = prepare(this.canvas);
+    const height = all - this.labels;
     if (!this.static || this.static.width !== this.canvas.width) {
       this.static = document.createElement("canvas");
       this.static.width = this.canvas.width;
@@ -59,7 +62,7 @@ class Timeline {
       picture.setTransform(context.getTransform());
       this.drawStatic(picture, width, height);
     }
-    context.drawImage(this.static, 0, 0, width, height);
+    context.drawImage(this.static, 0, 0, width, all);
     const x = this.x(time, width);
     context.fillStyle = cssColor("--accent");
     context.globalAlpha = 0.22;
@@ -79,6 +82,7 @@ class Timeline {
       const [start, stop] = [this.x(episode.start, width), this.x(episode.stop - 1, width)];
       context.fillRect(start, middle - 4, Math.max(1, stop - start - 1), 8);
     }
+    this.match?.drawOnTimeline(context, (frame) => this.x(frame, width), height);
     for (const [frame, kind, robot, detail] of replay.header.events) {
       const x = this.x(frame, width);
       if (kind === "goal") {
@@ -87,6 +91,8 @@ class Timeline {
         context.beginPath();
         context.arc(x, 6, 5, 0, 2 * Math.PI);
         context.fill();
+      } else if (this.match) {
+        continue; // it has drawn all others
       } else if (kind === "kick" || kind === "touch") {
         const blue = robot.startsWith("blue");
         context.fillStyle = blue ? scene.colors.blue : scene.colors.yellow;

@@ -122,6 +122,7 @@ class FieldView {
     this.trails = true;
     this.selected = -1;
     this.hovered = -1;
+    this.floor = null; // marks of a referee
     this.background = null;
     this.sprites = new Map();
     this.kicks = replay.header.events.filter(([, kind]) => kind === "kick");
@@ -172,6 +173,7 @@ class FieldView {
     context.clearRect(0, 0, camera.pixelWidth, camera.pixelHeight);
     this.drawBackground();
     context.setTransform(...camera.matrix);
+    this.floor?.draw(this, moment);
     this.drawMarkers(moment.frame);
     if (this.trails) this.drawTrails(time, moment);
     this.drawBallOnFloor(moment.ball);

@@ -24,9 +24,10 @@ function capital(text) {
 }
 
 class Player {
-  constructor(replay, scene) {
+  constructor(replay, scene, match) {
     this.replay = replay;
     this.scene = scene;
+    this.match = match && new MatchView(replay, scene, match);
     this.time = 0; // in frames, with fractions
     this.playing = false;
     this.speed = 1;
@@ -38,6 +39,11 @@ class Player {
     this.view = new FieldView($("field"), replay, scene);
     this.timeline = new Timeline($("timeline"), replay, scene);
     this.chart = new RewardChart($("chart"), replay);
+    if (this.match) {
+      this.view.floor = new MatchFloor(replay, scene, match);
+      this.timeline.match = this.match;
+      this.timeline.labels = LABEL_HEIGHT;
+    }
     this.robots = robotNames(replay, scene);
     this.goalFrames = new Set(replay.goals.map((goal) => goal.frame));
     this.fillTexts();
@@ -146,7 +152,8 @@ class Player {
   resize() {
     const width = $("field").parentElement.clientWidth;
     const narrow = window.matchMedia("(max-width: 900px)").matches;
-    const height = narrow ? 0.72 * window.innerHeight : window.innerHeight - 215;
+    const others = 215 + (this.match?.height ?? 0);
+    const height = narrow ? 0.72 * window.innerHeight : window.innerHeight - others;
     this.view.resize(width, Math.max(height, 240));
     this.timeline.forget();
     this.dirty = true;
@@ -158,6 +165,7 @@ class Player {
     const moment = this.view.draw(this.time);
     this.timeline.draw(this.time);
     this.showBoard(moment.frame);
+    this.match?.show(moment.frame);
     this.showCaption(moment.frame);
     this.showNumbers(moment.frame);
     this.showRewards(moment.frame);
@@ -192,9 +200,9 @@ class Player {
   }
 
   showBoard(frame) {
-    const score = this.replay.score(frame);
+    const score = this.match?.score(frame) ?? this.replay.score(frame);
     const seconds = this.replay.clock(frame, this.scene.timeStep);
-    setText($("clock"), clockText(seconds));
+    setText($("clock"), this.match?.clock(frame) ?? clockText(seconds));
     setText($("position"), `${clockText(seconds)} / ${this.duration}`);
     for (const team of ["blue", "yellow"]) {
       const goals = $(`goals-${team}`);
@@ -315,6 +323,7 @@ class Player {
 
   /** Events of the list; touches only on request. */
   listed() {
+    if (this.match) return this.match.listed($("touches").checked);
     const all = this.replay.header.events;
     return $("touches").checked ? all : all.filter(([, kind]) => kind !== "touch");
   }
@@ -328,7 +337,8 @@ class Player {
       const dot = document.createElement("i");
       dot.className = kind === "goal" ? detail : robot.split("_")[0];
       const text = document.createElement("span");
-      text.textContent = eventText(kind, robot, detail);
+      text.textContent = this.match?.eventText(kind, robot, detail) ?? eventText(kind, robot, detail);
+      this.match?.decorate(button, dot, kind, detail);
       button.append(time, dot, text);
       button.addEventListener("click", () => this.seek(frame));
       const item = document.createElement("li");
@@ -514,8 +524,9 @@ function eventText(kind, robot, detail) {
 /** Read the replay in the page, and play it unless the page is part of another. */
 async function start() {
   const scene = JSON.parse($("scene").textContent);
+  const match = JSON.parse($("match").textContent);
   const replay = await readReplay(bytesOf($("replay").textContent.trim()));
-  const player = new Player(replay, scene);
+  const player = new Player(replay, scene, match);
   $("message").hidden = true;
   const calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
   if (window.self === window.top && !calm) player.play();

@@ -1,7 +1,7 @@
 // Reader of replay files; the format is described in docs/replays.md.
 
 const MAGIC = [0x89, 0x52, 0x53, 0x52, 0x0d, 0x0a, 0x1a, 0x0a];
-const VERSION = 2;
+const VERSION = 3;
 const START = 56; // bytes before the header
 
 /** Return the bytes of a text in base64. */
@@ -40,13 +40,15 @@ function decodeColumns(bytes, frames, steps) {
 
 /** A replay: header and columns, with access by frame. */
 class Replay {
-  constructor(header, rows, commands, terms) {
+  constructor(header, rows, commands, terms, referee) {
     const { ball, robot, command } = header.columns;
     this.header = header;
     this.frames = header.frames;
     this.rows = rows;
     this.commands = commands;
     this.terms = terms; // by name, [observer * frames + frame]
+    this.refereeNumbers = referee;
+    this.refereeColumns = indexByName(header.columns.referee);
     this.termNames = Object.keys(terms);
     this.ballColumns = indexByName(ball);
     this.robotColumns = indexByName(robot);
@@ -79,6 +81,11 @@ class Replay {
 
   term(name, observer, frame) {
     return this.terms[name][observer * this.frames + frame];
+  }
+
+  /** A number of the state of the referee, in matches that have one. */
+  referee(name, frame) {
+    return this.refereeNumbers[this.refereeColumns[name] * this.frames + frame];
   }
 
   /** Seconds of play at a frame; initial states take no time. */
@@ -127,6 +134,7 @@ async function readReplay(bytes) {
     header,
     decodeColumns(sections.rows, frames, steps.rows),
     decodeColumns(sections.commands, frames, steps.commands),
-    terms
+    terms,
+    steps.referee.length ? decodeColumns(sections.referee, frames, steps.referee) : null
   );
 }

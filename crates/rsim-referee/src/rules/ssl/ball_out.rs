@@ -39,7 +39,7 @@ pub fn touch_line(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let (lines, from_lines) = (moment.lines(), moment.config.kick_line_distance);
     let max_x = lines.half_length - from_lines;
     let y = (lines.half_width - from_lines).copysign(left_at.y);
-    let place = Vector::new(left_at.x.clamp(-max_x, max_x), y);
+    let place = kick_place(moment, Vector::new(left_at.x.clamp(-max_x, max_x), y));
     rulings.add(left_field(EventKind::BallLeftFieldTouchLine, game, moment, left_at, place));
 }
 
@@ -71,7 +71,8 @@ pub(crate) fn goal_kick_place(moment: &Moment, y: f32, defender: Team) -> Vector
 fn beside_corner(moment: &Moment, y: f32, defender: Team, from_goal_line: f32) -> Vector {
     let lines = moment.lines();
     let x = defender.own_side() * (lines.half_length - from_goal_line);
-    Vector::new(x, (lines.half_width - moment.config.kick_line_distance).copysign(y))
+    let y = (lines.half_width - moment.config.kick_line_distance).copysign(y);
+    kick_place(moment, Vector::new(x, y))
 }
 
 /// A free kick for the opponents of the last toucher. If nobody touched the ball since play went on, it is
@@ -89,7 +90,6 @@ fn left_field(
             Ruling::of_robot(kind, team, robot, left_at)
                 .stops(Command::DirectFree(team.opponent()), place)
         }
-        None => Ruling::of_team(kind, None, left_at)
-            .stops(Command::ForceStart, kick_place(moment, place)),
+        None => Ruling::of_team(kind, None, left_at).stops(Command::ForceStart, place),
     }
 }

@@ -7,14 +7,16 @@ use crate::repeats::Repeated;
 use crate::rules::ssl::areas::commit;
 use crate::ruling::{Ruling, Rulings};
 
-/// The ball is faster, in three dimensions, than a robot may accelerate it.
+/// A robot makes the ball faster, in three dimensions, than it may. One that only slows a fast ball down is
+/// not at fault.
 pub fn ball_speed(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
-    let Some(robot) = game.last_touch.filter(|_| game.is_running()) else { return };
-    let team = moment.team_of(robot);
-    if moment.ball.speed() > moment.config.ball_speed
+    let Some(robot) = moment.toucher().filter(|_| game.is_running()) else { return };
+    let (team, speed) = (robot.team, moment.ball.speed());
+    if speed > moment.config.ball_speed
+        && speed > moment.ball_before.speed()
         && commit(Repeated::BallSpeed, game, moment, team)
     {
         let kind = EventKind::BotKickedBallTooFast;
-        rulings.add(Ruling::of_robot(kind, team, robot, game.last_touch_position).foul());
+        rulings.add(Ruling::of_robot(kind, team, robot.index, game.last_touch_position).foul());
     }
 }

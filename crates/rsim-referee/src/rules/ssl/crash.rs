@@ -25,18 +25,21 @@ pub fn crash_unique(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     }
 }
 
-/// Foul of both robots, if their speeds are about the same.
+/// Foul of both robots, if their speeds are about the same; of one, while the other team's last crash lasts.
 pub fn crash_drawn(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     for (blue, yellow) in crashes(moment) {
         let difference = speed_before(moment, &blue) - speed_before(moment, &yellow);
         if difference.abs() >= moment.config.crash_difference {
             continue;
         }
-        let raised = Team::BOTH.map(|team| commit(Repeated::Crash, game, moment, team));
-        if raised.contains(&true) {
-            let place = (blue.position + yellow.position) * 0.5;
-            rulings.add(Ruling::of_team(EventKind::BotCrashDrawn, None, place).foul());
-        }
+        let at_fault = match Team::BOTH.map(|team| commit(Repeated::Crash, game, moment, team)) {
+            [true, true] => None,
+            [true, false] => Some(Team::Blue),
+            [false, true] => Some(Team::Yellow),
+            [false, false] => continue,
+        };
+        let place = (blue.position + yellow.position) * 0.5;
+        rulings.add(Ruling::of_team(EventKind::BotCrashDrawn, at_fault, place).foul());
     }
 }
 

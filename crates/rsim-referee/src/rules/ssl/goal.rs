@@ -20,7 +20,8 @@ fn scored(game: &Game, moment: &Moment) -> Option<(Team, Vector)> {
 }
 
 /// A goal that does not count: the ball was too high after the last touch of the scoring team, the team has
-/// too many robots, or has committed a foul that did not stop play. A penalty kick has other rules.
+/// too many robots, or has committed a foul that did not stop play, before or in the step. A penalty kick has
+/// other rules.
 pub fn invalid_goal(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some((scorer, position)) = scored(game, moment) else { return };
     if game.penalty_taker().is_some() {
@@ -29,7 +30,11 @@ pub fn invalid_goal(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let too_high = game.height_since_touch[scorer] > moment.config.goal_height;
     let too_many = cards::too_many(game, moment, scorer) > 0;
     let foul_limit = moment.steps(moment.config.goal_foul_seconds);
-    let had_foul = (0..foul_limit).contains(&game.foul_steps[scorer]);
+    let had_foul = (0..foul_limit).contains(&game.foul_steps[scorer])
+        || rulings.iter().any(|ruling| {
+            cards::is_non_stopping(ruling.event.kind)
+                && ruling.event.team.is_none_or(|at_fault| at_fault == scorer)
+        });
     if too_high || too_many || had_foul {
         rulings.add(of_scorer(EventKind::InvalidGoal, scorer, game, position));
     }

@@ -19,8 +19,17 @@ use crate::moment::Moment;
 use crate::rules::{Rule, table};
 use crate::vector::Vector;
 
-/// All rules, in the order in which they are judged.
+/// All rules, in the order in which they are judged: fouls that a goal depends on come first.
 pub const RULES: &[Rule] = table! {
+    "ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA", areas::attacker_touch,
+        "Attacker Touched Ball In Opponent Defense Area",
+        "A robot touches the ball while it is partly in the opponents' area.";
+    "BOT_KICKED_BALL_TOO_FAST", ball_speed::ball_speed, "Ball Speed",
+        "A robot accelerates the ball beyond 6.5 m/s.";
+    "BOT_CRASH_UNIQUE", crash::crash_unique, "Crashing",
+        "Robots collide faster than 1.5 m/s: foul of the faster one.";
+    "BOT_CRASH_DRAWN", crash::crash_drawn, "Crashing",
+        "Robots collide faster than 1.5 m/s at about the same speed: foul of both.";
     "INVALID_GOAL", goal::invalid_goal, "Scoring Goals",
         "A goal does not count: ball too high, too many robots, or a foul within 2 s before.";
     "GOAL", goal::goal, "Scoring Goals",
@@ -48,15 +57,6 @@ pub const RULES: &[Rule] = table! {
         "A robot is within 0.2 m of the opponents' area in a stop or before a free kick.";
     "NO_PROGRESS_IN_GAME", progress::no_progress, "No Progress In Game",
         "The ball makes no progress.";
-    "ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA", areas::attacker_touch,
-        "Attacker Touched Ball In Opponent Defense Area",
-        "A robot touches the ball while it is partly in the opponents' area.";
-    "BOT_KICKED_BALL_TOO_FAST", ball_speed::ball_speed, "Ball Speed",
-        "A robot accelerates the ball beyond 6.5 m/s.";
-    "BOT_CRASH_UNIQUE", crash::crash_unique, "Crashing",
-        "Robots collide faster than 1.5 m/s: foul of the faster one.";
-    "BOT_CRASH_DRAWN", crash::crash_drawn, "Crashing",
-        "Robots collide faster than 1.5 m/s at about the same speed: foul of both.";
     "DEFENDER_TOO_CLOSE_TO_KICK_POINT", kick_point::defender_too_close, "Defender Too Close To Ball",
         "A robot is within 0.5 m of the ball before the opponents' kick.";
     "BOT_TOO_FAST_IN_STOP", stop::too_fast, "Robot Stop Speed",

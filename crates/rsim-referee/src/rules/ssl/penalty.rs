@@ -12,7 +12,8 @@ use crate::team::Team;
 /// Way back of the ball that is no measuring noise, m: as much as brings a ball into play.
 const WAY_BACK: f32 = 0.05;
 
-/// Ends a penalty kick: by a goal, which a foul of the defenders is too, or without one.
+/// Ends a penalty kick: by a goal, which a foul of the defenders is too, or without one. A foul of both teams
+/// decides nothing, as in the game controller.
 pub fn conclude(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some(attacker) = game.penalty_taker() else { return };
     if rulings.has(EventKind::Goal) {
@@ -22,7 +23,7 @@ pub fn conclude(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let committed = |team: Team| {
         rulings.iter().any(|ruling| {
             (ruling.is_foul || ruling.then.is_some())
-                && ruling.event.team.is_none_or(|at_fault| at_fault == team)
+                && ruling.event.team == Some(team)
                 && !is_ball_out(ruling.event.kind)
         })
     };

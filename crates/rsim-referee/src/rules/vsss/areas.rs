@@ -6,21 +6,28 @@ use crate::game::Game;
 use crate::moment::Moment;
 use crate::rules::vsss::{in_goal_area, in_large_area};
 use crate::ruling::{Ruling, Rulings};
+use crate::stages::is_shootout;
 use crate::team::Team;
 use crate::vector::Vector;
 
-/// Too many attackers for some time, or when the ball leaves the area: a goal kick.
+/// Too many attackers for some time, or when the ball leaves the area: a goal kick. Where both teams were too
+/// many when it leaves, the foul is the defenders'.
 pub fn too_many_attackers(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
+    if !is_judged(game, rulings) {
+        return;
+    }
+    let most = [moment.config.area_robots, moment.config.large_area_attackers];
     for attacker in Team::BOTH {
         let defender = attacker.opponent();
-        let most = [moment.config.area_robots, moment.config.large_area_attackers];
-        let is_now = game.in_play && is_crowded(moment, attacker, defender, most);
-        let steps = if is_now { game.attackers_steps[attacker] + 1 } else { 0 };
-        let had = game.had_attackers[attacker];
-        let left = had && !has_ball(moment, defender);
-        game.attackers_steps[attacker] = steps;
-        game.had_attackers[attacker] = (had || is_now) && !left;
-        if steps >= limit(moment) || left && !is_decided(rulings) {
+        let is_now = is_crowded(moment, attacker, defender, most);
+        let had_defenders = game.had_defenders[defender];
+        let crowd = (&mut game.attackers_steps[attacker], &mut game.had_attackers[attacker]);
+        let is_foul = match follow(crowd, is_now, moment, defender) {
+            Crowd::Lasted => true,
+            Crowd::Left => !had_defenders,
+            Crowd::Allowed => false,
+        };
+        if is_foul {
             let kind = EventKind::AttackerTouchedBallInDefenseArea;
             let ruling = Ruling::of_team(kind, Some(attacker), moment.ball.position);
             let (command, place) = goal_kick(moment, defender);
@@ -31,21 +38,56 @@ pub fn too_many_attackers(game: &mut Game, moment: &Moment, rulings: &mut Ruling
 
 /// Too many defenders for some time, or when the ball leaves the area: a penalty kick.
 pub fn too_many_defenders(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
+    if !is_judged(game, rulings) {
+        return;
+    }
+    let most = [moment.config.area_robots, moment.config.large_area_defenders];
     for defender in Team::BOTH {
-        let attacker = defender.opponent();
-        let most = [moment.config.area_robots, moment.config.large_area_defenders];
-        let is_now = game.in_play && is_crowded(moment, defender, defender, most);
-        let steps = if is_now { game.defenders_steps[defender] + 1 } else { 0 };
-        let had = game.had_defenders[defender];
-        let left = had && !has_ball(moment, defender);
-        game.defenders_steps[defender] = steps;
-        game.had_defenders[defender] = (had || is_now) && !left;
-        if steps >= limit(moment) || left && !is_decided(rulings) {
+        let is_now = is_crowded(moment, defender, defender, most);
+        let crowd = (&mut game.defenders_steps[defender], &mut game.had_defenders[defender]);
+        if follow(crowd, is_now, moment, defender) != Crowd::Allowed {
             let kind = EventKind::DefenderInDefenseArea;
             let ruling = Ruling::of_team(kind, Some(defender), moment.ball.position);
-            let mark = moment.lines().penalty_mark(attacker);
-            rulings.add(ruling.stops(Command::PreparePenalty(attacker), mark));
+            let (command, place) = penalty_kick(moment, defender.opponent());
+            rulings.add(ruling.stops(command, place));
         }
+    }
+}
+
+/// Whether the areas are judged: in play, but not in the shoot-out, and not after another rule has stopped
+/// play. A stop forgets all crowds.
+fn is_judged(game: &Game, rulings: &Rulings) -> bool {
+    game.in_play && !is_shootout(game) && rulings.stop().is_none()
+}
+
+/// What became of a crowd in an area in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Crowd {
+    /// There is none, or it has not lasted.
+    Allowed,
+    /// It has lasted too long.
+    Lasted,
+    /// There was one, and the ball has left the area.
+    Left,
+}
+
+/// Follows for how long there is a crowd, and whether there was one since the ball came into the area.
+fn follow(
+    (steps, had): (&mut i32, &mut bool),
+    is_now: bool,
+    moment: &Moment,
+    defender: Team,
+) -> Crowd {
+    let had_before = *had;
+    let has_ball = in_large_area(moment, moment.ball.position, defender);
+    *steps = if is_now { *steps + 1 } else { 0 };
+    *had = has_ball && (had_before || is_now);
+    if is_now && *steps >= moment.steps(moment.config.held_ball_seconds) {
+        Crowd::Lasted
+    } else if had_before && !has_ball {
+        Crowd::Left
+    } else {
+        Crowd::Allowed
     }
 }
 
@@ -65,20 +107,6 @@ fn count(moment: &Moment, team: Team, is_inside: impl Fn(Vector) -> bool) -> f32
     moment.now.team(team).filter(|robot| is_inside(robot.position)).count() as f32
 }
 
-/// Whether the ball is in the larger area of a team, on the field.
-fn has_ball(moment: &Moment, defender: Team) -> bool {
-    in_large_area(moment, moment.ball.position, defender)
-}
-
-/// Whether a goal, or a goal that does not count, has decided how play goes on.
-fn is_decided(rulings: &Rulings) -> bool {
-    rulings.has(EventKind::Goal) || rulings.has(EventKind::InvalidGoal)
-}
-
-fn limit(moment: &Moment) -> i32 {
-    moment.steps(moment.config.held_ball_seconds)
-}
-
 /// Distance of the ball of a goal kick from the goal line, m (`replacer.cpp`).
 const GOAL_KICK_X: f32 = 0.15;
 /// Distance of the ball of a goal kick from the middle at three a side, to its far side, m.
@@ -90,6 +118,11 @@ pub(crate) fn goal_kick(moment: &Moment, defender: Team) -> (Command, Vector) {
     let lines = moment.lines();
     let x = defender.own_side() * (lines.half_length - GOAL_KICK_X);
     let is_small = lines.inner_area_depth == 0.0;
-    let y = if is_small { GOAL_KICK_Y - moment.pitch.ball_radius } else { 0.0 };
-    (Command::GoalKick(defender), Vector::new(x, y.copysign(moment.ball.position.y)))
+    let aside = (GOAL_KICK_Y - moment.pitch.ball_radius).copysign(moment.ball.position.y);
+    (Command::GoalKick(defender), Vector::new(x, if is_small { aside } else { 0.0 }))
+}
+
+/// Command and place of the penalty kick of a team.
+pub(crate) fn penalty_kick(moment: &Moment, attacker: Team) -> (Command, Vector) {
+    (Command::PreparePenalty(attacker), moment.lines().penalty_mark(attacker))
 }

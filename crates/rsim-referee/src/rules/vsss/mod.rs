@@ -14,8 +14,8 @@ use crate::vector::Vector;
 /// All rules, in the order in which they are judged.
 pub const RULES: &[Rule] = table! {
     "GOAL", goal::goal, "checker_ballplay",
-        "The ball is behind the line between the posts. With too many attackers in the area the goal does \
-         not count.";
+        "The ball is behind the line between the posts. After too many attackers in the area with it the \
+         goal does not count.";
     "ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA", areas::too_many_attackers,
         "checker_twoattackers, checker_ballplay",
         "Two attackers in the goal area with the ball, or four in the large area: goal kick.";
@@ -26,7 +26,7 @@ pub const RULES: &[Rule] = table! {
     "NO_PROGRESS_IN_GAME", stuck_ball::free_ball, "checker_stuckedball",
         "A ball that is stuck for 5 s: free ball.";
     "PENALTY_KICK_FAILED", shootout::conclude, "checker_ballplay, checker_stuckedball",
-        "In the shoot-out the ball leaves the half or the area, or is stuck.";
+        "In the shoot-out the ball leaves the half or the area, or is stuck, or 10 s are over.";
 };
 
 /// Whether a place is in the goal area of a team: the smaller one, where there are two.

@@ -4,6 +4,7 @@ use crate::codes::Command;
 use crate::events::EventKind;
 use crate::game::Game;
 use crate::moment::Moment;
+use crate::rules::vsss::areas::penalty_kick;
 use crate::rules::vsss::in_goal_area;
 use crate::ruling::{Ruling, Rulings};
 use crate::stages::is_shootout;
@@ -18,9 +19,15 @@ pub(crate) fn follow(game: &mut Game, moment: &Moment) {
         if is_slow && game.in_play && now == before { game.stuck_steps + 1 } else { 0 };
 }
 
-/// Whether the ball is stuck. In the shoot-out it ends the kick.
-fn is_stuck(game: &Game, moment: &Moment) -> bool {
-    game.stuck_steps >= moment.steps(moment.config.no_progress_seconds) && !is_shootout(game)
+/// Whether the ball has been stuck for too long.
+pub(crate) fn is_stuck(game: &Game, moment: &Moment) -> bool {
+    let limit = moment.steps(moment.config.no_progress_seconds);
+    game.stuck_steps > 0 && game.stuck_steps >= limit
+}
+
+/// Whether a ball that is stuck stops play. In the shoot-out it ends the kick, by another rule.
+fn is_judged(game: &Game, moment: &Moment, rulings: &Rulings) -> bool {
+    is_stuck(game, moment) && !is_shootout(game) && rulings.stop().is_none()
 }
 
 /// The team whose penalty kick it would be: the other one than that in whose goal area the ball is, where not
@@ -34,17 +41,17 @@ fn penalty_for(moment: &Moment) -> Option<Team> {
 /// A ball that is stuck in a goal area, and not between both teams: a penalty kick.
 pub fn held_in_area(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some(attacker) = penalty_for(moment) else { return };
-    if is_stuck(game, moment) {
+    if is_judged(game, moment, rulings) {
         let defender = Some(attacker.opponent());
         let ruling = Ruling::of_team(EventKind::KeeperHeldBall, defender, moment.ball.position);
-        let mark = moment.lines().penalty_mark(attacker);
-        rulings.add(ruling.stops(Command::PreparePenalty(attacker), mark));
+        let (command, place) = penalty_kick(moment, attacker);
+        rulings.add(ruling.stops(command, place));
     }
 }
 
 /// A ball that is stuck elsewhere, or between both teams: a free ball at the mark of its quarter.
 pub fn free_ball(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
-    if is_stuck(game, moment) && penalty_for(moment).is_none() {
+    if is_judged(game, moment, rulings) && penalty_for(moment).is_none() {
         let ball = moment.ball.position;
         let ruling = Ruling::of_team(EventKind::NoProgressInGame, None, ball);
         rulings.add(ruling.stops(Command::FreeBall, moment.lines().free_ball_mark(ball)));

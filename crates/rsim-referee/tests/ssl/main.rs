@@ -1,0 +1,18 @@
+//! Scenes of SSL matches: each rule, the course of a match, and what holds in all of them.
+
+mod areas;
+mod ball_out;
+mod cards;
+mod contacts;
+mod flow;
+mod goals;
+mod kicks;
+mod penalty;
+mod placement;
+mod positions;
+mod scene;
+mod shootout;
+mod stages;
+mod stops;
+mod touches;
+mod walk;

@@ -1,0 +1,117 @@
+"""Scenes under the referee: starts by name, commands, what is returned."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
+from rsoccer.game import Command, EventKind
+from rsoccer.referee import RefereeConfig, Scene, play_scene, rules
+
+
+def kinds(scene: Scene) -> list[EventKind]:
+    return [event.kind for event in scene.events]
+
+
+def test_a_ball_over_a_touch_line_is_a_throw_in() -> None:
+    for robot, following in (("blue_3", "DIRECT_FREE_YELLOW"), ("yellow_0", "DIRECT_FREE_BLUE")):
+        scene = play_scene("ssl", {"ball": (1.0, 2.9, 0.0, 2.0), "last_touch": robot})
+        (event,) = scene.events
+        assert (event.kind, event.robot) == (EventKind.BALL_LEFT_FIELD_TOUCH_LINE, robot)
+        assert event.team == robot.split("_")[0]
+        assert event.seconds == pytest.approx(0.075)
+        assert scene.command == Command.STOP and scene.next_command == Command[following]
+        assert scene.commands == ((0.0, Command.FORCE_START), (event.seconds, Command.STOP))
+        assert scene.restart is not None
+        assert scene.restart.ball.position[0].tolist() == pytest.approx([1.0, 2.8])
+
+
+def test_goals_count_from_the_score_of_the_start() -> None:
+    start = {"ball": (4.2, 0.0, 4.0, 0.0), "last_touch": "blue_0", "score": (1, 2)}
+    scene = play_scene("ssl_2026_b", start)
+    assert kinds(scene) == [EventKind.GOAL] and scene.score == (2, 2)
+    assert scene.next_command == Command.PREPARE_KICKOFF_YELLOW
+
+
+def test_a_goal_that_was_too_high_does_not_count() -> None:
+    start = {"ball": (4.2, 0.0, 4.0, 0.0), "last_touch": "blue_0", "height_since_touch": (0.2, 0)}
+    scene = play_scene("ssl", start)
+    assert EventKind.INVALID_GOAL in kinds(scene) and scene.score == (0, 0)
+    lenient = RefereeConfig("ssl_2026_b", goal_height=0.3)
+    assert play_scene(lenient, start).score == (1, 0)
+
+
+def test_robots_drive_by_name_by_array_and_by_function() -> None:
+    start = {"ball": (3.0, 2.0), "robots": {"blue_0": (0.0, 0.0), "yellow_1": (1.0, 1.0, math.pi)}}
+    ahead = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]  # m/s
+    by_name = play_scene("ssl", start, {"blue_0": ahead})
+
+    def function(frame: Frame, seconds: float) -> Floats:
+        assert len(frame) == 1 and 0.0 <= seconds < 1.0
+        return array
+
+    array = np.zeros((3, 6), np.float32)
+    array[0] = ahead
+    for commands in (array, function):
+        scene = play_scene("ssl", start, commands)
+        assert np.array_equal(scene.frame.rows, by_name.frame.rows)
+    robots = by_name.frame.robots
+    assert robots.position[0, 0, 0] > 0.5
+    assert robots.absent[0].tolist() == [0.0, 1.0, 0.0], "yellow_0 is not named"
+    assert np.allclose(robots.position[0, 2], [1.0, 1.0], atol=1e-3)
+
+
+def test_vsss_is_played_with_its_times() -> None:
+    start = {"ball": (0.6, 0.0, 2.0, 0.0), "robots": {"blue_0": (0, 0), "yellow_0": (0.5, 0.3)}}
+    scene = play_scene("vsss", start, seconds=13.0)
+    assert [command for _, command in scene.commands] == [
+        Command.FORCE_START,
+        Command.STOP,
+        Command.PREPARE_KICKOFF_YELLOW,
+        Command.NORMAL_START,
+    ]
+    times = [seconds for seconds, _ in scene.commands]
+    assert np.diff(times[1:]).tolist() == pytest.approx([8.0, 4.0], abs=0.03)
+
+
+@pytest.mark.parametrize(
+    ("start", "message"),
+    [
+        ({"bal": (0, 0)}, "got 'bal'"),
+        ({"command": "GO"}, "start\\['command'\\]: expected one of .*'HALT'.* got 'GO'"),
+        ({"ball": (0,)}, "ball: expected 2 to 6"),
+        ({"ball": {"q": 1}}, "ball: expected names"),
+        ({"robots": {"red_0": (0, 0)}}, "expected names like 'blue_0', got 'red_0'"),
+        ({"last_touch": "blue"}, "start\\['last_touch'\\]: expected one of"),
+        ({"score": (1, 2, 3)}, "start\\['score'\\]: expected numbers of shape"),
+        ({"robots": {"blue_0": (0, 0), "blue_1": (0.05, 0)}}, "overlap"),
+    ],
+)
+def test_wrong_starts_are_named(start: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        play_scene("ssl", start)
+
+
+def test_other_wrong_arguments_are_named() -> None:
+    with pytest.raises(ValueError, match="league: expected one of"):
+        play_scene("rugby", {})
+    with pytest.raises(ValueError, match="seconds: expected at least 0, got -1"):
+        play_scene("ssl", {}, seconds=-1)
+    with pytest.raises(ValueError, match="commands: expected names"):
+        play_scene("ssl", {}, {"blue_7": [0.0] * 6})
+    with pytest.raises(ValueError, match="commands: expected shape"):
+        play_scene("ssl", {}, np.zeros((1, 6), np.float32))
+    with pytest.raises(TypeError, match="start: expected a mapping"):
+        play_scene("ssl", [])  # type: ignore[arg-type]
+
+
+def test_rules_are_listed_with_sources() -> None:
+    for league in ("ssl", "vsss"):
+        entries = rules(league)
+        assert len({entry.name for entry in entries}) == len(entries) > 5
+        assert all(entry.source and entry.summary and "::" in entry.function for entry in entries)
+    with pytest.raises(ValueError, match="league: expected 'ssl' or 'vsss'"):
+        rules("x")
