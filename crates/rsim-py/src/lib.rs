@@ -34,7 +34,7 @@ mod _core {
     #[pymodule_export]
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
-    use crate::referee::{Referee, referee_preset, referee_rules};
+    use crate::referee::{Referee, referee_preset, referee_rules, referee_values};
     #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]

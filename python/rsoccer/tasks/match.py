@@ -18,7 +18,7 @@ from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes, Rule
 from rsoccer.rules.referee import Referee
-from rsoccer.rules.referee_config import RefereeConfig
+from rsoccer.rules.referee_config import PRESETS, RefereeConfig
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
@@ -26,10 +26,6 @@ GAME_BLOCK: Final = "game"
 """Name of the observation block with the state of the match."""
 GAME_LIMIT: Final = 3.0
 """Bound of that block: times up to 30 s, in units of 10 s."""
-CLOCKS: Final = ("stopped", "running")
-"""Values of the option `clock`."""
-PLACEMENTS: Final = ("teleport", "robots")
-"""Values of the option `placement`."""
 TEAMS: Final = ("blue", "yellow")
 
 
@@ -104,22 +100,20 @@ class Match(Soccer):
         checks.number_in_range("half_seconds", self.half_seconds, 1e-3, 1e5)
         if checks.integer("halves", self.halves, 1) > 2:
             raise ValueError(f"halves: expected 1 or 2, got {self.halves}")
-        if self.clock not in CLOCKS:
-            raise ValueError(f"clock: expected one of {CLOCKS}, got {self.clock!r}")
         checks.boolean("knockout", self.knockout)
         if not isinstance(self.referee, Mapping):
             raise TypeError(f"referee: expected values by name, got {self.referee!r}")
+        RefereeConfig(PRESETS[0], **self.referee_values)  # all presets have the same names
         super().__post_init__()
-        _ = self.rules  # raises for wrong numbers
 
     @property
     @abstractmethod
     def preset(self) -> str:
         """Name of the rules' preset."""
 
-    @cached_property
-    def referee_config(self) -> RefereeConfig:
-        """Numbers and switches of the rules, with those of the options."""
+    @property
+    def referee_values(self) -> dict[str, Any]:
+        """Numbers and switches of the rules that the options give, by name."""
         values: dict[str, Any] = {
             "half_seconds": self.half_seconds,
             "halves": self.halves,
@@ -127,7 +121,12 @@ class Match(Soccer):
         }
         if not self.knockout:
             values |= {"extra_half_seconds": 0.0, "shootout_kicks": 0.0}
-        return RefereeConfig(self.preset, **{**values, **self.referee})
+        return {**values, **self.referee}
+
+    @cached_property
+    def referee_config(self) -> RefereeConfig:
+        """Numbers and switches of the rules, with those of the options."""
+        return RefereeConfig(self.preset, **self.referee_values)
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
