@@ -148,7 +148,7 @@ def test_several_events_of_a_world_are_added_in_order() -> None:
     assert events.by_team(EventKind.GOAL).tolist() == [[0, 0], [0, 0], [1, 1]]
 
 
-def test_more_events_than_slots_are_refused() -> None:
+def test_more_rows_of_events_than_slots_are_refused() -> None:
     events = Events.empty(2)
     row = [1, EventKind.BOT_CRASH_DRAWN, NOBODY, NOBODY, 0.0, 0.0]
     events.extend(np.array([row] * Events.SLOTS, np.float32))

@@ -72,13 +72,14 @@ def test_a_lineup_leaves_absent_robots_alone() -> None:
 def test_arrays_of_another_form_are_named(position: int) -> None:
     name = ("game", "statistics", "score", "seconds_left", "may_touch")[position]
     rows, restart = line_up(2), line_up(2)
-    for wrong, error in (
-        (lambda array: array[:1], ValueError),
-        (lambda array: array.astype(np.float64), TypeError),
-        (lambda array: array.tolist(), TypeError),
-    ):
+    right = new_matches(2)[position]
+    wrongs: list[tuple[Any, type]] = [
+        (right[:1], ValueError),
+        (right.astype(np.complex64), TypeError),
+    ]
+    for wrong, error in [*wrongs, (right.tolist(), TypeError)]:
         matches = new_matches(2)
-        matches[position] = wrong(matches[position])
+        matches[position] = wrong
         with pytest.raises(error, match=name):
             REFEREE.begin(rows, tuple(matches))
         with pytest.raises(error, match=name):
@@ -88,12 +89,13 @@ def test_arrays_of_another_form_are_named(position: int) -> None:
 @pytest.mark.parametrize("name", ["before", "after", "restart", "rows"])
 def test_rows_of_another_form_are_named(name: str) -> None:
     rows, matches = line_up(2), tuple(new_matches(2))
-    for wrong in (rows[:, :-1].copy(), rows.astype(np.float64)):
+    wrongs: list[Any] = [rows[:, :-1].copy(), rows.astype(np.float64)]
+    for wrong in wrongs:
         with pytest.raises((ValueError, TypeError), match=name):
             if name == "rows":
                 REFEREE.begin(wrong, matches)
             else:
-                given = {"before": rows, "after": rows, "restart": rows.copy()} | {name: wrong}
+                given = {"before": rows, "after": rows, "restart": rows.copy(), name: wrong}
                 REFEREE.judge(given["before"], given["after"], matches, given["restart"])
 
 
@@ -131,7 +133,7 @@ def test_a_referee_can_be_copied() -> None:
 
 def test_rules_are_given_as_json() -> None:
     for text in ("", "{", "[]", '{"league": "ssl"}'):
-        with pytest.raises(ValueError, match="^rules: "):
+        with pytest.raises(ValueError, match=r"^rules: "):
             Referee(CONFIG, text)
 
 
@@ -193,11 +195,11 @@ def test_several_decisions_of_a_step_are_events() -> None:
     matches.step(zeros(matches))
     for world in range(2):
         events = matches.play.events.of_world(world)
-        assert [(event.kind, event.team) for event in events] == [
+        assert {(event.kind, event.team) for event in events} == {
             (EventKind.BALL_LEFT_FIELD_TOUCH_LINE, BLUE),
             (EventKind.BOT_CRASH_DRAWN, NOBODY),
             (EventKind.MULTIPLE_FOULS, YELLOW),
-        ]
+        }
     assert matches.play.game.yellow_cards.tolist() == [[0, 1]] * 2
     assert (matches.play.game.command == Command.STOP).all()
     assert (matches.play.game.next_command == Command.DIRECT_FREE_YELLOW).all()

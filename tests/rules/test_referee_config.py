@@ -127,7 +127,7 @@ def test_every_value_has_a_meaning() -> None:
 def test_unknown_presets_and_names_are_refused() -> None:
     with pytest.raises(ValueError, match=r"preset: expected one of \('ssl_2026_a', .*, got 'fifa'"):
         RefereeConfig("fifa")
-    with pytest.raises(KeyError, match="name: expected one of ssl_2026_a, .*, got .*fifa"):
+    with pytest.raises(KeyError, match=r"name: expected one of ssl_2026_a, .*, got .*fifa"):
         referee_preset("fifa")
     with pytest.raises(ValueError, match="league: expected 'ssl' or 'vsss', got \"fifa\""):
         referee_rules("fifa")

@@ -1,6 +1,7 @@
 """Whole matches of both leagues under a referee: options, rewards, metrics, ends, saved states."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -81,7 +82,7 @@ def test_a_wrong_option_is_named(
     task: Match, options: dict[str, Any], error: type, message: str
 ) -> None:
     with pytest.raises(error, match=message):
-        type(task)(**options)
+        replace(task, **options)
 
 
 def test_wrong_options_of_ssl_matches_are_named() -> None:
@@ -99,17 +100,18 @@ def test_options_of_tasks_that_end_with_a_goal_are_unknown(name: str) -> None:
 
 @both
 def test_options_are_numbers_of_the_rules(task: Match) -> None:
-    changed = type(task)(half_seconds=60, halves=1, clock="running", referee={"stop_seconds": 1})
+    changed = replace(task, half_seconds=60, halves=1, clock="running", referee={"stop_seconds": 1})
     rules = changed.referee_config
     assert (rules.half_seconds, rules.halves, rules.clock) == (60.0, 1.0, "running")
     assert rules.stop_seconds == 1.0
     assert rules.goal_stop_seconds == task.referee_config.goal_stop_seconds
     assert (task.referee_config.extra_half_seconds, task.referee_config.shootout_kicks) == (0, 0)
-    knockout = type(task)(knockout=True).referee_config
+    knockout = replace(task, knockout=True).referee_config
     assert knockout.extra_half_seconds > 0.0
     assert knockout.shootout_kicks > 0.0
     assert (
-        type(task)(half_seconds=60, referee={"half_seconds": 90}).referee_config.half_seconds == 90
+        replace(task, half_seconds=60, referee={"half_seconds": 90}).referee_config.half_seconds
+        == 90
     )
 
 
@@ -163,7 +165,7 @@ def test_a_goal_pays_and_play_goes_on(task: Match, side: float) -> None:
 
 @both
 def test_a_match_ends_as_a_termination_with_its_time(task: Match) -> None:
-    matches = in_play(type(task)(half_seconds=1.0, halves=1))
+    matches = in_play(replace(task, half_seconds=1.0, halves=1))
     set_game(matches, stage_steps_left=40)
     steps = 0
     while not matches.done[0]:
@@ -186,12 +188,12 @@ def test_a_match_is_truncated_after_its_steps() -> None:
 def test_halves_and_clocks_make_the_length_of_a_match(task: Match) -> None:
     seconds = {}
     for halves, clock in ((1, "stopped"), (2, "stopped"), (2, "running")):
-        short = type(task)(half_seconds=1.5, halves=halves, clock=clock)
+        short = replace(task, half_seconds=1.5, halves=halves, clock=clock)
         matches = Matches(short, 4, seed=2, autoreset="disabled")
         pressing = Pressing(short)
         matches.reset()
         while not matches.done.all():
-            outcome = matches.step(pressing.actions(matches))
+            matches.step(pressing.actions(matches))
             assert matches.play.steps.max() < 8000
         seconds[halves, clock] = matches.play.steps.mean() * short.config.time_step
     assert seconds[1, "stopped"] < seconds[2, "stopped"]
@@ -209,17 +211,16 @@ def test_time_that_is_left_goes_down_in_play(task: Match) -> None:
     assert matches.play.game.seconds_left[0] == pytest.approx(first - 0.025, abs=1e-4)
 
 
+@pytest.mark.parametrize("knockout", [False, True])
 @both
-def test_a_knockout_match_that_is_drawn_goes_on(task: Match) -> None:
-    for knockout in (False, True):
-        matches = in_play(type(task)(half_seconds=1.0, halves=1, knockout=knockout))
-        set_game(matches, stage_steps_left=1)
-        outcome = stepped(
-            matches, lambda _: matches.play.game.stage[0] != Stage.NORMAL_FIRST_HALF, 800
-        )
-        assert bool(outcome.terminated[0]) is not knockout
-        expected = Stage.EXTRA_FIRST_HALF_PRE if knockout else Stage.POST_GAME
-        assert matches.play.game.stage[0] == expected
+def test_a_drawn_match_goes_on_where_one_team_has_to_win(task: Match, knockout: bool) -> None:
+    matches = in_play(replace(task, half_seconds=1.0, halves=1, knockout=knockout))
+    set_game(matches, stage_steps_left=1)
+    game = matches.play.game
+    outcome = stepped(matches, lambda _: game.stage[0] != Stage.NORMAL_FIRST_HALF, 800)
+    assert bool(outcome.terminated[0]) is not knockout
+    expected = Stage.EXTRA_FIRST_HALF_PRE if knockout else Stage.POST_GAME
+    assert game.stage[0] == expected
 
 
 # -- What robots observe ----------------------------------------------------------------------
@@ -240,8 +241,8 @@ def test_the_kickoff_is_seen_from_the_side_of_each_team(task: Match) -> None:
     assert same(seen["opponents_kickoff"], (~has_kickoff).astype(np.float32))
     assert not seen["may_touch"].any()
     assert (seen["own_robots"] == 1.0).all()
-    total = sum(seen[name] for name in GAME_FEATURES[:12])
-    assert (total == 1.0).all()
+    commands = np.stack([seen[name] for name in GAME_FEATURES[:12]])
+    assert (commands.sum(axis=0) == 1.0).all()
 
 
 @both
@@ -306,7 +307,7 @@ def test_a_card_takes_a_robot_out_of_the_next_play() -> None:
     task = SslMatch(referee={"removal_seconds": 0.5})
     matches = in_play(task, crash(task))
     set_game(matches, fouls_blue=2)
-    stepped(matches, lambda _: matches.frame.robots.absent.any(), 400)
+    stepped(matches, lambda _: bool(matches.frame.robots.absent.any()), 400)
     assert matches.frame.blue.absent.sum() == 1.0
     assert matches.frame.yellow.absent.sum() == 0.0
     outcome = matches.step(zeros(matches))
@@ -329,7 +330,7 @@ def test_robots_that_may_not_touch_the_ball_are_not_drawn_to_it(task: Match) -> 
 
 @both
 def test_metrics_add_up(task: Match) -> None:
-    short = type(task)(half_seconds=8.0, halves=1)
+    short = replace(task, half_seconds=8.0, halves=1)
     matches = Matches(short, 8, seed=1, controllers={"all": LEARN}, autoreset="disabled")
     pressing, goals, fouls = Pressing(short), np.zeros((8, 2)), np.zeros((8, 2))
     matches.reset()
@@ -347,7 +348,7 @@ def test_metrics_add_up(task: Match) -> None:
     possession = metrics["blue_possession"] + metrics["yellow_possession"]
     assert (possession <= 1.0 + 1e-6).all() and (possession > 0.1).all()
     seconds = matches.play.steps * short.config.time_step
-    assert (metrics["in_play"] > 4.0).all() and (metrics["in_play"] <= seconds + 1e-3).all()
+    assert (metrics["in_play"] > 0.5).all() and (metrics["in_play"] <= seconds + 1e-3).all()
     for i, team in enumerate(TEAMS):
         assert (metrics[f"{team}_distance"] > 1.0).all()
         assert (metrics[f"{team}_fouls"] >= fouls[:, i]).all()  # some are of both teams
@@ -382,4 +383,4 @@ def test_a_match_that_is_restored_goes_on_alike(task: Match) -> None:
 
 @both
 def test_tasks_keep_the_promises_of_tasks_in_play(task: Match) -> None:
-    check_task(type(task)(**SHORT, referee={"prepare_seconds": 0.1}), worlds=3, steps=120)
+    check_task(replace(task, **SHORT, referee={"prepare_seconds": 0.1}), worlds=3, steps=120)
