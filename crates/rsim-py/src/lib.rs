@@ -12,6 +12,7 @@ mod match_arrays;
 mod models;
 mod moments;
 mod referee;
+mod scripted_team;
 mod shaping;
 mod simulator;
 mod steering;
@@ -35,6 +36,8 @@ mod _core {
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
     use crate::referee::{Referee, referee_preset, referee_rules, referee_values};
+    #[pymodule_export]
+    use crate::scripted_team::ScriptedTeam;
     #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]

@@ -1,0 +1,174 @@
+//! Choice of a kick: shot, pass or clearance.
+
+use rsim_referee::Vector;
+
+use crate::lanes::{Lane, chance, margin};
+use crate::pitch::Area;
+use crate::plane::Plane;
+use crate::rolling::kick_speed;
+use crate::situation::Situation;
+use crate::view::Player;
+
+/// Speed of the ball after a kick, m/s; the rules allow 6.5.
+pub(crate) const MAX_BALL_SPEED: f32 = 6.0;
+/// Places in the goal that are tried, as shares of half its width.
+const GOAL_PLACES: [f32; 9] = [0.0, -0.22, 0.22, -0.44, 0.44, -0.63, 0.63, -0.8, 0.8];
+/// Places in the goal by which a position is valued.
+const FEW_PLACES: [f32; 3] = [0.0, -0.7, 0.7];
+/// Speed of a pass on arrival, m/s: the dribbler stops it.
+const ARRIVAL_SPEED: f32 = 1.8;
+/// Shortest and longest pass, m.
+const PASS_DISTANCES: [f32; 2] = [0.9, 6.5];
+/// Time for which a receiver goes on as it does, s.
+const LEAD: f32 = 0.35;
+/// Share of a long pass's way that a chip flies.
+const FLIGHT_SHARE: f32 = 0.6;
+/// Way before its landing on which a chip is low, m.
+const LOW: f32 = 0.25;
+/// Likelihood that a chip is received, if nobody stops it.
+const CHIP_RECEPTION: f32 = 0.75;
+/// Share of the value of a long shot that is worth it: aimless kicks give free kicks.
+const AIMLESS: f32 = 0.3;
+/// Directions of clearances.
+const CLEARANCES: [Vector; 5] = [
+    Vector::new(1.0, 0.0),
+    Vector::new(0.87, 0.5),
+    Vector::new(0.87, -0.5),
+    Vector::new(0.5, 0.87),
+    Vector::new(0.5, -0.87),
+];
+/// Way of a clearance, m.
+const CLEARANCE: f32 = 3.0;
+/// Speed of a clearance, m/s.
+const CLEARANCE_SPEED: f32 = 4.5;
+/// Value of a clearance that no opponent stops.
+const CLEARANCE_VALUE: f32 = 0.08;
+const GRAVITY: f32 = 9.81;
+
+/// A kick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Kick {
+    /// Where the ball goes, m.
+    pub(crate) at: Vector,
+    /// Speed of the ball, m/s.
+    pub(crate) speed: f32,
+    /// Whether it flies at 45 degrees.
+    pub(crate) chip: bool,
+    /// Robot that is to receive it.
+    pub(crate) receiver: Option<usize>,
+    /// How good it is: the likelihood of a goal, roughly.
+    pub(crate) value: f32,
+}
+
+/// The best kick from a place by a robot.
+pub(crate) fn best_kick(s: &Situation, from: Vector, kicker: usize) -> Kick {
+    let mut best = clearance(s, from);
+    let mut consider = |kick: Kick| {
+        if kick.value > best.value {
+            best = kick;
+        }
+    };
+    consider(shot(s, from));
+    for mate in s.field_players().filter(|mate| mate.index != kicker) {
+        if let Some(pass) = pass(s, from, mate) {
+            consider(pass);
+        }
+    }
+    best
+}
+
+/// The best shot at the goal.
+pub(crate) fn shot(s: &Situation, from: Vector) -> Kick {
+    let (at, chance) = best_goal_place(s, from, &GOAL_PLACES);
+    let value = if from.x < 0.0 { AIMLESS * chance } else { chance };
+    Kick { at, speed: MAX_BALL_SPEED, chip: false, receiver: None, value }
+}
+
+/// The place in the goal that is most likely hit, and the likelihood.
+fn best_goal_place(s: &Situation, from: Vector, places: &[f32]) -> (Vector, f32) {
+    let goal = s.pitch.their_goal();
+    let half = s.pitch.lines.half_goal_width - s.config.ball.radius;
+    let mut best = (goal, -1.0);
+    for share in places {
+        let end = Vector::new(goal.x, share * half);
+        let lane = Lane { start: from, end, speed: MAX_BALL_SPEED, flies: 0.0 };
+        let found = margin(&lane, &s.view.others, s.body());
+        if found > best.1 {
+            best = (end, found);
+        }
+    }
+    // From the side the mouth of the goal is narrow.
+    let way = goal - from;
+    let frontal = (way.x / way.length().max(0.1)).clamp(0.0, 1.0);
+    (best.0, chance(best.1) * frontal)
+}
+
+/// How good it is to have the ball at a place.
+pub(crate) fn value_at(s: &Situation, place: Vector) -> f32 {
+    let half_length = s.pitch.lines.half_length;
+    let progress = (place.x + half_length) / (2.0 * half_length);
+    0.55 * best_goal_place(s, place, &FEW_PLACES).1 + 0.12 * progress
+}
+
+/// The better of the flat and the high pass to a mate; none if it is unlikely to arrive.
+fn pass(s: &Situation, from: Vector, mate: &Player) -> Option<Kick> {
+    let wanted = s.pitch.inside(mate.position + mate.velocity * LEAD, 0.15);
+    let at = s.pitch.outside(Area::Theirs, wanted, s.config.robot.radius);
+    let distance = from.distance(at);
+    if !(PASS_DISTANCES[0]..PASS_DISTANCES[1]).contains(&distance)
+        || s.pitch.distance_to(Area::Own, at) < 0.1
+    {
+        return None;
+    }
+    let speed = kick_speed(distance, ARRIVAL_SPEED, &s.config.ball).min(MAX_BALL_SPEED);
+    let flat = Lane { start: from, end: at, speed, flies: 0.0 };
+    let passes = chance(margin(&flat, &s.view.others, s.body()));
+    let flight = FLIGHT_SHARE * distance;
+    let chip_speed = (GRAVITY * flight).sqrt();
+    let high = Lane { speed: chip_speed, flies: flight - LOW, ..flat };
+    let flies = if passes > CHIP_RECEPTION || flight < 2.0 * LOW || chip_speed > MAX_BALL_SPEED {
+        0.0
+    } else {
+        CHIP_RECEPTION * chance(margin(&high, &s.view.others, s.body()))
+    };
+    let arrives = passes.max(flies);
+    if arrives < s.skill.pass_threshold {
+        return None;
+    }
+    let chip = flies > passes;
+    Some(Kick {
+        at,
+        speed: if chip { chip_speed } else { speed },
+        chip,
+        receiver: Some(mate.index),
+        value: arrives * value_at(s, at),
+    })
+}
+
+/// The best high kick out of danger.
+fn clearance(s: &Situation, from: Vector) -> Kick {
+    let mut best =
+        Kick { at: from + CLEARANCES[0], speed: 2.0, chip: false, receiver: None, value: 0.0 };
+    for direction in CLEARANCES {
+        let end = from + direction * CLEARANCE;
+        if !s.pitch.lines.is_inside(end, -0.2) {
+            continue;
+        }
+        let flies = CLEARANCE_SPEED * CLEARANCE_SPEED / GRAVITY - LOW;
+        let lane = Lane { start: from, end, speed: CLEARANCE_SPEED, flies };
+        let clear = chance(margin(&lane, &s.view.others, s.body()));
+        let value = CLEARANCE_VALUE * clear;
+        if value > best.value {
+            best = Kick { at: end, speed: CLEARANCE_SPEED, chip: true, receiver: None, value };
+        }
+    }
+    best
+}
+
+/// The kick as the robot makes it: its direction is off by the error of the team's skill.
+pub(crate) fn with_error(s: &Situation, kick: Kick, from: Vector, robot: usize) -> Kick {
+    let error = s.skill.aim_error * s.random.normal(robot, 1);
+    let way = kick.at - from;
+    let turned = Vector::new(1.0, error).unit_or(Vector::new(1.0, 0.0));
+    Kick { at: from + turned.turned_by(way), ..kick }
+}

@@ -1,0 +1,95 @@
+//! Taking the ball: stand in its way, or drive behind it and into it.
+
+use rsim_referee::Vector;
+
+use crate::aim;
+use crate::intercept::Meeting;
+use crate::order::Order;
+use crate::plane::Plane;
+use crate::situation::Situation;
+use crate::view::Player;
+
+/// Speed of a ball that is received rather than fetched, m/s.
+const RECEIVED_SPEED: f32 = 0.5;
+/// Distance between mouth and ball before the final approach, m.
+const STANDOFF: f32 = 0.09;
+/// Speed into the ball, m/s.
+const PRESS_SPEED: f32 = 0.35;
+/// Cosine of the heading's error for the final approach.
+const FACING_COSINE: f32 = 0.97;
+/// Error to the side for the final approach, m.
+const MAX_ASIDE: f32 = 0.025;
+/// Room to the ball while driving around it, m.
+const BALL_ROOM: f32 = 0.03;
+
+/// Cosine of the angle between a coming ball's way back and the direction of a kick at first touch.
+const MAX_REDIRECTION: f32 = 0.35;
+/// Share of the ball's speed across the front that a kick keeps.
+const KEPT_ACROSS: f32 = 0.35;
+/// Value of a shot that is made at first touch.
+const FIRST_TOUCH_VALUE: f32 = 0.2;
+
+/// Order to take the ball, facing `direction` (a unit vector) where that does not matter for time.
+pub(crate) fn take(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> Order {
+    let ball = &s.view.ball;
+    let from_ball = robot.position - ball.position;
+    let speed = ball.velocity.length();
+    let is_coming = speed > RECEIVED_SPEED
+        && s.path.direction.dot(from_ball) > 0.7 * from_ball.length();
+    if is_coming { receive(s, robot, meeting) } else { fetch(s, robot, meeting, direction) }
+}
+
+/// Stands in the way of a coming ball.
+fn receive(s: &Situation, robot: &Player, meeting: Meeting) -> Order {
+    let ball = s.ball();
+    let ahead = s.path.direction;
+    let from_ball = robot.position - ball;
+    let along = ahead.dot(from_ball);
+    let foot = ball + ahead * along;
+    // A robot that is there in time waits where it is; others go where they meet it.
+    let aside = robot.position.distance(foot);
+    let waits = aside < 0.25 && s.pitch.lines.is_inside(foot, 0.0);
+    let mouth = s.config.mouth();
+    let touch = if waits { foot - ahead * mouth } else { meeting.place };
+    let order = Order { ball_distance: 0.0, ..Order::to(touch + ahead * mouth, ahead * -1.0) };
+    let kick = aim::shot(s, touch);
+    let direction = (kick.at - touch).unit_or(ahead);
+    if kick.value < FIRST_TOUCH_VALUE || direction.dot(ahead) > -MAX_REDIRECTION {
+        return Order { dribbler: 1.0, ..order };
+    }
+    // The kick keeps part of the speed across the front, so the front turns a little the other way.
+    let kick = aim::with_error(s, kick, touch, robot.index);
+    let direction = (kick.at - touch).unit_or(ahead);
+    let across = KEPT_ACROSS * s.view.ball.velocity.dot(direction.left()) / kick.speed;
+    let heading = (direction - direction.left() * across).unit_or(direction);
+    let is_facing = robot.heading.dot(heading) > 0.98;
+    let shoots = [if is_facing { kick.speed - 0.3 } else { 0.0 }, 0.0];
+    Order { target: touch - heading * mouth, facing: heading, kick: shoots, ..order }
+}
+
+/// Drives behind a slow or leaving ball, then into it.
+fn fetch(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> Order {
+    let mouth = s.config.mouth();
+    let ball = &s.view.ball;
+    let near = robot.position.distance(ball.position) < mouth + 0.3;
+    let at = if near { ball.position + ball.velocity * s.config.time_step } else { meeting.place };
+    let to_ball = at - robot.position;
+    let own = to_ball.seen_from(direction);
+    let is_aligned = own.x > 0.0
+        && own.y.abs() < MAX_ASIDE + 0.3 * (own.x - mouth).max(0.0)
+        && robot.heading.dot(direction) > FACING_COSINE;
+    if near && is_aligned {
+        let target = at - direction * mouth;
+        return Order {
+            moving: ball.velocity + direction * PRESS_SPEED,
+            dribbler: 1.0,
+            ball_distance: 0.0,
+            straight: true,
+            ..Order::to(target, direction)
+        };
+    }
+    let target = at - direction * (mouth + STANDOFF);
+    let moving = if near { ball.velocity } else { Vector::default() };
+    let dribbler = if near { 1.0 } else { 0.0 };
+    Order { moving, dribbler, ball_distance: mouth + BALL_ROOM, ..Order::to(target, direction) }
+}

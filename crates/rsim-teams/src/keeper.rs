@@ -1,0 +1,91 @@
+//! The keeper: saves, covers the goal, clears.
+
+use rsim_referee::Vector;
+
+use crate::order::Order;
+use crate::pitch::Area;
+use crate::plane::Plane;
+use crate::situation::Situation;
+use crate::view::Player;
+
+/// Speed of a ball toward the goal from which it is a shot, m/s.
+const SHOT_SPEED: f32 = 0.6;
+/// Distance beside the posts at which a shot still counts as one, m.
+const POST_ROOM: f32 = 0.15;
+/// Distance of the keeper from the middle of the goal, as a share of half its width.
+const OFF_LINE: f32 = 0.9;
+/// Distance from the goal line, m, so that it stays clear of the posts.
+const LINE_ROOM: f32 = 0.1;
+/// Time until the ball is there in which the keeper hurries, s.
+const HURRY: f32 = 0.5;
+/// Depth within its area at which the ball is the keeper's, m.
+const DEPTH: f32 = 0.0;
+/// Speed of a ball that the keeper goes for, m/s.
+const FETCHED_SPEED: f32 = 1.2;
+
+/// Where the ball crosses the goal line; `None` for one that does not come, or goes beside the goal.
+fn shot_place(s: &Situation) -> Option<Vector> {
+    let ball = &s.view.ball;
+    let line = s.pitch.own_goal().x;
+    if ball.velocity.x > -SHOT_SPEED || ball.position.x < line {
+        return None;
+    }
+    let time = (line - ball.position.x) / ball.velocity.x;
+    let place = Vector::new(line, ball.position.y + ball.velocity.y * time);
+    let is_on_goal = place.y.abs() < s.pitch.lines.half_goal_width + POST_ROOM;
+    (is_on_goal && s.path.rest.x < line + 0.1).then_some(place)
+}
+
+/// Whether the ball is the keeper's to take.
+pub(crate) fn takes_ball(s: &Situation) -> bool {
+    let depth = -s.pitch.distance_to(Area::Own, s.ball());
+    depth > DEPTH && s.path.speed < FETCHED_SPEED && s.ball().x > s.pitch.own_goal().x - 0.02
+}
+
+/// Order of a keeper that does not take the ball.
+pub(crate) fn guard(s: &Situation, keeper: &Player) -> Order {
+    let ball = s.ball();
+    let facing = ball - keeper.position;
+    let target = match shot_place(s) {
+        Some(place) => save(s, keeper, place),
+        None => cover(s, ball),
+    };
+    Order { dribbler: 0.0, ball_distance: 0.0, ..Order::to(target, facing) }
+}
+
+/// The place on the way of a shot that the keeper reaches first.
+fn save(s: &Situation, keeper: &Player, crossing: Vector) -> Vector {
+    let ball = s.ball();
+    let way = crossing - ball;
+    let ahead = way.unit_or(Vector::new(-1.0, 0.0));
+    let along = (keeper.position - ball).dot(ahead).clamp(0.0, way.length());
+    let mut foot = ball + ahead * along;
+    foot.x = foot.x.max(s.pitch.own_goal().x + 0.5 * LINE_ROOM);
+    // In a hurry it drives through the foot, so that it does not brake before the ball is there.
+    let to = foot - keeper.position;
+    let room = to.length();
+    let time = along / s.path.speed.max(SHOT_SPEED);
+    if room > 0.05 && time < HURRY { foot + to * (0.15 / room) } else { foot }
+}
+
+/// The place that covers the goal against a shot from a place.
+fn cover(s: &Situation, from: Vector) -> Vector {
+    let goal = s.pitch.own_goal();
+    let half = s.pitch.lines.half_goal_width;
+    let from = Vector::new(from.x.max(goal.x + 0.05), from.y);
+    let out = (from - goal).unit_or(Vector::new(1.0, 0.0));
+    let place = goal + out * (OFF_LINE * half);
+    Vector::new(
+        place.x.max(goal.x + LINE_ROOM),
+        place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM),
+    )
+}
+
+/// Order of the keeper before a penalty kick: on its line, before the ball.
+pub(crate) fn on_line(s: &Situation, keeper: &Player) -> Order {
+    let goal = s.pitch.own_goal();
+    let ball = s.ball();
+    let aside = (ball.y / (ball.x - goal.x).max(0.5)) * 0.1;
+    let target = Vector::new(goal.x + 0.03, aside);
+    Order::to(target, ball - keeper.position)
+}

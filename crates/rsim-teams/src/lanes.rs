@@ -1,0 +1,104 @@
+//! How free the way of a kicked ball is of opponents.
+
+use rsim_referee::Vector;
+
+use crate::plane::Plane;
+use crate::view::Player;
+
+/// Time after a kick until opponents react, s.
+const REACTION: f32 = 0.15;
+/// Acceleration of opponents toward the ball, m/s².
+const ACCELERATION: f32 = 3.0;
+/// Speed of opponents toward the ball, m/s.
+const SPEED: f32 = 2.0;
+/// Share of a kick's speed that the ball has on its way.
+const MEAN_SPEED: f32 = 0.75;
+/// Margin from which no opponent is in the way, m.
+pub(crate) const FREE: f32 = 1.0;
+
+/// Way of a kicked ball.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lane {
+    /// Where it is kicked, m.
+    pub(crate) start: Vector,
+    /// Where it goes, m.
+    pub(crate) end: Vector,
+    /// Speed of the kick, m/s.
+    pub(crate) speed: f32,
+    /// Distance over which it flies above robots, m.
+    pub(crate) flies: f32,
+}
+
+/// Distance by which the ball passes the opponent that comes nearest to stopping it, m; negative if it can.
+/// `body` is the sum of the radii of robot and ball.
+pub(crate) fn margin(lane: &Lane, opponents: &[Player], body: f32) -> f32 {
+    let way = lane.end - lane.start;
+    let length = way.length();
+    let ahead = way.unit_or(Vector::new(1.0, 0.0));
+    let mut least = FREE;
+    for opponent in opponents {
+        let along = (opponent.position - lane.start).dot(ahead);
+        if along < -body || along > length + FREE || along > 0.0 && along < lane.flies {
+            continue;
+        }
+        let along = along.clamp(0.0, length);
+        let time = along / (lane.speed * MEAN_SPEED);
+        let place = opponent.position + opponent.velocity * time.min(REACTION);
+        let gap = place.distance(lane.start + ahead * along);
+        least = least.min(gap - body - reach(time));
+    }
+    least
+}
+
+/// Distance that an opponent moves toward the ball in a time after the kick, m.
+fn reach(time: f32) -> f32 {
+    let time = (time - REACTION).max(0.0);
+    let speeding_up = SPEED / ACCELERATION;
+    if time < speeding_up {
+        0.5 * ACCELERATION * time * time
+    } else {
+        SPEED * (time - 0.5 * speeding_up)
+    }
+}
+
+/// Likelihood that a ball with this margin passes.
+pub(crate) fn chance(margin: f32) -> f32 {
+    ((margin + 0.1) / 0.35).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BODY: f32 = 0.11;
+
+    fn lane(x: f32) -> Lane {
+        Lane {
+            start: Vector::default(),
+            end: Vector::new(x, 0.0),
+            speed: 6.0,
+            flies: 0.0,
+        }
+    }
+
+    fn opponent(x: f32, y: f32) -> [Player; 1] {
+        [Player { position: Vector::new(x, y), ..Player::default() }]
+    }
+
+    #[test]
+    fn opponents_have_more_time_far_from_the_kick() {
+        let near = margin(&lane(4.0), &opponent(0.5, 0.4), BODY);
+        let far = margin(&lane(4.0), &opponent(3.5, 0.4), BODY);
+        assert!((near - 0.29).abs() < 0.01, "{near}");
+        assert!(far < 0.0 && chance(far) < chance(near), "{far}");
+    }
+
+    #[test]
+    fn opponents_behind_the_kick_or_under_its_flight_are_not_in_the_way() {
+        assert!(margin(&lane(2.0), &opponent(-0.5, 0.0), BODY) >= FREE);
+        let blocked = opponent(0.8, 0.0);
+        assert!(margin(&lane(3.0), &blocked, BODY) < 0.0);
+        let chip = Lane { flies: 1.5, ..lane(3.0) };
+        assert!(margin(&chip, &blocked, BODY) >= FREE);
+    }
+}

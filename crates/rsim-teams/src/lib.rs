@@ -1,0 +1,40 @@
+//! A scripted SSL side: a whole team that plays matches under a referee.
+//!
+//! It knows state rows by the names of their columns, the state of the match, and a memory that its caller
+//! owns: no physics, no threads, no clock. The same row, match and memory give the same commands, on every
+//! platform.
+
+mod aim;
+mod approach;
+mod bounds;
+mod config;
+mod defense;
+mod error;
+mod intercept;
+mod jobs;
+mod keeper;
+mod lanes;
+mod memory;
+mod motion;
+mod order;
+mod path;
+mod phase;
+mod pitch;
+mod placement;
+mod plane;
+mod possession;
+mod random;
+mod restart;
+mod roles;
+mod rolling;
+mod situation;
+mod skill;
+mod support;
+mod team;
+#[cfg(test)]
+mod testing;
+mod view;
+
+pub use config::{BallNumbers, MAX_ROBOTS, RobotNumbers, TeamConfig};
+pub use error::TeamsError;
+pub use team::{COMMAND_COLUMNS, ScriptedTeam};

@@ -1,0 +1,78 @@
+//! The robot that takes the team's kick-off, free kick or penalty kick.
+
+use rsim_referee::Vector;
+
+use crate::aim::{self, MAX_BALL_SPEED};
+use crate::memory::TeamMemory;
+use crate::order::Order;
+use crate::phase::{Mode, Restart};
+use crate::plane::Plane;
+use crate::possession;
+use crate::situation::Situation;
+use crate::view::Player;
+
+/// Time from the permission until the kick, in which mates run free, s.
+const WAITING: f32 = 1.0;
+/// Distance between mouth and ball where the kicker waits, m. The rules want 0.05 between hull and ball.
+const STANDOFF: f32 = 0.13;
+/// Distance beyond contact at which the kicker aims, m.
+const PRESS_DEPTH: f32 = 0.05;
+/// Speed into the ball, m/s.
+const KICK_APPROACH: f32 = 0.5;
+/// Gap between mouth and ball below which the kick happens within the step, m.
+const TOUCHING: f32 = 0.025;
+/// Error to the side for the final approach, m.
+const MAX_ASIDE: f32 = 0.012;
+/// Sine of the heading's error for the final approach.
+const MAX_SINE: f32 = 0.025;
+
+/// Order of the robot that takes the kick. It touches the ball only to kick it.
+pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
+    let ball = s.ball();
+    let chosen = possession::chosen(s, memory, robot.index, || match s.phase.restart {
+        Restart::Penalty => aim::shot(s, ball),
+        _ => aim::best_kick(s, ball, robot.index),
+    });
+    let kick = aim::with_error(s, chosen, ball, robot.index);
+    let direction = (kick.at - ball).unit_or(Vector::new(1.0, 0.0));
+    let mouth = s.config.mouth();
+    let behind = ball - direction * (mouth + STANDOFF);
+    let own = (ball - robot.position).seen_from(direction);
+    let is_aligned = own.x > 0.0
+        && own.y.abs() < MAX_ASIDE
+        && robot.heading.dot(direction) > 0.0
+        && robot.heading.cross(direction).abs() < MAX_SINE;
+    let may_kick = s.phase.mode == Mode::Kick && s.command_time > WAITING;
+    let is_kicking = may_kick && own.x < mouth + STANDOFF + 0.03 && is_aligned;
+    if !is_kicking {
+        return Order { ball_distance: mouth + 0.1, ..Order::to(behind, direction) };
+    }
+    let ahead = robot.velocity.dot(robot.heading);
+    if robot.has_ball || own.x < mouth + TOUCHING {
+        memory.receiver = kick.receiver;
+        memory.pass_steps = 100;
+    }
+    Order {
+        target: ball - direction * (mouth - PRESS_DEPTH),
+        max_speed: KICK_APPROACH,
+        kick: possession::kick_command(s, &kick, ahead.max(0.0)),
+        ball_distance: 0.0,
+        straight: true,
+        ..Order::to(ball, direction)
+    }
+}
+
+/// Order of the robot that will take the kick, until it may: behind the ball, as near as it may be.
+pub(crate) fn wait_for_kick(s: &Situation) -> Order {
+    let toward = match s.phase.restart {
+        Restart::Free => s.pitch.their_goal() - s.place,
+        Restart::Kickoff | Restart::Penalty => Vector::new(1.0, 0.0),
+    };
+    let direction = toward.unit_or(Vector::new(1.0, 0.0));
+    let distance = match s.phase.mode {
+        Mode::Prepare => s.config.mouth() + STANDOFF,
+        _ => 0.75,
+    };
+    let target = s.place - direction * distance;
+    Order { ball_distance: 0.3, ..Order::to(target, direction * MAX_BALL_SPEED) }
+}

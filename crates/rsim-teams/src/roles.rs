@@ -1,0 +1,104 @@
+//! Who goes to the ball, and what the others do.
+
+use crate::config::MAX_ROBOTS;
+use crate::defense;
+use crate::jobs::{Job, Jobs};
+use crate::memory::{Memory, TeamMemory};
+use crate::phase::{Mode, Restart};
+use crate::situation::{KEEPER, Situation};
+use crate::support::RUNNER;
+
+/// Time by which another robot has to be earlier at the ball to take over, s.
+const LOYALTY: f32 = 0.25;
+/// The same against the receiver of a pass, s.
+const RECEIVER_LOYALTY: f32 = 0.5;
+/// Time by which the opponents have to be earlier or later until a team changes its attitude, s.
+const ATTITUDE: f32 = 0.2;
+/// Speed below which a ball is no pass, m/s.
+const PASS_SPEED: f32 = 0.4;
+
+/// The robot that goes to the ball; none if no robot is there that may.
+pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
+    if let Some(carrier) = memory.carrier.filter(|index| Some(*index) != s.barred) {
+        if carrier != KEEPER && s.phase.mode == Mode::Play {
+            return Some(carrier);
+        }
+    }
+    // Before a kick only places count, and the ball lies where it has to be.
+    let is_restart = s.phase.mode != Mode::Play;
+    let time = |index: usize| {
+        let robot = s.view.own.with_index(index)?;
+        let time = if is_restart {
+            robot.position.distance(if s.phase.mode == Mode::Place { s.ball() } else { s.place })
+        } else {
+            s.own.of(index)?.time
+        };
+        let bonus = if memory.receiver == Some(index) {
+            RECEIVER_LOYALTY
+        } else if memory.taker == Some(index) {
+            LOYALTY
+        } else {
+            0.0
+        };
+        Some(time - bonus)
+    };
+    (0..MAX_ROBOTS)
+        .filter(|index| *index != KEEPER && Some(*index) != s.barred)
+        .filter_map(|index| Some((index, time(index)?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(index, _)| index)
+}
+
+/// Brings up to date whether the team attacks, and whether a pass is on its way.
+pub(crate) fn follow(s: &Situation, memory: &mut TeamMemory) {
+    memory.pass_steps = (memory.pass_steps - 1).max(0);
+    let is_over = memory.pass_steps == 0
+        || memory.pass_steps < 90 && s.path.speed < PASS_SPEED
+        || s.phase.mode != Mode::Play && s.phase.mode != Mode::Kick
+        || memory.carrier.is_some() && memory.carrier == memory.receiver;
+    if is_over {
+        memory.receiver = None;
+    }
+    let time = |meeting: Option<(usize, crate::intercept::Meeting)>| {
+        meeting.map_or(f32::INFINITY, |(_, meeting)| meeting.time)
+    };
+    let own = time(s.own.first(|index| Some(index) != s.barred));
+    let others = time(s.others.first(|_| true));
+    let lead = if memory.attacks { ATTITUDE } else { -ATTITUDE };
+    memory.attacks = match s.phase.mode {
+        Mode::Play => memory.carrier.is_some() || memory.receiver.is_some() || own < others + lead,
+        _ => s.phase.ours,
+    };
+}
+
+/// Jobs of the robots of `free`, one bit each.
+pub(crate) fn jobs(s: &Situation, memory: &Memory, free: u32) -> [Option<Job>; MAX_ROBOTS] {
+    let count = free.count_ones() as usize;
+    let mut jobs = Jobs::default();
+    let is_far = s.ball().x > 0.5;
+    let wall = match count {
+        0 => 0,
+        1 | 2 => 1,
+        3 if memory.team.attacks => 1,
+        _ if memory.team.attacks && is_far && count < 6 => 1,
+        _ => 2,
+    };
+    if wall > 0 && !(count == 1 && memory.team.attacks && is_far) {
+        defense::add_wall(s, wall, &mut jobs);
+    }
+    if !memory.team.attacks {
+        let marks = count.saturating_sub(jobs.len() + usize::from(count > 3 && is_far));
+        defense::add_marks(s, marks, &mut jobs);
+    } else if count > 6 {
+        defense::add_marks(s, (count - 5) / 2, &mut jobs);
+    }
+    while jobs.len() < count {
+        jobs.add(Job { number: RUNNER, place: None });
+    }
+    jobs.assign(&s.view.own, free, |index| memory.robots[index].job)
+}
+
+/// Whether robots only take positions: they keep no ball and play no passes.
+pub(crate) fn is_penalty(s: &Situation) -> bool {
+    s.phase.restart == Restart::Penalty && s.phase.mode != Mode::Play
+}

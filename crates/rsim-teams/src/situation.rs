@@ -1,0 +1,76 @@
+//! What a team knows in a step, and decides from.
+
+use rsim_referee::Vector;
+
+use crate::config::TeamConfig;
+use crate::intercept::{Meetings, Pace};
+use crate::phase::Phase;
+use crate::pitch::Pitch;
+use crate::random::Random;
+use crate::rolling::BallPath;
+use crate::skill::Skill;
+use crate::view::{Player, View};
+
+/// Index of the keeper in its team.
+pub(crate) const KEEPER: usize = 0;
+/// How fast opponents are thought to be.
+const THEIR_PACE: Pace = Pace { speed: 3.0, acceleration: 4.0 };
+
+/// What a team knows in a step.
+pub(crate) struct Situation<'a> {
+    pub(crate) config: &'a TeamConfig,
+    pub(crate) pitch: &'a Pitch,
+    pub(crate) skill: &'a Skill,
+    pub(crate) view: &'a View,
+    pub(crate) phase: Phase,
+    /// Time since the referee's command, s.
+    pub(crate) command_time: f32,
+    /// Where the ball has to be, m.
+    pub(crate) place: Vector,
+    /// Robot that may not touch the ball.
+    pub(crate) barred: Option<usize>,
+    /// Path of the ball.
+    pub(crate) path: BallPath,
+    /// Meetings of the own robots with the ball.
+    pub(crate) own: Meetings,
+    /// Meetings of the opponents.
+    pub(crate) others: Meetings,
+    /// Random numbers, which change every second.
+    pub(crate) random: Random,
+    /// Control steps since the beginning.
+    pub(crate) step: i32,
+}
+
+impl<'a> Situation<'a> {
+    /// Finds the meetings with a ball on its path.
+    pub(crate) fn meet(&mut self) {
+        let reach = self.config.robot.radius;
+        let pace = Pace {
+            speed: self.skill.speed * self.config.robot.max_speed,
+            acceleration: 0.85 * self.config.robot.max_acceleration,
+        };
+        self.own = Meetings::new(&self.view.own, &self.path, self.pitch, pace, reach);
+        self.others = Meetings::new(&self.view.others, &self.path, self.pitch, THEIR_PACE, reach);
+    }
+
+    /// Position of the ball, m.
+    pub(crate) fn ball(&self) -> Vector {
+        self.view.ball.position
+    }
+
+    /// Radii of a robot and the ball together, m.
+    pub(crate) fn body(&self) -> f32 {
+        self.config.robot.radius + self.config.ball.radius
+    }
+
+    /// Distance of the nearest opponent from a place, m.
+    pub(crate) fn nearest_opponent(&self, place: Vector) -> f32 {
+        let distances = self.view.others.iter().map(|other| other.position.distance(place));
+        distances.fold(f32::INFINITY, f32::min)
+    }
+
+    /// The own robots but the keeper.
+    pub(crate) fn field_players(&self) -> impl Iterator<Item = &'a Player> {
+        self.view.own.iter().filter(|player| player.index != KEEPER)
+    }
+}

@@ -1,0 +1,100 @@
+//! Running free: places at which a pass can be received, and from which something can be made of it.
+
+use rsim_referee::Vector;
+
+use crate::aim::{MAX_BALL_SPEED, value_at};
+use crate::lanes::{Lane, chance, margin};
+use crate::memory::RobotMemory;
+use crate::pitch::Area;
+use crate::random::Random;
+use crate::situation::Situation;
+use crate::view::Player;
+
+/// Control steps after which a robot looks for a better place.
+const SEARCH_STEPS: i32 = 8;
+/// New places that are tried.
+const TRIALS: u32 = 5;
+/// Share of the ball's maximum speed that a pass has.
+const PASS_SPEED: f32 = 0.7;
+/// Distance from mates that is wanted, m.
+const MATE_DISTANCE: f32 = 1.5;
+/// Least and largest distance from the ball that are wanted, m.
+const BALL_DISTANCES: [f32; 2] = [1.4, 4.0];
+/// Distance from opponents that is wanted, m.
+const FREE_DISTANCE: f32 = 0.7;
+/// Value lost for a m of way.
+const WAY_COST: f32 = 0.05;
+/// Distance from the opponents' area, m.
+const AREA_ROOM: f32 = 0.15;
+/// Distance from the lines, m.
+const LINE_ROOM: f32 = 0.3;
+
+/// Where a robot runs free. `spots` has the places of all robots; that of `robot` is brought up to date.
+pub(crate) fn spot(
+    s: &Situation,
+    robot: &Player,
+    runners: u32,
+    robots: &mut [RobotMemory],
+) -> Vector {
+    let index = robot.index;
+    let is_new = robots[index].job < RUNNER;
+    let phase = i32::try_from(index).unwrap_or(0) * 3;
+    if !is_new && (s.step + phase) % SEARCH_STEPS != 0 {
+        return robots[index].spot;
+    }
+    let value = |place: Vector| {
+        let mates = robots.iter().enumerate();
+        let mates = mates.filter(|(mate, _)| *mate != index && runners >> mate & 1 == 1);
+        let nearest = mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
+        value_of(s, robot, place) - 0.5 * (1.0 - nearest / MATE_DISTANCE)
+    };
+    let start = if is_new { robot.position } else { robots[index].spot };
+    let mut best = (start, value(legal(s, start)) + 0.02);
+    let random = Random::new(s.random.seed(), s.step.unsigned_abs());
+    for trial in 0..TRIALS {
+        let place = trial_place(s, start, random, index, trial);
+        let found = value(place);
+        if found > best.1 {
+            best = (place, found);
+        }
+    }
+    let found = legal(s, best.0);
+    robots[index].spot = found;
+    found
+}
+
+/// Number of the job of running free.
+pub(crate) const RUNNER: i32 = 100;
+
+/// A place near the last one, or anywhere ahead.
+fn trial_place(s: &Situation, start: Vector, random: Random, robot: usize, trial: u32) -> Vector {
+    let purpose = 16 + 2 * trial;
+    let [x, y] = [random.uniform(robot, purpose), random.uniform(robot, purpose + 1)];
+    let lines = &s.pitch.lines;
+    let place = if trial < 2 {
+        start + Vector::new(x, y) * 0.6
+    } else {
+        let back = (s.ball().x - 1.5).clamp(-2.0, 1.0);
+        let middle = 0.5 * (lines.half_length + back);
+        Vector::new(middle + x * (lines.half_length - middle), y * lines.half_width)
+    };
+    legal(s, place)
+}
+
+fn legal(s: &Situation, place: Vector) -> Vector {
+    let inside = s.pitch.inside(place, LINE_ROOM);
+    s.pitch.outside(Area::Theirs, inside, s.config.robot.radius + AREA_ROOM)
+}
+
+/// How good it is to stand at a place.
+fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
+    let ball = s.ball();
+    let lane = Lane { start: ball, end: place, speed: PASS_SPEED * MAX_BALL_SPEED, flies: 0.0 };
+    let arrives = chance(margin(&lane, &s.view.others, s.body()));
+    let free = (s.nearest_opponent(place) / FREE_DISTANCE).min(1.0);
+    let distance = place.distance(ball);
+    let off = (BALL_DISTANCES[0] - distance).max(distance - BALL_DISTANCES[1]).max(0.0);
+    (0.3 + arrives) * (0.3 + value_at(s, place)) * (0.5 + 0.5 * free)
+        - 0.15 * off
+        - WAY_COST * place.distance(robot.position)
+}

@@ -1,0 +1,4 @@
+//! Tests of scripted sides in matches with physics and referee.
+
+mod arena;
+mod matches;
