@@ -21,11 +21,18 @@ SECONDS: Final = 1.5  # of play before the moment that is drawn
 
 CONTROLLERS: Final[dict[str, Controllers]] = {
     "VSS-v0": {"blue": "chase", "yellow": "ou"},
+    "VSSMatch-v0": {"blue": "chase", "yellow": "chase"},
     "VSSMulti-v0": {"blue": "chase", "yellow": "ou"},
     "VSSSelfPlay-v0": {"blue": "chase", "yellow": "chase"},
 }
 """Controllers, where they are not the task's defaults with its solver as the learners."""
-MOMENTS: Final = {"SSLGoToBall-v0": 0.5, "SSLPassEndurance-v1": 0.8, "VSSSelfPlay-v0": 0.75}
+MOMENTS: Final = {
+    "SSLGoToBall-v0": 0.5,
+    "SSLMatch-v0": 7.0,
+    "SSLPassEndurance-v1": 0.8,
+    "VSSMatch-v0": 6.0,
+    "VSSSelfPlay-v0": 0.75,
+}
 """Seconds of play, where `SECONDS` is not the moment that shows the task."""
 SEEDS: Final = {"SSLGoToBall-v0": 4, "SSLSelfPlay-v0": 2, "VSSMulti-v0": 1, "VSSSelfPlay-v0": 2}
 """Seeds of the matches, where it is not 0."""

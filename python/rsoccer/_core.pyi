@@ -53,6 +53,7 @@ __all__ = [
     "pooled_moments",
     "referee_preset",
     "referee_rules",
+    "referee_values",
 ]
 
 COMMANDS: dict[str, int]
@@ -1578,4 +1579,11 @@ def referee_rules(league: str) -> list[list[str]]:
 
     Raises:
         ValueError: There is no such league.
+    """
+
+def referee_values() -> list[list[str]]:
+    """Return the choices and numbers of the rules' configuration, in the order of a preset's.
+
+    Returns:
+        For each value its name, its unit (empty for a choice), and its meaning.
     """

@@ -238,14 +238,14 @@ def _action(task: Task) -> str:
 
 def actions(task: Task) -> tuple[Number, ...]:
     """Return the numbers of a task's action, by the drive of its robots."""
-    return meanings.ACTIONS[task.config.robot.drive]
+    return meanings.ACTIONS[task.config.robot.drive][: task.action_size]
 
 
 def action_scales(task: Task) -> list[float]:
     """Return the command at an action of 1, by number of the action, in SI units."""
     scales = getattr(task, "action_scales", None)
     if scales is not None:
-        return [float(scale) for scale in scales]
+        return [*(float(scale) for scale in scales), 1.0][: task.action_size]  # 1 for the chip
     return [task.config.robot.max_wheel_speed] * task.action_size
 
 

@@ -35,7 +35,7 @@ mod _core {
     #[pymodule_export]
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
-    use crate::referee::{Referee, referee_preset, referee_rules};
+    use crate::referee::{Referee, referee_preset, referee_rules, referee_values};
     #[pymodule_export]
     use crate::scripted_team::ScriptedTeam;
     #[pymodule_export]

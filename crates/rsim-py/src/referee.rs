@@ -326,7 +326,7 @@ fn pitch(config: &SimConfig) -> Pitch {
 pub(crate) fn referee_preset(name: &str) -> PyResult<String> {
     let Some(preset) = RefereeConfig::preset(name) else {
         let known = RefereeConfig::PRESETS.join(", ");
-        return Err(PyKeyError::new_err(format!("expected one of {known}, got {name:?}")));
+        return Err(PyKeyError::new_err(format!("name: expected one of {known}, got {name:?}")));
     };
     serde_json::to_string(&preset).map_err(|error| PyValueError::new_err(error.to_string()))
 }
@@ -345,6 +345,15 @@ pub(crate) fn referee_rules(league: &str) -> PyResult<Vec<[&'static str; 4]>> {
     };
     let rules = rules::of_league(league).iter();
     Ok(rules.map(|rule| [rule.name, rule.source, rule.summary, rule.function]).collect())
+}
+
+/// Returns name, unit and meaning of each value of a `RefereeConfig`; choices have no unit.
+#[pyfunction]
+pub(crate) fn referee_values() -> Vec<[&'static str; 3]> {
+    let choices = RefereeConfig::CHOICES.iter().map(|(name, meaning)| [*name, "", meaning.trim()]);
+    let numbers =
+        RefereeConfig::NUMBERS.iter().map(|(name, unit, meaning)| [*name, *unit, meaning.trim()]);
+    choices.chain(numbers).collect()
 }
 
 /// Names and numbers of commands, stages and kinds of events, for constants of the module.
