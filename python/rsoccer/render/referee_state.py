@@ -163,7 +163,7 @@ class RefereeState:
 
     @property
     def is_over(self) -> bool:
-        """Whether the match is over."""
+        """True after the end of the match."""
         return self.stage is Stage.POST_GAME
 
 
