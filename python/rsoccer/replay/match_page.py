@@ -30,7 +30,7 @@ from rsoccer.render.words import (
 )
 from rsoccer.replay.recorded import Recorded
 
-DETAILS: Final = ("touch", "kick", "pass", "placement_succeeded")
+DETAILS: Final = ("touch", "kick", "pass", "placement_succeeded", "end")
 """Kinds of events that the list shows on request only."""
 
 
