@@ -10,6 +10,8 @@ from rsoccer.replay import Replay, record_replay
 
 GOALS_SEED = 2
 """Seed of a VSSS match with goals in its first eight seconds."""
+MATCH_SEED = 4
+"""Seed of a short VSSS match with goals."""
 QUICK = {
     "prepare_seconds": 0.5,
     "max_prepare_seconds": 0.5,
@@ -38,8 +40,8 @@ def ssl() -> Replay:
 @cache
 def vss_match() -> Replay:
     """A whole match under a referee, with goals, and the beginning of a second one."""
-    task = make_task("VSSMatch-v0", half_seconds=3.0, referee=QUICK)
-    return record_replay(task, lineup(task, "scripted", "chase"), seed=1, seconds=16.0)
+    task = make_task("VSSMatch-v0", half_seconds=5.0, referee=QUICK)
+    return record_replay(task, lineup(task, "scripted", "chase"), MATCH_SEED, 20.0)
 
 
 @cache

@@ -12,7 +12,7 @@ from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.replay import Replay
 from rsoccer.replay.film import film_replay
 from tests.helpers import same
-from tests.replay.conftest import GOALS_SEED, QUICK, ssl, vss, vss_match
+from tests.replay.conftest import GOALS_SEED, MATCH_SEED, QUICK, ssl, vss, vss_match
 
 
 def test_a_replay_shows_the_images_of_the_match() -> None:
@@ -28,9 +28,9 @@ def test_a_replay_shows_the_images_of_the_match() -> None:
 
 
 def test_a_replay_of_a_match_shows_its_referee_as_the_film_does() -> None:
-    task = make_task("VSSMatch-v0", half_seconds=3.0, referee=QUICK)
+    task = make_task("VSSMatch-v0", half_seconds=5.0, referee=QUICK)
     controllers = lineup(task, "scripted", "chase")
-    played, _ = film_match(task, controllers, 1, 16.0, width=96)
+    played, _ = film_match(task, controllers, MATCH_SEED, 20.0, width=96)
     replayed, _ = film_replay(vss_match(), 96)
     count = next(e.frame for e in vss_match().events if e.kind == "goal") + 40  # with the pause
     for image, expected in zip(islice(replayed, count), islice(played, count), strict=True):
