@@ -20,7 +20,7 @@ fn report() {
     let mut wins = [0, 0, 0];
     for seed in 0..matches {
         let mut arena =
-            Arena::new(SimConfig::ssl(robots, robots), skills, half, placement, seed);
+            Arena::new(config(robots), skills, half, placement, seed);
         arena.run();
         let score = Team::BOTH.map(|team| arena.game.score[team]);
         let c = &arena.counts;
@@ -170,4 +170,12 @@ fn watch() {
                 ((r[0]-b[0]).powi(2) + (r[1]-b[1]).powi(2)).sqrt(), c[0], c[1], c[2], c[3], c[4], c[5]);
         }
     }
+}
+
+fn config(robots: usize) -> SimConfig {
+    let mut config = SimConfig::ssl(robots, robots);
+    if std::env::var("FIELD_A").is_ok() {
+        config.field = rsim_core::Field::SSL_A;
+    }
+    config
 }

@@ -237,7 +237,7 @@ impl Arena {
     }
 
     pub(crate) fn run(&mut self) {
-        while !self.ended {
+        while !self.ended && self.counts.steps < 200_000 {
             self.step();
         }
     }
