@@ -23,6 +23,10 @@ const SPEED: f32 = 1.3;
 const ACCELERATION: f32 = 1.2;
 /// Deceleration with which it comes to the place, m/s².
 const BRAKING: f32 = 0.6;
+/// Speed at which the ball is pulled into the field, m/s.
+const PULL_SPEED: f32 = 0.5;
+/// Acceleration with which it is, m/s².
+const PULL_ACCELERATION: f32 = 0.6;
 /// Speed over the last centimeters, m/s.
 const LAST_SPEED: f32 = 0.12;
 /// Angular acceleration with the ball, rad/s².
@@ -93,7 +97,7 @@ fn outward(s: &Situation, ball: Vector) -> Vector {
     (ball - center).unit_or(straight)
 }
 
-/// Drives with the ball: backward from beyond the lines, then ahead to its place.
+/// Drives with the ball: from beyond the lines as it is, then ahead to its place.
 fn carry(s: &Situation, robot: &Player) -> Order {
     let ball = s.ball();
     let to_place = s.place - ball;
@@ -110,8 +114,9 @@ fn carry(s: &Situation, robot: &Player) -> Order {
     let is_outside = !s.pitch.lines.is_inside(ball, -0.1);
     let place_is_outside = !s.pitch.lines.is_inside(s.place, -0.1);
     if is_outside && !place_is_outside {
-        let inner = robot.position - robot.heading * 0.5;
-        return Order { target: inner, max_speed: 0.5, ..order };
+        let inward = (s.pitch.inside(ball, INNER) - ball).unit_or(robot.heading * -1.0);
+        let target = robot.position + inward * 0.5;
+        return Order { target, max_speed: PULL_SPEED, acceleration: PULL_ACCELERATION, ..order };
     }
     if robot.heading.dot(direction) < FACING_COSINE && to_place.length() > PLACED {
         return Order { facing: direction, ..order };

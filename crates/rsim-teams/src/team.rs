@@ -40,6 +40,8 @@ const AIM_SECONDS: f32 = 1.0;
 const CLOSE: f32 = 0.6;
 /// Distance from the ball of the robot that blocks a kick of the opponents, m.
 const BLOCK_DISTANCE: f32 = 0.8;
+/// Time by which an opponent is earlier at the ball from which a robot without mates guards its goal, s.
+const ALONE: f32 = 0.2;
 /// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
 /// ball, with time and without.
 const AIMED_WITH_TIME: f32 = -0.3;
@@ -136,11 +138,14 @@ impl ScriptedTeam {
         let driving =
             Driving { config: &self.config, pitch: &self.pitch, skill: &self.skill, view };
         for player in view.own.iter() {
-            let part = part_of(player, memory.team.taker);
+            let part = part_of(&situation, player, memory.team.taker);
             let ends = [view.ball.position, situation.place];
             let radius = self.config.robot.radius;
             let max_speed = self.skill.speed * self.config.robot.max_speed;
             let mut bounds = Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
+            if player.index == KEEPER {
+                bounds.own_area = None;
+            }
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
@@ -195,8 +200,8 @@ fn follow_kicks(view: &View, memory: &mut Memory) {
     memory.team.ball_velocity = velocity;
 }
 
-fn part_of(player: &Player, taker: Option<usize>) -> Part {
-    if player.index == KEEPER {
+fn part_of(s: &Situation, player: &Player, taker: Option<usize>) -> Part {
+    if s.keeps(player.index) {
         Part::Keeper
     } else if taker == Some(player.index) {
         Part::Taker
@@ -212,9 +217,9 @@ fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
     let taker = memory.team.taker;
     let mut free = 0;
     for player in s.view.own.iter() {
-        if player.index == KEEPER {
+        if s.keeps(player.index) {
             let order = keeper_order(s, memory, player);
-            orders[KEEPER] = reacting(s, memory, player, order);
+            orders[player.index] = reacting(s, memory, player, order);
         } else if taker == Some(player.index) {
             let order = taker_order(s, memory, player);
             orders[player.index] = reacting(s, memory, player, order);
@@ -283,6 +288,10 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
     let rival = s.others.first(|_| true).map_or(f32::INFINITY, |(_, meeting)| meeting.time);
+    let is_alone = s.view.own.len() == 1;
+    if is_alone && rival + ALONE < meeting.time {
+        return keeper::guard(s, robot);
+    }
     let place = meeting.place;
     let kick = possession::chosen(s, &mut memory.team, robot.index, || {
         aim::best_kick(s, place, robot.index)
