@@ -1,4 +1,4 @@
-"""What the page of a match has more: in Python, and in a browser."""
+"""Additions of the page of a match: in Python, and in a browser."""
 
 import math
 from collections.abc import Callable

@@ -13,7 +13,7 @@ const LOYALTY: f32 = 0.35;
 pub(crate) struct Job {
     /// Number by which a robot knows its job again.
     pub(crate) number: i32,
-    /// Where it is done, m; none for a robot that finds its place itself.
+    /// Place where it is done, m; none for a robot that finds its place itself.
     pub(crate) place: Option<Vector>,
 }
 

@@ -1,4 +1,4 @@
-//! Who goes to the ball, and what the others do.
+//! Choice of who goes to the ball, and what the others do.
 
 use crate::config::MAX_ROBOTS;
 use crate::defense;

@@ -32,7 +32,7 @@ use crate::view::{Player, View};
 pub const COMMAND_COLUMNS: [&str; 6] =
     ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
-/// Change of the ball's velocity in a step by which a kick is told from friction, m/s.
+/// Change of the ball's velocity in a step by which a kick differs from friction, m/s.
 const KICKED: f32 = 0.3;
 /// Time for which an error of aim lasts, s.
 const AIM_SECONDS: f32 = 1.0;
@@ -40,14 +40,14 @@ const AIM_SECONDS: f32 = 1.0;
 const CLOSE: f32 = 0.6;
 /// Distance from the ball of the robot that blocks a kick of the opponents, m.
 const BLOCK_DISTANCE: f32 = 0.8;
-/// Time by which an opponent is earlier at the ball from which a robot without mates guards its goal, s.
+/// Time by which an opponent is earlier at the ball from which a robot without teammates guards its goal, s.
 const ALONE: f32 = 0.2;
 /// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
 /// ball, with time and without.
 const AIMED_WITH_TIME: f32 = -0.3;
 const AIMED: f32 = 0.6;
-/// Distance from the ball of robots that leave it to a mate, m.
-const MATE_DISTANCE: f32 = 0.3;
+/// Distance from the ball of robots that leave it to a teammate, m.
+const TEAMMATE_DISTANCE: f32 = 0.3;
 
 /// A scripted side: the same for all matches, and without state of its own.
 #[derive(Debug, Clone)]
@@ -149,7 +149,7 @@ impl ScriptedTeam {
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
-                bounds.distance = bounds.distance.max(MATE_DISTANCE);
+                bounds.distance = bounds.distance.max(TEAMMATE_DISTANCE);
             }
             let order = &orders[player.index];
             let command = driving.command(player, order, &bounds);

@@ -1,4 +1,4 @@
-//! What tests of this crate share: division B, and rows with bodies at places.
+//! Shared parts of the tests of this crate: division B, and rows with bodies at places.
 
 use rsim_referee::sight::{Layout, Placed};
 use rsim_referee::{Lines, Team, Vector};

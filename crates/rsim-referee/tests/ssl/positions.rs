@@ -1,4 +1,4 @@
-//! Where a teleport puts ball and robots.
+//! Place where a teleport puts ball and robots.
 
 use rsim_referee::Team;
 use rsim_referee::codes::Command::{self, DirectFree, PrepareKickoff, PreparePenalty};

@@ -63,7 +63,7 @@ fn positions(command: Command, size: Size) -> [Positions; 2] {
     }
 }
 
-/// Where the robots of a team have to stand.
+/// Place where the robots of a team have to stand.
 fn expected(command: Command, size: Size, ball: Vector, team: Team) -> Vec<Vector> {
     // The team that attacks in the half has the free ball.
     let kicking = command.team().unwrap_or(if ball.x < 0.0 { Team::Yellow } else { Team::Blue });

@@ -69,7 +69,7 @@ fn robots_without_a_place_stay_where_they_may() {
     }
 }
 
-/// Where a robot without a place of a table comes from a place.
+/// Place where a robot without a place of a table comes from a place.
 fn moved_from(place: [f32; 2]) -> f32 {
     let mut scene = scattered(Size::Three, [4, 3], 4, 0.0);
     scene.robot(Team::Blue, 3, place);
