@@ -13,6 +13,7 @@ from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, draw_image
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.pygame_import import pygame
+from rsoccer.render.referee_state import referee_state
 from tools.paths import DOCS
 
 FOLDER: Final = DOCS / "tasks"
@@ -68,7 +69,8 @@ def draw(name: str) -> Image:
         events = effects.update(matches.frame.rows[0], clock, matches.play.commands[0])
     extras = (*task_overlay(matches.task, matches.play), *events)
     row, clock = matches.frame.rows[0], steps * config.time_step
-    return draw_image(config, row, clock=clock, extras=extras, width=WIDTH)
+    referee = referee_state(matches.task, matches.play)
+    return draw_image(config, row, clock=clock, referee=referee, extras=extras, width=WIDTH)
 
 
 def save(path: Path, image: Image) -> None:

@@ -154,6 +154,9 @@ GROUPS: Final = (
         (
             "rsoccer.render.image",
             "rsoccer.render.picture",
+            "rsoccer.render.referee_state",
+            "rsoccer.render.words",
+            "rsoccer.render.announcer",
             "rsoccer.recording",
             "rsoccer.render.video",
             "rsoccer.render.window",
@@ -182,6 +185,7 @@ GROUPS: Final = (
             "rsoccer.replay.events",
             "rsoccer.replay.container",
             "rsoccer.replay.quantized",
+            "rsoccer.replay.referee_columns",
             "rsoccer.replay.file_format",
         ),
     ),

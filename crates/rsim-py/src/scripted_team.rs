@@ -103,15 +103,16 @@ impl ScriptedTeam {
         let robots = self.sizes[team];
         let commands = PyArray3::zeros(py, [n, robots, COMMAND_COLUMNS.len()], false);
         // Each world's memory and commands are written together, as one row.
-        let size = self.memory_size + robots * COMMAND_COLUMNS.len();
-        let mut both = vec![0.0; n * size];
+        let numbers = self.memory_size + robots * COMMAND_COLUMNS.len();
+        let mut both = vec![0.0; n * numbers];
         let memory = memory.as_slice_mut()?;
-        for (both, memory) in both.chunks_exact_mut(size).zip(memory.chunks_exact(self.memory_size))
+        for (both, memory) in
+            both.chunks_exact_mut(numbers).zip(memory.chunks_exact(self.memory_size))
         {
             both[..self.memory_size].copy_from_slice(memory);
         }
         let failed = Mutex::new(None);
-        write_rows(py, threads, &mut both, size, ALONE, |world, both| {
+        write_rows(py, threads, &mut both, numbers, ALONE, |world, both| {
             let row = &rows[world * self.row_size..][..self.row_size];
             let (memory, out) = both.split_at_mut(self.memory_size);
             let acted = Game::read(&games[world * columns..][..columns])
@@ -129,9 +130,9 @@ impl ScriptedTeam {
         }
         {
             let mut out = commands.readwrite();
-            let outs = out.as_slice_mut()?.chunks_exact_mut(size - self.memory_size);
+            let outs = out.as_slice_mut()?.chunks_exact_mut(numbers - self.memory_size);
             let memories = memory.chunks_exact_mut(self.memory_size);
-            for (both, (memory, out)) in both.chunks_exact(size).zip(memories.zip(outs)) {
+            for (both, (memory, out)) in both.chunks_exact(numbers).zip(memories.zip(outs)) {
                 memory.copy_from_slice(&both[..self.memory_size]);
                 out.copy_from_slice(&both[self.memory_size..]);
             }

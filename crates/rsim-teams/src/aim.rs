@@ -43,6 +43,14 @@ const CLEARANCE: f32 = 3.0;
 const CLEARANCE_SPEED: f32 = 4.5;
 /// Value of a clearance that no opponent stops.
 const CLEARANCE_VALUE: f32 = 0.08;
+/// Way of a ball that its kicker follows, m.
+const RUN: f32 = 1.2;
+/// Speed of such a kick, m/s.
+const RUN_SPEED: f32 = 2.0;
+/// Distance from opponents that it needs, m.
+const RUN_SPACE: f32 = 1.0;
+/// Its value.
+const RUN_VALUE: f32 = 0.1;
 const GRAVITY: f32 = 9.81;
 
 /// A kick.
@@ -69,6 +77,7 @@ pub(crate) fn best_kick(s: &Situation, from: Vector, kicker: usize) -> Kick {
         }
     };
     consider(shot(s, from));
+    consider(run(s, from));
     for mate in s.field_players().filter(|mate| mate.index != kicker) {
         if let Some(pass) = pass(s, from, mate) {
             consider(pass);
@@ -143,6 +152,16 @@ fn pass(s: &Situation, from: Vector, mate: &Player) -> Option<Kick> {
         receiver: Some(mate.index),
         value: arrives * value_at(s, at),
     })
+}
+
+/// A weak kick ahead that the robot follows, where it has much space: it may not dribble far.
+fn run(s: &Situation, from: Vector) -> Kick {
+    let goal = (s.pitch.their_goal() - from).unit_or(Vector::new(1.0, 0.0));
+    let at = from + goal * RUN;
+    let is_free = s.nearest_opponent(from) > RUN_SPACE && s.nearest_opponent(at) > RUN_SPACE;
+    let value =
+        if is_free && s.pitch.distance_to(Area::Theirs, at) > 0.3 { RUN_VALUE } else { 0.0 };
+    Kick { at, speed: RUN_SPEED, chip: false, receiver: None, value }
 }
 
 /// The best high kick out of danger.

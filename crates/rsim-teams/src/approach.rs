@@ -34,8 +34,8 @@ pub(crate) fn take(s: &Situation, robot: &Player, meeting: Meeting, direction: V
     let ball = &s.view.ball;
     let from_ball = robot.position - ball.position;
     let speed = ball.velocity.length();
-    let is_coming = speed > RECEIVED_SPEED
-        && s.path.direction.dot(from_ball) > 0.7 * from_ball.length();
+    let is_coming =
+        speed > RECEIVED_SPEED && s.path.direction.dot(from_ball) > 0.7 * from_ball.length();
     if is_coming { receive(s, robot, meeting) } else { fetch(s, robot, meeting, direction) }
 }
 

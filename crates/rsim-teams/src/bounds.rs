@@ -147,7 +147,7 @@ impl Bounds {
                 place = pitch.outside(Area::Own, place, own);
             }
             place = pitch.outside(Area::Theirs, place, self.their_area);
-            let limit = self.from_avoided(place);
+            let limit = self.limit_of_avoided(place);
             if limit.distance < 0.0 {
                 place = self.nearest_avoided(place) + limit.away * self.distance;
             }
@@ -166,13 +166,13 @@ impl Bounds {
         [
             self.own_area.map_or(along_x(f32::INFINITY, 1.0), |margin| area(Area::Own, margin)),
             area(Area::Theirs, self.their_area),
-            self.from_avoided(place),
+            self.limit_of_avoided(place),
             along_x(place.x - self.x[0], 1.0),
             along_x(self.x[1] - place.x, -1.0),
         ]
     }
 
-    fn from_avoided(&self, place: Vector) -> Limit {
+    fn limit_of_avoided(&self, place: Vector) -> Limit {
         if self.distance <= 0.0 {
             return Limit { distance: f32::INFINITY, away: Vector::new(1.0, 0.0) };
         }
@@ -192,8 +192,7 @@ impl Bounds {
     fn along_wall(&self, place: Vector, nearest: Vector, away: Vector) -> Vector {
         let is_beside = (nearest + away * self.distance).y.abs() > self.walls.y;
         let offset = place - nearest;
-        let along =
-            if is_beside { Vector::new(offset.x, 0.0) } else { Vector::new(0.0, offset.y) };
+        let along = if is_beside { Vector::new(offset.x, 0.0) } else { Vector::new(0.0, offset.y) };
         let inward = (nearest * -1.0).unit_or(Vector::new(-1.0, 0.0));
         let along = along.unit_or(inward);
         let is_far = place.distance(self.avoided[0]) > FAR;
@@ -282,7 +281,8 @@ mod tests {
     #[test]
     fn opponents_leave_the_way_of_a_placement() {
         let ends = [Vector::new(-1.0, 0.0), Vector::new(1.0, 0.0)];
-        let phase = Phase { mode: Mode::Place, restart: Restart::Free, ours: false, kicks_next: false };
+        let phase =
+            Phase { mode: Mode::Place, restart: Restart::Free, ours: false, kicks_next: false };
         let bounds = Bounds::new(phase, Part::Other, ends, 3.0, &pitch(), RADIUS);
         let place = bounds.allowed(Vector::new(0.3, 0.1), &pitch(), RADIUS);
         assert!(place.y > 0.5 + RADIUS, "{place:?}");

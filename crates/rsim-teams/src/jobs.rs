@@ -80,7 +80,9 @@ mod tests {
 
     fn assigned(jobs: &[Job], last: [i32; 3]) -> [Option<i32>; 3] {
         let mut all = Jobs::default();
-        jobs.iter().for_each(|job| all.add(*job));
+        for job in jobs {
+            all.add(*job);
+        }
         let players = [player(0, 0.0), player(1, 1.0), player(2, 2.0)];
         let found = all.assign(&players, 0b110, |index| last[index]);
         [0, 1, 2].map(|index| found[index].map(|job: Job| job.number))

@@ -75,10 +75,7 @@ fn cover(s: &Situation, from: Vector) -> Vector {
     let from = Vector::new(from.x.max(goal.x + 0.05), from.y);
     let out = (from - goal).unit_or(Vector::new(1.0, 0.0));
     let place = goal + out * (OFF_LINE * half);
-    Vector::new(
-        place.x.max(goal.x + LINE_ROOM),
-        place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM),
-    )
+    Vector::new(place.x.max(goal.x + LINE_ROOM), place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM))
 }
 
 /// Order of the keeper before a penalty kick: on its line, before the ball.

@@ -156,7 +156,8 @@ impl Driving<'_> {
             let closing = (2.0 * MEETING_BRAKING * easing * (gap - CONTACT_GAP).max(0.0)).sqrt();
             let leaving = other.velocity.dot(ahead);
             // In contact it is slower than the other, so that it does not push it along.
-            let followed = if gap < CONTACT_GAP { leaving.min(FOLLOWING * leaving) } else { leaving };
+            let followed =
+                if gap < CONTACT_GAP { leaving.min(FOLLOWING * leaving) } else { leaving };
             let allowed = (closing + followed).max(0.0);
             let toward = velocity.dot(ahead);
             if toward > allowed {
@@ -174,10 +175,9 @@ impl Driving<'_> {
             .min(self.config.robot.max_angular_velocity);
         let speed = (TURN_GAIN * angle.abs()).min(by_braking).min(limit);
         let change = order.turn_acceleration * self.config.time_step;
-        speed.copysign(angle).clamp(
-            robot.angular_velocity - change,
-            robot.angular_velocity + change,
-        )
+        speed
+            .copysign(angle)
+            .clamp(robot.angular_velocity - change, robot.angular_velocity + change)
     }
 }
 
@@ -203,9 +203,9 @@ mod tests {
     fn command(scene: &Scene, order: &Order) -> [f32; 6] {
         let (view, pitch) = (scene.view(Team::Blue), pitch());
         let skill = Skill::new(1.0, 0.025);
-        let driving =
-            Driving { config: &scene.config, pitch: &pitch, skill: &skill, view: &view };
-        let phase = Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
+        let driving = Driving { config: &scene.config, pitch: &pitch, skill: &skill, view: &view };
+        let phase =
+            Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
         let bounds = Bounds::new(phase, Part::Other, [view.ball.position; 2], 3.0, &pitch, 0.09);
         driving.command(&view.own[0], order, &bounds)
     }
@@ -215,11 +215,13 @@ mod tests {
         let mut scene = Scene::new(1, 0);
         scene.ball([0.0, 2.5], [0.0, 0.0]);
         scene.robot(0, [0.0, 0.0]);
-        (scene.set(0, "cos", 0.0), scene.set(0, "sin", 1.0));
+        scene.set(0, "cos", 0.0);
+        scene.set(0, "sin", 1.0);
         let facing = Vector::new(0.0, 1.0);
         let far = command(&scene, &Order::to(Vector::new(3.0, 0.0), facing));
         assert!(far[1] < -0.09 && far[0].abs() < 1e-4, "to its right: {far:?}");
-        (scene.set(0, "v_x", 3.0), scene.set(0, "v_y", 0.0));
+        scene.set(0, "v_x", 3.0);
+        scene.set(0, "v_y", 0.0);
         let fast = command(&scene, &Order::to(Vector::new(3.0, 0.0), facing));
         assert!((fast[1] + 3.0).abs() < 1e-4, "{fast:?}");
         let near = command(&scene, &Order::to(Vector::new(0.05, 0.0), facing));

@@ -23,6 +23,10 @@ const SPEED: f32 = 1.3;
 const ACCELERATION: f32 = 1.2;
 /// Deceleration with which it comes to the place, m/s².
 const BRAKING: f32 = 0.6;
+/// Speed at which the ball is pulled into the field, m/s.
+const PULL_SPEED: f32 = 0.5;
+/// Acceleration with which it is, m/s².
+const PULL_ACCELERATION: f32 = 0.6;
 /// Speed over the last centimeters, m/s.
 const LAST_SPEED: f32 = 0.12;
 /// Angular acceleration with the ball, rad/s².
@@ -81,16 +85,19 @@ fn outward(s: &Situation, ball: Vector) -> Vector {
     let straight = (ball - inner).unit_or(Vector::new(1.0, 0.0));
     let mut center = s.pitch.within_walls(ball - straight * mouth, room);
     if ball.x.abs() > lines.half_length {
-        let [within, beside] =
-            [lines.half_goal_width - room, lines.half_goal_width + lines.goal_wall_thickness + room];
+        let [within, beside] = [
+            lines.half_goal_width - room,
+            lines.half_goal_width + lines.goal_wall_thickness + room,
+        ];
         let y = center.y.abs();
-        let clear = if ball.y.abs() < lines.half_goal_width { y.min(within) } else { y.max(beside) };
+        let clear =
+            if ball.y.abs() < lines.half_goal_width { y.min(within) } else { y.max(beside) };
         center.y = clear.copysign(ball.y);
     }
     (ball - center).unit_or(straight)
 }
 
-/// Drives with the ball: backward from beyond the lines, then ahead to its place.
+/// Drives with the ball: from beyond the lines as it is, then ahead to its place.
 fn carry(s: &Situation, robot: &Player) -> Order {
     let ball = s.ball();
     let to_place = s.place - ball;
@@ -107,13 +114,14 @@ fn carry(s: &Situation, robot: &Player) -> Order {
     let is_outside = !s.pitch.lines.is_inside(ball, -0.1);
     let place_is_outside = !s.pitch.lines.is_inside(s.place, -0.1);
     if is_outside && !place_is_outside {
-        let inner = robot.position - robot.heading * 0.5;
-        return Order { target: inner, max_speed: 0.5, ..order };
+        let inward = (s.pitch.inside(ball, INNER) - ball).unit_or(robot.heading * -1.0);
+        let target = robot.position + inward * 0.5;
+        return Order { target, max_speed: PULL_SPEED, acceleration: PULL_ACCELERATION, ..order };
     }
     if robot.heading.dot(direction) < FACING_COSINE && to_place.length() > PLACED {
         return Order { facing: direction, ..order };
     }
-    let speed = (2.0 * BRAKING * to_place.length()).sqrt().min(SPEED).max(LAST_SPEED);
+    let speed = (2.0 * BRAKING * to_place.length()).sqrt().clamp(LAST_SPEED, SPEED);
     Order {
         target: robot.position + to_place,
         facing: if to_place.length() > 0.2 { direction } else { robot.heading },
@@ -129,11 +137,8 @@ fn leave(s: &Situation, robot: &Player) -> Order {
     let away = (robot.position - ball).unit_or(robot.heading * -1.0);
     let touches = robot.position.distance(ball) < s.body();
     let distance = s.body() + gap;
-    let target = if touches && s.path.speed > RESTING {
-        robot.position
-    } else {
-        ball + away * distance
-    };
+    let target =
+        if touches && s.path.speed > RESTING { robot.position } else { ball + away * distance };
     let order = Order::to(target, away * -1.0);
     Order { max_speed: 0.8, acceleration: 1.5, ball_distance: 0.0, straight: true, ..order }
 }

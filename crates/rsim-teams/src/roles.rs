@@ -5,7 +5,7 @@ use crate::defense;
 use crate::jobs::{Job, Jobs};
 use crate::memory::{Memory, TeamMemory};
 use crate::phase::{Mode, Restart};
-use crate::situation::{KEEPER, Situation};
+use crate::situation::Situation;
 use crate::support::RUNNER;
 
 /// Time by which another robot has to be earlier at the ball to take over, s.
@@ -20,7 +20,7 @@ const PASS_SPEED: f32 = 0.4;
 /// The robot that goes to the ball; none if no robot is there that may.
 pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
     if let Some(carrier) = memory.carrier.filter(|index| Some(*index) != s.barred) {
-        if carrier != KEEPER && s.phase.mode == Mode::Play {
+        if !s.keeps(carrier) && s.phase.mode == Mode::Play {
             return Some(carrier);
         }
     }
@@ -43,7 +43,7 @@ pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
         Some(time - bonus)
     };
     (0..MAX_ROBOTS)
-        .filter(|index| *index != KEEPER && Some(*index) != s.barred)
+        .filter(|index| !s.keeps(*index) && Some(*index) != s.barred)
         .filter_map(|index| Some((index, time(index)?)))
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(index, _)| index)

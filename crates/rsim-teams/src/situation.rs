@@ -4,7 +4,7 @@ use rsim_referee::Vector;
 
 use crate::config::TeamConfig;
 use crate::intercept::{Meetings, Pace};
-use crate::phase::Phase;
+use crate::phase::{Mode, Phase, Restart};
 use crate::pitch::Pitch;
 use crate::random::Random;
 use crate::rolling::BallPath;
@@ -67,6 +67,15 @@ impl<'a> Situation<'a> {
     pub(crate) fn nearest_opponent(&self, place: Vector) -> f32 {
         let distances = self.view.others.iter().map(|other| other.position.distance(place));
         distances.fold(f32::INFINITY, f32::min)
+    }
+
+    /// Whether a robot stays in the goal. A keeper without mates leaves it, but for a penalty kick of the
+    /// opponents.
+    pub(crate) fn keeps(&self, index: usize) -> bool {
+        let is_their_penalty = self.phase.restart == Restart::Penalty
+            && !self.phase.ours
+            && self.phase.mode != Mode::Play;
+        index == KEEPER && (is_their_penalty || self.field_players().next().is_some())
     }
 
     /// The own robots but the keeper.

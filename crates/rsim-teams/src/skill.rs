@@ -19,6 +19,8 @@ pub(crate) struct Skill {
 const MAX_REACTION: f32 = 0.5;
 /// Largest standard deviation of the direction of a kick, rad: at 3 m it misses a goal 1 m wide as often as not.
 const MAX_AIM_ERROR: f32 = 0.2;
+/// Smallest one, rad: half a degree. It also keeps two sides from playing the same rally forever.
+const MIN_AIM_ERROR: f32 = 0.01;
 /// Smallest share of the maximum speed.
 const MIN_SPEED: f32 = 0.3;
 /// Smallest share of the speed of turns.
@@ -34,7 +36,7 @@ impl Skill {
         let between = |at_none: f32, at_full: f32| at_full + (at_none - at_full) * missing;
         Self {
             reaction_steps: (between(MAX_REACTION, 0.0) / time_step).round().max(1.0) as i32,
-            aim_error: between(MAX_AIM_ERROR, 0.0),
+            aim_error: between(MAX_AIM_ERROR, MIN_AIM_ERROR),
             speed: between(MIN_SPEED, MAX_SPEED),
             turning: between(MIN_TURNING, 1.0),
             pass_threshold: between(0.9, 0.45),
@@ -55,6 +57,6 @@ mod tests {
             assert!(worse.aim_error > better.aim_error && worse.speed < better.speed);
             assert!(worse.turning < better.turning);
         }
-        assert!(high.aim_error.abs() < 1e-6);
+        assert!((high.aim_error - 0.01).abs() < 1e-6);
     }
 }

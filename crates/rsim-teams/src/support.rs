@@ -45,7 +45,8 @@ pub(crate) fn spot(
     let value = |place: Vector| {
         let mates = robots.iter().enumerate();
         let mates = mates.filter(|(mate, _)| *mate != index && runners >> mate & 1 == 1);
-        let nearest = mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
+        let nearest =
+            mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
         value_of(s, robot, place) - 0.5 * (1.0 - nearest / MATE_DISTANCE)
     };
     let start = if is_new { robot.position } else { robots[index].spot };

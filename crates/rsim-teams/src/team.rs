@@ -29,7 +29,8 @@ use crate::view::{Player, View};
 
 /// Names of the columns of a command: velocity forward and to the left (m/s), angular velocity (rad/s), speed
 /// of a kick along the heading and upward (m/s), dribbler (0 to 1).
-pub const COMMAND_COLUMNS: [&str; 6] = ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
+pub const COMMAND_COLUMNS: [&str; 6] =
+    ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
 /// Change of the ball's velocity in a step by which a kick is told from friction, m/s.
 const KICKED: f32 = 0.3;
@@ -39,6 +40,8 @@ const AIM_SECONDS: f32 = 1.0;
 const CLOSE: f32 = 0.6;
 /// Distance from the ball of the robot that blocks a kick of the opponents, m.
 const BLOCK_DISTANCE: f32 = 0.8;
+/// Time by which an opponent is earlier at the ball from which a robot without mates guards its goal, s.
+const ALONE: f32 = 0.2;
 /// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
 /// ball, with time and without.
 const AIMED_WITH_TIME: f32 = -0.3;
@@ -76,7 +79,7 @@ impl ScriptedTeam {
     /// # Errors
     /// A memory of another length.
     pub fn begin(&self, memory: &mut [f32], seed: u32) -> Result<(), TeamsError> {
-        self.check("memory", self.memory_columns().len(), memory.len())?;
+        check_size("memory", self.memory_columns().len(), memory.len())?;
         Memory::new(seed).write(memory, self.robots());
         Ok(())
     }
@@ -96,7 +99,7 @@ impl ScriptedTeam {
     ) -> Result<(), TeamsError> {
         let layout = &self.config.layout;
         let size = layout.team_size(team) * COMMAND_COLUMNS.len();
-        self.check("commands", size, commands.len())?;
+        check_size("commands", size, commands.len())?;
         let sight = layout.sight(row)?;
         let first = [0, layout.team_size(Team::Blue)];
         let view = View::new(&sight, team, first);
@@ -111,10 +114,6 @@ impl ScriptedTeam {
     fn robots(&self) -> usize {
         let [blue, yellow] = Team::BOTH.map(|team| self.config.layout.team_size(team));
         blue.max(yellow)
-    }
-
-    fn check(&self, name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
-        if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
     }
 
     fn decide(
@@ -139,12 +138,14 @@ impl ScriptedTeam {
         let driving =
             Driving { config: &self.config, pitch: &self.pitch, skill: &self.skill, view };
         for player in view.own.iter() {
-            let part = part_of(player, memory.team.taker);
+            let part = part_of(&situation, player, memory.team.taker);
             let ends = [view.ball.position, situation.place];
             let radius = self.config.robot.radius;
             let max_speed = self.skill.speed * self.config.robot.max_speed;
-            let mut bounds =
-                Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
+            let mut bounds = Bounds::new(phase, part, ends, max_speed, &self.pitch, radius);
+            if player.index == KEEPER {
+                bounds.own_area = None;
+            }
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
@@ -199,8 +200,8 @@ fn follow_kicks(view: &View, memory: &mut Memory) {
     memory.team.ball_velocity = velocity;
 }
 
-fn part_of(player: &Player, taker: Option<usize>) -> Part {
-    if player.index == KEEPER {
+fn part_of(s: &Situation, player: &Player, taker: Option<usize>) -> Part {
+    if s.keeps(player.index) {
         Part::Keeper
     } else if taker == Some(player.index) {
         Part::Taker
@@ -216,9 +217,9 @@ fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
     let taker = memory.team.taker;
     let mut free = 0;
     for player in s.view.own.iter() {
-        if player.index == KEEPER {
+        if s.keeps(player.index) {
             let order = keeper_order(s, memory, player);
-            orders[KEEPER] = reacting(s, memory, player, order);
+            orders[player.index] = reacting(s, memory, player, order);
         } else if taker == Some(player.index) {
             let order = taker_order(s, memory, player);
             orders[player.index] = reacting(s, memory, player, order);
@@ -231,9 +232,8 @@ fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
     let runners = (0..MAX_ROBOTS).filter(|index| is_runner(*index)).fold(0, |all, i| all | 1 << i);
     for player in s.view.own.iter().filter(|player| free >> player.index & 1 == 1) {
         let Some(job) = jobs[player.index] else { continue };
-        let target = job.place.unwrap_or_else(|| {
-            support::spot(s, player, runners, &mut memory.robots)
-        });
+        let target =
+            job.place.unwrap_or_else(|| support::spot(s, player, runners, &mut memory.robots));
         memory.robots[player.index].job = job.number;
         let order = Order::to(target, s.ball() - player.position);
         orders[player.index] = reacting(s, memory, player, order);
@@ -288,6 +288,10 @@ fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     let meeting = s.own.of(robot.index).unwrap_or_default();
     let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
     let rival = s.others.first(|_| true).map_or(f32::INFINITY, |(_, meeting)| meeting.time);
+    let is_alone = s.view.own.len() == 1;
+    if is_alone && rival + ALONE < meeting.time {
+        return keeper::guard(s, robot);
+    }
     let place = meeting.place;
     let kick = possession::chosen(s, &mut memory.team, robot.index, || {
         aim::best_kick(s, place, robot.index)
@@ -308,4 +312,8 @@ fn block_place(s: &Situation) -> Vector {
     let ball = s.ball();
     let to_goal = (s.pitch.own_goal() - ball).unit_or(Vector::new(-1.0, 0.0));
     ball + to_goal * BLOCK_DISTANCE
+}
+
+fn check_size(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
+    if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
 }

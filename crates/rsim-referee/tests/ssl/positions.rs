@@ -40,6 +40,23 @@ fn robots_in_valid_places_stay() {
 }
 
 #[test]
+fn the_kicking_team_keeps_a_short_distance_from_the_ball() {
+    for (gap, stays) in [(0.052, true), (0.049, false)] {
+        for mut scene in views(B) {
+            scene.ball(0.0, 2.0);
+            scene.stop(DirectFree, Us, (0.0, 2.0));
+            scene.wait(1.975);
+            let x = -0.09 - 0.0215 - gap;
+            scene.robot((Us, 1), x, 2.0);
+            scene.step();
+            scene.expect_command(DirectFree, Us);
+            let moved = (at(&scene, (Us, 1)).0 - x).abs();
+            assert_eq!(moved < 1e-4, stays, "{gap}");
+        }
+    }
+}
+
+#[test]
 fn robots_too_near_go_to_the_nearest_valid_place() {
     let bodies = |scene: &mut Scene| {
         scene.robot((Them, 1), 1.0, 1.4);
