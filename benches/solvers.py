@@ -6,7 +6,7 @@ SOLVERS: Final[dict[str, str]] = {
     "SSLContestedPossession-v0": "strike",
     "SSLDribbling-v0": "weave",
     "SSLGoToBall-v0": "fetch",
-    "SSLMatch-v0": "strike",
+    "SSLMatch-v0": "scripted",
     "SSLPassEndurance-v1": "passer",
     "SSLPassEnduranceMulti-v1": "passer",
     "SSLSelfPlay-v0": "strike",

@@ -13,6 +13,10 @@ from tools.paths import DOCS
 
 FILE: Final = DOCS / "solved.json"
 MATCHES: Final = 200
+OPTIONS: Final[dict[str, dict[str, Any]]] = dict.fromkeys(
+    ("SSLMatch-v0", "VSSMatch-v0"), {"half_seconds": 10.0, "halves": 1}
+)
+"""Options of tasks whose matches are long."""
 
 
 def main() -> None:
@@ -24,10 +28,13 @@ def main() -> None:
 
 def measured(task: str, policy: str) -> dict[str, Any]:
     """Return the evaluation of a policy at a task, as numbers and texts for JSON."""
-    found = rsoccer.evaluate(policy, matches=MATCHES, task=task, seed=0)
+    options = OPTIONS.get(task, {})
+    made = rsoccer.make_task(task, **options)
+    found = rsoccer.evaluate(policy, matches=MATCHES, task=made, seed=0)
     assert found.low is not None and found.high is not None, "enough matches for an interval"
     return {
         "policy": policy,
+        "options": options,
         "opponent": found.opponent,
         "metric": found.metric,
         "score": round(found.score, 3),
