@@ -28,7 +28,7 @@ class WholeMatch:
 
 
 WHOLE_MATCHES: Final = {
-    "SSLMatch-v0": WholeMatch("strike", "strike"),
+    "SSLMatch-v0": WholeMatch("scripted", "scripted:0.5"),
     "VSSMatch-v0": WholeMatch("scripted", "chase"),
 }
 """Matches by task: six SSL robots a side, and three of VSSS."""

@@ -7,13 +7,14 @@ from typing import Any
 
 import pytest
 
-from rsoccer.render.referee_state import RefereeState
+from rsoccer.render.referee_state import COLUMNS, RefereeState
 from rsoccer.render.scoreboard import clock_text
 from rsoccer.render.words import command_words, side_of, stage_text
 from rsoccer.replay import Replay, page
 from rsoccer.replay.match_page import match
 from rsoccer.replay.page import to_html
 from rsoccer.replay.recorded import Recorded
+from rsoccer.view import SIDES
 from tests.replay.browser import show
 from tests.replay.conftest import ssl_match, vss, vss_match
 
@@ -94,28 +95,49 @@ def test_the_page_shows_what_python_knows(recorded: Callable[[], Replay], tmp_pa
         assert found["clock"] == ("Full time" if state.is_over else left)
 
 
-def test_statistics_follow_the_match(tmp_path: Path) -> None:
+STATISTICS = """
+  const rows = (frame) => Object.fromEntries(player.match.statisticsAt(frame).rows.map(
+    ([blue, name, yellow]) => [name, [blue, yellow]]));
+  return [rows(0), rows(player.last)];
+"""
+
+
+def test_fouls_and_cards_follow_the_match(tmp_path: Path) -> None:
     replay = ssl_match()
-    script = """
-      const rows = (frame) => Object.fromEntries(player.match.statisticsAt(frame).rows.map(
-        ([blue, name, yellow]) => [name, [blue, yellow]]));
-      const {last} = player;
-      const before = player.match.statisticsAt(0).share;
-      return {first: rows(0), last: rows(last), before};
-    """
-    found = show(to_html(replay), script, tmp_path).result
-    state = states_of(replay)[-1]
-    fouls = [event for event in replay.events if event.kind in values_of(replay)["fouls"]]
-    assert fouls
-    by_team = [sum(event.detail == team for event in fouls) for team in ("blue", "yellow")]
-    assert found["last"]["fouls"] == [str(count) for count in by_team]
-    assert found["first"]["fouls"] == ["0", "0"]
-    assert found["last"]["yellow cards"] == [str(cards) for cards in state.yellow_cards]
-    assert found["last"]["double touch"] != ["0", "0"]
-    assert found["first"].keys() - found["last"].keys() == {"ball in play 0:00.0 (0%)"}
-    assert found["before"] == 0.5
-    distance = [int(text.removesuffix(" m")) for text in found["last"]["distance"]]
-    assert min(distance) > 0
+    values = values_of(replay)
+    first, last = show(to_html(replay), STATISTICS, tmp_path).result
+    fouls = [event for event in replay.events if event.kind in values["fouls"]]
+
+    def by_team(kinds: set[str]) -> list[str]:
+        found = [event.detail for event in fouls if event.kind in kinds]
+        return [str(found.count(team) + found.count("")) for team in SIDES]
+
+    kinds = {event.kind for event in fouls}
+    assert len(kinds) > 1
+    assert last["fouls"] == by_team(kinds)
+    for kind in kinds:
+        name = values["texts"][kind].lower()
+        assert last[name] == by_team({kind})
+        assert first[name] == ["0", "0"]
+    cards = states_of(replay)[-1].yellow_cards
+    assert last["yellow cards"] == [str(count) for count in cards]
+    assert last.keys() - first.keys() <= {name for name in last if name.startswith("ball in play")}
+
+
+def test_statistics_are_those_of_the_second_match_in_a_replay_of_two(tmp_path: Path) -> None:
+    replay = vss_match()
+    referee = replay.referee
+    assert referee is not None
+    first, last = show(to_html(replay), STATISTICS, tmp_path).result
+    columns = dict(zip(COLUMNS, referee[-1], strict=False))
+    in_play = columns["in_play_steps"] * replay.config.time_step
+    tenths = math.floor(10 * in_play + 1e-6)
+    assert 0.0 < in_play < replay.seconds - replay.clock[replay.episodes[1].start]
+    assert any(name.startswith(f"ball in play 0:0{tenths // 10}.{tenths % 10} (") for name in last)
+    assert "ball in play 0:00.0 (0%)" in first
+    assert last["distance"] == [f"{columns[f'distance_{team}']:.0f} m" for team in SIDES]
+    assert last["shots"] == [f"{columns[f'shots_{team}']:.0f}" for team in SIDES]
+    assert "red cards" not in last
 
 
 def test_events_have_readable_names_and_goals_and_cards_stand_out(tmp_path: Path) -> None:

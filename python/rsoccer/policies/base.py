@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-
 from numpy.typing import NDArray
 
 from rsoccer._core import SimConfig, Threads
