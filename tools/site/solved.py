@@ -13,7 +13,6 @@ from tools.paths import DOCS
 
 FILE: Final = DOCS / "solved.json"
 MATCHES: Final = 200
-
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     name: {"half_seconds": 30.0, "halves": 1} for name in ("SSLMatch-v0", "VSSMatch-v0")
 }
@@ -36,6 +35,7 @@ def measured(task: str, policy: str) -> dict[str, Any]:
     assert found.low is not None and found.high is not None, "enough matches for an interval"
     return {
         "policy": policy,
+        "options": options,
         "opponent": found.opponent,
         "metric": found.metric,
         "score": round(found.score, 3),

@@ -339,10 +339,14 @@ def _solution(name: str) -> str:
     interval = f"(95% interval {found['low']:g} to {found['high']:g})"
     if math.isclose(found["low"], found["high"]):
         interval = "(the same in every match)"
+    options = "".join(f", {option}={value!r}" for option, value in found["options"].items())
+    task, shorter = f'"{name}"', ""
+    if options:
+        task, shorter = f'rsoccer.make_task("{name}"{options})', f" with `{options[2:]}`"
     return (
         f"The policy `{found['policy']}`{against} reaches a mean `{found['metric']}` of "
-        f"{found['score']:g} {interval} over {kept['matches']} matches; an episode lasts "
+        f"{found['score']:g} {interval} over {kept['matches']} matches{shorter}; an episode lasts "
         f"{found['seconds']:g} s on average.\n\n"
         "```python\nimport rsoccer\n\n"
-        f'print(rsoccer.evaluate("{found["policy"]}", task="{name}", matches=20))\n```'
+        f'print(rsoccer.evaluate("{found["policy"]}", task={task}, matches=20))\n```'
     )

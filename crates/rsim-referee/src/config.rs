@@ -1,4 +1,4 @@
-//! Numbers and switches of the rules of a match. [`crate::presets`] has those of the leagues.
+//! Numbers and switches of the rules of a match. [`RefereeConfig::preset`] has those of the leagues.
 
 use serde::{Deserialize, Serialize};
 

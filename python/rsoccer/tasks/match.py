@@ -94,6 +94,8 @@ class Match(Soccer):
     """Robots are taken out for cards."""
     success = "goal_score"
     """Metric that measures the success of an episode."""
+    full_success = None
+    """There is no greatest goal difference."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
