@@ -13,7 +13,7 @@ import numpy as np
 from rsoccer._core import GAME_COLUMNS, STATISTICS_COLUMNS
 from rsoccer.game import NOBODY, Command, Stage
 from rsoccer.render.shapes import Point
-from rsoccer.rules.referee import Referee
+from rsoccer.rules.referee import RefereeRule
 from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
@@ -52,13 +52,13 @@ _HALVES: Final = (Stage.NORMAL_FIRST_HALF_PRE, Stage.NORMAL_SECOND_HALF_PRE)
 _EXTRA_HALVES: Final = (Stage.EXTRA_FIRST_HALF_PRE, Stage.EXTRA_SECOND_HALF_PRE)
 
 
-def referee_of(task: Task) -> Referee | None:
+def referee_of(task: Task) -> RefereeRule | None:
     """Return the referee of a task; None for a task without one.
 
     Args:
         task: the task.
     """
-    return next((rule for rule in task.rules if isinstance(rule, Referee)), None)
+    return next((rule for rule in task.rules if isinstance(rule, RefereeRule)), None)
 
 
 def referee_row(task: Task, play: Play, world: int = 0) -> Doubles | None:
@@ -87,7 +87,7 @@ def referee_row(task: Task, play: Play, world: int = 0) -> Doubles | None:
     return np.concatenate(parts, dtype=np.float64)
 
 
-def _seconds_left(referee: Referee, play: Play, world: int) -> float:
+def _seconds_left(referee: RefereeRule, play: Play, world: int) -> float:
     """Playing time that the half has left, or all of it before it begins, s."""
     stage = play.game.stage[world]
     if stage in _HALVES:

@@ -17,7 +17,7 @@ from rsoccer.game import EventKind, Stage
 from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes, Rule
-from rsoccer.rules.referee import Referee
+from rsoccer.rules.referee import RefereeRule
 from rsoccer.rules.referee_config import PRESETS, RefereeConfig
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
@@ -141,8 +141,8 @@ class Match(Soccer):
         """Least length of a pass, m."""
 
     @cached_property
-    def _referee(self) -> Referee:
-        return Referee(self.config, self.referee_config)
+    def _referee(self) -> RefereeRule:
+        return RefereeRule(self.config, self.referee_config)
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Line both teams up for the first kick-off."""
