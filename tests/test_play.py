@@ -18,7 +18,7 @@ from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.game import EventKind
 from rsoccer.play import Play
-from rsoccer.senses import Senses
+from rsoccer.senses import ModelSenses
 from rsoccer.view import Viewpoint
 from tests.failing import FailingTask
 from tests.helpers import pushing, same
@@ -46,7 +46,7 @@ def arrays_in(value: object) -> list[Array]:
         return []
     if isinstance(value, WorldRng):
         return [value._state]
-    if isinstance(value, Senses):
+    if isinstance(value, ModelSenses):
         return [value.frame.rows, *value.state.values(), value.rng._state]
     if isinstance(value, Mapping):
         return list(value.values())

@@ -13,6 +13,7 @@ from rsoccer.new_play import new_play
 from rsoccer.play import Play
 from rsoccer.policies.base import Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
+from rsoccer.senses import ModelSenses
 from rsoccer.task import Task
 from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from tests.helpers import Crowd, pushing, same
@@ -171,7 +172,7 @@ def test_waiting_worlds_sense_nothing() -> None:
     for _ in range(9):
         outcome = matches.step(pushing(rng, matches))
     senses = matches.play.senses
-    assert senses is not None
+    assert isinstance(senses, ModelSenses)
     assert matches.done.all()
     assert (senses.state["calls"] <= 5).all()
     assert same(outcome.observations, matches.step(pushing(rng, matches)).observations)
@@ -183,7 +184,7 @@ def test_a_reset_begins_anew() -> None:
     matches.step(np.ones((3, 6, 2), np.float32))
     assert same(first, matches.reset(seed=4))
     senses = matches.play.senses
-    assert senses is not None
+    assert isinstance(senses, ModelSenses)
     assert not senses.state["calls"].any()
 
 

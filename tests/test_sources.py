@@ -35,7 +35,7 @@ NOT_A_TEXT = "expected a text 'module:name', got"
 @pytest.mark.parametrize(
     ("text", "error", "message"),
     [
-        ("still", ValueError, NOT_A_TEXT),
+        (":still", ValueError, NOT_A_TEXT),
         ("tests.simulators:", ValueError, NOT_A_TEXT),
         ("tests.simulators:two words", ValueError, NOT_A_TEXT),
         ("tests/simulators.py:still", ValueError, "expected the name of a module"),
@@ -48,6 +48,14 @@ def test_a_text_that_names_nothing_is_refused(
 ) -> None:
     with pytest.raises(error, match=f"^{argument}: .*{message}"):
         Matches("VSS-v0", **{argument: text})  # type: ignore[arg-type]
+
+
+def test_a_text_without_a_module_is_a_factory_or_a_preset() -> None:
+    with pytest.raises(ValueError, match=f"^simulator: .*{NOT_A_TEXT} 'still'"):
+        Matches("VSS-v0", simulator="still")
+    with pytest.raises(ValueError, match='sensing must be one of none, friendly.* got "still"'):
+        Matches("VSS-v0", sensing="still")
+    assert Matches("VSS-v0", sensing="none").play.senses is None
 
 
 @pytest.mark.parametrize(

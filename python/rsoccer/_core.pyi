@@ -29,6 +29,7 @@ __all__ = [
     "OFFENSES",
     "ROBOT_COLUMNS",
     "ROBOT_PARAMETERS",
+    "SENSING_NUMBERS",
     "STAGES",
     "STATISTICS_COLUMNS",
     "BallModel",
@@ -38,6 +39,7 @@ __all__ = [
     "Referee",
     "RobotModel",
     "ScriptedTeam",
+    "Sensing",
     "SimConfig",
     "Simulator",
     "Steering",
@@ -147,6 +149,8 @@ BALL_PARAMETERS: tuple[str, ...]
 `hop` applies to `vertical_restitution`, `wall_restitution` and `wall_friction` also to the back of
 a goal, the others to the numbers of their names. Restitutions are capped at 1. Factors
 are 0 or above, that of `mass` above 0."""
+SENSING_NUMBERS: tuple[str, ...]
+"""Names of the numbers of `Sensing`, in the order of `Simulator.begin_senses`."""
 ROBOT_PARAMETERS: tuple[str, ...]
 """Names of the factors on each robot's numbers that each world can have of its own.
 
@@ -650,6 +654,228 @@ class RobotModel:
     def __reduce__(self) -> tuple[object, tuple[str]]: ...
 
 @final
+class Sensing:
+    """What lies between the true state and what robots know, and between commands and what they do.
+
+    Cameras above the field see all robots and the ball; a frame of theirs arrives after a delay,
+    and a tracker estimates positions and velocities. Errors named noise are drawn for each
+    detection, those named error once for an episode. All are normal distributions, whose standard
+    deviations are given, unless a number says otherwise. A camera at a height sees a flying ball
+    where its ray meets the floor, and no ball that a robot hides. SI units. Both teams know the
+    same.
+
+    Robots know no touches, collisions and lines crossed, and a camera at a height tells no height
+    of the ball. Presets: "none", ER-Force's "friendly", "rc2021" and "realistic", and "vsss".
+
+    Example:
+        `Sensing("rc2021", delay=0.1)` is the preset with one number replaced; `Sensing(delay=0.1)`
+        is exact but late.
+
+    Args:
+        name: Name of a preset, one of `PRESETS`, or path of a .json file for `from_json`; "none" by
+            default.
+        **numbers: Numbers that replace those of the preset, by the names of the properties;
+            `position_noise` and `missing` are those of the ball and of robots together.
+
+    Raises:
+        FileNotFoundError: no such file.
+        TypeError: a name or a number of another type.
+        ValueError: `name` is no preset, a number has no such name, or it is out of its range; the
+            message names it.
+    """
+
+    PRESETS: ClassVar[tuple[str, ...]]
+    """Names of the presets."""
+
+    def __new__(cls, name: str | PathLike[str] | None = None, **numbers: float) -> Sensing: ...
+    @classmethod
+    def preset(cls, name: str) -> Sensing:
+        """Return the preset of a name.
+
+        Args:
+            name: One of `PRESETS`.
+
+        Raises:
+            ValueError: An unknown name.
+        """
+
+    @property
+    def name(self) -> str:
+        """Name of the preset."""
+
+    @property
+    def is_off(self) -> bool:
+        """Whether robots know the true state and obey exactly."""
+
+    @property
+    def frame_rate(self) -> float:
+        """Frame rate of the cameras; 0 for a frame in each control step (Hz, 0 or above)."""
+
+    @property
+    def delay(self) -> float:
+        """Time from the exposure of a frame to its arrival (s, 0 or above)."""
+
+    @property
+    def delay_jitter(self) -> float:
+        """Maximum deviation of that time, uniform. Frames keep their order (s, 0 or above)."""
+
+    @property
+    def frame_loss(self) -> float:
+        """Probability that a frame is lost (0 to 1)."""
+
+    @property
+    def ball_position_noise(self) -> float:
+        """Noise of the ball's detected position, in each direction (m, 0 or above)."""
+
+    @property
+    def robot_position_noise(self) -> float:
+        """Noise of a robot's detected position, in each direction (m, 0 or above)."""
+
+    @property
+    def heading_noise(self) -> float:
+        """Noise of a robot's detected heading (rad, 0 or above)."""
+
+    @property
+    def misread_headings(self) -> float:
+        """Probability that a heading is misread by 90 degrees (0 to 1)."""
+
+    @property
+    def missing_balls(self) -> float:
+        """Probability that a camera misses the ball in a frame (0 to 1)."""
+
+    @property
+    def missing_robots(self) -> float:
+        """Probability that a camera misses a robot in a frame (0 to 1)."""
+
+    @property
+    def ghost_balls(self) -> float:
+        """Rate of balls that a camera wrongly sees at a robot's mouth (1/s, 0 or above)."""
+
+    @property
+    def camera_height(self) -> float:
+        """Height of the cameras; 0 for one that looks straight down everywhere (m, 0 or above)."""
+
+    @property
+    def visible_part(self) -> float:
+        """Part of the ball that a camera must see to detect it (0 to 1)."""
+
+    @property
+    def cameras_along(self) -> float:
+        """Number of cameras along the field; 0 is 1 (0 or above)."""
+
+    @property
+    def cameras_across(self) -> float:
+        """Number of cameras across the field; 0 is 1 (0 or above)."""
+
+    @property
+    def camera_overlap(self) -> float:
+        """Width of the strip that two neighboring cameras both see (m, 0 or above)."""
+
+    @property
+    def camera_offset_error(self) -> float:
+        """Error of all positions of a camera, in each direction (m, 0 or above)."""
+
+    @property
+    def tracker(self) -> float:
+        """1 to filter detections, 0 to take each with its true velocity (0 to 1)."""
+
+    @property
+    def feedback_delay(self) -> float:
+        """Time from a robot's own measurement to its arrival (s, 0 or above)."""
+
+    @property
+    def feedback_loss(self) -> float:
+        """Probability that a report of a robot's own sensors is lost (0 to 1)."""
+
+    @property
+    def beam_misses(self) -> float:
+        """Probability in a control step that a break beam misses the ball (0 to 1)."""
+
+    @property
+    def beam_false_alarms(self) -> float:
+        """Probability in a control step of a break beam's false alarm (0 to 1)."""
+
+    @property
+    def odometry(self) -> float:
+        """1 to know velocities from wheels and gyroscopes, 0 from cameras (0 to 1)."""
+
+    @property
+    def odometry_noise(self) -> float:
+        """Noise of a robot's own velocity by its wheels, in each direction (m/s, 0 or above)."""
+
+    @property
+    def gyroscope_noise(self) -> float:
+        """Noise of a robot's own angular velocity by its gyroscope (rad/s, 0 or above)."""
+
+    @property
+    def gyroscope_error(self) -> float:
+        """Error of the gyroscope's zero (rad/s, 0 or above)."""
+
+    @property
+    def command_delay(self) -> float:
+        """Mean time from a command to its arrival, at the start of a tick (s, 0 or above)."""
+
+    @property
+    def command_jitter(self) -> float:
+        """Maximum deviation of that time, uniform. Commands keep their order (s, 0 or above)."""
+
+    @property
+    def command_loss(self) -> float:
+        """Probability that a robot misses a command, and keeps the last (0 to 1)."""
+
+    @property
+    def command_timeout(self) -> float:
+        """Time after which a robot that has heard no command stops; 0 for never (s, 0 or above)."""
+
+    @property
+    def wheel_error(self) -> float:
+        """Error of the speed of each wheel, as a part of it (0 to 1)."""
+
+    @property
+    def wheel_dead_zone(self) -> float:
+        """Commanded speed of a wheel's rim below which the wheel stands (m/s, 0 or above)."""
+
+    @property
+    def kick_speed_noise(self) -> float:
+        """Noise of the speed of a kick, as a part of it (0 to 1)."""
+
+    @property
+    def kick_direction_noise(self) -> float:
+        """Noise of the direction of a kick (rad, 0 or above)."""
+
+    @property
+    def kick_failures(self) -> float:
+        """Probability that a kicker does not obey a command (0 to 1)."""
+
+    @property
+    def dribbler_failures(self) -> float:
+        """Probability that a dribbler does not obey a command (0 to 1)."""
+
+    @property
+    def battery_sag(self) -> float:
+        """Part of all speed that batteries lose in a second, down to half (1/s, 0 or above)."""
+
+    def to_json(self) -> str:
+        """Return name and numbers as JSON."""
+
+    @classmethod
+    def from_json(cls, text: str) -> Sensing:
+        """Return the senses of a JSON text.
+
+        Args:
+            text: Result of `to_json`, or a preset's name with the numbers that differ, such as
+                `{"preset": "rc2021", "delay": 0.1}`.
+
+        Raises:
+            ValueError: Another text, or a number out of its range.
+        """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(self) -> tuple[object, tuple[str]]: ...
+
+@final
 class SimConfig:
     """Configuration of a simulator: field, models, team sizes, time steps. Immutable and hashable.
 
@@ -668,6 +894,8 @@ class SimConfig:
         tick: Length of a physics tick, s; above 0 and at most 0.005.
         engine: Solver of contacts: "compact" is made for few bodies, "rapier" is the slower
             reference.
+        sensing: What robots know and how they obey, the name of its preset, or the path of a .json
+            file. None if they know the true state and obey exactly.
 
     Raises:
         FileNotFoundError: No such file.
@@ -692,6 +920,7 @@ class SimConfig:
         time_step: float = 0.025,
         tick: float = 0.005,
         engine: str = "compact",
+        sensing: str | PathLike[str] | Sensing | None = None,
     ) -> SimConfig: ...
     @property
     def field(self) -> Field:
@@ -732,6 +961,17 @@ class SimConfig:
     @property
     def engine(self) -> str:
         """Solver of contacts, "rapier" or "compact"."""
+
+    @property
+    def sensing(self) -> Sensing | None:
+        """What robots know and how they obey; None if exactly."""
+
+    def with_sensing(self, sensing: Sensing | None) -> SimConfig:
+        """Return the same configuration with other senses.
+
+        Args:
+            sensing: The senses; None for none.
+        """
 
     @property
     def ticks_per_step(self) -> int:
@@ -1536,6 +1776,41 @@ class Simulator:
         Raises:
             ValueError: `out` has another shape or is not writeable.
             TypeError: `out` is not float32.
+        """
+
+    def sense(self, out: NDArray[np.float32], active: NDArray[np.bool_] | None = None) -> None:
+        """Write what the robots know; the state rows without `config.sensing`.
+
+        Args:
+            out: Output (n, row), float32; the rows of active worlds are written.
+            active: Mask of the worlds to write (n,), bool. None for all.
+
+        Raises:
+            ValueError: An array has another shape, or `out` is not writeable.
+            TypeError: An array has another type.
+        """
+
+    def begin_senses(
+        self,
+        worlds: NDArray[np.bool_],
+        keys: NDArray[np.uint64],
+        numbers: NDArray[np.float32] | None = None,
+    ) -> None:
+        """Begin the senses of some worlds, which have just been placed.
+
+        Without this call the senses of a world have the key 0. Without `config.sensing` nothing
+        happens.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+            keys: Keys of the random numbers of these worlds (number of True,), uint64.
+            numbers: Numbers of the senses of these worlds (number of True, `SENSING_NUMBERS`),
+                float32. None for those of the configuration.
+
+        Raises:
+            ValueError: A number is out of its range, or an array has another shape. Nothing has
+                changed.
+            TypeError: An array has another type. Nothing has changed.
         """
 
     def snapshot(self) -> bytes:

@@ -13,15 +13,16 @@ from typing import Any, Final, TypeVar, cast
 
 import numpy as np
 
-from rsoccer._core import BallModel, Field, RobotModel
+from rsoccer._core import BallModel, Field, RobotModel, Sensing
 
-Model = Field | BallModel | RobotModel
+Model = Field | BallModel | RobotModel | Sensing
 SUFFIX: Final = ".json"
 """End of the names of files that hold a model."""
 _MODELS: Final[dict[str, type[Model]]] = {
     "BallModel": BallModel,
     "Field": Field,
     "RobotModel": RobotModel,
+    "Sensing": Sensing,
 }
 
 

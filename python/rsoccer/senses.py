@@ -5,9 +5,10 @@
 truth. Without a model both are the same arrays, and nothing is called.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,21 +57,67 @@ class SensorModel(Protocol):
         """
 
 
+class Senses(ABC):
+    """The state that the robots of n worlds know."""
+
+    frame: Frame
+    """(n, ...) state as the robots know it."""
+    rng: WorldRng
+    """(n,) random streams."""
+
+    @abstractmethod
+    def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
+        """Sense the initial state of all n episodes.
+
+        Args:
+            frame: true state.
+            worlds: (n,) indices of the worlds in the simulator.
+        """
+
+    @abstractmethod
+    def sense(self, frame: Frame) -> None:
+        """Sense the state after a step.
+
+        Args:
+            frame: true state.
+        """
+
+    @abstractmethod
+    def take(self, worlds: NDArray[np.intp]) -> Self:
+        """Return a copy of some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
+
+    def put(self, worlds: NDArray[np.intp], part: Self) -> None:
+        """Overwrite some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+            part: senses of k worlds.
+        """
+        self.frame.put(worlds, part.frame)
+        self.rng.put(worlds, part.rng)
+
+    def arrays(self) -> dict[str, Array]:
+        """Return the arrays to save, by name; not copied. The streams are saved by others."""
+        return {"frame": self.frame.rows}
+
+
 @dataclass
-class Senses:
-    """The state that the robots of n worlds know, with the model that computes it."""
+class ModelSenses(Senses):
+    """Senses by a model in Python."""
 
     model: SensorModel
     """The model."""
     frame: Frame
-    """(n, ...) state as the robots know it."""
     state: dict[str, Array]
     """(n, ...) arrays of the model by name."""
     rng: WorldRng
-    """(n,) random streams of the model."""
 
     @classmethod
-    def new(cls, model: SensorModel, frame: Frame, rng: WorldRng) -> "Senses":
+    def new(cls, model: SensorModel, frame: Frame, rng: WorldRng) -> "ModelSenses":
         """Return the senses of n worlds before their episodes begin.
 
         Args:
@@ -85,22 +132,14 @@ class Senses:
         state = checks.memory(f"{type(model).__name__}.columns", model.columns(n), n)
         return cls(model, frame.copy(), state, rng)
 
-    def begin(self, frame: Frame) -> None:
-        """Sense the initial state of all n episodes.
-
-        Args:
-            frame: true state.
-        """
+    def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
+        """Sense the initial state of all n episodes; see `Senses.begin`."""
         self.frame.rows[:] = frame.rows
         self.model.begin(frame, self.frame, self.state, self.rng)
         self._check("begin")
 
     def sense(self, frame: Frame) -> None:
-        """Sense the state after a step.
-
-        Args:
-            frame: true state.
-        """
+        """Sense the state after a step; see `Senses.sense`."""
         self.model.sense(frame, self.frame, self.state, self.rng)
         self._check("sense")
 
@@ -108,29 +147,17 @@ class Senses:
         """Check the state that a method of the model wrote."""
         checks.rows(f"{type(self.model).__name__}.{method}", self.frame)
 
-    def take(self, worlds: NDArray[np.intp]) -> "Senses":
-        """Return a copy of some worlds.
-
-        Args:
-            worlds: (k,) indices of worlds.
-        """
+    def take(self, worlds: NDArray[np.intp]) -> "ModelSenses":
+        """Return a copy of some worlds; see `Senses.take`."""
         state = {name: array[worlds] for name, array in self.state.items()}
-        return Senses(self.model, self.frame.take(worlds), state, self.rng[worlds])
+        return ModelSenses(self.model, self.frame.take(worlds), state, self.rng[worlds])
 
-    def put(self, worlds: NDArray[np.intp], part: "Senses") -> None:
-        """Overwrite some worlds.
-
-        Args:
-            worlds: (k,) indices of worlds.
-            part: senses of k worlds.
-        """
-        self.frame.put(worlds, part.frame)
+    def put(self, worlds: NDArray[np.intp], part: "ModelSenses") -> None:
+        """Overwrite some worlds; see `Senses.put`."""
+        super().put(worlds, part)
         for name, array in self.state.items():
             array[worlds] = part.state[name]
-        self.rng.put(worlds, part.rng)
 
     def arrays(self) -> dict[str, Array]:
-        """Return the arrays to save, by name; not copied. The streams are saved by others."""
-        return {"frame": self.frame.rows} | {
-            f"state.{name}": array for name, array in self.state.items()
-        }
+        """Return the arrays to save, by name; see `Senses.arrays`."""
+        return super().arrays() | {f"state.{name}": array for name, array in self.state.items()}

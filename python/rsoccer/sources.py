@@ -19,7 +19,7 @@ from contextlib import (
 from typing import Any, TypeAlias, TypeVar
 
 from rsoccer import plugins
-from rsoccer._core import SimConfig, Simulator, Threads
+from rsoccer._core import Sensing, SimConfig, Simulator, Threads
 from rsoccer.senses import SensorModel
 from rsoccer.simulator_interface import Closer, Stepper
 
@@ -29,8 +29,9 @@ matches. `rsoccer.Simulator` is one."""
 SimulatorSource: TypeAlias = SimulatorFactory | Stepper | str
 """A factory, its "module:name", or a simulator of one's own, which serves one object only: an
 environment with it cannot be copied."""
-SensingSource: TypeAlias = SensorModel | str
-"""A sensor model, or "module:name" of one or of a function without arguments that makes it."""
+SensingSource: TypeAlias = Sensing | SensorModel | str
+"""A `Sensing`, the name of its preset or its .json file, a sensor model, or "module:name" of one of
+them or of a function without arguments that makes it."""
 _Closer = TypeVar("_Closer", bound=Closer)
 
 
@@ -117,27 +118,35 @@ def closed_on_error(matches: Closer, source: SimulatorSource | None = None) -> I
         on_error.pop_all()
 
 
-def make_sensing(source: SensingSource | None) -> SensorModel | None:
-    """Return the sensor model of some matches.
+def make_sensing(source: SensingSource | None) -> Sensing | SensorModel | None:
+    """Return what lies between the true state of some matches and what robots know.
 
     Args:
         source: the model or its text; None if robots know the true state.
 
+    Returns:
+        The model; None also for a `Sensing` without any effect.
+
     Raises:
         ImportError: a text whose module or name does not exist.
         TypeError: no sensor model.
-        ValueError: a text of another form.
+        ValueError: a text that is no preset's name.
     """
     model: Any = source
-    if isinstance(source, str):
+    if isinstance(source, str) and ":" in source:
         model = plugins.find("sensing", source)
         model = model() if callable(model) else model
+    elif isinstance(source, str):
+        model = Sensing(source)
     methods = ("columns", "begin", "sense")
     if model is None and source is None:
         return None
+    if isinstance(model, Sensing):
+        return None if model.is_off else model
     if isinstance(model, type) or not all(callable(getattr(model, m, None)) for m in methods):
         raise TypeError(
-            f"sensing: expected a rsoccer.senses.SensorModel or its text, got {model!r}"
+            "sensing: expected a rsoccer.Sensing, the name of its preset, a "
+            f"rsoccer.senses.SensorModel or its text, got {model!r}"
         )
     found: SensorModel = model
     return found

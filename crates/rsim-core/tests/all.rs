@@ -30,6 +30,7 @@ mod pushed_rows;
 mod records;
 mod reposition;
 mod restart;
+mod senses;
 mod shots;
 mod soak;
 mod spinning;

@@ -18,7 +18,7 @@ const LAYERS: &[&[&str]] = &[
     &["bodies"],
     &["engine"],
     &["state"],
-    &["tick"],
+    &["tick", "senses"],
     &["world"],
     &["scenes"],
 ];

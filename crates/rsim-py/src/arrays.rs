@@ -143,6 +143,7 @@ fn tuple(shape: &[usize]) -> String {
 
 pub(crate) type Mask<'py> = PyReadonlyArray<'py, bool, Ix1>;
 pub(crate) type RobotsMask<'py> = PyReadonlyArray<'py, bool, Ix2>;
+pub(crate) type Keys<'py> = PyReadonlyArray<'py, u64, Ix1>;
 pub(crate) type Rows<'py> = PyReadonlyArray<'py, f32, Ix2>;
 pub(crate) type InputRows<'py> = Input<'py, f32, Ix2>;
 pub(crate) type RowsOut<'py> = PyReadwriteArray<'py, f32, Ix2>;

@@ -9,7 +9,7 @@ use pyo3::types::{PyTuple, PyType};
 use rsim_core::{EngineKind, League};
 
 use crate::arguments::{Given, argument, given};
-use crate::models::{BallModel, Field, Model, RobotModel, named, shortest};
+use crate::models::{BallModel, Field, Model, RobotModel, Sensing, named, shortest};
 
 /// Configuration of a simulator.
 #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
@@ -21,9 +21,9 @@ impl SimConfig {
     #[new]
     #[pyo3(signature = (
         field = None, n_blue = None, n_yellow = None, *,
-        robot = None, ball = None, time_step = None, tick = None, engine = None
+        robot = None, ball = None, time_step = None, tick = None, engine = None, sensing = None
     ), text_signature = "(field='vss_3v3', n_blue=3, n_yellow=3, *, robot=None, ball=None, \
-        time_step=0.025, tick=0.005, engine='compact')")]
+        time_step=0.025, tick=0.005, engine='compact', sensing=None)")]
     #[expect(clippy::too_many_arguments, reason = "the keywords of Python's constructor")]
     fn new(
         #[pyo3(from_py_with = given)] field: Given<'_>,
@@ -34,6 +34,7 @@ impl SimConfig {
         #[pyo3(from_py_with = given)] time_step: Given<'_>,
         #[pyo3(from_py_with = given)] tick: Given<'_>,
         #[pyo3(from_py_with = given)] engine: Given<'_>,
+        sensing: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let solvers = "'compact' or 'rapier'";
         let engine = argument("engine", solvers, engine, || "compact".to_owned())?;
@@ -60,7 +61,10 @@ impl SimConfig {
             vec![robot; n_blue + n_yellow]
         };
         let yellow = blue.split_off(n_blue);
-        let config = rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick, engine };
+        let sensing = sensing.map(|sensing| named::<Sensing>("sensing", &sensing)).transpose()?;
+        let sensing = sensing.map(|sensing| sensing.0);
+        let config =
+            rsim_core::SimConfig { field, ball, blue, yellow, time_step, tick, engine, sensing };
         config.validate().map_err(invalid)?;
         Ok(Self(config))
     }
@@ -120,6 +124,18 @@ impl SimConfig {
     #[getter]
     fn engine(&self) -> &'static str {
         self.0.engine.name()
+    }
+
+    #[getter]
+    fn sensing(&self) -> Option<Sensing> {
+        self.0.sensing.clone().map(Sensing)
+    }
+
+    fn with_sensing(&self, sensing: Option<Sensing>) -> PyResult<Self> {
+        let sensing = sensing.map(|sensing| sensing.0);
+        let config = rsim_core::SimConfig { sensing, ..self.0.clone() };
+        config.validate().map_err(invalid)?;
+        Ok(Self(config))
     }
 
     #[getter]

@@ -31,7 +31,7 @@ mod _core {
     #[pymodule_export]
     use crate::ego_features::EgoFeatures;
     #[pymodule_export]
-    use crate::models::{BallModel, Field, RobotModel};
+    use crate::models::{BallModel, Field, RobotModel, Sensing};
     #[pymodule_export]
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
@@ -65,6 +65,7 @@ mod _core {
         add_numbers::<Field>(py)?;
         add_numbers::<BallModel>(py)?;
         add_numbers::<RobotModel>(py)?;
+        add_numbers::<Sensing>(py)?;
         module.add("BALL_COLUMNS", PyTuple::new(py, columns::BALL_COLUMNS)?)?;
         module.add("ROBOT_COLUMNS", PyTuple::new(py, columns::ROBOT_COLUMNS)?)?;
         module.add("CROSSINGS", PyTuple::new(py, columns::CROSSINGS)?)?;
@@ -88,6 +89,8 @@ mod _core {
         module.add("GAME_FEATURES", PyTuple::new(py, FEATURES)?)?;
         module.add("MAX_EVENTS", crate::referee::MAX_EVENTS)?;
         module.add("BALL_PARAMETERS", PyTuple::new(py, columns::BALL_PARAMETERS)?)?;
+        let sensing = rsim_core::Sensing::numbers().into_iter().map(|number| number.name);
+        module.add("SENSING_NUMBERS", PyTuple::new(py, sensing.collect::<Vec<_>>())?)?;
         module.add("ROBOT_PARAMETERS", PyTuple::new(py, columns::ROBOT_PARAMETERS)?)?;
         module.add("COMMAND_COLUMNS", commands)?;
         module.add("MAX_PLACED_ANGULAR_VELOCITY", rsim_core::MAX_PLACED_ANGULAR_VELOCITY)?;

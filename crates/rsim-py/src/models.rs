@@ -166,6 +166,16 @@ where
 /// A frozen Python class around a model of the core.
 macro_rules! mirror {
     ($name:ident, $doc:literal, { $($extra:tt)* }) => {
+        mirror!($name, $doc, new {
+            #[new]
+            #[pyo3(signature = (name, **numbers))]
+            fn new(name: &Bound<'_, PyAny>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+                let expected = "a preset's name or the path of a .json file";
+                found::<Self>("name", expected, name)?.with(numbers)
+            }
+        }, { $($extra)* });
+    };
+    ($name:ident, $doc:literal, new { $($new:tt)* }, { $($extra:tt)* }) => {
         #[doc = $doc]
         #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
         #[derive(Clone, PartialEq)]
@@ -203,12 +213,7 @@ macro_rules! mirror {
 
         #[pymethods]
         impl $name {
-            #[new]
-            #[pyo3(signature = (name, **numbers))]
-            fn new(name: &Bound<'_, PyAny>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-                let expected = "a preset's name or the path of a .json file";
-                found::<Self>("name", expected, name)?.with(numbers)
-            }
+            $($new)*
 
             #[classattr]
             #[pyo3(name = "PRESETS")]
@@ -329,3 +334,51 @@ mirror!(RobotModel, "A robot: body, drive, and mouth if it has one. SI units.", 
         PyTuple::new(py, self.0.command_columns())
     }
 });
+
+mirror!(
+    Sensing,
+    "What lies between the true state and what robots know, and between commands and what they do.",
+    new {
+        #[new]
+        #[pyo3(signature = (name = None, **numbers))]
+        fn new(
+            name: Option<&Bound<'_, PyAny>>,
+            numbers: Option<&Bound<'_, PyDict>>,
+        ) -> PyResult<Self> {
+            let expected = "a preset's name or the path of a .json file";
+            let mut sensing = match name {
+                Some(name) => found::<Self>("name", expected, name)?,
+                None => Self(rsim_core::Sensing::OFF),
+            };
+            let Some(numbers) = numbers else { return Ok(sensing) };
+            let numbers = numbers.copy()?;
+            for (both, names) in OF_BOTH {
+                if let Some(value) = numbers.get_item(both)? {
+                    let of_each = PyDict::new(numbers.py());
+                    names.iter().try_for_each(|name| of_each.set_item(name, &value))?;
+                    numbers.del_item(both)?;
+                    sensing = sensing.with(Some(&of_each))?;
+                }
+            }
+            sensing.with(Some(&numbers))
+        }
+    },
+    {
+        #[classmethod]
+        #[pyo3(name = "preset")]
+        fn of_preset(_class: &Bound<'_, PyType>, name: &str) -> PyResult<Self> {
+            <Self as Model>::preset(name)
+        }
+
+        #[getter]
+        fn is_off(&self) -> bool {
+            self.0.is_off()
+        }
+    }
+);
+
+/// Names for the numbers of the ball and of robots together.
+const OF_BOTH: [(&str, [&str; 2]); 2] = [
+    ("position_noise", ["ball_position_noise", "robot_position_noise"]),
+    ("missing", ["missing_balls", "missing_robots"]),
+];

@@ -8,7 +8,7 @@ use rsim_core::columns::BALL_COLUMNS;
 use rsim_core::{Batch, PlaceError};
 
 use crate::arrays::{
-    Commands, InputRows, Mask, RobotsMask, RowsOut, finite, readable, values, writeable,
+    Commands, InputRows, Keys, Mask, RobotsMask, Rows, RowsOut, finite, readable, values, writeable,
 };
 use crate::config::{SimConfig, count, invalid};
 use crate::threads::ThreadsOrCount;
@@ -151,6 +151,40 @@ impl Simulator {
         let mut out = self.rows_out(out)?;
         self.0.read(out.as_slice_mut()?);
         Ok(())
+    }
+
+    #[pyo3(signature = (out, active = None))]
+    fn sense(
+        &self,
+        py: Python<'_>,
+        out: &Bound<'_, PyAny>,
+        active: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let active: Option<Mask> =
+            active.map(|mask| readable("active", mask, &[self.0.worlds()])).transpose()?;
+        let active = active.as_ref().map(values);
+        let mut out = self.rows_out(out)?;
+        let out = out.as_slice_mut()?;
+        py.detach(|| self.0.sense(out, active.as_deref()));
+        Ok(())
+    }
+
+    #[pyo3(signature = (worlds, keys, numbers = None))]
+    fn begin_senses(
+        &mut self,
+        worlds: &Bound<'_, PyAny>,
+        keys: &Bound<'_, PyAny>,
+        numbers: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let mask: Mask = readable("worlds", worlds, &[self.0.worlds()])?;
+        let mask = values(&mask);
+        let chosen = mask.iter().filter(|&&chosen| chosen).count();
+        let keys: Keys = readable("keys", keys, &[chosen])?;
+        let size = rsim_core::Sensing::numbers().len();
+        let numbers: Option<Rows> =
+            numbers.map(|rows| readable("numbers", rows, &[chosen, size])).transpose()?;
+        let numbers = numbers.as_ref().map(values);
+        self.0.begin_senses(&mask, &values(&keys), numbers.as_deref()).map_err(invalid)
     }
 
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {

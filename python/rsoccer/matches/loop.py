@@ -16,7 +16,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from rsoccer import checks, spaces
-from rsoccer._core import Simulator, Threads
+from rsoccer._core import Sensing, Simulator, Threads
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
@@ -27,10 +27,12 @@ from rsoccer.matches.learners import Learners
 from rsoccer.matches.match_state import MatchState
 from rsoccer.matches.outcome import Episodes, Outcome
 from rsoccer.matches.paused import PausedWorlds
+from rsoccer.matches.sensing import new_senses, simulated
 from rsoccer.matches.starts import Starts
 from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.policies.base import CommandPolicy
+from rsoccer.randomization import Randomization, Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.rng import Seeds, WorldRng, next_streams
 from rsoccer.rules.base import Restart, begin, judge, select
@@ -96,6 +98,7 @@ class Matches:
         autoreset: str = "same_step",
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
@@ -117,8 +120,12 @@ class Matches:
                 `(config, worlds, threads)` that makes a simulator, its text "module:name", or a
                 simulator; see `rsoccer.simulator_interface`. With one that cannot place bodies,
                 such as real robots, episodes begin with the state as it is.
-            sensing: model of what robots know of the true state, or its text "module:name"; None
-                if they know it exactly.
+            sensing: what robots know of the true state, and how they obey: a `Sensing`, the name
+                of a preset of it, a `rsoccer.senses.SensorModel`, or its text "module:name"; None
+                if they know and obey exactly.
+            randomization: distributions of numbers that each episode draws for itself, by name,
+                such as `{"robot.mass": (0.9, 1.1)}`; see `rsoccer.randomization`. None for the same
+                numbers in all.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
@@ -144,11 +151,17 @@ class Matches:
         self.observation_high = self.task.layout.high
         self._threads = Threads(checks.integer("threads", threads, 1))
         self._sensing = make_sensing(sensing)
+        self._randomization = Randomization.of(
+            randomization, self.task.config, simulated(self._sensing)
+        )
+        if self._randomization.sensing is not None and self._sensing is None:
+            self._sensing = Sensing()
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
         self._viewpoint = new_viewpoint(self.task, self.assignment.observers.tolist())
-        self.play = self._new_play(worlds, root.split("task"), root.split("senses"))
+        self.play = self._new_play(worlds, root.split("task"))
+        self._variation = root.split("randomization")
         for group in self.assignment.groups:
             group.rng = root.split(group.name)
         groups = self.assignment.groups
@@ -163,11 +176,12 @@ class Matches:
         self._waited = _NO_WORLDS  # in the last step
         self._step_calls = 0  # for error messages
         self._consistency = Consistency()
-        # Last, so that what fails before leaves no simulator open.
-        self._simulator = make_simulator(simulator, self.task.config, worlds, self._threads)
+        config = self.task.config.with_sensing(simulated(self._sensing))
+        self._simulator = make_simulator(simulator, config, worlds, self._threads)
         self._is_own_simulator = isinstance(self._simulator, Simulator)
         try:
             self._starts = Starts(self._simulator)
+            self.play.senses = self._new_senses(self.play.frame, root.split("senses"))
         except BaseException:
             if not is_shared(simulator):
                 close(self._simulator)
@@ -510,10 +524,14 @@ class Matches:
         streams = next_streams(self._streams(), worlds, seeds)
         if rows is None and self._starts.can_place:
             rows = self.task.get_initial_positions_frame(streams["start"]).rows
-        part = self._new_play(len(worlds), streams["task"], streams.get("senses"))
+        part = self._new_play(len(worlds), streams["task"])
+        if "senses" in streams:
+            part.senses = self._new_senses(part.frame, streams["senses"])
+        varied = self._randomization.parameters
+        parameters = None if varied is None else varied.draw(streams["randomization"])
         mask = np.zeros(self.worlds, np.bool_)
         mask[worlds] = True
-        times = self._starts.begin(mask, rows, self.play.frame.rows)
+        times = self._starts.begin(mask, rows, self.play.frame.rows, parameters)
         try:
             self._stamp(times)
             self._observe_start(worlds, part)
@@ -523,6 +541,8 @@ class Matches:
             self._consistency.fail("reset", error)
             raise
         self._start.put(worlds, streams["start"])
+        if varied is not None:
+            self._variation.put(worlds, streams["randomization"])
         if len(worlds) == self.worlds:
             self._consistency.repair()
 
@@ -533,7 +553,7 @@ class Matches:
         begin(self._rules, part, np.arange(len(worlds)))
         self.task.start_episode(part)
         if part.senses is not None:
-            part.senses.begin(part.frame)
+            part.senses.begin(part.frame, worlds)
         self._observations[worlds] = self.task.layout.observe(part)
         self.play.put(worlds, part)
         self._done[worlds] = False
@@ -541,12 +561,14 @@ class Matches:
         self._begun[worlds] = True
         self._all_begun = bool(self._begun.all())
 
-    def _new_play(self, n: int, rng: WorldRng, senses_rng: WorldRng | None) -> Play:
-        """State of n worlds before their episodes begin."""
-        play = new_play(self.task, n, self._viewpoint, rng, self._threads)
-        if self._sensing is not None and senses_rng is not None:
-            play.senses = Senses.new(self._sensing, play.frame, senses_rng)
-        return play
+    def _new_play(self, n: int, rng: WorldRng) -> Play:
+        """State of n worlds before their episodes begin, without senses."""
+        return new_play(self.task, n, self._viewpoint, rng, self._threads)
+
+    def _new_senses(self, frame: Frame, rng: WorldRng) -> Senses | None:
+        """Senses of n worlds before their episodes begin."""
+        ranges = self._randomization.sensing
+        return new_senses(self._sensing, self._simulator, self.worlds, ranges, frame, rng)
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""
@@ -564,6 +586,8 @@ class Matches:
         streams = {"start": self._start, "task": self.play.rng}
         if self.play.senses is not None:
             streams["senses"] = self.play.senses.rng
+        if self._randomization.parameters is not None:
+            streams["randomization"] = self._variation
         return streams | {group.name: group.rng for group in self.assignment.groups}
 
     def _observed(self) -> Floats:

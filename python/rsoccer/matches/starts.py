@@ -43,13 +43,17 @@ class Starts:
                 "is; expected None"
             )
 
-    def begin(self, worlds: Mask, rows: Floats | None, out: Floats) -> Doubles | None:
+    def begin(
+        self, worlds: Mask, rows: Floats | None, out: Floats, parameters: Floats | None = None
+    ) -> Doubles | None:
         """Begin episodes in some worlds.
 
         Args:
             worlds: (n,) bool, k of them True.
             rows: (k, row) initial states; None for the state as it is.
             out: (n, row) output; the rows of the k worlds are overwritten.
+            parameters: (k, parameter) factors on the models' numbers in these worlds; None for the
+                simulator's own.
 
         Returns:
             Time stamps, or None.
@@ -58,7 +62,9 @@ class Starts:
             ValueError: a state that is not finite. Nothing has changed.
         """
         if self._placer is not None and rows is not None:
-            return self._placer.place(worlds, rows, out)
+            if parameters is None:
+                return self._placer.place(worlds, rows, out)
+            return self._placer.place(worlds, rows, out, parameters)
         assert self._reader is not None, "the constructor has checked it"
         present = np.empty_like(out)
         times = self._reader.read(present)

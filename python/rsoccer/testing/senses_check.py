@@ -10,7 +10,7 @@ import numpy as np
 from rsoccer.arrays import Array
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
-from rsoccer.senses import Senses
+from rsoccer.senses import ModelSenses
 from rsoccer.task import Play, Task
 from rsoccer.testing.errors import TaskError
 from rsoccer.testing.method_results import (
@@ -48,9 +48,11 @@ def check_senses(task: Task, play: Play) -> None:
         TaskError: a method reads the other state.
     """
     others = np.roll(np.arange(len(play.frame)), 1)
-    sensing = replace(_copy(play), senses=Senses.new(_Given(), play.frame, play.rng[others]))
+    sensing = replace(_copy(play), senses=ModelSenses.new(_Given(), play.frame, play.rng[others]))
     sensing.frame, sensing.last_frame = play.frame.take(others), play.last_frame.take(others)
-    judging = replace(_copy(play), senses=Senses.new(_Given(), play.frame.take(others), play.rng))
+    judging = replace(
+        _copy(play), senses=ModelSenses.new(_Given(), play.frame.take(others), play.rng)
+    )
     for method in (RULES_BEGIN, *DURING_EPISODES):
         if method.reads == "sensed":
             _compare(task, method, play, sensing, "it reads the true state; robots know")

@@ -12,6 +12,20 @@ use crate::models::robot::RobotModel;
 /// Rate at which the dribbler centers the ball in the mouth, 1/s.
 const CENTERING_RATE: f32 = 20.0;
 
+/// What a kick is by the command.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Kicker {
+    /// Factor on the speed.
+    pub(crate) gain: f32,
+    /// Direction in the robot's frame, a unit vector.
+    pub(crate) direction: Vector,
+}
+
+impl Kicker {
+    /// A kicker that obeys exactly.
+    pub(crate) const EXACT: Self = Self { gain: 1.0, direction: Vector::X };
+}
+
 /// A ball in a robot's mouth.
 pub(crate) struct HeldBall<'a> {
     mouth: &'a Mouth,
@@ -67,20 +81,28 @@ impl<'a> HeldBall<'a> {
     /// Velocity of the ball after a kick of `forward` and `upward` m/s relative to the front.
     ///
     /// The device's limits apply to the total speed; part of the ball's speed across the front
-    /// remains. `gain` is a factor on the speed of the kick.
-    pub(crate) fn kicked(&self, velocity: Vector, forward: f32, upward: f32, gain: f32) -> Vec3 {
+    /// remains.
+    pub(crate) fn kicked(
+        &self,
+        velocity: Vector,
+        forward: f32,
+        upward: f32,
+        kicker: Kicker,
+    ) -> Vec3 {
         let limit =
             if upward > 0.0 { self.mouth.max_chip_speed } else { self.mouth.max_kick_speed };
         let commanded =
             Vector::new(forward, upward).clamp(Vector::ZERO, Vector::splat(MAX_COMMAND));
-        let commanded = commanded.clamp_length_max(limit) * gain;
+        let commanded = commanded.clamp_length_max(limit) * kicker.gain;
         let robot_velocity = self.robot_velocity();
         let side = self.robot.heading.perp();
         let relative = velocity - robot_velocity;
         let across = relative.dot(side) * self.mouth.kick_lateral_factor;
         // A plate that is slower than the ball does not reach it.
         let along = commanded.x.max(relative.dot(self.robot.heading));
-        (robot_velocity + self.robot.heading * along + side * across).extend(commanded.y)
+        let (ahead, aside) = (kicker.direction * along, kicker.direction.perp() * across);
+        let relative = ahead + aside;
+        (robot_velocity + self.robot.heading * relative.x + side * relative.y).extend(commanded.y)
     }
 
     /// Impulse of the dribbler on the ball in a tick, N s. `speed` is the dribbler's, 0 to 1.

@@ -6,6 +6,8 @@
 mod differential;
 mod omni;
 
+pub(crate) use omni::WheelMap;
+
 use serde::{Deserialize, Serialize};
 
 use crate::blocks::{BALL, LANES, Lanes, VectorLanes, blocks_of, mask_of, place_of, robot};

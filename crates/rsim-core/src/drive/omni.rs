@@ -169,6 +169,29 @@ fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) 
 }
 
 /// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
+/// Kinematics of one robot: from the velocity of its body to the speeds of its wheels and back.
+pub(crate) struct WheelMap {
+    from_body: [[f32; 3]; 4],
+    to_body: [[f32; 4]; 3],
+}
+
+impl WheelMap {
+    pub(crate) fn of(drive: &OmniDrive) -> Self {
+        let from_body = from_body(drive);
+        Self { to_body: least_squares_inverse(&from_body), from_body }
+    }
+
+    /// Wheel speeds (rad/s) of a velocity forward and to the left (m/s) and an angular velocity (rad/s).
+    pub(crate) fn wheel_speeds(&self, [x, y, turn]: [f32; 3]) -> [f32; 4] {
+        self.from_body.map(|row| row[0] * x + row[1] * y + row[2] * turn)
+    }
+
+    /// The velocity and angular velocity that fit the speeds of four wheels best.
+    pub(crate) fn velocity(&self, speeds: &[f32]) -> [f32; 3] {
+        self.to_body.map(|row| row.iter().zip(speeds).map(|(part, speed)| part * speed).sum())
+    }
+}
+
 fn from_body(drive: &OmniDrive) -> [[f32; 3]; 4] {
     drive.wheel_angles.map(|degrees| {
         let Rotation { re: cos, im: sin } = Rotation::new(degrees.to_radians());

@@ -9,6 +9,7 @@ use crate::models::field::Field;
 use crate::models::league::League;
 use crate::models::numbers::Range;
 use crate::models::robot::RobotModel;
+use crate::models::sensing::Sensing;
 
 /// Solver of contacts between bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -63,6 +64,10 @@ pub struct SimConfig {
     /// Solver of contacts.
     #[serde(default)]
     pub engine: EngineKind,
+    /// What lies between the true state and what robots know, and between commands and what they do; `None`
+    /// if they know and obey exactly.
+    #[serde(default)]
+    pub sensing: Option<Sensing>,
 }
 
 impl SimConfig {
@@ -82,6 +87,7 @@ impl SimConfig {
             time_step: 0.025,
             tick: 0.005,
             engine: EngineKind::default(),
+            sensing: None,
         }
     }
 
@@ -152,6 +158,7 @@ impl SimConfig {
         self.field.validate()?;
         self.ball.validate()?;
         self.robots().try_for_each(RobotModel::validate)?;
+        self.sensing.iter().try_for_each(Sensing::validate)?;
         for (name, got) in [("time_step", self.time_step), ("tick", self.tick)] {
             if !Range::Positive.contains(got) {
                 return Err(ConfigError::Number {

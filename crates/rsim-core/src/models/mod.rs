@@ -11,3 +11,5 @@ pub(crate) mod numbers;
 pub(crate) mod presets;
 pub(crate) mod robot;
 pub(crate) mod robot_presets;
+pub(crate) mod sensing;
+pub(crate) mod sensing_presets;

@@ -1,5 +1,6 @@
 //! Commands of a control step, read once for all of its ticks.
 
+use crate::ball::mouth::Kicker;
 use crate::blocks::{LANES, mask_of, robot};
 use crate::body_parameters::BodyParameters;
 use crate::columns::{OMNI_COLUMNS, OMNI_WHEELS_COLUMNS};
@@ -27,6 +28,8 @@ pub(super) struct HandlingCommand {
     pub(super) chip: f32,
     /// Speed of the dribbler by its maximum, 0 to 1.
     pub(super) dribbler: f32,
+    /// What a kick is by the command.
+    pub(super) kicker: Kicker,
 }
 
 impl StepCommands {
@@ -60,6 +63,13 @@ impl StepCommands {
         }
     }
 
+    /// Replaces the exact kickers of all robots.
+    pub(crate) fn set_kickers(&mut self, kicker_of: impl Fn(usize) -> Kicker) {
+        for command in &mut self.handling {
+            command.kicker = kicker_of(command.robot);
+        }
+    }
+
     /// Commands the wheels of `bodies`, one bit each, to stand still.
     fn halt(&mut self, bodies: u64) {
         for (block, commands) in self.wheels.iter_mut().enumerate() {
@@ -78,7 +88,8 @@ impl HandlingCommand {
             Drive::OmniWheels(_) => OMNI_WHEELS_COLUMNS.len() - 3,
         };
         let [kick, chip, dribbler] = [row[at], row[at + 1], row[at + 2]];
-        Some(Self { robot, kick, chip, dribbler: dribbler.clamp(0.0, 1.0) })
+        let dribbler = dribbler.clamp(0.0, 1.0);
+        Some(Self { robot, kick, chip, dribbler, kicker: Kicker::EXACT })
     }
 
     pub(super) fn kicks(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Kicks and dribbling of robots that have the ball in their mouths, before the bodies move.
 
 use crate::ball::kicks::Kicks;
-use crate::ball::mouth::HeldBall;
+use crate::ball::mouth::{HeldBall, Kicker};
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, Lanes, larger, robot};
 use crate::body_parameters::BodyParameters;
@@ -63,7 +63,8 @@ pub(super) fn handle_ball(
         state.touches.add_ball(index);
         if kicks {
             state.bodies.set_recharging(index, mouth.kicker_recharge_time);
-            let after = held.kicked(ball.velocity, command.kick, command.chip, body.kick_gain);
+            let kicker = Kicker { gain: command.kicker.gain * body.kick_gain, ..command.kicker };
+            let after = held.kicked(ball.velocity, command.kick, command.chip, kicker);
             all.kicked = true;
             all.v_z = all.v_z.max(after.z);
             let change = (after.truncate() - ball.velocity) * parameters.ball.mass;

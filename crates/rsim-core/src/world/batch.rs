@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use crate::bodies::BodyBlock;
 use crate::error::{ConfigError, SnapshotError, StepError};
 use crate::models::config::SimConfig;
+use crate::senses::Senses;
 use crate::state::State;
 use crate::threads::Threads;
 use crate::world::World;
@@ -19,9 +20,15 @@ pub struct Batch {
     threads: Threads,
 }
 
+/// A world in a snapshot.
+type Saved = (State<Vec<BodyBlock>>, Option<Box<Senses>>);
+
 /// Maximum number of worlds that a thread takes at once; taking them costs next to nothing compared with
 /// stepping them.
 const MAX_PORTION: usize = 16;
+
+/// Number of rows that the caller's thread writes by itself.
+const SENSED_ALONE: usize = 64;
 
 /// More worlds than any memory holds.
 const MAX_WORLDS: usize = 10_000_000;
@@ -133,9 +140,46 @@ impl Batch {
         }
     }
 
+    /// Writes the rows of what the robots of the active worlds (all if `active` is `None`) know: state rows
+    /// without senses.
+    pub fn sense(&self, out: &mut [f32], active: Option<&[bool]>) {
+        let size = self.config().row_size();
+        self.threads.write_rows(out, size, SENSED_ALONE, |world, row| {
+            if active.is_none_or(|active| active[world]) {
+                self.worlds[world].write_sensed_row(row);
+            }
+        });
+    }
+
+    /// Begins the senses of the worlds of the mask, which have just been placed. `keys` has one number for
+    /// each of these worlds, and `numbers` one row if given (see [`World::begin_senses`]).
+    ///
+    /// # Errors
+    /// [`ConfigError`] for the first world with a number out of its range; then no world has changed.
+    pub fn begin_senses(
+        &mut self,
+        mask: &[bool],
+        keys: &[u64],
+        numbers: Option<&[f32]>,
+    ) -> Result<(), ConfigError> {
+        let Some(sensing) = self.config().sensing.clone() else { return Ok(()) };
+        let size = sensing.values().len();
+        let own = |nth: usize| match numbers {
+            Some(numbers) => sensing.with_values(&numbers[nth * size..][..size]),
+            None => Ok(sensing.clone()),
+        };
+        let all = (0..keys.len()).map(own).collect::<Result<Vec<_>, _>>()?;
+        let chosen = self.worlds.iter_mut().zip(mask).filter(|(_, chosen)| **chosen);
+        for (((world, _), key), sensing) in chosen.zip(keys).zip(all) {
+            world.set_senses(*key, Some(sensing));
+        }
+        Ok(())
+    }
+
     /// The states of all worlds as bytes: everything that their futures depend on.
     pub fn snapshot(&self) -> Vec<u8> {
-        let states: Vec<&State> = self.worlds.iter().map(|world| &*world.state).collect();
+        let states: Vec<(&State, &Option<Box<Senses>>)> =
+            self.worlds.iter().map(|world| (&*world.state, &world.senses)).collect();
         snapshot::write(&self.header(), &states)
     }
 
@@ -144,9 +188,9 @@ impl Batch {
     /// # Errors
     /// [`SnapshotError`] for foreign or damaged bytes, or another configuration; then nothing has changed.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), SnapshotError> {
-        let states: Vec<State<Vec<BodyBlock>>> = snapshot::read(&self.header(), bytes)?;
-        for (world, state) in self.worlds.iter_mut().zip(states) {
-            world.state = state.boxed();
+        let states: Vec<Saved> = snapshot::read(&self.header(), bytes)?;
+        for (world, (state, senses)) in self.worlds.iter_mut().zip(states) {
+            (world.state, world.senses) = (state.boxed(), senses);
         }
         Ok(())
     }

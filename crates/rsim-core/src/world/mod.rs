@@ -8,6 +8,7 @@ mod placement;
 mod reposition;
 mod restart;
 mod row;
+mod sensed;
 mod snapshot;
 
 use std::cell::RefCell;
@@ -20,11 +21,13 @@ use crate::error::{ConfigError, PlaceError, StepError};
 use crate::geometry::arena::walls;
 use crate::geometry::free_space::FreeSpace;
 use crate::models::config::SimConfig;
+use crate::senses::Senses;
 use crate::state::crossing::Crossing;
 use crate::state::{Setup, State};
 use crate::tick::{StepCommands, Tick};
 use crate::world::line_up::line_up;
 use crate::world::placement::{Placement, Start};
+use crate::world::sensed::advance_sensed;
 
 thread_local! {
     /// Working memory, one per thread and not per world: a world holds only the state of its match.
@@ -49,6 +52,8 @@ impl WorkingMemory {
 pub struct World {
     shared: Arc<Shared>,
     state: Box<State>,
+    /// What lies between the true state and what robots know and do; `None` if nothing does.
+    senses: Option<Box<Senses>>,
     contact_free_enabled: bool,
 }
 
@@ -86,7 +91,9 @@ impl World {
             command_columns: config.command_columns(),
         };
         let shared = Arc::new(Shared { setup, placement, pristine: pristine.clone() });
-        Ok(Self { shared, state: pristine, contact_free_enabled: true })
+        let mut world = Self { shared, state: pristine, senses: None, contact_free_enabled: true };
+        world.begin_senses(0, None)?;
+        Ok(world)
     }
 
     /// Configuration of the match.
@@ -104,8 +111,14 @@ impl World {
     /// nothing has changed.
     pub fn place(&mut self, row: &[f32], parameters: Option<&[f32]>) -> Result<(), PlaceError> {
         let checked = self.check(row, parameters)?;
-        self.start(checked);
+        self.start_match(checked);
         Ok(())
+    }
+
+    /// Starts a new match from a checked start, with new senses.
+    fn start_match(&mut self, checked: CheckedStart) {
+        self.start(checked);
+        self.set_senses(0, self.config().sensing.clone());
     }
 
     /// Reads and checks a start.
@@ -152,11 +165,9 @@ impl World {
         let state = &mut self.state;
         let own_parameters = state.own_parameters.take();
         let parameters = own_parameters.as_deref().unwrap_or(&setup.parameters);
-        let stepped = MEMORY.with_borrow_mut(|memory| {
-            let WorkingMemory { engine, commands: read } = memory;
-            read.read(state, parameters, commands, setup.command_columns.max(1));
-            let tick = Tick { setup, parameters, commands: read };
-            (0..setup.config.ticks_per_step()).try_for_each(|_| tick.advance(state, engine))
+        let stepped = MEMORY.with_borrow_mut(|memory| match &mut self.senses {
+            None => advance(memory, setup, parameters, state, commands),
+            Some(senses) => advance_sensed(memory, setup, parameters, state, commands, senses),
         });
         state.own_parameters = own_parameters;
         stepped.and_then(|()| self.state.check_finite()).map_err(|NonFinite| {
@@ -197,6 +208,20 @@ impl World {
     fn parameters(&self) -> &BodyParameters {
         self.state.own_parameters.as_deref().unwrap_or(&self.shared.setup.parameters)
     }
+}
+
+/// Advances a match by the ticks of a control step.
+fn advance(
+    memory: &mut WorkingMemory,
+    setup: &Setup,
+    parameters: &BodyParameters,
+    state: &mut State,
+    commands: &[f32],
+) -> Result<(), NonFinite> {
+    let WorkingMemory { engine, commands: read } = memory;
+    read.read(state, parameters, commands, setup.command_columns.max(1));
+    let tick = Tick { setup, parameters, commands: read };
+    (0..setup.config.ticks_per_step()).try_for_each(|_| tick.advance(state, engine))
 }
 
 /// A start that passed all checks.

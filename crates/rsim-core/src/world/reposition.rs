@@ -80,6 +80,7 @@ impl World {
             let is_absent = start.absent >> index & 1 == 1;
             self.state.replace_robot(index, &start.motions[robot(index)], is_absent);
         }
+        self.look_again();
     }
 
     /// Moves the ball to a checked start.
@@ -89,6 +90,7 @@ impl World {
         state.ball = checked.ball;
         state.touches.last = None;
         state.crossing = Crossing::default();
+        self.look_again();
     }
 }
 

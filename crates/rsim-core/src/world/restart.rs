@@ -28,5 +28,6 @@ impl World {
     pub(super) fn restart_from(&mut self, start: Start) {
         let own_parameters = self.state.own_parameters.take();
         self.start(CheckedStart { start, own_parameters });
+        self.look_again();
     }
 }

@@ -26,7 +26,7 @@ impl Batch {
         let (size, count) = (self.config().row_size(), self.config().parameters_size());
         let row = |nth: usize| &rows[nth * size..][..size];
         let own = |nth: usize| parameters.map(|all| &all[nth * count..][..count]);
-        self.change(mask, out, |nth, world| world.check(row(nth), own(nth)), World::start)
+        self.change(mask, out, |nth, world| world.check(row(nth), own(nth)), World::start_match)
     }
 
     /// Restarts play in the worlds of the mask: all bodies get a new state, and the worlds keep their own

@@ -1,0 +1,150 @@
+//! What robots make of the commands they hear: wheels, kickers, dribblers and batteries that are not exact.
+
+use serde::{Deserialize, Serialize};
+
+use crate::ball::mouth::Kicker;
+use crate::body_parameters::BodyParameters;
+use crate::drive::WheelMap;
+use crate::geometry::motion::rotated;
+use crate::math::Vector;
+use crate::models::robot::{Drive, OmniDrive, RobotModel};
+use crate::models::sensing::Sensing;
+use crate::senses::random::{Draws, Purpose};
+
+/// Number of wheels of a robot at most.
+const WHEELS: usize = 4;
+
+/// Part of the maximum speed that an empty battery leaves.
+const EMPTY_BATTERY: f32 = 0.5;
+
+/// Actuators of all robots of a match.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Actuators {
+    /// Factors on the speeds of the wheels of each robot.
+    wheels: Vec<[f32; WHEELS]>,
+    /// Commands as the robots obey them, a row for each.
+    commands: Vec<f32>,
+    /// Factor on the speed of the kicks of each robot.
+    kick_gains: Vec<f32>,
+    /// Direction of the kicks of each robot from its heading, rad.
+    kick_directions: Vec<f32>,
+}
+
+impl Actuators {
+    /// The actuators of `robots` robots, with their errors.
+    pub(super) fn new(robots: usize, columns: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
+        let mut wheel = || (1.0 + draws.normal(sensing.wheel_error)).max(0.0);
+        let wheels = (0..robots).map(|_| std::array::from_fn(|_| wheel())).collect();
+        Self {
+            wheels,
+            commands: vec![0.0; robots * columns],
+            kick_gains: vec![1.0; robots],
+            kick_directions: vec![0.0; robots],
+        }
+    }
+
+    /// Takes in the commands that robots have heard, those of control step `number`. `seconds` is the time
+    /// that the batteries have worked.
+    pub(super) fn obey(
+        &mut self,
+        heard: &[f32],
+        number: u64,
+        seconds: f32,
+        (sensing, key): (&Sensing, u64),
+        parameters: &BodyParameters,
+    ) {
+        self.commands.copy_from_slice(heard);
+        let battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
+        let mut draws = Draws::of(key, Purpose::Command, !number);
+        let columns = heard.len() / self.wheels.len().max(1);
+        let robots = self.commands.chunks_exact_mut(columns.max(1)).zip(&self.wheels);
+        for (index, (command, errors)) in robots.enumerate() {
+            let model = &parameters.robots[index].model;
+            let inexact = sensing.wheel_error > 0.0 || sensing.wheel_dead_zone > 0.0;
+            if inexact || battery < 1.0 {
+                drive(command, model, errors, sensing.wheel_dead_zone, battery);
+            }
+            if model.mouth.is_some() {
+                let [.., kick, chip, dribbler] = &mut command[..model.command_columns().len()]
+                else {
+                    continue;
+                };
+                if draws.happens(sensing.kick_failures) {
+                    (*kick, *chip) = (0.0, 0.0);
+                }
+                if draws.happens(sensing.dribbler_failures) {
+                    *dribbler = 0.0;
+                }
+                let noise = draws.normal(sensing.kick_speed_noise);
+                self.kick_gains[index] = battery * (1.0 + noise).max(0.0);
+                self.kick_directions[index] = draws.normal(sensing.kick_direction_noise);
+            }
+        }
+    }
+
+    /// The commands as the robots obey them, a row for each.
+    pub(super) fn commands(&self) -> &[f32] {
+        &self.commands
+    }
+
+    /// What a robot's kicks are by its commands.
+    pub(super) fn kicker(&self, robot: usize) -> Kicker {
+        let direction = rotated(Vector::X, self.kick_directions[robot]);
+        Kicker { gain: self.kick_gains[robot], direction }
+    }
+}
+
+/// Changes the part of a command that the wheels follow: the speed of each wheel is 0 in the dead zone (m/s
+/// at the rim), wrong by its factor, and at most what the battery allows.
+fn drive(
+    command: &mut [f32],
+    model: &RobotModel,
+    errors: &[f32; WHEELS],
+    dead_zone: f32,
+    battery: f32,
+) {
+    match &model.drive {
+        Drive::Differential(drive) => {
+            let speeds = &mut command[..2];
+            let limit = battery * drive.max_wheel_speed;
+            turn_wheels(speeds, errors, dead_zone / drive.wheel_radius, limit);
+        }
+        Drive::OmniWheels(drive) => {
+            let speeds = &mut command[..WHEELS];
+            turn_omni_wheels(speeds, drive, &WheelMap::of(drive), errors, dead_zone, battery);
+        }
+        Drive::Omni(drive) => {
+            let map = WheelMap::of(drive);
+            let mut speeds = map.wheel_speeds([command[0], command[1], command[2]]);
+            turn_omni_wheels(&mut speeds, drive, &map, errors, dead_zone, battery);
+            command[..3].copy_from_slice(&map.velocity(&speeds));
+        }
+    }
+}
+
+/// Turns the wheels of an omnidirectional robot, whose own speed the battery limits too.
+fn turn_omni_wheels(
+    speeds: &mut [f32],
+    drive: &OmniDrive,
+    map: &WheelMap,
+    errors: &[f32; WHEELS],
+    dead_zone: f32,
+    battery: f32,
+) {
+    let [x, y, _] = map.velocity(speeds);
+    let limit = (battery * drive.max_speed / Vector::new(x, y).length()).min(1.0);
+    for speed in &mut *speeds {
+        *speed *= limit;
+    }
+    turn_wheels(speeds, errors, dead_zone / drive.wheel_radius, battery * drive.max_wheel_speed);
+}
+
+/// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose fastest
+/// wheel is limited goes the same way more slowly.
+fn turn_wheels(speeds: &mut [f32], errors: &[f32; WHEELS], dead_zone: f32, limit: f32) {
+    let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
+    let slower = (limit / fastest).min(1.0);
+    for (speed, factor) in speeds.iter_mut().zip(errors) {
+        *speed *= if speed.abs() < dead_zone { 0.0 } else { factor * slower };
+    }
+}

@@ -1,0 +1,38 @@
+//! What a frame of the cameras tells.
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::motion::Motion;
+use crate::math::{Vec3, Vector};
+
+/// A frame: detections of all cameras at one instant.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Detections {
+    /// Time of the exposure since the senses began, s.
+    pub(super) time: f64,
+    /// Time of the arrival, s.
+    pub(super) due: f64,
+    pub(super) balls: Vec<DetectedBall>,
+    pub(super) robots: Vec<DetectedRobot>,
+}
+
+/// A ball as a camera sees it. Without a tracker its motion is told too.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct DetectedBall {
+    /// m.
+    pub(super) position: Vector,
+    /// m/s.
+    pub(super) velocity: Vector,
+    /// Height of the lowest point (m) and vertical velocity (m/s); 0 if the camera cannot tell.
+    pub(super) height: [f32; 2],
+    /// Spin about the field's axes, rad/s; that of a rolling ball if the camera cannot tell.
+    pub(super) spin: Vec3,
+}
+
+/// A robot as a camera sees it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct DetectedRobot {
+    /// Index of the robot.
+    pub(super) robot: usize,
+    pub(super) motion: Motion,
+}

@@ -1,0 +1,206 @@
+//! The link to the robots: commands that arrive late, some of them never.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use crate::models::sensing::Sensing;
+use crate::senses::random::{Draws, Purpose};
+
+/// Commands of a control step on their way.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Sent {
+    /// Tick at whose start they arrive.
+    due: u64,
+    /// Number of the control step.
+    number: u64,
+    /// Robots that do not hear them, one bit each.
+    lost: u64,
+    commands: Vec<f32>,
+}
+
+/// The link to all robots of a match.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Link {
+    under_way: VecDeque<Sent>,
+    /// Number of control steps that sent commands.
+    number: u64,
+    /// Robots that have stopped after a time without commands, one bit each.
+    stopped: u64,
+    /// Tick of the last command that each robot heard.
+    heard: Vec<u64>,
+    /// Last command that each robot heard.
+    commands: Vec<f32>,
+}
+
+/// Robots for which something changed, one bit each, and the control step whose command it was.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Change {
+    pub(super) robots: u64,
+    pub(super) number: u64,
+}
+
+impl Link {
+    /// A link to `robots` robots that have heard nothing yet.
+    pub(super) fn new(robots: usize, columns: usize) -> Self {
+        Self {
+            under_way: VecDeque::new(),
+            number: 0,
+            stopped: 0,
+            heard: vec![0; robots],
+            commands: vec![0.0; robots * columns],
+        }
+    }
+
+    /// Sends the commands of a control step at the start of tick `now`. `tick` is its length, s.
+    pub(super) fn send(
+        &mut self,
+        now: u64,
+        tick: f32,
+        (sensing, key): (&Sensing, u64),
+        commands: &[f32],
+    ) {
+        let mut draws = Draws::of(key, Purpose::Command, self.number);
+        let mut ticks = sensing.command_delay / tick;
+        if sensing.command_jitter > 0.0 {
+            ticks = (ticks + draws.deviation() * sensing.command_jitter / tick).max(0.0);
+        }
+        // A robot listens once a tick, at a time of its own: the mean is the delay that was asked for.
+        if (ticks - ticks.round()).abs() > 1e-4 {
+            ticks = (ticks + draws.uniform()).floor();
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2 s")]
+        let due = now + ticks.round() as u64;
+        let due = self.under_way.back().map_or(due, |last| due.max(last.due));
+        let lost = (0..self.heard.len())
+            .fold(0, |all, robot| all | u64::from(draws.happens(sensing.command_loss)) << robot);
+        let sent = Sent { due, number: self.number, lost, commands: commands.to_vec() };
+        self.number += 1;
+        self.under_way.push_back(sent);
+    }
+
+    /// Takes in what has arrived at the start of tick `now`, and stops robots that have waited for `timeout`
+    /// ticks. Returns what changed.
+    pub(super) fn receive(&mut self, now: u64, timeout: Option<u64>) -> Option<Change> {
+        let mut change: Option<Change> = None;
+        while self.under_way.front().is_some_and(|sent| sent.due <= now) {
+            let Some(sent) = self.under_way.pop_front() else { break };
+            let columns = self.columns();
+            for (robot, heard) in self.heard.iter_mut().enumerate() {
+                if sent.lost >> robot & 1 == 0 {
+                    *heard = now;
+                    let own = robot * columns..(robot + 1) * columns;
+                    self.commands[own.clone()].copy_from_slice(&sent.commands[own]);
+                }
+            }
+            let robots = !sent.lost;
+            self.stopped &= sent.lost;
+            change = Some(Change {
+                robots: robots | change.map_or(0, |change| change.robots),
+                number: sent.number,
+            });
+        }
+        let Some(timeout) = timeout else { return change };
+        for robot in 0..self.heard.len() {
+            if now - self.heard[robot] >= timeout && self.stopped >> robot & 1 == 0 {
+                self.stopped |= 1 << robot;
+                let columns = self.columns();
+                self.commands[robot * columns..(robot + 1) * columns].fill(0.0);
+                let (robots, number) = change.map_or((0, self.number), |c| (c.robots, c.number));
+                change = Some(Change { robots: robots | 1 << robot, number });
+            }
+        }
+        change
+    }
+
+    /// The commands that the robots obey, a row for each.
+    pub(super) fn commands(&self) -> &[f32] {
+        &self.commands
+    }
+
+    fn columns(&self) -> usize {
+        self.commands.len() / self.heard.len().max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TICK: f32 = 0.005;
+
+    /// Ticks at whose start the robot of a link obeys each of `count` commands, one in five ticks.
+    fn arrivals(sensing: &Sensing, count: u16) -> Vec<(u16, u64)> {
+        let mut link = Link::new(1, 1);
+        let mut obeyed = Vec::new();
+        for now in 0..u64::from(count) * 5 {
+            if now % 5 == 0 {
+                let command = u16::try_from(now / 5).expect("few") + 1;
+                link.send(now, TICK, (sensing, 3), &[f32::from(command)]);
+            }
+            if link.receive(now, None).is_some_and(|change| change.robots & 1 == 1) {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "small"
+                )]
+                obeyed.push((link.commands()[0] as u16, now));
+            }
+        }
+        obeyed
+    }
+
+    #[test]
+    fn commands_are_late_by_the_delay() {
+        for (delay, ticks) in [(0.0, 0), (0.02, 4), (0.1, 20)] {
+            let sensing = Sensing { command_delay: delay, ..Sensing::OFF };
+            for (command, at) in arrivals(&sensing, 100) {
+                assert_eq!(at, u64::from(command - 1) * 5 + ticks);
+            }
+        }
+    }
+
+    #[test]
+    fn a_delay_between_ticks_is_right_in_the_mean() {
+        let sensing = Sensing { command_delay: 0.0332, ..Sensing::OFF };
+        let obeyed = arrivals(&sensing, 4000);
+        #[expect(clippy::cast_precision_loss, reason = "small numbers")]
+        let late = |&(command, at): &(u16, u64)| at as f64 - f64::from(command - 1) * 5.0;
+        let mean = obeyed.iter().map(late).sum::<f64>()
+            / f64::from(u16::try_from(obeyed.len()).expect("few"));
+        assert!((mean * f64::from(TICK) - 0.0332).abs() < 0.0002, "{mean}");
+    }
+
+    #[test]
+    fn jitter_keeps_the_order_and_losses_leave_the_last_command() {
+        let sensing = Sensing {
+            command_delay: 0.05,
+            command_jitter: 0.04,
+            command_loss: 0.2,
+            ..Sensing::OFF
+        };
+        let obeyed = arrivals(&sensing, 2000);
+        assert!(obeyed.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        let gaps = obeyed.windows(2).filter(|pair| pair[1].0 > pair[0].0 + 1).count();
+        assert!(gaps > 200, "{gaps}");
+    }
+
+    #[test]
+    fn a_robot_that_hears_nothing_stops_in_time_and_obeys_again() {
+        let lost = Sensing { command_loss: 1.0, ..Sensing::OFF };
+        let mut link = Link::new(2, 1);
+        link.send(0, TICK, (&Sensing::OFF, 0), &[7.0, 8.0]);
+        assert_eq!(link.receive(0, Some(20)).map(|change| change.robots & 3), Some(3));
+        for now in 1..20 {
+            link.send(now, TICK, (&lost, 0), &[1.0, 1.0]);
+            link.receive(now, Some(20));
+            assert_eq!(link.commands(), [7.0, 8.0]);
+        }
+        let change = link.receive(20, Some(20)).expect("they stop");
+        assert_eq!((change.robots & 3, link.commands()), (3, &[0.0, 0.0][..]));
+        assert_eq!(link.receive(21, Some(20)), None);
+        link.send(22, TICK, (&Sensing::OFF, 0), &[5.0, 6.0]);
+        link.receive(22, Some(20));
+        assert_eq!(link.commands(), [5.0, 6.0]);
+    }
+}

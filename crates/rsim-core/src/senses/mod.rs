@@ -1,0 +1,160 @@
+//! Senses and commands of the robots of a match: cameras, tracker and reports on the way from the true state
+//! to what robots know, and a link and actuators on the way from commands to what they do.
+//!
+//! The true state never changes here. Everything that the future depends on is in [`Senses`]; random
+//! numbers follow from its key and from counters.
+
+mod actuators;
+mod cameras;
+mod detections;
+mod link;
+mod random;
+mod reports;
+mod row;
+mod track;
+mod tracker;
+mod visibility;
+
+use serde::{Deserialize, Serialize};
+
+use crate::ball::mouth::Kicker;
+use crate::body_parameters::BodyParameters;
+use crate::models::config::SimConfig;
+use crate::models::sensing::Sensing;
+use crate::senses::actuators::Actuators;
+use crate::senses::cameras::Cameras;
+use crate::senses::link::Link;
+use crate::senses::random::{Draws, Purpose};
+use crate::senses::reports::Reports;
+use crate::senses::tracker::Tracker;
+use crate::state::State;
+
+/// Senses and commands of a match.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(crate) struct Senses {
+    sensing: Sensing,
+    /// Key of all random numbers.
+    key: u64,
+    /// Physics ticks since the senses began.
+    ticks: u64,
+    /// Number of looks at a state that was placed.
+    looks: u64,
+    cameras: Cameras,
+    tracker: Tracker,
+    reports: Reports,
+    link: Link,
+    actuators: Actuators,
+}
+
+/// Constants of the match that its senses need.
+#[derive(Clone, Copy)]
+pub(crate) struct Watched<'a> {
+    pub(crate) config: &'a SimConfig,
+    pub(crate) parameters: &'a BodyParameters,
+    pub(crate) state: &'a State,
+}
+
+impl Senses {
+    /// The senses of a match that begins in this state. `key` makes its errors its own.
+    pub(crate) fn new(sensing: Sensing, key: u64, watched: Watched<'_>) -> Self {
+        let (robots, columns) = (watched.config.n_robots(), watched.config.command_columns());
+        let mut draws = Draws::of(key, Purpose::Episode, 0);
+        let mut senses = Self {
+            cameras: Cameras::new(watched.config, &sensing, &mut draws),
+            tracker: Tracker::new(robots),
+            reports: Reports::new(robots, &sensing, &mut draws),
+            link: Link::new(robots, columns),
+            actuators: Actuators::new(robots, columns, &sensing, &mut draws),
+            sensing,
+            key,
+            ticks: 0,
+            looks: 0,
+        };
+        senses.look(watched);
+        senses
+    }
+
+    /// Looks at bodies that were placed, as if they had been watched for some time.
+    pub(crate) fn look(&mut self, watched: Watched<'_>) {
+        let Watched { parameters, state, .. } = watched;
+        let mut draws = Draws::of(self.key, Purpose::Look, self.looks);
+        self.looks += 1;
+        let now = self.now(watched.config);
+        self.cameras.forget();
+        let frame = self.cameras.look(now, &self.sensing, &mut draws, state, parameters);
+        self.tracker.begin(&self.sensing, &frame);
+        self.reports.begin(state, parameters);
+    }
+
+    /// Sends the commands of a control step.
+    pub(crate) fn send(&mut self, commands: &[f32], config: &SimConfig) {
+        self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
+    }
+
+    /// Lets robots hear what arrives at the start of a tick. Returns whether any command has changed.
+    pub(crate) fn receive(&mut self, watched: Watched<'_>) -> bool {
+        let Some(change) = self.link.receive(self.ticks, self.timeout(watched.config)) else {
+            return false;
+        };
+        #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
+        let seconds = self.now(watched.config) as f32;
+        let random = (&self.sensing, self.key);
+        self.actuators.obey(
+            self.link.commands(),
+            change.number,
+            seconds,
+            random,
+            watched.parameters,
+        );
+        true
+    }
+
+    /// The commands that the robots obey, a row for each.
+    pub(crate) fn commands(&self) -> &[f32] {
+        self.actuators.commands()
+    }
+
+    /// What a robot's kicks are by its commands.
+    pub(crate) fn kicker(&self, robot: usize) -> Kicker {
+        self.actuators.kicker(robot)
+    }
+
+    /// Watches the state after a tick.
+    pub(crate) fn watch(&mut self, watched: Watched<'_>) {
+        self.ticks += 1;
+        let now = self.now(watched.config);
+        let random = (&self.sensing, self.key);
+        self.cameras.expose(now, random, watched.state, watched.parameters);
+    }
+
+    /// Ends a control step: robots report, and what has arrived is taken in.
+    pub(crate) fn end_step(&mut self, watched: Watched<'_>) {
+        let Watched { config, parameters, state } = watched;
+        let now = self.now(config);
+        self.reports.send(now, (&self.sensing, self.key), state, parameters);
+        self.reports.receive(now);
+        while let Some(frame) = self.cameras.arrived(now) {
+            self.tracker.take(&self.sensing, &frame, parameters.ball.radius);
+        }
+    }
+
+    /// Writes the row of what robots know.
+    pub(crate) fn write_row(&self, state: &State, out: &mut [f32]) {
+        row::write(&self.tracker, &self.reports, state, out);
+    }
+
+    /// Time since the senses began, s.
+    fn now(&self, config: &SimConfig) -> f64 {
+        #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 ticks")]
+        let ticks = self.ticks as f64;
+        ticks * f64::from(config.tick)
+    }
+
+    /// Ticks after which a robot that hears nothing stops; `None` for never.
+    fn timeout(&self, config: &SimConfig) -> Option<u64> {
+        let ticks = self.sensing.command_timeout / config.tick;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+        let whole = ticks.round() as u64;
+        (ticks > 0.0).then_some(whole.max(1))
+    }
+}

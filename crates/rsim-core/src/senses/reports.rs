@@ -1,0 +1,144 @@
+//! Robots' own sensors: break beams, odometry and gyroscopes, and their reports on the way.
+
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use crate::ball::mouth::beam_is_cut;
+use crate::blocks::{BALL, robot};
+use crate::body_parameters::BodyParameters;
+use crate::geometry::motion::Motion;
+use crate::math::Vector;
+use crate::models::sensing::Sensing;
+use crate::senses::random::{Draws, Purpose};
+use crate::state::State;
+
+/// What a robot measures itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct OwnMotion {
+    /// Velocity forward and to the left, m/s.
+    pub(super) velocity: Vector,
+    /// rad/s.
+    pub(super) angular_velocity: f32,
+}
+
+/// Reports of all robots at the end of a control step.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Report {
+    /// Time of arrival, s.
+    due: f64,
+    /// Robots whose beams are cut, and robots whose reports are lost, one bit each.
+    cut: u64,
+    lost: u64,
+    /// Own motions of all robots; empty without odometry.
+    motions: Vec<OwnMotion>,
+}
+
+/// What is known from the robots' own sensors.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Reports {
+    under_way: VecDeque<Report>,
+    /// Number of control steps that reported.
+    number: u64,
+    /// Errors of the gyroscopes' zeros, rad/s.
+    gyroscope_errors: Vec<f32>,
+    /// Robots whose beams are known to be cut, one bit each.
+    pub(super) cut: u64,
+    /// Known motions; empty without odometry.
+    pub(super) motions: Vec<OwnMotion>,
+}
+
+impl Reports {
+    /// Before the first report of `robots` robots.
+    pub(super) fn new(robots: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
+        let count = if sensing.odometry >= 0.5 { robots } else { 0 };
+        Self {
+            under_way: VecDeque::new(),
+            number: 0,
+            gyroscope_errors: (0..count).map(|_| draws.normal(sensing.gyroscope_error)).collect(),
+            cut: 0,
+            motions: vec![OwnMotion::default(); count],
+        }
+    }
+
+    /// Begins anew with a state that has lasted for some time.
+    pub(super) fn begin(&mut self, state: &State, parameters: &BodyParameters) {
+        self.under_way.clear();
+        self.cut = cut_beams(state, parameters);
+        for (index, motion) in self.motions.iter_mut().enumerate() {
+            *motion = own_motion(&state.bodies.motion(robot(index)));
+        }
+    }
+
+    /// Sends the reports of a control step that ends at `now`, s.
+    pub(super) fn send(
+        &mut self,
+        now: f64,
+        (sensing, key): (&Sensing, u64),
+        state: &State,
+        parameters: &BodyParameters,
+    ) {
+        let mut draws = Draws::of(key, Purpose::Report, self.number);
+        self.number += 1;
+        let mut report = Report {
+            due: now + f64::from(sensing.feedback_delay),
+            cut: cut_beams(state, parameters),
+            lost: 0,
+            motions: Vec::new(),
+        };
+        for (index, body) in parameters.robots.iter().enumerate() {
+            let bit = 1 << index;
+            if body.model.mouth.is_some() {
+                let is_cut = report.cut & bit != 0;
+                let wrong = if is_cut { sensing.beam_misses } else { sensing.beam_false_alarms };
+                if draws.happens(wrong) {
+                    report.cut ^= bit;
+                }
+            }
+            if draws.happens(sensing.feedback_loss) {
+                report.lost |= bit;
+            }
+        }
+        for (index, error) in self.gyroscope_errors.iter().enumerate() {
+            let mut motion = own_motion(&state.bodies.motion(robot(index)));
+            motion.velocity += Vector::new(
+                draws.normal(sensing.odometry_noise),
+                draws.normal(sensing.odometry_noise),
+            );
+            motion.angular_velocity += error + draws.normal(sensing.gyroscope_noise);
+            report.motions.push(motion);
+        }
+        self.under_way.push_back(report);
+    }
+
+    /// Takes in the reports that have arrived at `now`, s.
+    pub(super) fn receive(&mut self, now: f64) {
+        while self.under_way.front().is_some_and(|report| report.due <= now + 1e-7) {
+            let Some(report) = self.under_way.pop_front() else { return };
+            self.cut = self.cut & report.lost | report.cut & !report.lost;
+            for (index, motion) in report.motions.iter().enumerate() {
+                if report.lost >> index & 1 == 0 {
+                    self.motions[index] = *motion;
+                }
+            }
+        }
+    }
+}
+
+/// Robots whose beams the ball cuts, one bit each.
+fn cut_beams(state: &State, parameters: &BodyParameters) -> u64 {
+    let ball = state.bodies.motion(BALL).position;
+    let is_cut = |index: usize| {
+        let model = &parameters.robots[index].model;
+        let motion = state.bodies.motion(robot(index));
+        model.mouth.is_some() && beam_is_cut(model, &motion, &parameters.ball, ball, &state.ball)
+    };
+    (0..parameters.robots.len()).fold(0, |all, index| all | u64::from(is_cut(index)) << index)
+}
+
+/// A motion in the robot's own frame.
+fn own_motion(motion: &Motion) -> OwnMotion {
+    let Motion { heading, velocity, angular_velocity, .. } = *motion;
+    let velocity = Vector::new(velocity.dot(heading), velocity.dot(heading.perp()));
+    OwnMotion { velocity, angular_velocity }
+}

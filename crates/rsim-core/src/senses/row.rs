@@ -1,0 +1,46 @@
+//! Rows of what robots know, in the columns of state rows.
+
+use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::math::Vector;
+use crate::senses::reports::Reports;
+use crate::senses::tracker::Tracker;
+use crate::state::State;
+
+/// Writes what is known. Nobody senses touches, collisions and lines crossed: these columns are as of a match
+/// that has just begun. Which robots are absent is known.
+pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &mut [f32]) {
+    let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
+    let known = &tracker.ball;
+    let (position, velocity) = (known.track.position, known.track.velocity);
+    let [z, v_z] = known.height;
+    let (spin, no_touch) = (known.spin, -1.0);
+    ball.copy_from_slice(&[
+        position.x, position.y, z, velocity.x, velocity.y, v_z, spin.x, spin.y, spin.z, no_touch,
+        0.0, 0.0, 0.0, 0.0,
+    ]);
+    for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
+        let robot = &tracker.robots[index];
+        let (position, heading) = (robot.track.position, robot.heading.heading);
+        let (mut velocity, mut turn) = (robot.track.velocity, robot.heading.angular_velocity);
+        if let Some(own) = reports.motions.get(index) {
+            let Vector { x: forward, y: left } = own.velocity;
+            velocity = heading * forward + heading.perp() * left;
+            turn = own.angular_velocity;
+        }
+        let bit = |bits: u64| f32::from(u8::from(bits >> index & 1 == 1));
+        columns.copy_from_slice(&[
+            position.x,
+            position.y,
+            heading.x,
+            heading.y,
+            velocity.x,
+            velocity.y,
+            turn,
+            bit(reports.cut),
+            0.0,
+            0.0,
+            0.0,
+            bit(state.absent),
+        ]);
+    }
+}

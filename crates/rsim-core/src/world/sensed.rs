@@ -1,0 +1,77 @@
+//! A match whose robots do not know the true state or do not obey exactly.
+
+use crate::body_parameters::BodyParameters;
+use crate::engine::NonFinite;
+use crate::error::ConfigError;
+use crate::models::sensing::Sensing;
+use crate::senses::{Senses, Watched};
+use crate::state::{Setup, State};
+use crate::tick::Tick;
+use crate::world::{WorkingMemory, World};
+
+impl World {
+    /// Begins the senses of a match that has just been placed. `key` makes their errors the match's own;
+    /// `numbers` replace those of the configuration, in the order of [`Sensing::numbers`]. Without senses in
+    /// the configuration nothing happens.
+    ///
+    /// # Errors
+    /// As [`Sensing::validate`]; then nothing has changed.
+    pub fn begin_senses(&mut self, key: u64, numbers: Option<&[f32]>) -> Result<(), ConfigError> {
+        let Some(sensing) = &self.config().sensing else { return Ok(()) };
+        let own = numbers.map(|numbers| sensing.with_values(numbers)).transpose()?;
+        let sensing = own.unwrap_or_else(|| sensing.clone());
+        self.set_senses(key, Some(sensing));
+        Ok(())
+    }
+
+    pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Sensing>) {
+        self.senses = sensing.map(|sensing| Box::new(Senses::new(sensing, key, self.watched())));
+    }
+
+    /// Has the senses look at bodies that were moved by hand.
+    pub(super) fn look_again(&mut self) {
+        if let Some(mut senses) = self.senses.take() {
+            senses.look(self.watched());
+            self.senses = Some(senses);
+        }
+    }
+
+    /// Writes the row of what robots know: the state row without senses.
+    pub fn write_sensed_row(&self, out: &mut [f32]) {
+        match &self.senses {
+            None => self.write_row(out),
+            Some(senses) => senses.write_row(&self.state, out),
+        }
+    }
+
+    fn watched(&self) -> Watched<'_> {
+        let config = &self.shared.setup.config;
+        Watched { config, parameters: self.parameters(), state: &self.state }
+    }
+}
+
+/// Advances a match by the ticks of a control step, between commands and cameras.
+pub(super) fn advance_sensed(
+    memory: &mut WorkingMemory,
+    setup: &Setup,
+    parameters: &BodyParameters,
+    state: &mut State,
+    commands: &[f32],
+    senses: &mut Senses,
+) -> Result<(), NonFinite> {
+    let WorkingMemory { engine, commands: read } = memory;
+    let (config, columns) = (&setup.config, setup.command_columns.max(1));
+    senses.send(commands, config);
+    for nth in 0..config.ticks_per_step() {
+        let changed = senses.receive(Watched { config, parameters, state });
+        // The memory is shared by all worlds of a thread.
+        if changed || nth == 0 {
+            read.read(state, parameters, senses.commands(), columns);
+            read.set_kickers(|robot| senses.kicker(robot));
+        }
+        Tick { setup, parameters, commands: read }.advance(state, engine)?;
+        senses.watch(Watched { config, parameters, state });
+    }
+    senses.end_step(Watched { config, parameters, state });
+    Ok(())
+}

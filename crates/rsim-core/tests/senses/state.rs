@@ -1,0 +1,187 @@
+//! Senses as state: off is off, the same bytes in every way, saved and restored.
+
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use rsim_core::scenes::{self, Driver, Scene};
+use rsim_core::{Sensing, SimConfig};
+
+use super::{begin, keys};
+
+/// All senses on, also those that no preset has.
+fn all() -> Sensing {
+    Sensing {
+        delay_jitter: 0.003,
+        frame_loss: 0.05,
+        misread_headings: 0.01,
+        missing_robots: 0.02,
+        camera_offset_error: 0.01,
+        feedback_delay: 0.01,
+        beam_misses: 0.05,
+        beam_false_alarms: 0.02,
+        odometry: 1.0,
+        odometry_noise: 0.02,
+        gyroscope_noise: 0.02,
+        gyroscope_error: 0.05,
+        command_delay: 0.012,
+        command_jitter: 0.004,
+        wheel_error: 0.02,
+        wheel_dead_zone: 0.02,
+        kick_speed_noise: 0.05,
+        kick_direction_noise: 0.02,
+        kick_failures: 0.05,
+        dribbler_failures: 0.05,
+        battery_sag: 0.01,
+        ..Sensing::RC2021
+    }
+}
+
+fn scenes() -> [Scene; 2] {
+    [scenes::chase(), scenes::ssl_chase(scenes::ssl(3, 3))]
+}
+
+/// Steps a batch, and returns true and sensed rows.
+fn step(batch: &mut rsim_core::Batch, scene: &Scene, rows: &mut [f32], nth: u64) -> Vec<f32> {
+    let size = scene.config.row_size();
+    let commands: Vec<f32> =
+        rows.chunks_exact(size).flat_map(|row| scene.commands(row, nth, 3)).collect();
+    batch.step(&commands, rows, None).expect("finite");
+    let mut known = vec![0.0; rows.len()];
+    batch.sense(&mut known, None);
+    known
+}
+
+#[test]
+fn robots_without_senses_know_the_truth() {
+    let scene = scenes::chase();
+    let (mut batch, mut rows) = scene.batch(2, 1);
+    for nth in 0..20 {
+        let known = step(&mut batch, &scene, &mut rows, nth);
+        assert_eq!(known, rows);
+    }
+}
+
+#[test]
+fn exact_senses_change_no_bit_of_the_physics_and_know_all_motion() {
+    for scene in scenes() {
+        let (mut plain, mut rows) = scene.batch(2, 1);
+        let (mut sensing, mut same) = begin(&scene, Sensing::OFF, 2);
+        for nth in 0..100 {
+            step(&mut plain, &scene, &mut rows, nth);
+            let known = step(&mut sensing, &scene, &mut same, nth);
+            assert_eq!(rows, same);
+            let each = rows.chunks_exact(rows.len() / 2).zip(known.chunks_exact(rows.len() / 2));
+            for (truth, known) in each {
+                assert_eq!(truth[..9], known[..9], "the ball");
+                let robots = truth[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len());
+                let known = known[BALL_COLUMNS.len()..].chunks_exact(ROBOT_COLUMNS.len());
+                for (truth, known) in robots.zip(known) {
+                    assert_eq!(truth[..8], known[..8], "motion and beam");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_world_senses_the_same_whatever_batch_and_threads() {
+    for scene in scenes() {
+        let mut scene = scene;
+        scene.config.sensing = Some(all());
+        let worlds = 40;
+        let (mut batch, mut rows) = scene.batch(worlds, 2);
+        batch.begin_senses(&vec![true; worlds], &keys(worlds), None).expect("valid");
+        let (mut single, mut row) = scene.batch(1, 1);
+        single.begin_senses(&[true], &keys(worlds)[17..18], None).expect("valid");
+        let mut differ = false;
+        for nth in 0..120 {
+            let known = step(&mut batch, &scene, &mut rows, nth);
+            let alone = step(&mut single, &scene, &mut row, nth);
+            let size = row.len();
+            assert_eq!(known[17 * size..18 * size], alone);
+            assert_eq!(rows[17 * size..18 * size], row);
+            differ |= known[..size] != alone[..];
+        }
+        assert!(differ, "other keys have other errors");
+    }
+}
+
+#[test]
+fn snapshots_hold_all_that_is_on_its_way() {
+    for scene in scenes() {
+        let (mut batch, mut rows) = begin(&scene, all(), 3);
+        for nth in 0..53 {
+            step(&mut batch, &scene, &mut rows, nth);
+        }
+        let (saved, start) = (batch.snapshot(), rows.clone());
+        let futures: Vec<Vec<f32>> =
+            (53..100).map(|nth| step(&mut batch, &scene, &mut rows, nth)).collect();
+        let (mut other, _) = begin(&scene, all(), 3);
+        other.restore(&saved).expect("its own");
+        let mut rows = start;
+        for (nth, future) in (53..100).zip(futures) {
+            assert_eq!(step(&mut other, &scene, &mut rows, nth), future);
+        }
+    }
+}
+
+#[test]
+fn a_new_match_has_nothing_of_the_old_one() {
+    let scene = scenes::chase();
+    let (mut batch, start) = begin(&scene, all(), 1);
+    let mut first = start.clone();
+    let expected: Vec<Vec<f32>> =
+        (0..30).map(|nth| step(&mut batch, &scene, &mut first, nth)).collect();
+    let mut rows = vec![0.0; start.len()];
+    batch.place(&[true], &scene.start, scene.parameters.as_deref(), &mut rows).expect("valid");
+    batch.begin_senses(&[true], &keys(1), None).expect("valid");
+    for (nth, expected) in (0..30).zip(expected) {
+        assert_eq!(step(&mut batch, &scene, &mut rows, nth), expected);
+    }
+}
+
+#[test]
+fn a_restart_is_seen_at_once() {
+    let scene = scenes::chase();
+    let sensing = Sensing { delay: 0.5, ..all() };
+    let (mut batch, mut rows) = begin(&scene, sensing, 1);
+    for nth in 0..40 {
+        step(&mut batch, &scene, &mut rows, nth);
+    }
+    let mut ball = rows[..BALL_COLUMNS.len()].to_vec();
+    (ball[0], ball[1]) = (0.6, 0.55);
+    batch.reposition_balls(&[true], &ball, &mut rows).expect("free");
+    let mut known = rows.clone();
+    batch.sense(&mut known, None);
+    assert!((known[0] - 0.6).hypot(known[1] - 0.55) < 0.1, "{} {}", known[0], known[1]);
+}
+
+#[test]
+fn each_world_can_have_numbers_of_its_own() {
+    let mut scene = Scene::lined_up("still", scenes::vss(1, 0), Driver::STILL);
+    scene.config.sensing = Some(Sensing::OFF);
+    let (mut batch, mut rows) = scene.batch(2, 1);
+    let own = Sensing { ball_position_noise: 0.05, ..Sensing::OFF }.values();
+    let numbers = [Sensing::OFF.values(), own].concat();
+    batch.begin_senses(&[true, true], &keys(2), Some(&numbers)).expect("in range");
+    let known = step(&mut batch, &scene, &mut rows, 0);
+    let size = scene.config.row_size();
+    assert_eq!(known[0].to_bits(), rows[0].to_bits());
+    assert_ne!(known[size].to_bits(), rows[size].to_bits());
+    let wrong = [Sensing::OFF.values(), vec![-1.0; own_len()]].concat();
+    let error = batch.begin_senses(&[true, true], &keys(2), Some(&wrong)).expect_err("negative");
+    assert!(error.to_string().contains("sensing."), "{error}");
+}
+
+fn own_len() -> usize {
+    Sensing::numbers().len()
+}
+
+#[test]
+fn absent_robots_are_not_seen_and_known_to_be_absent() {
+    let config = SimConfig { sensing: Some(all()), ..scenes::ssl(2, 2) };
+    let mut scene = Scene::lined_up("still", config, Driver::STILL);
+    scene.set_robot_column(1, "absent", 1.0);
+    let (mut batch, mut rows) = scene.batch(1, 1);
+    let known = step(&mut batch, &scene, &mut rows, 0);
+    let absent = rsim_core::columns::row_size(1) + ROBOT_COLUMNS.len() - 1;
+    assert_eq!(known[absent].to_bits(), 1.0_f32.to_bits());
+}
