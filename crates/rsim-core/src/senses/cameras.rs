@@ -117,6 +117,13 @@ impl Cameras {
         Self { all, period, phase, exposures: 0, under_way: VecDeque::new() }
     }
 
+    /// Time between exposures, s.
+    pub(super) fn period(&self) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "rounding is meant")]
+        let period = self.period as f32;
+        period
+    }
+
     /// Forgets the frames on their way: they show bodies that have been moved since.
     pub(super) fn forget(&mut self) {
         self.under_way.clear();

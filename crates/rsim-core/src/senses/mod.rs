@@ -59,9 +59,10 @@ impl Senses {
     pub(crate) fn new(sensing: Sensing, key: u64, watched: Watched<'_>) -> Self {
         let (robots, columns) = (watched.config.n_robots(), watched.config.command_columns());
         let mut draws = Draws::of(key, Purpose::Episode, 0);
+        let cameras = Cameras::new(watched.config, &sensing, &mut draws);
         let mut senses = Self {
-            cameras: Cameras::new(watched.config, &sensing, &mut draws),
-            tracker: Tracker::new(robots),
+            tracker: Tracker::new(robots, &sensing, cameras.period()),
+            cameras,
             reports: Reports::new(robots, &sensing, &mut draws),
             link: Link::new(robots, columns),
             actuators: Actuators::new(robots, columns, &sensing, &mut draws),
@@ -82,7 +83,7 @@ impl Senses {
         let now = self.now(watched.config);
         self.cameras.forget();
         let frame = self.cameras.look(now, &self.sensing, &mut draws, state, parameters);
-        self.tracker.begin(&self.sensing, &frame);
+        self.tracker.begin(&frame);
         self.reports.begin(state, parameters);
     }
 

@@ -1,123 +1,127 @@
-//! Estimates of one quantity from its detections: Kalman filters of a nearly constant velocity.
+//! Estimates of one quantity from its detections: alpha-beta filters of a nearly constant velocity.
 //!
-//! This is the filter that teams use: state position and velocity, process noise a white acceleration of
-//! given density, measurements of the position alone (Bar-Shalom, Li and Kirubarajan, Estimation with
-//! Applications to Tracking and Navigation, 2001, section 6.2.2).
+//! The state is position and velocity. A detection corrects both by fixed parts of its distance from the
+//! prediction: `alpha`, and `beta` by the time since the last one. The parts are those of the stationary Kalman
+//! filter whose process noise is an acceleration that is constant between two detections (Kalata, IEEE
+//! Transactions on Aerospace and Electronic Systems 20(2), 1984). After a push, such as a kick, they are those
+//! of a least-squares line through the detections since, until these are smaller (Bar-Shalom, Li and
+//! Kirubarajan, Estimation with Applications to Tracking and Navigation, 2001, section 3.5).
 
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
 
-/// Covariance of a position and its velocity along one axis.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(super) struct Uncertainty {
-    position: f32,
-    both: f32,
-    velocity: f32,
-}
-
-/// Part of a difference that goes into the position and into the velocity (1/s).
-#[derive(Debug, Clone, Copy)]
-struct Gain {
-    position: f32,
-    velocity: f32,
-}
-
-impl Uncertainty {
-    /// Of a body that has been watched for some time: a detection's variance, and a velocity known to
-    /// `deviation`.
-    fn known(variance: f32, deviation: f32) -> Self {
-        Self { position: variance, both: 0.0, velocity: deviation * deviation }
-    }
-
-    /// Later by `time`, s. `density` is that of the acceleration, (m/s²)²/Hz.
-    fn predict(&mut self, time: f32, density: f32) {
-        self.position += time * (2.0 * self.both + time * self.velocity);
-        self.both += time * self.velocity;
-        self.add_acceleration(time, density);
-    }
-
-    /// Adds the effect of an acceleration of this density within the last `time`, s.
-    fn add_acceleration(&mut self, time: f32, density: f32) {
-        self.position += density * time * time * time * (1.0 / 3.0);
-        self.both += density * time * time * 0.5;
-        self.velocity += density * time;
-    }
-
-    /// Takes in a detection.
-    fn update(&mut self, variance: f32) -> Gain {
-        let total = self.position + variance;
-        let gain = Gain { position: self.position / total, velocity: self.both / total };
-        self.velocity -= gain.velocity * self.both;
-        self.both *= 1.0 - gain.position;
-        self.position *= 1.0 - gain.position;
-        gain
-    }
-}
-
-/// Constants of a filter.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Filter {
-    /// Variance of a detection, m² or rad².
-    pub(super) variance: f32,
-    /// Density of the acceleration of a body that goes its way, (m/s²)²/Hz.
-    pub(super) density: f32,
-    /// The same where a detection is too far from the prediction: the body was pushed or kicked.
-    pub(super) pushed: f32,
-}
+/// Number of detections after a push for which there are parts of their own.
+const COUNTS: usize = 16;
 
 /// Squared distance from the prediction, in standard deviations, beyond which a body was pushed: a
 /// detection is farther away once in 3,000.
 const GATE: f32 = 16.0;
 
-/// Speed of a detected velocity at the start, m/s or rad/s: how well it is known.
-const START_DEVIATION: f32 = 0.02;
+/// Parts of a difference that correct a state, and the squared difference that tells of a push.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+struct Gain {
+    alpha: f32,
+    beta: f32,
+    gate: f32,
+}
+
+/// Constants of a filter: gains by the number of detections since a push.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Filter {
+    gains: [Gain; COUNTS],
+}
+
+impl Filter {
+    /// The filter for detections with a `deviation` (m or rad), one each `period` (s), of a body that changes
+    /// its velocity by `acceleration` (m/s² or rad/s²) without a push.
+    pub(super) fn new(deviation: f32, period: f32, acceleration: f32) -> Self {
+        let index = acceleration * period * period / deviation;
+        let root = (index * index + 8.0 * index).sqrt();
+        let alpha = -(index * index + 8.0 * index - (index + 4.0) * root) / 8.0;
+        let beta = (index * index + 4.0 * index - index * root) / 4.0;
+        let variance = deviation * deviation;
+        let mut gains = [Gain::default(); COUNTS];
+        let mut count = 1.0_f32;
+        for gain in &mut gains {
+            let line_alpha = 2.0 * (2.0 * count - 1.0) / (count * (count + 1.0));
+            let line_beta = 6.0 / (count * (count + 1.0));
+            // Variance of the difference from a line through the detections before, in the noise's.
+            let before = count - 1.0;
+            let line = if before < 2.0 {
+                f32::INFINITY
+            } else {
+                1.0 + 2.0 * (2.0 * before + 1.0) / (before * (before - 1.0))
+            };
+            let steady = 1.0 / (1.0 - alpha).max(0.01);
+            let is_line = line_alpha > alpha && count < 15.5;
+            *gain = if is_line {
+                Gain { alpha: line_alpha, beta: line_beta, gate: GATE * variance * line.max(steady) }
+            } else {
+                Gain { alpha, beta, gate: GATE * variance * steady }
+            };
+            count += 1.0;
+        }
+        Self { gains }
+    }
+
+    fn gain(&self, count: u8) -> &Gain {
+        &self.gains[usize::from(count).min(COUNTS - 1)]
+    }
+}
+
+/// Number of detections of a body that has been watched for some time.
+const LONG: u8 = COUNTS as u8;
 
 /// Estimated position and velocity of a body.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct PositionTrack {
     pub(super) position: Vector,
     pub(super) velocity: Vector,
-    uncertainty: Uncertainty,
-    /// Time since the last prediction step, whose noise a push raises, s.
-    last: f32,
+    /// Number of detections since a push.
+    count: u8,
 }
 
 impl PositionTrack {
-    pub(super) fn new(position: Vector, velocity: Vector, filter: &Filter) -> Self {
-        let uncertainty = Uncertainty::known(filter.variance, START_DEVIATION);
-        Self { position, velocity, uncertainty, last: 0.0 }
+    /// A body that has been watched for some time.
+    pub(super) fn new(position: Vector, velocity: Vector) -> Self {
+        Self { position, velocity, count: LONG }
     }
 
-    pub(super) fn predict(&mut self, time: f32, filter: &Filter) {
+    pub(super) fn predict(&mut self, time: f32) {
         self.position += self.velocity * time;
-        self.uncertainty.predict(time, filter.density);
-        self.last = time;
-    }
-
-    /// Squared distance of a detection from the prediction, in standard deviations.
-    pub(super) fn distance(&self, detected: Vector, filter: &Filter) -> f32 {
-        let total = self.uncertainty.position + filter.variance;
-        (detected - self.position).length_squared() / total
     }
 
     /// Whether a detection is where the body would be without a push.
     pub(super) fn expects(&self, detected: Vector, filter: &Filter) -> bool {
-        self.distance(detected, filter) <= GATE
+        (detected - self.position).length_squared() <= filter.gain(self.count).gate
     }
 
-    /// Takes in a detection. One that is not expected tells of a push since the last frame.
-    pub(super) fn update(&mut self, detected: Vector, filter: &Filter) {
-        if !self.expects(detected, filter) {
-            self.uncertainty.add_acceleration(self.last, filter.pushed - filter.density);
-        }
+    /// Takes in a detection, `elapsed` (s) after the last one. One that is not expected tells of a push since
+    /// then, in whose middle the velocity changed.
+    pub(super) fn update(&mut self, detected: Vector, elapsed: f32, filter: &Filter) {
         let difference = detected - self.position;
-        let gain = self.uncertainty.update(filter.variance);
-        self.position += difference * gain.position;
-        self.velocity += difference * gain.velocity;
+        let gain = filter.gain(self.count);
+        if elapsed <= 0.0 {
+            // Another camera at the same instant.
+            self.position += difference * (0.5 * gain.alpha);
+            return;
+        }
+        if difference.length_squared() > gain.gate {
+            self.position = detected;
+            self.velocity += difference * (PUSH_PART / elapsed);
+            self.count = 1;
+            return;
+        }
+        self.position += difference * gain.alpha;
+        self.velocity += difference * (gain.beta / elapsed);
+        self.count = (self.count + 1).min(LONG);
     }
 }
+
+/// Change of the velocity by a push at an unknown instant of an interval, by the mean change over it.
+const PUSH_PART: f32 = 1.5;
 
 /// Estimated heading and angular velocity of a robot.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -125,8 +129,7 @@ pub(super) struct HeadingTrack {
     /// Cosine and sine.
     pub(super) heading: Vector,
     pub(super) angular_velocity: f32,
-    uncertainty: Uncertainty,
-    last: f32,
+    count: u8,
     /// Number of detections in a row that were taken for misread ones.
     refused: u8,
 }
@@ -139,41 +142,45 @@ const MISREAD: f32 = 0.643;
 const BELIEVED: u8 = 4;
 
 impl HeadingTrack {
-    pub(super) fn new(heading: Vector, angular_velocity: f32, filter: &Filter) -> Self {
-        let uncertainty = Uncertainty::known(filter.variance, START_DEVIATION);
-        Self { heading, angular_velocity, uncertainty, last: 0.0, refused: 0 }
+    /// A robot that has been watched for some time.
+    pub(super) fn new(heading: Vector, angular_velocity: f32) -> Self {
+        Self { heading, angular_velocity, count: LONG, refused: 0 }
     }
 
-    pub(super) fn predict(&mut self, time: f32, filter: &Filter) {
+    pub(super) fn predict(&mut self, time: f32) {
         self.heading = turned(self.heading, self.angular_velocity * time);
-        self.uncertainty.predict(time, filter.density);
-        self.last = time;
     }
 
-    pub(super) fn update(&mut self, detected: Vector, filter: &Filter) {
-        let (cos, sin) = (self.heading.dot(detected), self.heading.perp_dot(detected));
-        if cos < MISREAD && self.refused + 1 < BELIEVED {
-            self.refused += 1;
+    /// Takes in a detection, `elapsed` (s) after the last one.
+    pub(super) fn update(&mut self, detected: Vector, elapsed: f32, filter: &Filter) {
+        if elapsed <= 0.0 {
             return;
         }
+        let (cos, sin) = (self.heading.dot(detected), self.heading.perp_dot(detected));
         if cos < MISREAD {
-            *self = Self::new(detected, 0.0, filter);
+            self.refused += 1;
+            if self.refused >= BELIEVED {
+                *self = Self { count: 1, ..Self::new(detected, 0.0) };
+            }
             return;
         }
         self.refused = 0;
-        // The angle of a sine up to that of the limit, to a thousandth.
+        // The angle of a sine up to that of the limit, to a hundredth.
         let difference = sin * (1.0 + sin * sin * (1.0 / 6.0 + sin * sin * (3.0 / 40.0)));
-        let total = self.uncertainty.position + filter.variance;
-        if difference * difference > GATE * total {
-            self.uncertainty.add_acceleration(self.last, filter.pushed - filter.density);
+        let gain = filter.gain(self.count);
+        if difference * difference > gain.gate {
+            self.heading = detected;
+            self.angular_velocity += difference * (PUSH_PART / elapsed);
+            self.count = 1;
+            return;
         }
-        let gain = self.uncertainty.update(filter.variance);
-        self.heading = rotated(self.heading, tangent(difference * gain.position));
-        self.angular_velocity += difference * gain.velocity;
+        self.heading = rotated(self.heading, difference * gain.alpha);
+        self.angular_velocity += difference * (gain.beta / elapsed);
+        self.count = (self.count + 1).min(LONG);
     }
 }
 
-/// A heading turned by `angle`, rad, in parts that first-order turns are accurate for.
+/// A heading turned by `angle`, rad.
 fn turned(heading: Vector, angle: f32) -> Vector {
     if angle.abs() <= 0.5 {
         return rotated(heading, tangent(angle));
@@ -182,10 +189,10 @@ fn turned(heading: Vector, angle: f32) -> Vector {
     Vector::new(heading.x * cos - heading.y * sin, heading.y * cos + heading.x * sin)
 }
 
-/// Tangent of an angle up to 0.9 rad, to a thousandth.
+/// Tangent of an angle up to half a radian, to a thousandth.
 fn tangent(angle: f32) -> f32 {
     let square = angle * angle;
-    angle * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0 + square * (17.0 / 315.0))))
+    angle * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0)))
 }
 
 #[cfg(test)]
@@ -193,26 +200,29 @@ mod tests {
     use super::*;
     use crate::senses::random::{Draws, Purpose};
 
-    /// The ball under RC2021.
-    const BALL: Filter = Filter { variance: 1e-6, density: 0.1, pushed: 1e4 };
     const PERIOD: f32 = 0.015;
 
-    /// Mean and spread of the estimated speed after `frames` frames of a ball at `speed` (m/s), over many
-    /// sequences of detections, that was kicked before the first frame if `kicked`.
+    /// The ball under RC2021.
+    fn ball() -> Filter {
+        Filter::new(0.001, PERIOD, 3.0)
+    }
+
+    /// Error of the estimated speed after `frames` frames of a ball at `speed` (m/s), by its speed, over many
+    /// sequences of detections; the ball was kicked before the first frame if `kicked`.
     fn errors(speed: f32, frames: u8, kicked: bool) -> f32 {
-        let count: u8 = 200;
+        let (count, filter) = (200_u8, ball());
         let mut sum = 0.0;
         for run in 0..count {
             let mut draws = Draws::of(9, Purpose::Frame, u64::from(run));
             let before = if kicked { 0.0 } else { speed };
-            let mut track = PositionTrack::new(Vector::ZERO, Vector::new(before, 0.0), &BALL);
+            let mut track = PositionTrack::new(Vector::ZERO, Vector::new(before, 0.0));
             // The kick is somewhere between the last frame and the first that shows it.
             let start = if kicked { PERIOD * draws.uniform() } else { 0.0 };
             for frame in 1..=frames {
                 let x = speed * (f32::from(frame) * PERIOD - start);
                 let seen = Vector::new(x + draws.normal(0.001), draws.normal(0.001));
-                track.predict(PERIOD, &BALL);
-                track.update(seen, &BALL);
+                track.predict(PERIOD);
+                track.update(seen, PERIOD, &filter);
             }
             sum += (track.velocity.length() / speed - 1.0).powi(2);
         }
@@ -221,22 +231,50 @@ mod tests {
 
     #[test]
     fn speed_is_right_three_frames_after_a_kick_and_settles() {
-        assert!(errors(4.0, 3, true) < 0.10, "{}", errors(4.0, 3, true));
-        assert!(errors(4.0, 20, true) < 0.02, "{}", errors(4.0, 20, true));
+        assert!(errors(4.0, 3, true) < 0.05, "{}", errors(4.0, 3, true));
+        assert!(errors(4.0, 20, true) < 0.01, "{}", errors(4.0, 20, true));
         assert!(errors(4.0, 100, false) < 0.01, "{}", errors(4.0, 100, false));
     }
 
     #[test]
+    fn noise_is_seldom_taken_for_a_push() {
+        let filter = ball();
+        let mut track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
+        let mut pushes = 0;
+        let mut draws = Draws::of(3, Purpose::Frame, 0);
+        for _ in 0..10_000 {
+            track.predict(PERIOD);
+            let seen = Vector::new(draws.normal(0.001), draws.normal(0.001));
+            pushes += u32::from(!track.expects(seen, &filter));
+            track.update(seen, PERIOD, &filter);
+        }
+        assert!(pushes < 30, "{pushes}");
+    }
+
+    #[test]
+    fn the_parts_are_those_of_a_line_and_then_of_the_stationary_filter() {
+        // Two detections make a line; the stationary parts for an index of 0.675 by Kalata's equations.
+        let filter = ball();
+        assert_eq!((filter.gain(1).alpha, filter.gain(1).beta), (1.0, 1.0));
+        let last = filter.gain(LONG);
+        assert!((last.alpha - 0.682).abs() < 0.001 && (last.beta - 0.3805).abs() < 0.001);
+        let alphas: Vec<f32> = (0..LONG).map(|count| filter.gain(count).alpha).collect();
+        assert!(alphas.windows(2).all(|pair| pair[1] <= pair[0]), "{alphas:?}");
+    }
+
+    #[test]
     fn a_turning_heading_is_followed_and_a_misread_one_ignored() {
-        let filter = Filter { variance: 1e-4, density: 400.0, pushed: 1e6 };
-        let mut track = HeadingTrack::new(Vector::X, 0.0, &filter);
+        let filter = Filter::new(0.01, PERIOD, 50.0);
+        let mut track = HeadingTrack::new(Vector::X, 0.0);
         let at = |angle: f32| Vector::new(libm::cosf(angle), libm::sinf(angle));
-        let mut angle = 0.0;
+        let (mut angle, mut since) = (0.0, 0.0);
         for frame in 0..60 {
             angle += 8.0 * PERIOD;
-            track.predict(PERIOD, &filter);
-            let seen = at(if frame % 10 == 5 { angle + 1.57 } else { angle });
-            track.update(seen, &filter);
+            since += PERIOD;
+            track.predict(PERIOD);
+            let misread = frame % 10 == 5;
+            track.update(at(if misread { angle + 1.57 } else { angle }), since, &filter);
+            since = if misread { since } else { 0.0 };
         }
         assert!((track.angular_velocity - 8.0).abs() < 0.3, "{}", track.angular_velocity);
         assert!(track.heading.dot(at(angle)) > 0.999);
@@ -244,12 +282,12 @@ mod tests {
 
     #[test]
     fn a_heading_that_stays_changed_is_believed() {
-        let filter = Filter { variance: 1e-4, density: 400.0, pushed: 1e6 };
-        let mut track = HeadingTrack::new(Vector::X, 0.0, &filter);
+        let filter = Filter::new(0.01, PERIOD, 50.0);
+        let mut track = HeadingTrack::new(Vector::X, 0.0);
         for _ in 0..BELIEVED {
             assert!(track.heading.x > 0.99);
-            track.predict(PERIOD, &filter);
-            track.update(Vector::Y, &filter);
+            track.predict(PERIOD);
+            track.update(Vector::Y, PERIOD, &filter);
         }
         assert!(track.heading.y > 0.99);
     }
@@ -260,7 +298,7 @@ mod tests {
             let turned = turned(Vector::new(0.6, 0.8), angle);
             let expected = libm::atan2f(0.8, 0.6) + angle;
             let (sin, cos) = libm::sincosf(expected);
-            assert!((turned - Vector::new(cos, sin)).length() < 1e-4, "{angle}");
+            assert!((turned - Vector::new(cos, sin)).length() < 1e-3, "{angle}");
         }
     }
 }

@@ -8,20 +8,15 @@ use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
 use crate::senses::track::{Filter, HeadingTrack, PositionTrack};
 
-/// Standard deviation of a detection that the filter counts with at least, m and rad.
+/// Standard deviation of a detection that the filters count with at least, m and rad.
 const MIN_DEVIATION: f32 = 0.000_3;
 const MIN_HEADING_DEVIATION: f32 = 0.002;
 
-/// Densities of accelerations, (m/s²)²/Hz and (rad/s²)²/Hz. A ball that slides loses 3 m/s², of which some
-/// 20 ms are not known; a robot changes its acceleration by up to 5 m/s² and 50 rad/s² within 50 ms.
-const BALL_DENSITY: f32 = 0.1;
-const ROBOT_DENSITY: f32 = 1.0;
-const HEADING_DENSITY: f32 = 100.0;
-
-/// The same for pushes: 10 m/s, 2 m/s and 20 rad/s within a frame of 15 ms.
-const KICK_DENSITY: f32 = 6000.0;
-const PUSH_DENSITY: f32 = 260.0;
-const SPIN_DENSITY: f32 = 26_000.0;
+/// Accelerations that the filters count with, m/s² and rad/s²: of a ball that slides (3 m/s²), and of robots
+/// that speed up.
+const BALL_ACCELERATION: f32 = 3.0;
+const ROBOT_ACCELERATION: f32 = 5.0;
+const ANGULAR_ACCELERATION: f32 = 50.0;
 
 /// Speed that no ball exceeds, m/s, and the distance of a detection that is always possible, m: a detection
 /// farther away is another thing.
@@ -47,10 +42,11 @@ pub(super) struct Ball {
 }
 
 /// What is known of a robot.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Robot {
     pub(super) track: PositionTrack,
     pub(super) heading: HeadingTrack,
+    /// Time since the last detection, s.
     unseen: f32,
 }
 
@@ -61,9 +57,11 @@ pub(super) struct Tracker {
     pub(super) robots: Vec<Robot>,
     /// Time of the last frame, s.
     time: f64,
+    filters: Filters,
 }
 
-/// Filters of the ball, of robots and of headings for the noise of some senses.
+/// Filters of the ball, of robots and of headings.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Filters {
     ball: Filter,
     robot: Filter,
@@ -71,48 +69,40 @@ struct Filters {
 }
 
 impl Filters {
-    fn of(sensing: &Sensing) -> Self {
-        let variance = |noise: f32, least: f32| noise.max(least).powi(2);
+    /// The filters for the noise of some senses, with a frame each `period`, s.
+    fn of(sensing: &Sensing, period: f32) -> Self {
+        let position = |noise: f32, acceleration| {
+            Filter::new(noise.max(MIN_DEVIATION), period, acceleration)
+        };
+        let heading = sensing.heading_noise.max(MIN_HEADING_DEVIATION);
         Self {
-            ball: Filter {
-                variance: variance(sensing.ball_position_noise, MIN_DEVIATION),
-                density: BALL_DENSITY,
-                pushed: KICK_DENSITY,
-            },
-            robot: Filter {
-                variance: variance(sensing.robot_position_noise, MIN_DEVIATION),
-                density: ROBOT_DENSITY,
-                pushed: PUSH_DENSITY,
-            },
-            heading: Filter {
-                variance: variance(sensing.heading_noise, MIN_HEADING_DEVIATION),
-                density: HEADING_DENSITY,
-                pushed: SPIN_DENSITY,
-            },
+            ball: position(sensing.ball_position_noise, BALL_ACCELERATION),
+            robot: position(sensing.robot_position_noise, ROBOT_ACCELERATION),
+            heading: Filter::new(heading, period, ANGULAR_ACCELERATION),
         }
     }
 }
 
 impl Tracker {
-    /// What is known of `robots` robots before anything was seen.
-    pub(super) fn new(robots: usize) -> Self {
-        let filter = Filter { variance: 1.0, density: 1.0, pushed: 1.0 };
-        let track = PositionTrack::new(Vector::ZERO, Vector::ZERO, &filter);
-        let heading = HeadingTrack::new(Vector::X, 0.0, &filter);
+    /// The tracker of `robots` robots for frames of some senses, one each `period` (s), before it has seen
+    /// any.
+    pub(super) fn new(robots: usize, sensing: &Sensing, period: f32) -> Self {
+        let track = PositionTrack::new(Vector::ZERO, Vector::ZERO);
+        let heading = HeadingTrack::new(Vector::X, 0.0);
         let ball = Ball { track, height: [0.0; 2], spin: Vec3::ZERO, unseen: 0.0, refused: 0 };
         let robot = Robot { track, heading, unseen: 0.0 };
-        Self { ball, robots: vec![robot; robots], time: 0.0 }
+        let filters = Filters::of(sensing, period);
+        Self { ball, robots: vec![robot; robots], time: 0.0, filters }
     }
 
     /// Begins anew from a first frame, whose bodies have been watched before.
-    pub(super) fn begin(&mut self, sensing: &Sensing, frame: &Detections) {
-        let filters = Filters::of(sensing);
+    pub(super) fn begin(&mut self, frame: &Detections) {
         self.time = frame.time;
         for ball in &frame.balls {
-            self.ball.begin(ball, &filters);
+            self.ball.begin(ball);
         }
         for seen in &frame.robots {
-            self.robots[seen.robot].begin(&seen.motion, &filters);
+            self.robots[seen.robot].begin(&seen.motion);
         }
     }
 
@@ -127,15 +117,14 @@ impl Tracker {
         if sensing.tracker < 0.5 {
             return self.copy(frame);
         }
-        let filters = Filters::of(sensing);
-        self.ball.take(elapsed, &frame.balls, &filters.ball);
+        self.ball.take(elapsed, &frame.balls, &self.filters.ball);
         let velocity = self.ball.track.velocity;
         self.ball.spin = (velocity.perp() / ball_radius).extend(0.0);
         for robot in &mut self.robots {
-            robot.predict(elapsed, &filters);
+            robot.predict(elapsed);
         }
         for seen in &frame.robots {
-            self.robots[seen.robot].update(&seen.motion, &filters);
+            self.robots[seen.robot].update(&seen.motion, &self.filters);
         }
     }
 
@@ -156,67 +145,69 @@ impl Tracker {
 }
 
 impl Ball {
-    fn begin(&mut self, seen: &DetectedBall, filters: &Filters) {
-        self.track = PositionTrack::new(seen.position, seen.velocity, &filters.ball);
+    fn begin(&mut self, seen: &DetectedBall) {
+        self.track = PositionTrack::new(seen.position, seen.velocity);
         (self.height, self.spin) = (seen.height, seen.spin);
         (self.unseen, self.refused) = (0.0, 0);
     }
 
     /// Goes on by `elapsed` to a frame with these balls, of which some may be ghosts.
     fn take(&mut self, elapsed: f32, seen: &[DetectedBall], filter: &Filter) {
-        self.track.predict(elapsed, filter);
+        self.track.predict(elapsed);
         self.height = [0.0; 2];
         self.unseen += elapsed;
-        let reach = MIN_REACH + MAX_BALL_SPEED * self.unseen;
-        let start = self.track;
-        let is_expected = |ball: &&DetectedBall| start.expects(ball.position, filter);
-        if seen.iter().any(|ball| is_expected(&ball)) {
-            for ball in seen.iter().filter(is_expected) {
-                self.track.update(ball.position, filter);
+        let predicted = self.track;
+        let is_expected = |ball: &DetectedBall| predicted.expects(ball.position, filter);
+        if seen.iter().any(is_expected) {
+            for ball in seen.iter().filter(|ball| is_expected(ball)) {
+                self.update(ball.position, filter);
             }
-            (self.unseen, self.refused) = (0.0, 0);
             return;
         }
-        let distance = |ball: &&DetectedBall| (ball.position - start.position).length_squared();
-        let nearest = seen.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        match nearest {
-            Some(ball) if distance(&ball) <= reach * reach => {
-                self.track.update(ball.position, filter);
-                (self.unseen, self.refused) = (0.0, 0);
+        let distance = |ball: &&DetectedBall| (ball.position - predicted.position).length_squared();
+        let Some(nearest) = seen.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
+            if self.unseen > LOST {
+                self.track.velocity = Vector::ZERO;
             }
-            Some(ball) => {
-                self.refused += 1;
-                if self.refused >= BELIEVED {
-                    self.track = PositionTrack::new(ball.position, Vector::ZERO, filter);
-                    (self.unseen, self.refused) = (0.0, 0);
-                }
-            }
-            None if self.unseen > LOST => self.track.velocity = Vector::ZERO,
-            None => {}
+            return;
+        };
+        let reach = MIN_REACH + MAX_BALL_SPEED * self.unseen;
+        if distance(&nearest) <= reach * reach {
+            return self.update(nearest.position, filter);
         }
+        self.refused += 1;
+        if self.refused >= BELIEVED {
+            self.track = PositionTrack::new(nearest.position, Vector::ZERO);
+            (self.unseen, self.refused) = (0.0, 0);
+        }
+    }
+
+    fn update(&mut self, position: Vector, filter: &Filter) {
+        self.track.update(position, self.unseen, filter);
+        (self.unseen, self.refused) = (0.0, 0);
     }
 }
 
 impl Robot {
-    fn begin(&mut self, seen: &Motion, filters: &Filters) {
-        self.track = PositionTrack::new(seen.position, seen.velocity, &filters.robot);
-        self.heading = HeadingTrack::new(seen.heading, seen.angular_velocity, &filters.heading);
+    fn begin(&mut self, seen: &Motion) {
+        self.track = PositionTrack::new(seen.position, seen.velocity);
+        self.heading = HeadingTrack::new(seen.heading, seen.angular_velocity);
         self.unseen = 0.0;
     }
 
-    fn predict(&mut self, elapsed: f32, filters: &Filters) {
+    fn predict(&mut self, elapsed: f32) {
         self.unseen += elapsed;
         if self.unseen > LOST {
             self.track.velocity = Vector::ZERO;
             self.heading.angular_velocity = 0.0;
         }
-        self.track.predict(elapsed, &filters.robot);
-        self.heading.predict(elapsed, &filters.heading);
+        self.track.predict(elapsed);
+        self.heading.predict(elapsed);
     }
 
     fn update(&mut self, seen: &Motion, filters: &Filters) {
+        self.track.update(seen.position, self.unseen, &filters.robot);
+        self.heading.update(seen.heading, self.unseen, &filters.heading);
         self.unseen = 0.0;
-        self.track.update(seen.position, &filters.robot);
-        self.heading.update(seen.heading, &filters.heading);
     }
 }
