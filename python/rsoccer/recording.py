@@ -13,6 +13,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.game import BLUE, YELLOW, EventKind
 from rsoccer.matches import Matches
 from rsoccer.matches.policy_match import policy_match
+from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
@@ -35,6 +36,7 @@ def record_match(
     width: int | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Path:
     """Play a match, episode after episode, and write it to a video file.
 
@@ -54,6 +56,7 @@ def record_match(
         width: width of the video, 64 to 4096 pixels; by default 720, or more on a large field.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         The path of the file: a .gif where ffmpeg is missing, see `write_video`.
@@ -71,6 +74,7 @@ def record_match(
         width=width,
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
     )
     with closing(images):
         return write_video(path, images, fps)
@@ -86,6 +90,7 @@ def film_match(
     width: int | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> tuple[Generator[Image, None, None], float]:
     """Return the images of a match; the match is played while they are drawn.
 
@@ -101,6 +106,7 @@ def film_match(
         width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         An iterator over images (height, width, 3), and their rate in images per second.
@@ -109,7 +115,15 @@ def film_match(
         ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
+    matches = policy_match(
+        task,
+        controllers,
+        seed,
+        seconds,
+        simulator=simulator,
+        sensing=sensing,
+        randomization=randomization,
+    )
     images = _film(matches, simulator, seconds, names, width)
     next(images)  # from now on it closes the simulator, whatever ends it
     return images, 1.0 / matches.task.config.time_step

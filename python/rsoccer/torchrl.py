@@ -23,6 +23,7 @@ from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import learner_controllers
 from rsoccer.frame import team_of
 from rsoccer.global_state import LIMIT
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
 from rsoccer.task import Task
@@ -89,6 +90,7 @@ class SoccerEnv(EnvBase):
         learner: str | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
         group_map: GroupMap | MarlGroupMapType | None = None,
         state: bool = False,
         device: Any = None,  # noqa: ANN401  (torch's own union)
@@ -111,6 +113,7 @@ class SoccerEnv(EnvBase):
             simulator: moves the robots, as for `Matches`. With a simulator itself the environment
                 cannot be copied.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
             group_map: names of the learners by group, or one of TorchRL's `MarlGroupMapType`;
                 None for teams. `MarlGroupMapType.ALL_IN_ONE_GROUP` is one group "agents".
             state: True for the global state under "state".
@@ -134,6 +137,7 @@ class SoccerEnv(EnvBase):
             autoreset="disabled",
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         with closed_on_error(self.matches):
             self._prepare(group_map, state, device)

@@ -86,6 +86,7 @@ class Evaluate(Sources, Imports):
                 threads=self.threads,
                 simulator=self.simulator,
                 sensing=self.sensing,
+                randomization=self.randomization,
             )
             for opponent in self.opponents or (None,)
         ]
@@ -109,6 +110,7 @@ class Evaluate(Sources, Imports):
             names=(team_name(policy), " ".join(map(team_name, opponents))),
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         )
         if self.html is not None:
             write(f"page: {replay.save_html(self.html)}")

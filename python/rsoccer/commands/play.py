@@ -80,6 +80,7 @@ class Play(Sources, Imports):
             names=self._names(task, robot, controllers),
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         ) as session:
             session.run(self.seconds)
 

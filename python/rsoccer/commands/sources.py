@@ -1,16 +1,20 @@
-"""`--simulator` and `--sensing`: what moves the robots of a command, and what they know."""
+"""`--simulator`, `--sensing` and `--randomization` of all commands that play matches."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
-from typing import Annotated
+from dataclasses import dataclass, field, fields
+from typing import Annotated, Any
 
 from tyro.conf import arg
 
+from rsoccer.commands.task_options import RANDOMIZATION
+
 _SIMULATOR = arg(metavar="MODULE:NAME", help_behavior_hint="(default: the package's own)")
-_SENSING = arg(metavar="MODULE:NAME", help_behavior_hint="(default: they know it exactly)")
+_SENSING = arg(
+    metavar="PRESET|FILE|MODULE:NAME", help_behavior_hint="(default: they know it exactly)"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +24,9 @@ class Sources:
     simulator: Annotated[str | None, _SIMULATOR] = None
     """function (config, worlds, threads) that makes the simulator"""
     sensing: Annotated[str | None, _SENSING] = None
-    """sensor model, of what robots know of the true state"""
+    """what robots know of the true state, and how late"""
+    randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
+    """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
 
 
 @contextmanager

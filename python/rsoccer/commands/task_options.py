@@ -1,9 +1,10 @@
-"""`--task-options`: the options of the task that a command plays."""
+"""`--task-options` and `--randomization`: values by name for what a command plays."""
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from tyro.constructors import PrimitiveConstructorSpec
@@ -13,30 +14,37 @@ from rsoccer.registry import task_with_options
 from rsoccer.task import Task
 
 
-def _parse_options(words: list[str]) -> dict[str, Any]:
-    """Options given as NAME=VALUE; values as `rsoccer list` prints them, or text without quotes."""
+def _parse(argument: str, words: list[str]) -> dict[str, Any]:
+    """Values given as NAME=VALUE, as `rsoccer list` prints them, or text without quotes."""
     options: dict[str, Any] = {}
     names = []
     for word in words:
         name, separator, value = word.partition("=")
         if not name or not separator:
-            raise ValueError(f"task_options: expected NAME=VALUE, got {word!r}")
+            raise ValueError(f"{argument}: expected NAME=VALUE, got {word!r}")
         names.append(name)
         try:
             options[name] = ast.literal_eval(value)
         except (SyntaxError, ValueError):
             options[name] = value
-    check_entries("task_options", names)
+    check_entries(argument, names)
     return options
 
 
-TASK_OPTIONS = PrimitiveConstructorSpec[Mapping[str, Any]](
-    nargs="*",
-    metavar="[NAME=VALUE [NAME=VALUE ...]]",
-    instance_from_str=_parse_options,
-    is_instance=lambda value: isinstance(value, Mapping),
-    str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
-)
+def _values_by_name(argument: str) -> PrimitiveConstructorSpec[Mapping[str, Any]]:
+    """Type of an option with values by name, for tyro."""
+    return PrimitiveConstructorSpec[Mapping[str, Any]](
+        nargs="*",
+        metavar="[NAME=VALUE [NAME=VALUE ...]]",
+        instance_from_str=partial(_parse, argument),
+        is_instance=lambda value: isinstance(value, Mapping),
+        str_from_instance=lambda options: [f"{name}={value!r}" for name, value in options.items()],
+    )
+
+
+TASK_OPTIONS = _values_by_name("task_options")
+"""Type of the option for tyro."""
+RANDOMIZATION = _values_by_name("randomization")
 """Type of the option for tyro."""
 
 

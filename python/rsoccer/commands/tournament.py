@@ -70,6 +70,7 @@ class Tournament(Sources, Imports):
             on_pair=_show_pairs,
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         )
         write(str(result))
         if self.json is not None:

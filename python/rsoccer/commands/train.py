@@ -14,7 +14,7 @@ from tyro.constructors import PrimitiveConstructorSpec
 from rsoccer.commands.entries import check_entries
 from rsoccer.commands.imports import IMPORTS
 from rsoccer.commands.output import write
-from rsoccer.commands.task_options import TASK_OPTIONS
+from rsoccer.commands.task_options import RANDOMIZATION, TASK_OPTIONS
 from rsoccer.train import Args, OpponentSettings, train
 from rsoccer.train.args import SETTINGS_FILE
 
@@ -61,6 +61,8 @@ class CommandArgs(Args):
     task_options: Annotated[Mapping[str, Any], TASK_OPTIONS] = field(default_factory=dict)
     """options of the task (`rsoccer list` prints them), such as opponent=chase or
     robot=heavy.json"""
+    randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
+    """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
     opponents: Opponents = field(default_factory=Opponents)
     """opponents of the learners, by share of the matches"""
 

@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 
 
 _OF_MATCHES: Final = (
-    *("policy", "opponents", "task", "task_options", "simulator", "sensing", "snapshots"),
+    *("policy", "opponents", "task", "task_options", "snapshots"),
+    *("simulator", "sensing", "randomization"),
 )
 """Options that a replay does not take."""
 
@@ -116,6 +117,7 @@ class Watch(Sources, Imports):
             snapshot_interval=self.snapshots,
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         )
 
     def _play_replay(self, replay: Replay) -> None:
@@ -144,6 +146,7 @@ class Watch(Sources, Imports):
             width=self.width,
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         )
         with closing(images):
             self._show(task.name, images, fps)

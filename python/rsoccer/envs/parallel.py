@@ -26,6 +26,7 @@ from rsoccer.envs import agent_dicts
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import initial_rows, require_learners, reset_options
 from rsoccer.envs.viewer import ViewedMatch, Viewer, metadata
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task, with_max_steps
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.spaces import ActionSpace
@@ -44,6 +45,7 @@ def parallel_env(
     controllers: Controllers | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
     max_steps: int | None = None,
     max_cycles: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -60,6 +62,7 @@ def parallel_env(
         simulator: moves the robots, as for `Matches`. With a simulator itself the environment
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         max_cycles: the same by PettingZoo's name; it takes precedence.
         **options: options of a registered task, the fields of its class.
@@ -83,7 +86,12 @@ def parallel_env(
     time_limit = max_steps if max_cycles is None else max_cycles
     task = resolve_task(task, time_limit, options, parallel_env)
     return SoccerParallelEnv(
-        task, render_mode, controllers=controllers, simulator=simulator, sensing=sensing
+        task,
+        render_mode,
+        controllers=controllers,
+        simulator=simulator,
+        sensing=sensing,
+        randomization=randomization,
     )
 
 
@@ -197,6 +205,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         controllers: Controllers | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -207,6 +216,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
                 `parallel_env`.
             simulator: moves the robots, as for `parallel_env`.
             sensing: what robots know of the true state, as for `parallel_env`.
+            randomization: numbers that each episode draws, as for `parallel_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -222,6 +232,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             autoreset="disabled",
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)

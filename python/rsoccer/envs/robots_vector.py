@@ -32,6 +32,7 @@ from rsoccer.envs.options import (
 from rsoccer.envs.robot_rows import RobotRows, RobotRowsEnv
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
@@ -51,6 +52,7 @@ def robots_vector_env(
     controllers: Controllers | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -73,6 +75,7 @@ def robots_vector_env(
         simulator: moves the robots, as for `Matches`. With a simulator itself the environment
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its actions and pays no reward), "same_step" (within
@@ -110,6 +113,7 @@ def robots_vector_env(
         controllers=resolved,
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
@@ -171,6 +175,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
         controllers: Controllers | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -183,6 +188,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
             controllers: policies of robots that do not learn, as for `robots_vector_env`.
             simulator: moves the robots, as for `robots_vector_env`.
             sensing: what robots know of the true state, as for `robots_vector_env`.
+            randomization: numbers that each episode draws, as for `robots_vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `robots_vector_env`.
 
@@ -204,6 +210,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
             autoreset=self.autoreset_mode.name.lower(),
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         self._rows = RobotRows.of(self._matches)
         self.num_envs = len(self._rows)

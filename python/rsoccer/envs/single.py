@@ -31,6 +31,7 @@ from rsoccer.envs.options import (
     single_learner_controllers,
 )
 from rsoccer.envs.viewer import RENDER_MODES, ViewedMatch, Viewer, metadata
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
@@ -48,6 +49,7 @@ def single_env(
     controllers: Controllers | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerEnv:
@@ -65,6 +67,7 @@ def single_env(
         simulator: moves the robots, as for `Matches`. With a simulator itself the environment
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         **options: options of a registered task, the fields of its class.
 
@@ -93,6 +96,7 @@ def single_env(
         controllers=controllers,
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
     )
 
 
@@ -139,6 +143,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
         controllers: Controllers | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -149,6 +154,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             controllers: policies of the other robots, as for `single_env`.
             simulator: moves the robots, as for `single_env`.
             sensing: what robots know of the true state, as for `single_env`.
+            randomization: numbers that each episode draws, as for `single_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -165,6 +171,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             autoreset="disabled",
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         self.observation_space = spaces.observation_space(task)
         self.action_space = spaces.action_space(task)

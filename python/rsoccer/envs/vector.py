@@ -21,6 +21,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.envs.env_matches import SingleLearner
 from rsoccer.envs.options import single_learner_controllers
 from rsoccer.envs.robots_vector import RobotsVectorEnv
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
@@ -35,6 +36,7 @@ def vector_env(
     controllers: Controllers | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -55,6 +57,7 @@ def vector_env(
         simulator: moves the robots, as for `Matches`. With a simulator itself the environment
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its action and pays no reward), "same_step" (within
@@ -89,6 +92,7 @@ def vector_env(
         controllers=controllers,
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
@@ -142,6 +146,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
         controllers: Controllers | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -155,6 +160,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             controllers: policies of the other robots, as for `vector_env`.
             simulator: moves the robots, as for `vector_env`.
             sensing: what robots know of the true state, as for `vector_env`.
+            randomization: numbers that each episode draws, as for `vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `vector_env`.
 
@@ -170,6 +176,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             controllers=single_learner_controllers(task, learner, controllers),
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
             threads=threads,
             autoreset_mode=autoreset_mode,
         )

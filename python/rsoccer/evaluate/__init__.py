@@ -26,6 +26,7 @@ from rsoccer.evaluate.tournament import Tournament, tournament
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.policies import PolicyLike, check_policy_like, make_policy, name_of
 from rsoccer.policies.base import Policy
+from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
@@ -46,6 +47,7 @@ def evaluate(
     threads: int | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Evaluation:
     """Play matches of a task with a policy in the place of its learners.
 
@@ -67,6 +69,7 @@ def evaluate(
         simulator: moves the robots, as for `Matches`. A simulator itself has to fit the number of
             matches at once, and stays open.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         Counts, the mean score, the mean return and the mean duration with their intervals.
@@ -96,7 +99,14 @@ def evaluate(
     for index, side in enumerate(sides):
         controllers = lineup(task, LEARN, opponent_policy, side)
         runner = EpisodeRunner(
-            task, controllers, own_policy, worlds, threads, simulator=simulator, sensing=sensing
+            task,
+            controllers,
+            own_policy,
+            worlds,
+            threads,
+            simulator=simulator,
+            sensing=sensing,
+            randomization=randomization,
         )
         episodes.append(runner.run(per_side, first_seed(seed, index)))
     rng = np.random.default_rng(np.random.SeedSequence((seed, len(SIDES))))

@@ -14,6 +14,7 @@ from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
 from rsoccer.policies.base import MatchState, Policy, PolicyInput, require_actions
+from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
@@ -63,6 +64,7 @@ class EpisodeRunner:
     simulator: SimulatorSource | None = None
     """moves the robots, as for `Matches`"""
     sensing: SensingSource | None = None
+    randomization: Ranges | None = None
     """sensor model of the robots, as for `Matches`"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
@@ -119,6 +121,7 @@ class EpisodeRunner:
             autoreset="disabled",
             simulator=self.simulator,
             sensing=self.sensing,
+            randomization=self.randomization,
         )
         with closed_after(matches, self.simulator):
             return self._play(matches, seed)

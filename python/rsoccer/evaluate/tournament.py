@@ -26,6 +26,7 @@ from rsoccer.policies import PolicyLike, check_policy_like, is_registered, make_
 from rsoccer.policies.base import Policy
 from rsoccer.policies.labels import labels
 from rsoccer.policies.policy_file import SUFFIX
+from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
@@ -68,6 +69,7 @@ def tournament(
     on_pair: Callable[[int, int], None] | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Tournament:
     """Play every policy against every other one, and rate them.
 
@@ -95,6 +97,7 @@ def tournament(
             and the number of all.
         simulator: moves the robots, as for `evaluate`.
         sensing: what robots know of the true state, as for `evaluate`.
+        randomization: numbers that each episode draws, as for `evaluate`.
 
     Returns:
         Ratings with 95% bootstrap intervals over matches, scores of each pair, and cycles.
@@ -121,7 +124,14 @@ def tournament(
         for blue, yellow in ((a, b), (b, a)):
             controllers: dict[str, Controller] = {"blue": LEARN, "yellow": made[yellow]}
             runner = EpisodeRunner(
-                task, controllers, made[blue], worlds, threads, simulator=simulator, sensing=sensing
+                task,
+                controllers,
+                made[blue],
+                worlds,
+                threads,
+                simulator=simulator,
+                sensing=sensing,
+                randomization=randomization,
             )
             scores = runner.run(per_side, first_seed(seed, 0)).scores
             counts[blue, yellow] = [(np.sign(scores) == sign).sum() for sign in (1, 0, -1)]

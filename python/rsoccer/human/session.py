@@ -15,6 +15,7 @@ from rsoccer.human.controls import Controls
 from rsoccer.human.devices import Devices
 from rsoccer.human.driver import Driver, human_controllers
 from rsoccer.matches import Matches
+from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
@@ -62,6 +63,7 @@ class Session:
         devices: Devices | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Begin the first episode; the window opens with the first image.
 
@@ -78,6 +80,7 @@ class Session:
             devices: keyboard and gamepad; by default those of this machine.
             simulator: moves the robots, as for `Matches`.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
 
         Raises:
             ImportError: a text "module:name" whose module or name does not exist.
@@ -109,6 +112,7 @@ class Session:
             autoreset="disabled",
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         self._closes_matches = not is_shared(simulator)
         self._events: tuple[Shape, ...] = ()

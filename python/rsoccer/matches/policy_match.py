@@ -6,6 +6,7 @@ from rsoccer import checks
 from rsoccer.controllers import Controllers, given_by_name
 from rsoccer.lineup import task_for
 from rsoccer.matches.loop import Matches
+from rsoccer.randomization import Ranges
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
@@ -18,6 +19,7 @@ def policy_match(
     *,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Matches:
     """Prepare one match in which policies control all robots; `reset` begins it.
 
@@ -29,6 +31,7 @@ def policy_match(
         seconds: duration of play that is asked for, above 0; checked only.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         Matches of one world. `autoreset` is "disabled".
@@ -46,6 +49,7 @@ def policy_match(
         autoreset="disabled",
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
     )
     if matches.agents:
         with closed_after(matches, simulator):

@@ -7,6 +7,7 @@ from rsoccer.evaluate.episodes import LearnerPolicy
 from rsoccer.lineup import lineup, opponents_of, task_for
 from rsoccer.matches import Matches
 from rsoccer.policies import PolicyLike, make_policy, name_of
+from rsoccer.randomization import Ranges
 from rsoccer.registry import as_task
 from rsoccer.replay.recorder import Recorder
 from rsoccer.replay.replay import Replay
@@ -25,6 +26,7 @@ def record_last_match(
     names: tuple[str, str] | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Replay:
     """Record the last match of `rsoccer.evaluate` with these arguments.
 
@@ -40,6 +42,7 @@ def record_last_match(
         names: names of policy and opponent on the score board; by default those of the policies.
         simulator: moves the robots, as for `rsoccer.evaluate`.
         sensing: what robots know of the true state, as for `rsoccer.evaluate`.
+        randomization: numbers that each episode draws, as for `rsoccer.evaluate`.
 
     Returns:
         The replay of one episode.
@@ -66,6 +69,7 @@ def record_last_match(
         autoreset="disabled",
         simulator=simulator,
         sensing=sensing,
+        randomization=randomization,
     )
     with closed_after(world, simulator):
         recorder = Recorder(world, names=names[::-1] if side else names, controllers=controllers)

@@ -13,6 +13,7 @@ from rsoccer.controllers import Controllers, resolve
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
+from rsoccer.randomization import Ranges
 from rsoccer.registry import options_of
 from rsoccer.render.referee_state import referee_row
 from rsoccer.replay.events import Event, ball_events, game_events
@@ -216,6 +217,7 @@ def record_replay(
     snapshot_interval: float | None = None,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
 ) -> Replay:
     """Play a match between policies, episode after episode, and record it.
 
@@ -231,6 +233,7 @@ def record_replay(
         snapshot_interval: seconds between snapshots, above 0; None for no snapshots.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         The replay.
@@ -239,7 +242,15 @@ def record_replay(
         ImportError: a text "module:name" whose module or name does not exist.
         ValueError: `seconds` is not positive, a robot has no policy, or another bad argument.
     """
-    matches = policy_match(task, controllers, seed, seconds, simulator=simulator, sensing=sensing)
+    matches = policy_match(
+        task,
+        controllers,
+        seed,
+        seconds,
+        simulator=simulator,
+        sensing=sensing,
+        randomization=randomization,
+    )
     with closed_after(matches, simulator):
         recorder = Recorder(
             matches, names=names, controllers=controllers, snapshot_interval=snapshot_interval

@@ -8,6 +8,7 @@ from pathlib import Path
 from rsoccer.controllers import Controllers
 from rsoccer.files import write_atomically
 from rsoccer.matches import Matches
+from rsoccer.randomization import Ranges
 from rsoccer.replay import file_format, page
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Recorded
@@ -123,6 +124,7 @@ class Replay(Recorded):
         controllers: Controllers | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> Matches:
         """Continue the match from a frame with a snapshot, exactly as it went on.
 
@@ -132,6 +134,7 @@ class Replay(Recorded):
             controllers: controllers of the robots; by default those of the recording.
             simulator: moves the robots, as for `Matches`; the one that the match was recorded with.
             sensing: what robots know of the true state, as for `Matches`; as it was recorded with.
+            randomization: numbers that each episode draws, as it was recorded with.
 
         Returns:
             Matches of one world at that frame. `autoreset` is "disabled".
@@ -140,7 +143,15 @@ class Replay(Recorded):
             ReplayError: no snapshot at that frame, another version of the physics, or a task,
                 controllers, a simulator or senses that do not fit or have to be given.
         """
-        return resume(self, frame, task, controllers, simulator=simulator, sensing=sensing)
+        return resume(
+            self,
+            frame,
+            task,
+            controllers,
+            simulator=simulator,
+            sensing=sensing,
+            randomization=randomization,
+        )
 
     def to_html(self) -> str:
         """Return a page that plays the replay in a browser, complete in itself."""

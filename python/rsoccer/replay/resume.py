@@ -11,6 +11,7 @@ from rsoccer._core import build_info
 from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
+from rsoccer.randomization import Ranges
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.recorded import Recorded
 from rsoccer.sources import SensingSource, SimulatorSource, closed_on_error
@@ -32,6 +33,7 @@ def resume(
     *,
     simulator: SimulatorSource | None,
     sensing: SensingSource | None,
+    randomization: Ranges | None,
 ) -> Matches:
     """Continue a match from a frame with a snapshot.
 
@@ -42,6 +44,7 @@ def resume(
         controllers: controllers; None for those of the replay.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
+        randomization: numbers that each episode draws, as for `Matches`.
 
     Returns:
         Matches of one world at that frame.
@@ -65,7 +68,12 @@ def resume(
             raise ReplayError(f"task: expected {replay.task} with the replay's config, got another")
         given = _named(replay.controllers) if controllers is None else controllers
         matches = Matches(
-            task, controllers=given, autoreset="disabled", simulator=simulator, sensing=sensing
+            task,
+            controllers=given,
+            autoreset="disabled",
+            simulator=simulator,
+            sensing=sensing,
+            randomization=randomization,
         )
         with closed_on_error(matches, simulator):
             matches.load_state_dict(replay.snapshots[frame])

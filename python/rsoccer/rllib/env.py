@@ -15,6 +15,7 @@ from rsoccer.controllers import Controllers
 from rsoccer.envs.env_matches import EnvMatches
 from rsoccer.envs.options import learner_controllers, reset_options
 from rsoccer.matches import Matches
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
@@ -191,6 +192,7 @@ def _settings(
     threads: int = 1,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
+    randomization: Ranges | None = None,
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> tuple[Task, dict[str, Any]]:
@@ -201,4 +203,5 @@ def _settings(
         "threads": threads,
         "simulator": simulator,
         "sensing": sensing,
+        "randomization": randomization,
     }

@@ -17,6 +17,7 @@ from rsoccer.envs.options import initial_rows, learner_controllers, reset_option
 from rsoccer.envs.robot_rows import RobotRows, RobotRowsEnv
 from rsoccer.envs.viewer import Image, Viewer, metadata
 from rsoccer.matches import Outcome
+from rsoccer.randomization import Ranges
 from rsoccer.registry import resolve_task
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import Task
@@ -85,6 +86,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
         learner: str | None = None,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
         render_mode: str | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -103,6 +105,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
             simulator: moves the robots, as for `Matches`. With a simulator itself the environment
                 cannot be copied.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
             render_mode: "rgb_array" for images from `render` and `get_images`, or None.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
@@ -125,6 +128,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
             controllers=learner_controllers(task, learner, controllers),
             simulator=simulator,
             sensing=sensing,
+            randomization=randomization,
         )
         self._rows = RobotRows.of(self._matches)
         self._actions: Array | None = None

@@ -52,7 +52,7 @@ class Args:
     Raises:
         ImportError: a module of `imports`, `simulator` or `sensing` does not exist or raises an
             error, or a name is not in its module.
-        TypeError: `sensing` names something else than a sensor model.
+        TypeError: `sensing` names something else than senses.
         ValueError: a value of another type or outside its range, options of the task that JSON
             cannot hold, or `resume` together with `overwrite`.
     """
@@ -68,7 +68,9 @@ class Args:
     simulator: str | None = None
     """module:function (config, worlds, threads) that makes the simulator, in place of the own"""
     sensing: str | None = None
-    """module:name of a sensor model, of what robots know of the true state"""
+    """what robots know of the true state: a preset's name, a .json file, or module:name"""
+    randomization: Mapping[str, Any] = field(default_factory=dict)
+    """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     imports: tuple[str, ...] = ()
     """modules to import first: those that register a task or policies of one's own"""
     seed: Natural = 0
@@ -98,14 +100,15 @@ class Args:
         """Convert every value to the type of its field, and check it."""
         for name in ("simulator", "sensing"):
             given = getattr(self, name)
-            text = "a text 'module:name', by which a resumed run finds it again"
+            text = "a text, by which a resumed run finds it again"
             expect(name, given is None or isinstance(given, str), text, given)
         convert_fields(self)
         plugins.import_modules(self.imports)
         if self.simulator is not None:
             plugins.find("simulator", self.simulator)
         make_sensing(self.sensing)
-        object.__setattr__(self, "task_options", _as_json(self.task_options))
+        for name in ("task_options", "randomization"):
+            object.__setattr__(self, name, _as_json(getattr(self, name)))
         if self.resume and self.overwrite:
             raise ValueError("resume and overwrite exclude each other, got both")
 

@@ -13,6 +13,7 @@ from rsoccer.frame import team_of
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
+from rsoccer.randomization import Ranges
 from rsoccer.sources import SensingSource, SimulatorSource, make_simulator
 from rsoccer.task import LEARN, Learn, Task
 from rsoccer.train.clock import Clock, TimedSimulator
@@ -44,6 +45,7 @@ class Curriculum:
         action_repeat: int,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Find the learners of a task, and make the policies of its other robots.
 
@@ -56,6 +58,7 @@ class Curriculum:
             action_repeat: control steps that networks hold each decision.
             simulator: moves the robots, as for `Matches`.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
 
         Raises:
             ValueError: a task without learners, opponents in a task without such robots, a policy
@@ -64,6 +67,7 @@ class Curriculum:
         self._settings, self._task, self._clock = settings, task, clock
         self._worlds, self._threads = worlds, threads
         self._simulator, self._sensing = simulator, sensing
+        self._randomization = randomization
         self.learners = learning_team(task)
         home = team_of(self.learners[0])
         self.pool: OpponentPool | None = None
@@ -140,6 +144,7 @@ class Curriculum:
             autoreset="disabled",
             simulator=self._timed_simulator,
             sensing=self._sensing,
+            randomization=self._randomization,
         )
 
     def _timed_simulator(self, config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:

@@ -14,6 +14,7 @@ from rsoccer.evaluate.episodes import RETURN, EpisodeRunner
 from rsoccer.lineup import lineup
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
+from rsoccer.randomization import Ranges
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource
 from rsoccer.task import LEARN, Task
@@ -45,6 +46,7 @@ class Ladder:
         *,
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> None:
         """Choose the opponents.
 
@@ -54,6 +56,7 @@ class Ladder:
             threads: threads of the simulator, at least 1.
             simulator: moves the robots, as for `Matches`.
             sensing: what robots know of the true state, as for `Matches`.
+            randomization: numbers that each episode draws, as for `Matches`.
         """
         self.opponents = tuple(filter(lambda name: _fits(name, task), OPPONENTS))
         if not task.two_sided:
@@ -62,6 +65,7 @@ class Ladder:
         self.columns = tuple(ladder_column(metric, name) for name in self.opponents or (None,))
         self._settings, self._task, self._threads = settings, task, threads
         self._simulator, self._sensing = simulator, sensing
+        self._randomization = randomization
 
     def is_due(self, updates: int, *, last: bool) -> bool:
         """Return whether the policy is measured after an update; it is after the last one.
@@ -95,6 +99,7 @@ class Ladder:
             before_step,
             simulator=self._simulator,
             sensing=self._sensing,
+            randomization=self._randomization,
         )
         scores = runner.run(count, SEED).scores
         step = len(self.columns)

@@ -37,6 +37,7 @@ class Loop:
             trainer.args.threads,
             simulator=trainer.args.simulator,
             sensing=trainer.args.sensing,
+            randomization=trainer.args.randomization,
         )
 
     def run(self, stop: StopSignal, log_size: int) -> None:

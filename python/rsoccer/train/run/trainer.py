@@ -78,6 +78,7 @@ class Trainer:
             action_repeat=args.rollout.action_repeat,
             simulator=args.simulator,
             sensing=args.sensing,
+            randomization=args.randomization,
         )
         _check_batch(args, len(self.curriculum.learners))
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo

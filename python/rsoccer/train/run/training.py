@@ -81,6 +81,7 @@ def _write_match(trainer: Trainer) -> None:
         names=names,
         simulator=args.simulator,
         sensing=args.sensing,
+        randomization=args.randomization,
     )
     replay_name, page_name = MATCH_FILES
     replay.save(args.out / replay_name)
