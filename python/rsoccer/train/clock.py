@@ -53,6 +53,8 @@ METHODS: Final = (
     "restart",
     "reposition_balls",
     "step",
+    "sense",
+    "begin_senses",
     "read",
     "close",
     "snapshot",
