@@ -170,6 +170,7 @@ fn compensated_load(load: VectorLanes, error: VectorLanes, change: VectorLanes) 
 
 /// Wheel speeds (rad/s) from velocity forward and to the left and angular velocity, one row per wheel.
 /// Kinematics of one robot: from the velocity of its body to the speeds of its wheels and back.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(crate) struct WheelMap {
     from_body: [[f32; 3]; 4],
     to_body: [[f32; 4]; 3],

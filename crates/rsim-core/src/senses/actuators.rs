@@ -7,7 +7,7 @@ use crate::body_parameters::BodyParameters;
 use crate::drive::WheelMap;
 use crate::geometry::motion::rotated;
 use crate::math::Vector;
-use crate::models::robot::{Drive, OmniDrive, RobotModel};
+use crate::models::robot::{Drive, RobotModel};
 use crate::models::sensing::Sensing;
 use crate::senses::random::{Draws, Purpose};
 
@@ -20,8 +20,7 @@ const EMPTY_BATTERY: f32 = 0.5;
 /// Actuators of all robots of a match.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Actuators {
-    /// Factors on the speeds of the wheels of each robot.
-    wheels: Vec<[f32; WHEELS]>,
+    wheels: Vec<Wheels>,
     /// Commands as the robots obey them, a row for each.
     commands: Vec<f32>,
     /// Factor on the speed of the kicks of each robot.
@@ -30,11 +29,47 @@ pub(super) struct Actuators {
     kick_directions: Vec<f32>,
 }
 
+/// The wheels of a robot.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Wheels {
+    /// Factors on their speeds.
+    factors: [f32; WHEELS],
+    /// Kinematics of a robot that is commanded by its velocity.
+    map: Option<WheelMap>,
+}
+
+impl Wheels {
+    fn new(model: &RobotModel, sensing: &Sensing, draws: &mut Draws) -> Self {
+        let factors = std::array::from_fn(|_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0));
+        let map = match &model.drive {
+            Drive::Omni(drive) => Some(WheelMap::of(drive)),
+            Drive::Differential(_) | Drive::OmniWheels(_) => None,
+        };
+        Self { factors, map }
+    }
+
+    /// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose
+    /// fastest wheel is limited goes the same way more slowly.
+    fn turn(&self, speeds: &mut [f32], dead_zone: f32, limit: f32) {
+        let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
+        let slower = (limit / fastest).min(1.0);
+        for (speed, factor) in speeds.iter_mut().zip(&self.factors) {
+            *speed *= if speed.abs() < dead_zone { 0.0 } else { factor * slower };
+        }
+    }
+}
+
 impl Actuators {
-    /// The actuators of `robots` robots, with their errors.
-    pub(super) fn new(robots: usize, columns: usize, sensing: &Sensing, draws: &mut Draws) -> Self {
-        let mut wheel = || (1.0 + draws.normal(sensing.wheel_error)).max(0.0);
-        let wheels = (0..robots).map(|_| std::array::from_fn(|_| wheel())).collect();
+    /// The actuators of all robots, with their errors. A command has `columns` numbers.
+    pub(super) fn new(
+        parameters: &BodyParameters,
+        columns: usize,
+        sensing: &Sensing,
+        draws: &mut Draws,
+    ) -> Self {
+        let robots = parameters.robots.len();
+        let wheels = parameters.robots.iter();
+        let wheels = wheels.map(|body| Wheels::new(&body.model, sensing, draws)).collect();
         Self {
             wheels,
             commands: vec![0.0; robots * columns],
@@ -58,11 +93,11 @@ impl Actuators {
         let mut draws = Draws::of(key, Purpose::Command, !number);
         let columns = heard.len() / self.wheels.len().max(1);
         let robots = self.commands.chunks_exact_mut(columns.max(1)).zip(&self.wheels);
-        for (index, (command, errors)) in robots.enumerate() {
+        for (index, (command, wheels)) in robots.enumerate() {
             let model = &parameters.robots[index].model;
             let inexact = sensing.wheel_error > 0.0 || sensing.wheel_dead_zone > 0.0;
             if inexact || battery < 1.0 {
-                drive(command, model, errors, sensing.wheel_dead_zone, battery);
+                drive(command, model, wheels, sensing.wheel_dead_zone, battery);
             }
             if model.mouth.is_some() {
                 let [.., kick, chip, dribbler] = &mut command[..model.command_columns().len()]
@@ -96,55 +131,26 @@ impl Actuators {
 
 /// Changes the part of a command that the wheels follow: the speed of each wheel is 0 in the dead zone (m/s
 /// at the rim), wrong by its factor, and at most what the battery allows.
-fn drive(
-    command: &mut [f32],
-    model: &RobotModel,
-    errors: &[f32; WHEELS],
-    dead_zone: f32,
-    battery: f32,
-) {
-    match &model.drive {
-        Drive::Differential(drive) => {
-            let speeds = &mut command[..2];
+fn drive(command: &mut [f32], model: &RobotModel, wheels: &Wheels, dead_zone: f32, battery: f32) {
+    match (&model.drive, &wheels.map) {
+        (Drive::Differential(drive), _) => {
             let limit = battery * drive.max_wheel_speed;
-            turn_wheels(speeds, errors, dead_zone / drive.wheel_radius, limit);
+            wheels.turn(&mut command[..2], dead_zone / drive.wheel_radius, limit);
         }
-        Drive::OmniWheels(drive) => {
-            let speeds = &mut command[..WHEELS];
-            turn_omni_wheels(speeds, drive, &WheelMap::of(drive), errors, dead_zone, battery);
-        }
-        Drive::Omni(drive) => {
-            let map = WheelMap::of(drive);
-            let mut speeds = map.wheel_speeds([command[0], command[1], command[2]]);
-            turn_omni_wheels(&mut speeds, drive, &map, errors, dead_zone, battery);
+        (Drive::Omni(drive), Some(map)) => {
+            // The robot limits its own speeds before those of its wheels.
+            let velocity = Vector::new(command[0], command[1]);
+            let velocity = velocity.clamp_length_max(battery * drive.max_speed);
+            let limit = battery * drive.max_angular_velocity;
+            let turn = command[2].clamp(-limit, limit);
+            let mut speeds = map.wheel_speeds([velocity.x, velocity.y, turn]);
+            let limit = battery * drive.max_wheel_speed;
+            wheels.turn(&mut speeds, dead_zone / drive.wheel_radius, limit);
             command[..3].copy_from_slice(&map.velocity(&speeds));
         }
-    }
-}
-
-/// Turns the wheels of an omnidirectional robot, whose own speed the battery limits too.
-fn turn_omni_wheels(
-    speeds: &mut [f32],
-    drive: &OmniDrive,
-    map: &WheelMap,
-    errors: &[f32; WHEELS],
-    dead_zone: f32,
-    battery: f32,
-) {
-    let [x, y, _] = map.velocity(speeds);
-    let limit = (battery * drive.max_speed / Vector::new(x, y).length()).min(1.0);
-    for speed in &mut *speeds {
-        *speed *= limit;
-    }
-    turn_wheels(speeds, errors, dead_zone / drive.wheel_radius, battery * drive.max_wheel_speed);
-}
-
-/// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose fastest
-/// wheel is limited goes the same way more slowly.
-fn turn_wheels(speeds: &mut [f32], errors: &[f32; WHEELS], dead_zone: f32, limit: f32) {
-    let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
-    let slower = (limit / fastest).min(1.0);
-    for (speed, factor) in speeds.iter_mut().zip(errors) {
-        *speed *= if speed.abs() < dead_zone { 0.0 } else { factor * slower };
+        (Drive::Omni(drive) | Drive::OmniWheels(drive), _) => {
+            let limit = battery * drive.max_wheel_speed;
+            wheels.turn(&mut command[..WHEELS], dead_zone / drive.wheel_radius, limit);
+        }
     }
 }

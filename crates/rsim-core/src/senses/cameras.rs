@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::blocks::{BALL, robot};
 use crate::body_parameters::BodyParameters;
-use crate::geometry::motion::{Motion, rotated};
+use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
@@ -27,6 +27,9 @@ pub(super) struct Cameras {
     exposures: u64,
     /// Frames that have not arrived, in the order of their arrival.
     under_way: VecDeque<Detections>,
+    /// Memory for frames to come.
+    #[serde(skip)]
+    spare: Vec<Detections>,
 }
 
 /// A camera above the middle of its part of the field.
@@ -89,7 +92,7 @@ impl Exposed<'_> {
         }
         Motion {
             position: now.position - now.velocity * self.age,
-            heading: rotated(now.heading, -now.angular_velocity * self.age),
+            heading: now.heading - now.heading.perp() * (now.angular_velocity * self.age),
             ..now
         }
     }
@@ -114,7 +117,7 @@ impl Cameras {
         // The state at the start is known; the first frame shows a later one.
         let phase = if phase <= ROUNDING { phase + period } else { phase };
         let all = Camera::all(config, sensing, draws);
-        Self { all, period, phase, exposures: 0, under_way: VecDeque::new() }
+        Self { all, period, phase, exposures: 0, under_way: VecDeque::new(), spare: Vec::new() }
     }
 
     /// Time between exposures, s.
@@ -126,7 +129,7 @@ impl Cameras {
 
     /// Forgets the frames on their way: they show bodies that have been moved since.
     pub(super) fn forget(&mut self) {
-        self.under_way.clear();
+        self.spare.extend(self.under_way.drain(..));
     }
 
     /// Exposes the frames of the tick that ended at `now` (s) with this state.
@@ -155,7 +158,8 @@ impl Cameras {
             let jitter = if jitter > 0.0 { jitter * f64::from(draws.deviation()) } else { 0.0 };
             let due = (time + f64::from(sensing.delay) + jitter).max(time);
             let due = self.under_way.back().map_or(due, |last| due.max(last.due));
-            let mut frame = Detections { time, due, ..Detections::default() };
+            let mut frame = self.spare.pop().unwrap_or_default();
+            frame.begin(time, due);
             for camera in &self.all {
                 camera.detect(&exposed, sensing, self.period, &mut draws, &mut frame);
             }
@@ -167,6 +171,11 @@ impl Cameras {
     pub(super) fn arrived(&mut self, now: f64) -> Option<Detections> {
         let has_come = self.under_way.front().is_some_and(|frame| frame.due <= now + ROUNDING);
         if has_come { self.under_way.pop_front() } else { None }
+    }
+
+    /// Takes back the memory of a frame that was used.
+    pub(super) fn recycle(&mut self, frame: Detections) {
+        self.spare.push(frame);
     }
 
     /// What the cameras see of the state at a start, of which nothing is missing.
@@ -336,7 +345,7 @@ impl Camera {
         let turned = draws.normal(sensing.heading_noise);
         let mut heading = motion.heading;
         if turned != 0.0 {
-            heading = rotated(heading, turned);
+            heading += heading.perp() * turned;
         }
         if may_misread && draws.happens(sensing.misread_headings) {
             heading = if draws.uniform() < 0.5 { heading.perp() } else { -heading.perp() };

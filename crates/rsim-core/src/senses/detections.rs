@@ -16,6 +16,15 @@ pub(super) struct Detections {
     pub(super) robots: Vec<DetectedRobot>,
 }
 
+impl Detections {
+    /// Begins a frame in the memory of another one.
+    pub(super) fn begin(&mut self, time: f64, due: f64) {
+        (self.time, self.due) = (time, due);
+        self.balls.clear();
+        self.robots.clear();
+    }
+}
+
 /// A ball as a camera sees it. Without a tracker its motion is told too.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct DetectedBall {
@@ -34,5 +43,6 @@ pub(super) struct DetectedBall {
 pub(super) struct DetectedRobot {
     /// Index of the robot.
     pub(super) robot: usize,
+    /// Its heading is near 1 in length.
     pub(super) motion: Motion,
 }

@@ -31,6 +31,9 @@ pub(super) struct Link {
     heard: Vec<u64>,
     /// Last command that each robot heard.
     commands: Vec<f32>,
+    /// Memory for commands to come.
+    #[serde(skip)]
+    spare: Vec<Vec<f32>>,
 }
 
 /// Robots for which something changed, one bit each, and the control step whose command it was.
@@ -49,6 +52,7 @@ impl Link {
             stopped: 0,
             heard: vec![0; robots],
             commands: vec![0.0; robots * columns],
+            spare: Vec::new(),
         }
     }
 
@@ -74,7 +78,10 @@ impl Link {
         let due = self.under_way.back().map_or(due, |last| due.max(last.due));
         let lost = (0..self.heard.len())
             .fold(0, |all, robot| all | u64::from(draws.happens(sensing.command_loss)) << robot);
-        let sent = Sent { due, number: self.number, lost, commands: commands.to_vec() };
+        let mut copied = self.spare.pop().unwrap_or_default();
+        copied.clear();
+        copied.extend_from_slice(commands);
+        let sent = Sent { due, number: self.number, lost, commands: copied };
         self.number += 1;
         self.under_way.push_back(sent);
     }
@@ -93,6 +100,7 @@ impl Link {
                     self.commands[own.clone()].copy_from_slice(&sent.commands[own]);
                 }
             }
+            self.spare.push(sent.commands);
             let robots = !sent.lost;
             self.stopped &= sent.lost;
             change = Some(Change {

@@ -65,7 +65,7 @@ impl Senses {
             cameras,
             reports: Reports::new(robots, &sensing, &mut draws),
             link: Link::new(robots, columns),
-            actuators: Actuators::new(robots, columns, &sensing, &mut draws),
+            actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
             sensing,
             key,
             ticks: 0,
@@ -136,6 +136,7 @@ impl Senses {
         self.reports.receive(now);
         while let Some(frame) = self.cameras.arrived(now) {
             self.tracker.take(&self.sensing, &frame, parameters.ball.radius);
+            self.cameras.recycle(frame);
         }
     }
 

@@ -9,11 +9,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geometry::motion::rotated;
 use crate::math::Vector;
 
 /// Number of detections after a push for which there are parts of their own.
-const COUNTS: usize = 16;
+const COUNTS: usize = LONG as usize;
 
 /// Squared distance from the prediction, in standard deviations, beyond which a body was pushed: a
 /// detection is farther away once in 3,000.
@@ -57,7 +56,11 @@ impl Filter {
             let steady = 1.0 / (1.0 - alpha).max(0.01);
             let is_line = line_alpha > alpha && count < 15.5;
             *gain = if is_line {
-                Gain { alpha: line_alpha, beta: line_beta, gate: GATE * variance * line.max(steady) }
+                Gain {
+                    alpha: line_alpha,
+                    beta: line_beta,
+                    gate: GATE * variance * line.max(steady),
+                }
             } else {
                 Gain { alpha, beta, gate: GATE * variance * steady }
             };
@@ -72,7 +75,7 @@ impl Filter {
 }
 
 /// Number of detections of a body that has been watched for some time.
-const LONG: u8 = COUNTS as u8;
+const LONG: u8 = 16;
 
 /// Estimated position and velocity of a body.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -98,24 +101,25 @@ impl PositionTrack {
         (detected - self.position).length_squared() <= filter.gain(self.count).gate
     }
 
-    /// Takes in a detection, `elapsed` (s) after the last one. One that is not expected tells of a push since
-    /// then, in whose middle the velocity changed.
-    pub(super) fn update(&mut self, detected: Vector, elapsed: f32, filter: &Filter) {
+    /// Takes in a detection by another camera at the instant of the last one.
+    pub(super) fn average(&mut self, detected: Vector, filter: &Filter) {
+        let part = 0.5 * filter.gain(self.count).alpha;
+        self.position += (detected - self.position) * part;
+    }
+
+    /// Takes in a detection; `rate` is the inverse of the time since the last one, 1/s. One that is not
+    /// expected tells of a push since then, in whose middle the velocity changed.
+    pub(super) fn update(&mut self, detected: Vector, rate: f32, filter: &Filter) {
         let difference = detected - self.position;
         let gain = filter.gain(self.count);
-        if elapsed <= 0.0 {
-            // Another camera at the same instant.
-            self.position += difference * (0.5 * gain.alpha);
-            return;
-        }
         if difference.length_squared() > gain.gate {
             self.position = detected;
-            self.velocity += difference * (PUSH_PART / elapsed);
+            self.velocity += difference * (PUSH_PART * rate);
             self.count = 1;
             return;
         }
         self.position += difference * gain.alpha;
-        self.velocity += difference * (gain.beta / elapsed);
+        self.velocity += difference * (gain.beta * rate);
         self.count = (self.count + 1).min(LONG);
     }
 }
@@ -151,11 +155,8 @@ impl HeadingTrack {
         self.heading = turned(self.heading, self.angular_velocity * time);
     }
 
-    /// Takes in a detection, `elapsed` (s) after the last one.
-    pub(super) fn update(&mut self, detected: Vector, elapsed: f32, filter: &Filter) {
-        if elapsed <= 0.0 {
-            return;
-        }
+    /// Takes in a detection; `rate` is the inverse of the time since the last one, 1/s.
+    pub(super) fn update(&mut self, detected: Vector, rate: f32, filter: &Filter) {
         let (cos, sin) = (self.heading.dot(detected), self.heading.perp_dot(detected));
         if cos < MISREAD {
             self.refused += 1;
@@ -170,29 +171,27 @@ impl HeadingTrack {
         let gain = filter.gain(self.count);
         if difference * difference > gain.gate {
             self.heading = detected;
-            self.angular_velocity += difference * (PUSH_PART / elapsed);
+            self.angular_velocity += difference * (PUSH_PART * rate);
             self.count = 1;
             return;
         }
-        self.heading = rotated(self.heading, difference * gain.alpha);
-        self.angular_velocity += difference * (gain.beta / elapsed);
+        self.heading = turned(self.heading, difference * gain.alpha);
+        self.angular_velocity += difference * (gain.beta * rate);
         self.count = (self.count + 1).min(LONG);
     }
 }
 
-/// A heading turned by `angle`, rad.
+/// A heading turned by `angle`, rad. Cosine and sine are series, to a ten-thousandth up to half a radian; the
+/// length stays 1 by a step of Newton's method.
 fn turned(heading: Vector, angle: f32) -> Vector {
-    if angle.abs() <= 0.5 {
-        return rotated(heading, tangent(angle));
-    }
-    let (sin, cos) = libm::sincosf(angle);
-    Vector::new(heading.x * cos - heading.y * sin, heading.y * cos + heading.x * sin)
-}
-
-/// Tangent of an angle up to half a radian, to a thousandth.
-fn tangent(angle: f32) -> f32 {
-    let square = angle * angle;
-    angle * (1.0 + square * (1.0 / 3.0 + square * (2.0 / 15.0)))
+    let (sin, cos) = if angle.abs() <= 0.5 {
+        let square = angle * angle;
+        (angle * (1.0 - square * (1.0 / 6.0)), 1.0 - square * (0.5 - square * (1.0 / 24.0)))
+    } else {
+        libm::sincosf(angle)
+    };
+    let turned = Vector::new(heading.x * cos - heading.y * sin, heading.y * cos + heading.x * sin);
+    turned * (1.5 - 0.5 * turned.length_squared())
 }
 
 #[cfg(test)]
@@ -222,7 +221,7 @@ mod tests {
                 let x = speed * (f32::from(frame) * PERIOD - start);
                 let seen = Vector::new(x + draws.normal(0.001), draws.normal(0.001));
                 track.predict(PERIOD);
-                track.update(seen, PERIOD, &filter);
+                track.update(seen, 1.0 / PERIOD, &filter);
             }
             sum += (track.velocity.length() / speed - 1.0).powi(2);
         }
@@ -246,7 +245,7 @@ mod tests {
             track.predict(PERIOD);
             let seen = Vector::new(draws.normal(0.001), draws.normal(0.001));
             pushes += u32::from(!track.expects(seen, &filter));
-            track.update(seen, PERIOD, &filter);
+            track.update(seen, 1.0 / PERIOD, &filter);
         }
         assert!(pushes < 30, "{pushes}");
     }
@@ -273,7 +272,7 @@ mod tests {
             since += PERIOD;
             track.predict(PERIOD);
             let misread = frame % 10 == 5;
-            track.update(at(if misread { angle + 1.57 } else { angle }), since, &filter);
+            track.update(at(if misread { angle + 1.57 } else { angle }), 1.0 / since, &filter);
             since = if misread { since } else { 0.0 };
         }
         assert!((track.angular_velocity - 8.0).abs() < 0.3, "{}", track.angular_velocity);
@@ -287,7 +286,7 @@ mod tests {
         for _ in 0..BELIEVED {
             assert!(track.heading.x > 0.99);
             track.predict(PERIOD);
-            track.update(Vector::Y, PERIOD, &filter);
+            track.update(Vector::Y, 1.0 / PERIOD, &filter);
         }
         assert!(track.heading.y > 0.99);
     }

@@ -71,9 +71,8 @@ struct Filters {
 impl Filters {
     /// The filters for the noise of some senses, with a frame each `period`, s.
     fn of(sensing: &Sensing, period: f32) -> Self {
-        let position = |noise: f32, acceleration| {
-            Filter::new(noise.max(MIN_DEVIATION), period, acceleration)
-        };
+        let position =
+            |noise: f32, acceleration| Filter::new(noise.max(MIN_DEVIATION), period, acceleration);
         let heading = sensing.heading_noise.max(MIN_HEADING_DEVIATION);
         Self {
             ball: position(sensing.ball_position_noise, BALL_ACCELERATION),
@@ -138,10 +137,16 @@ impl Tracker {
         for DetectedRobot { robot, motion } in &frame.robots {
             let robot = &mut self.robots[*robot];
             (robot.track.position, robot.track.velocity) = (motion.position, motion.velocity);
-            robot.heading.heading = motion.heading;
+            robot.heading.heading = unit(motion.heading);
             robot.heading.angular_velocity = motion.angular_velocity;
         }
     }
+}
+
+/// A heading of length 1. One that already has it keeps its bits.
+fn unit(heading: Vector) -> Vector {
+    let is_unit = (heading.length_squared() - 1.0).abs() < 1e-6;
+    if is_unit { heading } else { heading.normalize() }
 }
 
 impl Ball {
@@ -183,7 +188,10 @@ impl Ball {
     }
 
     fn update(&mut self, position: Vector, filter: &Filter) {
-        self.track.update(position, self.unseen, filter);
+        if self.unseen <= 0.0 {
+            return self.track.average(position, filter);
+        }
+        self.track.update(position, 1.0 / self.unseen, filter);
         (self.unseen, self.refused) = (0.0, 0);
     }
 }
@@ -206,8 +214,12 @@ impl Robot {
     }
 
     fn update(&mut self, seen: &Motion, filters: &Filters) {
-        self.track.update(seen.position, self.unseen, &filters.robot);
-        self.heading.update(seen.heading, self.unseen, &filters.heading);
+        if self.unseen <= 0.0 {
+            return self.track.average(seen.position, &filters.robot);
+        }
+        let rate = 1.0 / self.unseen;
+        self.track.update(seen.position, rate, &filters.robot);
+        self.heading.update(seen.heading, rate, &filters.heading);
         self.unseen = 0.0;
     }
 }
