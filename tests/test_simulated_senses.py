@@ -1,0 +1,179 @@
+"""Senses that the simulator computes, in matches."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Matches, Sensing, Simulator
+from rsoccer.arrays import Floats
+from rsoccer.tasks import SslSelfPlay, VssSelfPlay
+
+PRESETS = [name for name in Sensing.PRESETS if name != "none"]
+TASKS = {"VSSSelfPlay-v0": VssSelfPlay(), "SSLSelfPlay-v0": SslSelfPlay(n_blue=2, n_yellow=2)}
+
+
+def played(matches: Matches, steps: int, seed: int = 0) -> list[bytes]:
+    """Rows, sensed rows and observations of each step, with random actions."""
+    rng = np.random.default_rng(seed)
+    matches.reset()
+    shape = (len(matches.agents), matches.action_size)
+    seen = []
+    for _ in range(steps):
+        action = rng.uniform(-1, 1, shape).astype(np.float32)
+        outcome = matches.step(np.repeat(action[None], matches.worlds, axis=0))
+        seen.append(matches.frame.rows[0].tobytes())
+        seen.append(matches.play.sensed.rows[0].tobytes())
+        seen.append(outcome.observations[0].tobytes())
+    return seen
+
+
+def test_a_name_a_model_and_its_file_are_the_same(tmp_path: Path) -> None:
+    path = tmp_path / "late.json"
+    path.write_text('{"preset": "vsss", "delay": 0.1}')
+    ways: list[Sensing | str] = [Sensing("vsss", delay=0.1), str(path)]
+    assert played(Matches("VSS-v0", sensing=ways[0]), 5) == played(
+        Matches("VSS-v0", sensing=ways[1]), 5
+    )
+    assert played(Matches("VSS-v0", sensing="vsss"), 5) == played(
+        Matches("VSS-v0", sensing=Sensing.preset("vsss")), 5
+    )
+
+
+@pytest.mark.parametrize("off", [None, "none", Sensing()])
+def test_off_is_the_truth_without_a_copy(off: Sensing | str | None) -> None:
+    matches = Matches("VSS-v0", sensing=off)
+    assert matches.play.sensed is matches.play.frame
+    assert played(matches, 20) == played(Matches("VSS-v0"), 20)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("task", TASKS)
+def test_a_world_is_the_same_whatever_batch_and_threads(preset: str, task: str) -> None:
+    alone = played(Matches(TASKS[task], 1, 5, sensing=preset), 60)
+    among = played(Matches(TASKS[task], 9, 5, threads=2, sensing=preset), 60)
+    assert alone == among
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("task", TASKS)
+def test_robots_know_about_where_they_are(preset: str, task: str) -> None:
+    matches = Matches(TASKS[task], 20, 0, sensing=preset)
+    rng = np.random.default_rng(0)
+    matches.reset()
+    errors = []
+    for step in range(80):
+        if step % 10 == 0:
+            actions = rng.uniform(-1, 1, (20, len(matches.agents), matches.action_size))
+        matches.step(actions.astype(np.float32))
+        errors.append(matches.play.sensed.blue.position - matches.frame.blue.position)
+    distance = np.linalg.norm(errors, axis=-1)
+    assert 0.001 < np.median(distance) < 0.12, "45 ms of a robot at 2 m/s are 90 mm"
+
+
+def test_observations_are_of_what_is_sensed_and_rewards_of_the_truth() -> None:
+    exact, late = (Matches(VssSelfPlay(), 2, 0, sensing=s) for s in (None, Sensing(delay=0.2)))
+    exact.reset()
+    late.reset()
+    actions = np.ones((2, 6, 2), np.float32)
+    for _ in range(6):
+        truth, sensed = exact.step(actions), late.step(actions)
+        assert exact.frame.rows.tobytes() == late.frame.rows.tobytes()
+        assert truth.rewards.tobytes() == sensed.rewards.tobytes()
+    assert not np.allclose(truth.observations, sensed.observations)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_saved_matches_go_on_exactly(preset: str) -> None:
+    matches, other = (Matches(SslSelfPlay(), 2, 3, sensing=preset) for _ in range(2))
+    actions = np.ones((2, len(matches.agents), matches.action_size), np.float32)
+    matches.reset()
+    for _ in range(13):
+        matches.step(actions)
+    other.reset(seed=50)
+    other.load_state_dict(matches.state_dict())
+    for _ in range(30):
+        one, two = matches.step(actions), other.step(actions)
+        assert one.observations.tobytes() == two.observations.tobytes()
+        assert matches.play.sensed.rows.tobytes() == other.play.sensed.rows.tobytes()
+
+
+def test_a_reset_of_some_worlds_leaves_the_senses_of_others() -> None:
+    matches = Matches("VSS-v0", 3, 0, sensing="vsss")
+    matches.reset()
+    actions = np.ones((3, 1, 2), np.float32)
+    for _ in range(5):
+        matches.step(actions)
+    before = matches.play.sensed.rows.copy()
+    matches.reset(mask=np.array([False, True, False]))
+    assert matches.play.sensed.rows[[0, 2]].tobytes() == before[[0, 2]].tobytes()
+    assert matches.play.sensed.rows[1].tobytes() != before[1].tobytes()
+
+
+def test_every_episode_has_errors_of_its_own() -> None:
+    matches = Matches("VSS-v0", 1, 0, sensing=Sensing(camera_offset_error=0.05))
+    offsets = []
+    for _ in range(3):
+        matches.reset()
+        offsets.append(matches.play.sensed.blue.position - matches.frame.blue.position)
+    assert not np.allclose(offsets[0], offsets[1])
+    assert not np.allclose(offsets[1], offsets[2])
+
+
+class Plain:
+    """A simulator without senses."""
+
+    place: Any
+    restart: Any
+    reposition_balls: Any
+    step: Any
+
+    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401  (those of a simulator)
+        self._simulator = Simulator(*arguments)
+        for name in ("place", "restart", "reposition_balls", "step", "snapshot", "restore"):
+            setattr(self, name, getattr(self._simulator, name))
+
+
+def test_a_simulator_without_senses_is_refused() -> None:
+    with pytest.raises(TypeError, match=r"sensing: Plain has no senses \(sense, begin_senses\)"):
+        Matches("VSS-v0", simulator=Plain, sensing="vsss")
+    Matches("VSS-v0", simulator=Plain)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Sensing("vss"), "sensing must be one of none, friendly"),
+        (lambda: Sensing(delay=-1.0), "sensing.delay must be finite and not negative"),
+        (lambda: Sensing(missing=1.5), "sensing.missing_balls must be between 0 and 1"),
+        (lambda: Sensing(noise=0.1), 'none has no "noise"; its numbers are frame_rate'),
+    ],
+)
+def test_wrong_senses_are_refused(make: Callable[[], Sensing], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_short_names_are_those_of_ball_and_robots_together() -> None:
+    sensing = Sensing("rc2021", position_noise=0.01, missing=0.2, missing_balls=0.1)
+    assert (sensing.ball_position_noise, sensing.robot_position_noise) == (0.01, 0.01)
+    assert (sensing.missing_balls, sensing.missing_robots) == (0.1, 0.2)
+
+
+def test_every_interface_takes_senses_and_variation() -> None:
+    given: dict[str, Any] = {"sensing": "vsss", "randomization": {"robot.mass": (0.9, 1.1)}}
+    parallel = rsoccer.parallel_env("VSSSelfPlay-v0", **given)
+    single = rsoccer.single_env("VSS-v0", **given)
+    vector = rsoccer.vector_env("VSS-v0", 2, **given)
+    robots = rsoccer.robots_vector_env("VSSSelfPlay-v0", worlds=2, **given)
+    same = Matches("VSS-v0", 2, 7, **given)
+    first: Floats = same.reset()
+    assert vector.reset(seed=7)[0].tobytes() == first[:, 0].tobytes()
+    assert single.reset(seed=8)[0].tobytes() == first[1, 0].tobytes()
+    for environment in (parallel, robots):
+        environment.reset(seed=1)
+    evaluation = rsoccer.evaluate("zero", "zero", 4, task="VSSSelfPlay-v0", **given)
+    assert evaluation.matches == 4
