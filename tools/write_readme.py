@@ -21,7 +21,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
-from tools import referee_tables
+from tools import referee_tables, senses_tables
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
@@ -37,6 +37,7 @@ WRITTEN = (
     DOCS / "libraries.md",
     DOCS / "policies.md",
     DOCS / "referee.md",
+    DOCS / "senses.md",
     DOCS / "speed.md",
     DOCS / "tutorials" / "new-task.md",
 )
@@ -230,6 +231,8 @@ PARTS: dict[str, Callable[[], str]] = {
     "referee_numbers": referee_tables.numbers,
     "policy_table": policy_table,
     "trained_table": trained_table,
+    "senses_numbers": senses_tables.numbers,
+    "senses_randomization": senses_tables.randomization,
     "ssl_rules": referee_tables.ssl_rules,
     "speed": speed,
     "speed_feature": feature,

@@ -72,6 +72,8 @@ GROUPS: Final = (
             "rsoccer.referee.scene",
             "rsoccer.referee.start",
             "rsoccer.senses",
+            "rsoccer.simulated_senses",
+            "rsoccer.randomization",
             "rsoccer.markers",
             "rsoccer.registry",
             "rsoccer.registry.names",
