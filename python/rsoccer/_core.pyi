@@ -655,7 +655,7 @@ class RobotModel:
 
 @final
 class Sensing:
-    """What lies between the true state and what robots know, and between commands and what they do.
+    """Senses and commands of robots: noise, delay and loss of what they know and do.
 
     Cameras above the field see all robots and the ball; a frame of theirs arrives after a delay,
     and a tracker estimates positions and velocities. Errors named noise are drawn for each
@@ -964,7 +964,7 @@ class SimConfig:
 
     @property
     def sensing(self) -> Sensing | None:
-        """What robots know and how they obey; None if exactly."""
+        """Senses of the robots; None if they know the true state and obey exactly."""
 
     def with_sensing(self, sensing: Sensing | None) -> SimConfig:
         """Return the same configuration with other senses.

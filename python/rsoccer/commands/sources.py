@@ -24,7 +24,7 @@ class Sources:
     simulator: Annotated[str | None, _SIMULATOR] = None
     """function (config, worlds, threads) that makes the simulator"""
     sensing: Annotated[str | None, _SENSING] = None
-    """what robots know of the true state, and how late"""
+    """senses of the robots: noise, delay and loss"""
     randomization: Annotated[Mapping[str, Any], RANDOMIZATION] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as robot.mass=(0.9,1.1)"""
 

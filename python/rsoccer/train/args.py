@@ -68,7 +68,7 @@ class Args:
     simulator: str | None = None
     """module:function (config, worlds, threads) that makes the simulator, in place of the own"""
     sensing: str | None = None
-    """what robots know of the true state: a preset's name, a .json file, or module:name"""
+    """senses of the robots: a preset's name, a .json file, or module:name"""
     randomization: Mapping[str, Any] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     imports: tuple[str, ...] = ()

@@ -12,7 +12,7 @@ use crate::models::robot::RobotModel;
 /// Rate at which the dribbler centers the ball in the mouth, 1/s.
 const CENTERING_RATE: f32 = 20.0;
 
-/// What a kick is by the command.
+/// Errors of a kicker.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Kicker {
     /// Factor on the speed.

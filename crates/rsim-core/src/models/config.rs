@@ -64,8 +64,7 @@ pub struct SimConfig {
     /// Solver of contacts.
     #[serde(default)]
     pub engine: EngineKind,
-    /// What lies between the true state and what robots know, and between commands and what they do; `None`
-    /// if they know and obey exactly.
+    /// Senses of the robots; `None` if they know the true state and obey exactly.
     #[serde(default)]
     pub sensing: Option<Sensing>,
 }

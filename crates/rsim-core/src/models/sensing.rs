@@ -10,8 +10,7 @@ use crate::error::ConfigError;
 use crate::models::numbers::{Number, check_all, find, listed, numbers};
 
 numbers! {
-    /// What lies between the true state of a match and what its robots know, and between their commands
-    /// and what they do.
+    /// Senses and commands of robots: noise, delay and loss of what they know and do.
     ///
     /// Cameras above the field see all robots and the ball; a frame of theirs arrives after a delay. Errors
     /// named noise are drawn for each detection, those named error once for an episode. All are normal

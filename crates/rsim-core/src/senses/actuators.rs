@@ -1,4 +1,4 @@
-//! What robots make of the commands they hear: wheels, kickers, dribblers and batteries that are not exact.
+//! Wheels, kickers, dribblers and batteries that do not obey commands exactly.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,19 +33,19 @@ pub(super) struct Actuators {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Wheels {
     /// Factors on their speeds.
-    factors: [f32; WHEELS],
+    gains: [f32; WHEELS],
     /// Kinematics of a robot that is commanded by its velocity.
     map: Option<WheelMap>,
 }
 
 impl Wheels {
     fn new(model: &RobotModel, sensing: &Sensing, draws: &mut Draws) -> Self {
-        let factors = std::array::from_fn(|_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0));
+        let gains = std::array::from_fn(|_| (1.0 + draws.normal(sensing.wheel_error)).max(0.0));
         let map = match &model.drive {
             Drive::Omni(drive) => Some(WheelMap::of(drive)),
             Drive::Differential(_) | Drive::OmniWheels(_) => None,
         };
-        Self { factors, map }
+        Self { gains, map }
     }
 
     /// Turns wheels that stand below `dead_zone` and do not turn faster than `limit`, rad/s. A robot whose
@@ -53,8 +53,8 @@ impl Wheels {
     fn turn(&self, speeds: &mut [f32], dead_zone: f32, limit: f32) {
         let fastest = speeds.iter().fold(0.0_f32, |most, speed| most.max(speed.abs()));
         let slower = (limit / fastest).min(1.0);
-        for (speed, factor) in speeds.iter_mut().zip(&self.factors) {
-            *speed *= if speed.abs() < dead_zone { 0.0 } else { factor * slower };
+        for (speed, gain) in speeds.iter_mut().zip(&self.gains) {
+            *speed *= if speed.abs() < dead_zone { 0.0 } else { gain * slower };
         }
     }
 }
@@ -122,7 +122,7 @@ impl Actuators {
         &self.commands
     }
 
-    /// What a robot's kicks are by its commands.
+    /// Errors of a robot's kicker.
     pub(super) fn kicker(&self, robot: usize) -> Kicker {
         let direction = rotated(Vector::X, self.kick_directions[robot]);
         Kicker { gain: self.kick_gains[robot], direction }

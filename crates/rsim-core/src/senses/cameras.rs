@@ -178,7 +178,7 @@ impl Cameras {
         self.spare.push(frame);
     }
 
-    /// What the cameras see of the state at a start, of which nothing is missing.
+    /// A frame of the state at a start, of which nothing is missing.
     pub(super) fn look(
         &self,
         now: f64,

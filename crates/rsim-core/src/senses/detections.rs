@@ -1,4 +1,4 @@
-//! What a frame of the cameras tells.
+//! Frames of the cameras: detections of ball and robots.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ impl Detections {
     }
 }
 
-/// A ball as a camera sees it. Without a tracker its motion is told too.
+/// A ball as a camera sees it. It has its motion, which is used without a tracker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct DetectedBall {
     /// m.

@@ -115,7 +115,7 @@ impl Senses {
         self.actuators.commands()
     }
 
-    /// What a robot's kicks are by its commands.
+    /// Errors of a robot's kicker.
     pub(crate) fn kicker(&self, robot: usize) -> Kicker {
         self.actuators.kicker(robot)
     }

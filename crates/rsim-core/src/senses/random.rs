@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-/// What random numbers are drawn for. The numbers of two purposes are independent.
+/// Purpose of random numbers. The numbers of two purposes are independent.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Purpose {
     /// Errors that last for an episode.

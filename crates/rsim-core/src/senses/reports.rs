@@ -13,7 +13,7 @@ use crate::models::sensing::Sensing;
 use crate::senses::random::{Draws, Purpose};
 use crate::state::State;
 
-/// What a robot measures itself.
+/// Motion that a robot measures itself.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct OwnMotion {
     /// Velocity forward and to the left, m/s.
@@ -34,7 +34,7 @@ struct Report {
     motions: Vec<OwnMotion>,
 }
 
-/// What is known from the robots' own sensors.
+/// Known values of the robots' own sensors, and reports on their way.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Reports {
     under_way: VecDeque<Report>,

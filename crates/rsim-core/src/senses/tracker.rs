@@ -1,4 +1,4 @@
-//! Tracker: what is known of all bodies at the instant of the last frame.
+//! Tracker: estimates of all bodies at the instant of the last frame.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ const BELIEVED: u8 = 8;
 /// Time without a detection after which a body is taken to stand still, s.
 const LOST: f32 = 0.3;
 
-/// What is known of the ball.
+/// Estimate of the ball.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Ball {
     pub(super) track: PositionTrack,
@@ -41,7 +41,7 @@ pub(super) struct Ball {
     refused: u8,
 }
 
-/// What is known of a robot.
+/// Estimate of a robot.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Robot {
     pub(super) track: PositionTrack,

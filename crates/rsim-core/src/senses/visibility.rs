@@ -1,4 +1,4 @@
-//! What a camera at a height sees of the ball: its place on the floor, and the part that no robot hides.
+//! The ball as a camera at a height sees it: its place on the floor, and the part that no robot hides.
 
 use crate::math::Vector;
 

@@ -28,7 +28,7 @@ pub(super) struct HandlingCommand {
     pub(super) chip: f32,
     /// Speed of the dribbler by its maximum, 0 to 1.
     pub(super) dribbler: f32,
-    /// What a kick is by the command.
+    /// Errors of the kicker.
     pub(super) kicker: Kicker,
 }
 

@@ -52,7 +52,7 @@ impl WorkingMemory {
 pub struct World {
     shared: Arc<Shared>,
     state: Box<State>,
-    /// What lies between the true state and what robots know and do; `None` if nothing does.
+    /// Senses of the robots; `None` if they know the true state and obey exactly.
     senses: Option<Box<Senses>>,
     contact_free_enabled: bool,
 }

@@ -275,7 +275,7 @@ fn odometry_and_gyroscopes_replace_the_cameras_velocities() {
 }
 
 #[test]
-fn what_no_robot_senses_is_not_told() {
+fn what_no_robot_senses_is_not_known() {
     let played = Played::new(&scenes::chase(), Sensing { delay: 0.01, ..Sensing::OFF }, 1, 400);
     let mut robots: Vec<Option<usize>> = (0..6).map(Some).collect();
     robots.push(None);
