@@ -134,8 +134,9 @@ def read_stack(metadata: Mapping[str, str], size: int, action_size: int) -> Obse
     plain, rest = divmod(size - (history - 1) * action_size, history)
     if plain < 1 or rest:
         raise ValueError(
-            f"metadata 'history' should fit the layers, which take {size} numbers: {history} "
-            f"observations of equal size and {history - 1} actions of {action_size} numbers do not"
+            f"metadata 'history' should fit the layers, which take {size} numbers: with actions of "
+            f"{action_size} numbers, stacked observations of a history of {metadata['history']} "
+            "have other sizes"
         )
     return ObservationStack(history, plain, action_size)
 
