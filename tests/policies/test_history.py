@@ -20,7 +20,10 @@ TASK, WORLDS, LIMIT, HISTORY = "VSSMulti-v0", 4, 8, 3
 
 
 def network(
-    history: int = HISTORY, action_repeat: int = 1, action_std: Any = None, **given: Any  # noqa: ANN401
+    history: int = HISTORY,
+    action_repeat: int = 1,
+    action_std: Any = None,
+    **given: Any,  # noqa: ANN401
 ) -> Network:
     """A network with random weights, whose actions depend on all that it reads."""
     task, rng = rsoccer.make_task(TASK), np.random.default_rng(5)

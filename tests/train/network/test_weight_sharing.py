@@ -27,9 +27,12 @@ def swapped(observations: Floats, columns: Indices) -> Floats:
 
 
 @pytest.mark.parametrize("task", TASKS)
-@pytest.mark.parametrize("central", [False, True])
-def test_the_order_of_robots_changes_nothing(task: str, central: bool, tmp_path: Path) -> None:
-    args = tiny(tmp_path, task=task, robot_units=3, hidden_sizes=(8, 6, 5), central_critic=central)
+@pytest.mark.parametrize(("central", "history"), [(False, 1), (True, 1), (True, 2)])
+def test_the_order_of_robots_changes_nothing(
+    task: str, central: bool, history: int, tmp_path: Path
+) -> None:
+    changes = {"robot_units": 3, "hidden_sizes": (8, 6, 5), "history": history}
+    args = tiny(tmp_path, task=task, central_critic=central, **changes)
     trainer = Trainer(args)
     before = nn.utils.parameters_to_vector(trainer.model.parameters()).detach().clone()
     for _ in range(2):
@@ -38,7 +41,7 @@ def test_the_order_of_robots_changes_nothing(task: str, central: bool, tmp_path:
     assert not torch.equal(before, after), "nothing was learned"
     actor, critic = trainer.model.actor, trainer.model.critic
     rng = np.random.default_rng(0)
-    inputs = rng.normal(size=(5, trainer.task.layout.size)).astype(np.float32)
+    inputs = rng.normal(size=(5, trainer.stack.size)).astype(np.float32)
     critic_inputs = next(critic.parameters()).shape[1]
     states = rng.normal(size=(5, critic_inputs - inputs.shape[1])).astype(np.float32)
     with torch.no_grad():
