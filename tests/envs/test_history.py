@@ -88,8 +88,8 @@ def test_a_copy_continues_with_the_past(name: str, copied: Callable[[Any], Any])
 @pytest.mark.parametrize("mode", ["next_step", "same_step"])
 def test_a_new_episode_of_a_vector_environment_has_no_past(mode: str) -> None:
     envs = rsoccer.vector_env("VSS-v0", 2, history=2, max_steps=3, autoreset_mode=mode)
-    o, infos = envs.unwrapped.task.layout.size, {}  # type: ignore[attr-defined]
-    envs.reset(seed=0)
+    o = envs.task.layout.size
+    _, infos = envs.reset(seed=0)
     for step in range(3 if mode == "same_step" else 4):
         observations, *_, infos = envs.step(np.ones((2, 2), np.float32))
         first = step == 3 or (mode == "same_step" and step == 2)

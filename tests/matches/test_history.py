@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Matches
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Floats, Mask
 from rsoccer.controllers import Controllers
 from rsoccer.task import LEARN
 from tests.helpers import same
@@ -43,48 +43,68 @@ def random_actions(matches: Matches, rng: np.random.Generator) -> Floats:
     return rng.uniform(-1.5, 1.5, shape).astype(np.float32)
 
 
+class Pair:
+    """Stacked matches beside plain ones, and stacks made by hand of the plain observations."""
+
+    def __init__(self, history: int, autoreset: str, controllers: Controllers | None) -> None:
+        self.ours = matches(history, autoreset=autoreset, controllers=controllers)
+        self.plain = matches(1, autoreset=autoreset, controllers=controllers)
+        self.hands = [HandStack(history, self.ours.action_size) for _ in range(WORLDS)]
+        self.rng = np.random.default_rng(0)
+
+    def check(self, observations: Floats) -> None:
+        """Compare observations of all worlds."""
+        assert same(observations, np.stack([hand.value for hand in self.hands]))
+
+    def begin(self, worlds: Mask, plain: Floats) -> None:
+        """Begin episodes by hand."""
+        for world in np.flatnonzero(worlds):
+            self.hands[world].begin(plain[world])
+
+    def reset(self, worlds: Mask) -> None:
+        """Reset some worlds."""
+        observations = self.ours.reset(mask=worlds)
+        self.begin(worlds, self.plain.reset(mask=worlds))
+        self.check(observations)
+
+    def step(self) -> int:
+        """Step all worlds, and return how many episodes ended."""
+        waits, actions = self.plain.done, random_actions(self.ours, self.rng)
+        outcome, expected = self.ours.step(actions), self.plain.step(actions)
+        for world in np.flatnonzero(~waits):
+            self.hands[world].step(actions[world], expected.final_observations[world])
+        if self.ours.autoreset == "next_step":
+            self.begin(waits, expected.observations)
+        self.check(outcome.final_observations)
+        if self.ours.autoreset == "same_step":
+            self.begin(expected.ended, expected.observations)
+        self.check(outcome.observations)
+        assert same(outcome.rewards, expected.rewards)
+        return int(expected.ended.sum())
+
+
 @pytest.mark.parametrize("controllers", [None, SOME], ids=["all", "some"])
 @pytest.mark.parametrize("autoreset", ["same_step", "next_step", "disabled"])
 @pytest.mark.parametrize("history", [1, 2, 4])
 def test_observations_are_the_stacks_of_plain_ones(
     history: int, autoreset: str, controllers: Controllers | None
 ) -> None:
-    ours = matches(history, autoreset=autoreset, controllers=controllers)
-    plain = matches(1, autoreset=autoreset, controllers=controllers)
-    hands = [HandStack(history, ours.action_size) for _ in range(WORLDS)]
-    rng, ends = np.random.default_rng(0), 0
-
-    def stacked() -> Floats:
-        return np.stack([hand.value for hand in hands])
-
-    def reset(mask: np.ndarray) -> None:
-        observations, first = ours.reset(mask=mask), plain.reset(mask=mask)
-        for world in np.flatnonzero(mask):
-            hands[world].begin(first[world])
-        assert same(observations, stacked())
-
-    reset(np.ones(WORLDS, np.bool_))
+    pair, ends = Pair(history, autoreset, controllers), 0
+    pair.reset(np.ones(WORLDS, np.bool_))
     for step in range(STEPS):
         if step == 4:  # from here on worlds end in different steps
-            reset(np.array([False, True, False, True, False]))
-        waits, actions = plain.done, random_actions(ours, rng)
-        outcome, expected = ours.step(actions), plain.step(actions)
-        for world, hand in enumerate(hands):
-            if not waits[world]:
-                hand.step(actions[world], expected.final_observations[world])
-            elif autoreset == "next_step":
-                hand.begin(expected.observations[world])
-        assert same(outcome.final_observations, stacked())
-        if autoreset == "same_step":
-            for world in np.flatnonzero(expected.ended):
-                hands[world].begin(expected.observations[world])
-        assert same(outcome.observations, stacked())
-        assert same(outcome.rewards, expected.rewards)
-        ends += int(expected.ended.sum())
-        if autoreset == "disabled" and step % 6 == 0 and plain.done.any():
-            reset(plain.done)
+            pair.reset(np.array([False, True, False, True, False]))
+        ends += pair.step()
+        if autoreset == "disabled" and step % 6 == 0:
+            pair.reset(pair.plain.done)
     assert ends > 10
+
+
+def test_observations_are_in_their_space() -> None:
+    ours = matches(3)
+    ours.reset()
     space = ours.observation_space
+    outcome = ours.step(random_actions(ours, np.random.default_rng(0)))
     assert space.shape == (ours.observation_size,)
     assert all(space.contains(row) for row in outcome.observations.reshape(-1, space.shape[0]))
     assert same(ours.observation_low, space.low) and same(ours.observation_high, space.high)
@@ -123,9 +143,9 @@ def test_a_state_of_another_history_is_refused() -> None:
     for each in (short, long):
         each.reset()
     assert not {"past_observations", "past_actions"} & set(short.state_dict())
-    with pytest.raises(ValueError, match="unknown .*'past_actions', 'past_observations'"):
+    with pytest.raises(ValueError, match=r"unknown .*'past_actions', 'past_observations'"):
         short.load_state_dict(long.state_dict())
-    with pytest.raises(ValueError, match="expected float32 .* for 'past_"):
+    with pytest.raises(ValueError, match=r"expected float32 .* for 'past_"):
         long.load_state_dict(state_of(2))
 
 
@@ -149,8 +169,7 @@ def test_returned_observations_belong_to_the_caller() -> None:
 
 
 def test_indices_of_actions_are_remembered_as_vectors() -> None:
-    task = {"discrete": True, "max_steps": LIMIT}
-    ours = Matches("VSS-v0", 2, history=2, **task)
+    ours = Matches("VSS-v0", 2, history=2, discrete=True)
     ours.reset()
     table = ours.task.action_table
     assert table is not None

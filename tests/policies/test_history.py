@@ -22,7 +22,7 @@ TASK, WORLDS, LIMIT, HISTORY = "VSSMulti-v0", 4, 8, 3
 def network(
     history: int = HISTORY,
     action_repeat: int = 1,
-    action_std: Any = None,
+    action_std: list[float] | None = None,
     **given: Any,  # noqa: ANN401
 ) -> Network:
     """A network with random weights, whose actions depend on all that it reads."""
@@ -151,7 +151,7 @@ def test_a_file_with_a_wrong_history_is_refused(history: str, message: str) -> N
 def test_weights_with_a_wrong_history_are_refused() -> None:
     for history, error in ((0, ValueError), (1.5, TypeError)):
         layers = [(np.zeros((2, 244)), np.zeros(2))]
-        with pytest.raises(error, match="^history: expected"):
+        with pytest.raises(error, match=r"^history: expected"):
             Network.from_layers(TASK, layers, history=history)  # type: ignore[arg-type]
 
 

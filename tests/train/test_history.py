@@ -16,7 +16,7 @@ from rsoccer.train.run.trainer import Trainer
 from tests.policies.networks import network_input
 from tests.train.one_update import one_update
 from tests.train.runs import digest, run_until
-from tests.train.short_task import by_name, tiny
+from tests.train.short_task import tiny
 
 ALL: dict[str, Any] = {
     "history": 3,
@@ -116,5 +116,5 @@ def test_reflected_samples_have_a_reflected_past(
 
 @pytest.mark.parametrize("history", [0, 1.5, -1, "many", None])
 def test_a_wrong_history_is_refused(history: Any) -> None:  # noqa: ANN401
-    with pytest.raises(ValueError, match="^history must be"):
+    with pytest.raises(ValueError, match=r"^history must be"):
         Args(history=history)
