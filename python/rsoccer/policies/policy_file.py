@@ -1,7 +1,7 @@
 """The file format of trained policies: its definition, reading, checks and writing.
 
 A policy file is one safetensors file, `policy.safetensors`. It holds a perceptron with tanh
-layers, the normalization of its observations, and how it acts. With o numbers that it reads, action
+layers, the normalization of its observations, and how it acts. With observation size o, action
 size a and layers 0 to k:
 
 | array | shape | dtype | content |
