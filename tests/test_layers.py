@@ -27,7 +27,7 @@ LAYERS = [
     {"encoded_blocks", "new_play"},
     {"observation_layout"},
     {"task", "matches.outcome", "matches.result_checks", "simulator_interface", "compat"},
-    {"completed", "placed_by_hand"},
+    {"completed", "history", "placed_by_hand"},
     {"ids", "render", "simulated_senses", "sources", "spaces"},
     {"registry", "spawn", "rewards"},
     {"tasks"},

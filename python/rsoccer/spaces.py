@@ -13,22 +13,31 @@ from gymnasium.spaces import Box, Discrete
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.global_state import LIMIT, StateEncoder
+from rsoccer.history import ObservationStack
 from rsoccer.task import Task
 
 ActionSpace: TypeAlias = "Box[np.float32] | Discrete[np.int64]"
 
 
-def observation_space(task: Task) -> Box[np.float32]:
+def observation_space(task: Task, history: int = 1) -> Box[np.float32]:
     """Return the observation space of one agent.
 
     Args:
         task: the task that is played.
+        history: observations in a stacked one, at least 1; see `rsoccer.history`.
 
     Returns:
         Box (o,) float32 from `task.layout.low` to `task.layout.high`; `task.layout.blocks`
-        names its parts.
+        names its parts. With a longer history, the bounds of the past observations and those of
+        the past actions, -1 and 1, follow.
+
+    Raises:
+        TypeError: `history` is not a whole number.
+        ValueError: it is below 1.
     """
-    return Box(task.layout.low, task.layout.high)
+    stack = ObservationStack.of(task, history)
+    action = np.ones(task.action_size, np.float32)
+    return Box(stack.join(task.layout.low, -action), stack.join(task.layout.high, action))
 
 
 def action_space(task: Task) -> ActionSpace:

@@ -91,6 +91,7 @@ class SoccerEnv(EnvBase):
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
         group_map: GroupMap | MarlGroupMapType | None = None,
         state: bool = False,
         device: Any = None,  # noqa: ANN401  (torch's own union)
@@ -114,6 +115,7 @@ class SoccerEnv(EnvBase):
                 cannot be copied.
             sensing: what robots know of the true state, as for `Matches`.
             randomization: numbers that each episode draws, as for `Matches`.
+            history: observations in a stacked one, as for `Matches`.
             group_map: names of the learners by group, or one of TorchRL's `MarlGroupMapType`;
                 None for teams. `MarlGroupMapType.ALL_IN_ONE_GROUP` is one group "agents".
             state: True for the global state under "state".
@@ -138,6 +140,7 @@ class SoccerEnv(EnvBase):
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
         )
         with closed_on_error(self.matches):
             self._prepare(group_map, state, device)
@@ -174,7 +177,8 @@ class SoccerEnv(EnvBase):
     def _make_specs(self) -> None:
         """Describe all keys, for TorchRL's checks and buffers."""
         n, size = self.matches.worlds, self.matches.observation_size
-        low, high = (torch.from_numpy(b) for b in (self.task.layout.low, self.task.layout.high))
+        bounds = self.matches.observation_low, self.matches.observation_high
+        low, high = (torch.from_numpy(bound) for bound in bounds)
         observations, actions, rewards, done = (Composite(shape=(n,)) for _ in range(4))
         for group, agents in self.group_map.items():
             k = len(agents)

@@ -120,6 +120,20 @@ def test_the_environment_reports_common_ends_and_metrics() -> None:
     assert infos["yellow_2"] == {"goal_score": 0.0, "free_balls": 0.0, "steps": 2.0}
 
 
+def test_the_runner_samples_stacked_observations() -> None:
+    runner = runner_of(history=2)
+    size = runner.matches.observation_size
+    o = runner.matches.task.layout.size
+    assert size == 2 * o + 2
+    episodes = runner.sample(num_timesteps=WORLDS * LIMIT, random_actions=True)
+    played = [part for episode in episodes for part in episode.agent_episodes.values()]
+    assert played
+    for part in played:
+        observations, actions = part.get_observations(), part.get_actions()
+        assert np.array_equal(observations[1:, o : 2 * o], observations[:-1, :o])
+        np.testing.assert_allclose(observations[1:, 2 * o :], np.clip(actions, -1, 1), atol=1e-6)
+
+
 def test_the_environment_names_what_it_refuses() -> None:
     with pytest.raises(ValueError, match="env_config: expected a 'task'"):
         SoccerMultiAgentEnv({})

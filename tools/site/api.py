@@ -38,6 +38,7 @@ GROUPS: Final = (
             "rsoccer.envs.vector",
             "rsoccer.envs.robots_vector",
             "rsoccer.envs.robot_rows",
+            "rsoccer.history",
             "rsoccer.spaces",
             "rsoccer.global_state",
         ),

@@ -46,6 +46,7 @@ def parallel_env(
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
+    history: int = 1,
     max_steps: int | None = None,
     max_cycles: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -63,6 +64,7 @@ def parallel_env(
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
+        history: observations in a stacked one, as for `Matches`.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         max_cycles: the same by PettingZoo's name; it takes precedence.
         **options: options of a registered task, the fields of its class.
@@ -92,6 +94,7 @@ def parallel_env(
         simulator=simulator,
         sensing=sensing,
         randomization=randomization,
+        history=history,
     )
 
 
@@ -108,7 +111,8 @@ def env(
         task: a `Task`, or the name of a registered one; see `rsoccer.list_tasks()`.
         render_mode: "rgb_array", "human" or None, as for `parallel_env`.
         **options: further arguments of `parallel_env`: `controllers`, `simulator`, `sensing`,
-            `max_steps`, `max_cycles` and the options of a registered task.
+            `randomization`, `history`, `max_steps`, `max_cycles` and the options of a registered
+            task.
 
     Returns:
         An environment to `reset`, within PettingZoo's `OrderEnforcingWrapper`. Spaces, infos and
@@ -206,6 +210,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -217,6 +222,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             simulator: moves the robots, as for `parallel_env`.
             sensing: what robots know of the true state, as for `parallel_env`.
             randomization: numbers that each episode draws, as for `parallel_env`.
+            history: observations in a stacked one, as for `parallel_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -233,6 +239,7 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
         )
         self.agents: list[str] = []
         self.possible_agents = list(self._matches.agents)
@@ -240,7 +247,9 @@ class SoccerParallelEnv(ViewedMatch, ParallelEnv[str, Floats, Any]):
         self.metadata = metadata(task) | {"is_parallelizable": True}
         # One space per agent: a seed for one agent's samples must not affect another's.
         agents = self.possible_agents
-        self._observation_spaces = {agent: spaces.observation_space(task) for agent in agents}
+        self._observation_spaces = {
+            agent: spaces.observation_space(task, history) for agent in agents
+        }
         self._action_spaces = {agent: spaces.action_space(task) for agent in agents}
         self.state_space = spaces.state_space(task)
 

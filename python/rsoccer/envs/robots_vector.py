@@ -53,6 +53,7 @@ def robots_vector_env(
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
+    history: int = 1,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -76,6 +77,7 @@ def robots_vector_env(
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
+        history: observations in a stacked one, as for `Matches`.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its actions and pays no reward), "same_step" (within
@@ -114,6 +116,7 @@ def robots_vector_env(
         simulator=simulator,
         sensing=sensing,
         randomization=randomization,
+        history=history,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
@@ -176,6 +179,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -189,6 +193,7 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
             simulator: moves the robots, as for `robots_vector_env`.
             sensing: what robots know of the true state, as for `robots_vector_env`.
             randomization: numbers that each episode draws, as for `robots_vector_env`.
+            history: observations in a stacked one, as for `robots_vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `robots_vector_env`.
 
@@ -211,10 +216,11 @@ class RobotsVectorEnv(RobotRowsEnv, SeededCopies, VectorEnv[Floats, Array, Array
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
         )
         self._rows = RobotRows.of(self._matches)
         self.num_envs = len(self._rows)
-        self.single_observation_space = spaces.observation_space(task)
+        self.single_observation_space = self._matches.observation_space
         self.single_action_space = spaces.action_space(task)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)

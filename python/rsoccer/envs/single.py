@@ -50,6 +50,7 @@ def single_env(
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
+    history: int = 1,
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> SoccerEnv:
@@ -68,6 +69,7 @@ def single_env(
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
+        history: observations in a stacked one, as for `Matches`.
         max_steps: time limit of an episode in control steps, at least 1; None for the task's own.
         **options: options of a registered task, the fields of its class.
 
@@ -97,6 +99,7 @@ def single_env(
         simulator=simulator,
         sensing=sensing,
         randomization=randomization,
+        history=history,
     )
 
 
@@ -144,6 +147,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
     ) -> None:
         """Prepare a match; `reset` begins it.
 
@@ -155,6 +159,7 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             simulator: moves the robots, as for `single_env`.
             sensing: what robots know of the true state, as for `single_env`.
             randomization: numbers that each episode draws, as for `single_env`.
+            history: observations in a stacked one, as for `single_env`.
 
         Raises:
             TypeError: something that is not a controller.
@@ -172,8 +177,9 @@ class SoccerEnv(ViewedMatch, SingleLearner, SeededCopies, gymnasium.Env[Floats, 
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
         )
-        self.observation_space = spaces.observation_space(task)
+        self.observation_space = self._matches.observation_space
         self.action_space = spaces.action_space(task)
 
     def reset(

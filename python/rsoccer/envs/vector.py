@@ -37,6 +37,7 @@ def vector_env(
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
+    history: int = 1,
     threads: int = 1,
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     max_steps: int | None = None,
@@ -58,6 +59,7 @@ def vector_env(
             cannot be copied.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
+        history: observations in a stacked one, as for `Matches`.
         threads: threads for physics, at least 1. Results do not depend on their number.
         autoreset_mode: reset of a match that ended, as an `AutoresetMode` or by name: "next_step"
             (the next step resets it, ignores its action and pays no reward), "same_step" (within
@@ -93,6 +95,7 @@ def vector_env(
         simulator=simulator,
         sensing=sensing,
         randomization=randomization,
+        history=history,
         threads=threads,
         autoreset_mode=autoreset_mode,
     )
@@ -147,6 +150,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
         threads: int = 1,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     ) -> None:
@@ -161,6 +165,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             simulator: moves the robots, as for `vector_env`.
             sensing: what robots know of the true state, as for `vector_env`.
             randomization: numbers that each episode draws, as for `vector_env`.
+            history: observations in a stacked one, as for `vector_env`.
             threads: threads for physics, at least 1.
             autoreset_mode: reset of a match that ended, as for `vector_env`.
 
@@ -177,6 +182,7 @@ class SoccerVectorEnv(SingleLearner, RobotsVectorEnv):
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
             threads=threads,
             autoreset_mode=autoreset_mode,
         )

@@ -23,6 +23,14 @@ class Learners:
         self._learners, self._observers = len(assignment.learners), len(assignment.observers)
         self._all_learn = self._learners == self._observers
 
+    def select(self, array: Floats) -> Floats:
+        """Return the learners' part (n, agents, ...), which may be the array itself.
+
+        Args:
+            array: (n, observers, ...).
+        """
+        return array if self._all_learn else array[:, self._indices]
+
     def copy(self, array: Floats, threads: Threads) -> Floats:
         """Return a copy (n, agents, ...) of the learners' part.
 
@@ -31,7 +39,7 @@ class Learners:
             threads: threads that share the work.
         """
         if not self._all_learn:
-            return np.array(array[:, self._indices])
+            return np.array(self.select(array))
         copied = np.empty_like(array)
         threads.copy(array, copied)
         return copied

@@ -21,6 +21,7 @@ from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.controllers import Controllers, assign
 from rsoccer.frame import Frame
 from rsoccer.global_state import StateEncoder
+from rsoccer.history import ObservationStack
 from rsoccer.matches import result_checks
 from rsoccer.matches.consistency import Consistency
 from rsoccer.matches.learners import Learners
@@ -71,7 +72,8 @@ class Matches:
         assignment: controllers of all robots.
         agents: names of the learners, in the order of the arrays.
         action_size: numbers in one agent's action.
-        observation_size: numbers in one agent's observation, o.
+        history: observations in one agent's stacked observation; 1 for the plain one.
+        observation_size: numbers in one agent's observation, stacked or plain, o.
         observation_low: (o,) lower bounds.
         observation_high: (o,) upper bounds.
         play: state of all worlds, to be read only: frames, score, events of the last step.
@@ -99,6 +101,7 @@ class Matches:
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
     ) -> None:
@@ -126,6 +129,9 @@ class Matches:
             randomization: distributions of numbers that each episode draws for itself, by name,
                 such as `{"robot.mass": (0.9, 1.1)}`; see `rsoccer.randomization`. None for the same
                 numbers in all.
+            history: observations in each observation of the learners, at least 1: the current one,
+                the past ones and the actions between them; see `rsoccer.history`. Policies get
+                the plain observations, and a trained one keeps its own history.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
             **options: options of a registered task, the fields of its class.
@@ -146,9 +152,10 @@ class Matches:
         self.agents = tuple(self.task.robots[robot] for robot in self.assignment.learners)
         self._learners = Learners(self.assignment)
         self.action_size = self.task.action_size
-        self.observation_size = self.task.layout.size
-        self.observation_low = self.task.layout.low
-        self.observation_high = self.task.layout.high
+        self._stack = ObservationStack.of(self.task, history)
+        self.history, self.observation_size = self._stack.history, self._stack.size
+        self.observation_low = self.observation_space.low
+        self.observation_high = self.observation_space.high
         self._threads = Threads(checks.integer("threads", threads, 1))
         self._sensing = make_sensing(sensing)
         self._randomization = Randomization.of(
@@ -166,8 +173,9 @@ class Matches:
             group.rng = root.split(group.name)
         groups = self.assignment.groups
         self._commanding = [group for group in groups if isinstance(group.policy, CommandPolicy)]
-        shape = (worlds, len(self.assignment.observers), self.observation_size)
+        shape = (worlds, len(self.assignment.observers), self.task.layout.size)
         self._observations = np.zeros(shape, np.float32)
+        self._past = self._stack.new_memory(worlds, len(self.agents))
         self._done, self._begun = np.zeros((2, worlds), np.bool_)
         self._all_begun = False
         self._returns = np.zeros((worlds, len(self.agents)))
@@ -214,8 +222,11 @@ class Matches:
 
     @cached_property
     def observation_space(self) -> Box[np.float32]:
-        """Observation space of one agent: Box (o,) float32; `task.layout.blocks` are its parts."""
-        return spaces.observation_space(self.task)
+        """Observation space of one agent: Box (o,) float32, of stacked observations if any.
+
+        `task.layout.blocks` are the parts of a plain observation.
+        """
+        return spaces.observation_space(self.task, self.history)
 
     @cached_property
     def action_space(self) -> ActionSpace:
@@ -404,6 +415,8 @@ class Matches:
             paused = PausedWorlds(self._waited, self.play, groups, self._observations)
         active = ~self._done if paused else None
         self._act(actions)
+        if self.history > 1:
+            self._remember(actions, active)
         self._move(active)
         restarts = self._judge()
         outcome = self._evaluate()
@@ -429,6 +442,12 @@ class Matches:
         for group in self._commanding:
             group.command(play, self._observations, play.commands)
         play.actions = all_actions
+
+    def _remember(self, actions: Floats, active: Mask | None) -> None:
+        """Keep the learners' observations and actions of this step, as parts of later ones."""
+        worlds = slice(None) if active is None else active
+        observations = self._learners.select(self._observations)
+        self._stack.push(self._past, worlds, observations[worlds], actions[worlds])
 
     def _move(self, active: Mask | None) -> None:
         """Move the robots and balls of all worlds, or of the active ones."""
@@ -554,7 +573,9 @@ class Matches:
         self.task.start_episode(part)
         if part.senses is not None:
             part.senses.begin(part.frame, worlds)
-        self._observations[worlds] = self.task.layout.observe(part)
+        observations = self.task.layout.observe(part)
+        self._observations[worlds] = observations
+        self._stack.begin(self._past, worlds, self._learners.select(observations))
         self.play.put(worlds, part)
         self._done[worlds] = False
         self._returns[worlds] = 0.0
@@ -577,6 +598,7 @@ class Matches:
             "returns": self._returns,
             "done": self._done,
             "begun": self._begun,
+            **self._past,
         }
         groups = self.assignment.groups
         return MatchState.of(self._simulator, self.play, groups, self._streams(), own)
@@ -591,5 +613,6 @@ class Matches:
         return streams | {group.name: group.rng for group in self.assignment.groups}
 
     def _observed(self) -> Floats:
-        """Copy (n, agents, o) of the learners' observations."""
-        return self._learners.copy(self._observations, self._threads)
+        """Copy (n, agents, o) of the learners' observations, stacked if they have a history."""
+        observations = self._learners.copy(self._observations, self._threads)
+        return self._stack.stack(self._past, slice(None), observations)

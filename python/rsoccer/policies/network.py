@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Final, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rsoccer import option_values
+from rsoccer import checks, option_values
 from rsoccer.arrays import Array, Floats
+from rsoccer.history import ObservationStack
 from rsoccer.policies import policy_file
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.registry import as_task, options_of
@@ -36,7 +37,8 @@ class Network(HeldActions):
     In mode "sample" each decision is drawn from the Gaussian of the training, with the random
     stream of each world. Mode "mean" is deterministic; a robot may then stay stuck where noise
     would free it. With `action_repeat` k the network decides at every k-th control step and holds
-    its action in between, as in training.
+    its action in between, as in training. With a `history` it stacks its last observations and
+    actions itself, so it plays wherever a network without one does.
 
     Matrix products are not bit-equal between batch sizes, so actions differ by about 1e-6 between
     batch sizes. For reproducible numbers play in chunks of one size, as `rsoccer.evaluate` does.
@@ -67,6 +69,7 @@ class Network(HeldActions):
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
         self.action_std = policy_file.read_action_std(arrays, self.action_size)
+        self.stack = policy_file.read_stack(self.metadata, self.observation_size, self.action_size)
         self.mode = _checked_mode(mode, self.action_std)
         for name, size in self._sizes().items():
             if self.metadata.get(name) != str(size):
@@ -83,6 +86,7 @@ class Network(HeldActions):
         action_std: ArrayLike | None = None,
         *,
         action_repeat: int = 1,
+        history: int = 1,
         mean: ArrayLike = 0.0,
         std: ArrayLike = 1.0,
         clip: float = 10.0,
@@ -99,6 +103,7 @@ class Network(HeldActions):
             action_std: (action,) standard deviation of the actions; None for a policy without
                 noise.
             action_repeat: control steps for which an action is held, at least 1.
+            history: observations in each stacked one that it reads, at least 1, as for `Matches`.
             mean: (o,) or a number: subtracted from observations.
             std: (o,) or a number above 0: observations are divided by it.
             clip: bound of a normalized observation, above 0, standard deviations.
@@ -133,6 +138,8 @@ class Network(HeldActions):
             "clip": f"{clip:g}",
             "action_repeat": str(action_repeat),
         }
+        if checks.integer("history", history, 1) > 1:
+            metadata["history"] = str(history)
         if task_options is None and task_name is None:
             task_options = options_of(task)
         if task_options:
@@ -144,8 +151,13 @@ class Network(HeldActions):
 
     @property
     def observation_size(self) -> int:
-        """Numbers in an observation."""
+        """Numbers in an observation, a stacked one with a history."""
         return int(self.layers[0][0].shape[1])
+
+    @property
+    def history(self) -> int:
+        """Observations in a stacked one, as for `Matches`; 1 if it reads plain observations."""
+        return 1 if self.stack is None else self.stack.history
 
     @property
     def action_size(self) -> int:
@@ -166,7 +178,7 @@ class Network(HeldActions):
         """Choose actions as the mode says, without holding them.
 
         Args:
-            observations: (n, robots, o) observations.
+            observations: (n, robots, o) observations, stacked with a history.
             rng: (n,) random streams; used in mode "sample".
 
         Returns:
@@ -182,7 +194,7 @@ class Network(HeldActions):
         """Return the mean actions (..., action) in [-1, 1].
 
         Args:
-            observations: (..., o) observations.
+            observations: (..., o) observations, stacked with a history.
         """
         actions = self._unclipped_means(observations)
         return np.clip(actions, -1.0, 1.0, out=actions)
@@ -215,13 +227,15 @@ class Network(HeldActions):
 
     def check_fits(self, task: Task, observation_size: int) -> None:
         """Raise ValueError for a task with other observations or actions."""
-        wanted = {"observation_size": observation_size, "action_size": task.action_size}
+        stacked = ObservationStack(self.history, observation_size, task.action_size).size
+        wanted = {"observation_size": stacked, "action_size": task.action_size}
         layout = self.metadata.get("layout", task.layout.text)
+        history = f" with a history of {self.history}" if self.history > 1 else ""
         for name, size in self._sizes().items():
             if size != wanted[name]:
                 raise ValueError(
-                    f"a network trained on {self.task_name!r} has {name} {size}, "
-                    f"but task {task.name!r} has {wanted[name]}: the network observes {layout}, "
+                    f"a network trained on {self.task_name!r} has {name} {size}, but task "
+                    f"{task.name!r}{history} has {wanted[name]}: the network observes {layout}, "
                     f"the observations of the task are {task.layout.text}"
                 )
         if layout != task.layout.text:

@@ -20,11 +20,12 @@ The metadata are text:
 | `format` | `rsoccer-policy-2` | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
 | `task_options` | JSON object; optional | options of `make_task` that the training set |
-| `observation_size` | o | numbers in an observation |
+| `observation_size` | o | numbers in an observation, a stacked one with a `history` |
 | `action_size` | a | numbers in an action |
 | `activation` | `tanh` | activation after each layer but the last |
 | `clip` | above 0, default 10 | bound of a normalized observation, in standard deviations |
 | `action_repeat` | 1 (default) to 1000000 | control steps for which an action is held |
+| `history` | 1 (default) or more | observations in a stacked one, see `rsoccer.history` |
 | `layout` | `Task.layout`; optional | observation blocks of the task; must equal those in play |
 | `training` | JSON object; optional | `command`, `samples`, `seed`, `package`, `physics` |
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
@@ -54,6 +55,7 @@ import numpy as np
 
 from rsoccer.arrays import Array, Floats
 from rsoccer.files import read_safetensors, safetensors_bytes, write_atomically
+from rsoccer.history import ObservationStack
 
 FORMAT: Final = "rsoccer-policy-2"
 """Version of the format. A new number makes older readers refuse the file."""
@@ -103,15 +105,48 @@ def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
     if not metadata.get("task"):
         raise ValueError("metadata 'task' should name the task of the training, got nothing")
     clip = _read_number(metadata, "clip", "10")
-    repeat = _read_number(metadata, "action_repeat", "1")
-    if not repeat.is_integer():
-        raise ValueError(f"metadata 'action_repeat' should be a whole number, got {repeat}")
+    repeat = _read_whole_number(metadata, "action_repeat")
     if repeat > MAX_ACTION_REPEAT:
         raise ValueError(
             f"metadata 'action_repeat' should be at most {MAX_ACTION_REPEAT}, "
             f"got {metadata['action_repeat']!r}"
         )
-    return np.float32(clip), int(repeat)
+    return np.float32(clip), repeat
+
+
+def read_stack(metadata: Mapping[str, str], size: int, action_size: int) -> ObservationStack | None:
+    """Read what the observations are stacked of.
+
+    Args:
+        metadata: text by key.
+        size: numbers in a stacked observation.
+        action_size: numbers in an action.
+
+    Returns:
+        The stack; None for a policy that reads plain observations.
+
+    Raises:
+        ValueError: a history that is no whole number of at least 1, or that does not fit the sizes.
+    """
+    history = _read_whole_number(metadata, "history")
+    if history == 1:
+        return None
+    plain, rest = divmod(size - (history - 1) * action_size, history)
+    if plain < 1 or rest:
+        raise ValueError(
+            f"metadata 'history' should fit the layers, which take {size} numbers: with actions of "
+            f"{action_size} numbers, stacked observations of a history of {metadata['history']} "
+            "have other sizes"
+        )
+    return ObservationStack(history, plain, action_size)
+
+
+def _read_whole_number(metadata: Mapping[str, str], name: str) -> int:
+    """A whole number of at least 1, which is the default."""
+    number = _read_number(metadata, name, "1")
+    if not number.is_integer():
+        raise ValueError(f"metadata {name!r} should be a whole number, got {number}")
+    return int(number)
 
 
 def _read_number(metadata: Mapping[str, str], name: str, default: str) -> float:

@@ -58,8 +58,9 @@ class SoccerMultiAgentEnv(MultiAgentEnv):
 
         Args:
             config: RLlib's `env_config`: `task`, a task or the name of a registered one; optional
-                `controllers`, `threads`, `simulator`, `sensing` and `max_steps` as for `Matches`,
-                and `learner`, the only robot that learns; other keys are options of the task.
+                `controllers`, `threads`, `simulator`, `sensing`, `randomization`, `history` and
+                `max_steps` as for `Matches`, and `learner`, the only robot that learns; other keys
+                are options of the task.
                 Worker processes make a simulator and a sensor model from a function or from a text
                 "module:name". `frozen` is for `MatchesEnvRunner`, and ignored here.
 
@@ -193,6 +194,7 @@ def _settings(
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
+    history: int = 1,
     max_steps: int | None = None,
     **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
 ) -> tuple[Task, dict[str, Any]]:
@@ -204,4 +206,5 @@ def _settings(
         "simulator": simulator,
         "sensing": sensing,
         "randomization": randomization,
+        "history": history,
     }

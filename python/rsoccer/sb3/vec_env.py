@@ -87,6 +87,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
         render_mode: str | None = None,
         max_steps: int | None = None,
         **options: Any,  # noqa: ANN401  (fields of the task, checked by the registry)
@@ -106,6 +107,7 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
                 cannot be copied.
             sensing: what robots know of the true state, as for `Matches`.
             randomization: numbers that each episode draws, as for `Matches`.
+            history: observations in a stacked one, as for `Matches`.
             render_mode: "rgb_array" for images from `render` and `get_images`, or None.
             max_steps: time limit of an episode in control steps, at least 1; None for the task's
                 own.
@@ -129,11 +131,14 @@ class SoccerVecEnv(RobotRowsEnv, VecEnv):  # type: ignore[misc]
             simulator=simulator,
             sensing=sensing,
             randomization=randomization,
+            history=history,
         )
         self._rows = RobotRows.of(self._matches)
         self._actions: Array | None = None
         self._began = time.time()
-        super().__init__(len(self._rows), spaces.observation_space(task), spaces.action_space(task))
+        super().__init__(
+            len(self._rows), self._matches.observation_space, spaces.action_space(task)
+        )
         self.metadata = metadata(task, RENDER_MODES)
 
     def seed(self, seed: int | None = None) -> list[int | None]:

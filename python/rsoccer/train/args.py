@@ -71,6 +71,8 @@ class Args:
     """senses of the robots: a preset's name, a .json file, or module:name"""
     randomization: Mapping[str, Any] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
+    history: Count = 1
+    """observations in a stacked one, with the actions between them; 1 is the current one alone"""
     imports: tuple[str, ...] = ()
     """modules to import first: those that register a task or policies of one's own"""
     seed: Natural = 0

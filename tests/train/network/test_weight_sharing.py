@@ -9,6 +9,7 @@ from torch import nn
 
 from rsoccer import list_tasks, make_task
 from rsoccer.arrays import Floats
+from rsoccer.history import ObservationStack
 from rsoccer.policies.network import Network
 from rsoccer.train import train
 from rsoccer.train.network.weight_sharing import Indices, WeightSharing, robot_slots
@@ -26,9 +27,12 @@ def swapped(observations: Floats, columns: Indices) -> Floats:
 
 
 @pytest.mark.parametrize("task", TASKS)
-@pytest.mark.parametrize("central", [False, True])
-def test_the_order_of_robots_changes_nothing(task: str, central: bool, tmp_path: Path) -> None:
-    args = tiny(tmp_path, task=task, robot_units=3, hidden_sizes=(8, 6, 5), central_critic=central)
+@pytest.mark.parametrize(("central", "history"), [(False, 1), (True, 1), (True, 2)])
+def test_the_order_of_robots_changes_nothing(
+    task: str, central: bool, history: int, tmp_path: Path
+) -> None:
+    changes = {"robot_units": 3, "hidden_sizes": (8, 6, 5), "history": history}
+    args = tiny(tmp_path, task=task, central_critic=central, **changes)
     trainer = Trainer(args)
     before = nn.utils.parameters_to_vector(trainer.model.parameters()).detach().clone()
     for _ in range(2):
@@ -37,11 +41,11 @@ def test_the_order_of_robots_changes_nothing(task: str, central: bool, tmp_path:
     assert not torch.equal(before, after), "nothing was learned"
     actor, critic = trainer.model.actor, trainer.model.critic
     rng = np.random.default_rng(0)
-    inputs = rng.normal(size=(5, trainer.task.layout.size)).astype(np.float32)
+    inputs = rng.normal(size=(5, trainer.stack.size)).astype(np.float32)
     critic_inputs = next(critic.parameters()).shape[1]
     states = rng.normal(size=(5, critic_inputs - inputs.shape[1])).astype(np.float32)
     with torch.no_grad():
-        for columns in robot_slots(trainer.task):
+        for columns in robot_slots(trainer.task, trainer.stack):
             moved = swapped(inputs, columns)
             assert np.abs(moved - inputs).max() > 1.0
             torch.testing.assert_close(actor(torch.tensor(moved)), actor(torch.tensor(inputs)))
@@ -64,7 +68,7 @@ def test_every_slot_of_a_robot_is_in_its_team() -> None:
     for name in list_tasks():
         task = make_task(name)
         try:
-            slots = robot_slots(task)
+            slots = robot_slots(task, ObservationStack.of(task, 1))
         except ValueError as error:
             assert "robot_units must be 0" in str(error)
             continue
@@ -79,7 +83,7 @@ def test_every_slot_of_a_robot_is_in_its_team() -> None:
 
 def test_the_mean_gradient_of_a_group_replaces_its_gradients(tmp_path: Path) -> None:
     trainer = Trainer(tiny(tmp_path, task="VSSMulti-v0", robot_units=2))
-    slots = robot_slots(trainer.task)
+    slots = robot_slots(trainer.task, trainer.stack)
     sharing = WeightSharing(slots, 2, trainer.task.layout.size, trainer.model)
     size = sum(parameter.numel() for parameter in trainer.model.parameters())
     gradient = torch.randn(size, generator=torch.Generator().manual_seed(1))

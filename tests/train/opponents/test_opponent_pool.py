@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rsoccer.arrays import Array, Floats
+from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies import make_policy
 from rsoccer.policies.base import PolicyInput
@@ -47,7 +48,9 @@ def pool_size(monkeypatch: pytest.MonkeyPatch) -> None:
 def new_pool(past: int, *, action_repeat: int = 1) -> OpponentPool:
     """Return a pool whose current policy acts 0.5 and whose past policy k acts -0.1 (k + 1)."""
     fixed = {"zero": 1.0, "ou": 3.0}
-    pool = OpponentPool(TASK, fixed, (0.5, 0.3), action_repeat, Clock())
+    pool = OpponentPool(
+        TASK, fixed, (0.5, 0.3), action_repeat, Clock(), ObservationStack.of(TASK, 1)
+    )
     pool.latest = constant(0.5)
     for slot in range(past):
         pool.freeze(constant(-0.1 * (slot + 1)), slot)

@@ -140,6 +140,7 @@ class ActorCritic(nn.Module):
         mean: Floats,
         std: Floats,
         action_repeat: int,
+        history: int,
         task_name: str,
         task_options: Mapping[str, Any],
     ) -> Network:
@@ -150,6 +151,7 @@ class ActorCritic(nn.Module):
             mean: (o,) mean of the observations.
             std: (o,) standard deviation of the observations.
             action_repeat: control steps per decision.
+            history: observations in a stacked one.
             task_name: registered name of the task, or an alias.
             task_options: options of the task, JSON values by name.
         """
@@ -158,6 +160,7 @@ class ActorCritic(nn.Module):
             self.actor,
             self.log_std.detach().exp().numpy(),
             action_repeat=action_repeat,
+            history=history,
             mean=mean,
             std=std,
             clip=OBSERVATION_CLIP,

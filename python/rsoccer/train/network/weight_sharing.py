@@ -17,6 +17,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
+from rsoccer.history import ObservationStack
 from rsoccer.task import Task
 from rsoccer.train.network.perceptron import Perceptron
 
@@ -24,23 +25,27 @@ Indices = NDArray[np.intp]
 """Indices of columns, units or parameters."""
 
 
-def robot_slots(task: Task) -> list[Indices]:
-    """Return the columns of the flat observation that describe other robots.
+def robot_slots(task: Task, stack: ObservationStack) -> list[Indices]:
+    """Return the columns of the stacked observation that describe other robots.
 
     Args:
         task: the task, which defines the blocks.
+        stack: the observations that are stacked.
 
     Returns:
         Columns (slots, k) for the teammates and for the opponents of a blue robot, where they are
-        two or more; a slot is a robot's place in each block with numbers of robots.
+        two or more; a slot is a robot's place in each block with numbers of robots, of the
+        current observation and of the past ones.
 
     Raises:
         ValueError: a task without such a team.
 
     Example:
         >>> from rsoccer import make_task
-        >>> [columns.shape for columns in robot_slots(make_task("VSSMulti-v0"))]
-        [(2, 9), (3, 9)]
+        >>> task = make_task("VSSMulti-v0")
+        >>> stack = ObservationStack.of(task, 2)
+        >>> [columns.shape for columns in robot_slots(task, stack)]
+        [(2, 18), (3, 18)]
     """
     found, first = [], 1  # the first row of "body_positions" is the ball
     for name, robots in (("teammates", task.n_blue - 1), ("opponents", task.n_yellow)):
@@ -49,7 +54,8 @@ def robot_slots(task: Task) -> list[Indices]:
             parts = [_columns(task, name), _columns(task, "body_positions")[first : first + slots]]
             if name == "opponents" and "nearness" in task.layout.blocks:
                 parts.append(_columns(task, "nearness"))
-            found.append(np.concatenate(parts, axis=1))
+            starts = range(0, stack.history * stack.observation_size, stack.observation_size)
+            found.append(np.concatenate([part + s for s in starts for part in parts], axis=1))
         first += slots
     if not found:
         raise ValueError(

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from rsoccer._core import SimConfig, Threads
 from rsoccer.frame import team_of
+from rsoccer.history import ObservationStack
 from rsoccer.lineup import DEFAULT_OPPONENT, learning_team
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
@@ -46,6 +47,7 @@ class Curriculum:
         simulator: SimulatorSource | None = None,
         sensing: SensingSource | None = None,
         randomization: Ranges | None = None,
+        history: int = 1,
     ) -> None:
         """Find the learners of a task, and make the policies of its other robots.
 
@@ -59,6 +61,7 @@ class Curriculum:
             simulator: moves the robots, as for `Matches`.
             sensing: what robots know of the true state, as for `Matches`.
             randomization: numbers that each episode draws, as for `Matches`.
+            history: observations in a stacked one, as for `Matches`.
 
         Raises:
             ValueError: a task without learners, opponents in a task without such robots, a policy
@@ -67,7 +70,7 @@ class Curriculum:
         self._settings, self._task, self._clock = settings, task, clock
         self._worlds, self._threads = worlds, threads
         self._simulator, self._sensing = simulator, sensing
-        self._randomization = randomization
+        self._randomization, self._history = randomization, history
         self.learners = learning_team(task)
         home = team_of(self.learners[0])
         self.pool: OpponentPool | None = None
@@ -88,7 +91,8 @@ class Curriculum:
                 f"got {settings.fixed}"
             )
         fixed = self._with_solo_policy(settings.fixed or {DEFAULT_OPPONENT: 1.0})
-        return OpponentPool(self._task, fixed, selves, action_repeat, self._clock)
+        stack = ObservationStack.of(self._task, self._history)
+        return OpponentPool(self._task, fixed, selves, action_repeat, self._clock, stack)
 
     def _create_mix(self) -> PolicyMix:
         """Opponents in a task in which one team learns."""
@@ -145,6 +149,7 @@ class Curriculum:
             simulator=self._timed_simulator,
             sensing=self._sensing,
             randomization=self._randomization,
+            history=self._history,
         )
 
     def _timed_simulator(self, config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from rsoccer.arrays import Array, Floats, Mask
+from rsoccer.history import ObservationStack
 from rsoccer.policies.base import Memory, PolicyInput
 from rsoccer.policies.network import Network
 from rsoccer.rng import WorldRng
@@ -48,6 +49,7 @@ class OpponentPool(PolicyMix):
         selves: tuple[float, float],
         action_repeat: int,
         clock: Clock,
+        stack: ObservationStack,
     ) -> None:
         """Create a pool without past policies.
 
@@ -58,6 +60,7 @@ class OpponentPool(PolicyMix):
                 1; the fixed policies have the rest.
             action_repeat: control steps that networks hold each decision.
             clock: measures the time of the opponents.
+            stack: what the networks observe of the task.
 
         Raises:
             FileNotFoundError: no such policy file.
@@ -71,7 +74,7 @@ class OpponentPool(PolicyMix):
         self.latest_code = len(self.kinds)
         self._shares = np.array([*self._shares * max(1.0 - sum(selves), 0.0), *selves])
         self.kinds = (*self.kinds, *SELVES)
-        self._action_repeat = action_repeat
+        self._action_repeat, self._stack = action_repeat, stack
 
     def new_memory(self, shape: tuple[int, int, int], rng: WorldRng) -> Memory:
         """Draw opponents for new episodes, and return their memory, arrays (n, ...)."""
@@ -79,21 +82,26 @@ class OpponentPool(PolicyMix):
             **super().new_memory(shape, rng),
             "age": np.zeros(shape[0], np.int64),
             "held": np.zeros(shape, np.float32),
+            **self._stack.new_memory(*shape[:2]),
         }
 
     def _act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Actions (n, robots, action); networks decide every `action_repeat` steps."""
-        assert inputs.observations is not None, "a pool observes"
+        observations, stack = inputs.observations, self._stack
+        assert observations is not None, "a pool observes"
         actions = super()._act(inputs, rng, memory)
-        drawn, held = memory["drawn"], memory["held"]
-        due = memory["age"] % self._action_repeat == 0
-        memory["age"] += 1
+        drawn, held, age = memory["drawn"], memory["held"], memory["age"]
+        stack.begin(memory, age == 0, observations[age == 0])
+        due = age % self._action_repeat == 0
         for code, network in self._networks():
             rows = due & (drawn == code)
             if rows.any():
                 streams = rng[rows]
-                held[rows] = network.choose(inputs.observations[rows], streams)
+                stacked = stack.stack(memory, rows, observations[rows])
+                held[rows] = network.choose(stacked, streams)
                 rng.put(rows, streams)
+        stack.push(memory, slice(None), observations, held)
+        age += 1
         return np.where((drawn < self.latest_code)[:, None, None], actions, held)
 
     def show(self, network: Network, update: int) -> None:

@@ -19,6 +19,7 @@ import torch
 from torch import Tensor
 
 from rsoccer.global_state import StateEncoder
+from rsoccer.history import ObservationStack
 from rsoccer.reflection import Reflection
 from rsoccer.task import Task
 from rsoccer.train.network.actor_critic import ActorCritic
@@ -44,7 +45,9 @@ def check_symmetric(task: Task) -> None:
 
 
 @torch.no_grad()
-def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
+def with_reflections(
+    batch: Batch, task: Task, stack: ObservationStack, model: ActorCritic
+) -> Batch:
     """Return a batch of up to twice the size: the samples, then those that can be reflected.
 
     Reflected actions below `MIN_DENSITY_RATIO` are left out.
@@ -53,16 +56,17 @@ def with_reflections(batch: Batch, task: Task, model: ActorCritic) -> Batch:
         batch: samples of one rollout. Their observations are normalized by statistics that the
             reflection does not change.
         task: the task, which is symmetric.
+        stack: what the networks observe of it.
         model: the networks before the update.
     """
-    symmetry, reflection = task.symmetry, task.layout.reflection
+    symmetry, reflection = task.symmetry, stack.reflection(task)
     assert symmetry is not None and reflection is not None, "a symmetric task"
     observations = _reflect(batch.observations, reflection) * model.mask
     actions = _reflect(batch.actions, symmetry.action)
     log_probs = model.log_prob(model.actor(observations), actions)
     reflected = Batch(observations, actions, log_probs, batch.advantages, batch.returns)
     if batch.central_inputs is not None:
-        states = batch.central_inputs[:, : -task.layout.size]
+        states = batch.central_inputs[:, : -stack.size]
         reflection = StateEncoder(task.config).reflection
         reflected.central_inputs = torch.cat([_reflect(states, reflection), observations], dim=-1)
     likely = log_probs >= batch.log_probs + math.log(MIN_DENSITY_RATIO)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
+from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
 from rsoccer.policies.network import Network
 from rsoccer.sources import closed_on_error
@@ -36,6 +37,7 @@ class Trainer:
     Attributes:
         args: settings of the run.
         task: the task to train on.
+        stack: what the networks observe of it.
         clock: measures the time of each part.
         generator: draws weights, actions, truncations and minibatches.
         curriculum: creates the matches.
@@ -66,6 +68,7 @@ class Trainer:
         torch_seed, first_seed, self._team_seed = words.tolist()
         self.args, self.clock = args, Clock()
         self.task = args.make_task()
+        self.stack = ObservationStack.of(self.task, args.history)
         if args.ppo.mirror_augmentation:
             check_symmetric(self.task)
         self.generator = torch.Generator().manual_seed(torch_seed)
@@ -79,6 +82,7 @@ class Trainer:
             simulator=args.simulator,
             sensing=args.sensing,
             randomization=args.randomization,
+            history=args.history,
         )
         _check_batch(args, len(self.curriculum.learners))
         self.pool, self.is_solo = self.curriculum.pool, self.curriculum.starts_solo
@@ -91,7 +95,7 @@ class Trainer:
         """Create the networks and what updates them, and enter the matches."""
         args = self.args
         self.model, sharing = build_networks(
-            args.network, self.task, matches.state_size, self.generator
+            args.network, self.task, self.stack, matches.state_size, self.generator
         )
         self.collector = _collector(args, self)
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
@@ -153,7 +157,7 @@ class Trainer:
         learning_rate = self.learning_rate.start_update(self.progress)
         with self.clock.measure("learning"):
             if self.args.ppo.mirror_augmentation:
-                batch = with_reflections(batch, self.task, self.model)
+                batch = with_reflections(batch, self.task, self.stack, self.model)
             self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
         self._check_finite()
         stats = self.update_stats
@@ -176,8 +180,15 @@ class Trainer:
     def network(self) -> Network:
         """Return the current policy in NumPy."""
         args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
-        repeat = args.rollout.action_repeat
-        return self.model.export(self.task, mean, std, repeat, args.task, args.task_options)
+        return self.model.export(
+            self.task,
+            mean,
+            std,
+            args.rollout.action_repeat,
+            args.history,
+            args.task,
+            args.task_options,
+        )
 
 
 def _check_batch(args: Args, learners: int) -> None:
@@ -204,5 +215,5 @@ def _collector(args: Args, trainer: Trainer) -> RolloutCollector:
         trainer.clock,
         trainer.curriculum.kinds,
         central=central,
-        reflection=task.layout.reflection if symmetric else None,
+        reflection=trainer.stack.reflection(task) if symmetric else None,
     )
