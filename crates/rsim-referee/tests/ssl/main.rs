@@ -8,6 +8,7 @@ mod flow;
 mod goals;
 mod kicks;
 mod penalty;
+mod penalty_positions;
 mod placement;
 mod positions;
 mod scene;
