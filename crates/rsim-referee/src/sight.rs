@@ -15,8 +15,21 @@ pub struct Layout {
     n_yellow: usize,
 }
 
-const BALL: [&str; 10] =
-    ["x", "y", "z", "v_x", "v_y", "v_z", "spin_x", "spin_y", "spin_z", "last_touch"];
+const BALL: [&str; 13] = [
+    "x",
+    "y",
+    "z",
+    "v_x",
+    "v_y",
+    "v_z",
+    "spin_x",
+    "spin_y",
+    "spin_z",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
+    "last_touch",
+];
 const ROBOT: [&str; 12] = [
     "x",
     "y",
@@ -45,6 +58,12 @@ pub struct Ball {
     pub vertical_velocity: f32,
     /// Index of the last robot that touched the ball.
     pub last_touch: Option<usize>,
+    /// Time since then, s.
+    pub seconds_since_touch: f32,
+    /// Speed right after that touch, in three dimensions, m/s.
+    pub speed_after_touch: f32,
+    /// Maximum height of the lowest point since that touch, m.
+    pub height_since_touch: f32,
 }
 
 impl Ball {
@@ -228,7 +247,7 @@ fn find(
 impl Sight<'_> {
     /// The ball.
     pub fn ball(&self) -> Ball {
-        let [x, y, height, v_x, v_y, vertical_velocity, .., touch] =
+        let [x, y, height, v_x, v_y, vertical_velocity, _, _, _, seconds, speed, highest, touch] =
             self.layout.ball.map(|place| self.row[place]);
         Ball {
             position: Vector::new(x, y),
@@ -236,6 +255,9 @@ impl Sight<'_> {
             velocity: Vector::new(v_x, v_y),
             vertical_velocity,
             last_touch: index_of(touch),
+            seconds_since_touch: seconds,
+            speed_after_touch: speed,
+            height_since_touch: highest,
         }
     }
 
