@@ -344,16 +344,21 @@ mod tests {
     #[test]
     fn ball_and_robots_are_read_by_the_names_of_columns() {
         let layout = layout();
-        let row: Vec<f32> = numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 2.0])
-            .chain(numbers([0.5, 0.6, 0.0, 1.0, 0.7, 0.8, 2.0, 1.0, 0.0, 1.0, 1.25, 0.0]))
-            .chain(numbers([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
-            .chain(numbers([-1.0, -1.0, 1.0, 0.0, -1.0, -1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0]))
-            .collect();
+        let row: Vec<f32> =
+            numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.05, 6.0, 0.2, 2.0])
+                .chain(numbers([0.5, 0.6, 0.0, 1.0, 0.7, 0.8, 2.0, 1.0, 0.0, 1.0, 1.25, 0.0]))
+                .chain(numbers([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+                .chain(numbers([
+                    -1.0, -1.0, 1.0, 0.0, -1.0, -1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0,
+                ]))
+                .collect();
         let sight = layout.sight(&row).expect("a row of this layout");
         let ball = sight.ball();
         assert_eq!(ball.position, Vector::new(1.0, 2.0));
         assert!((ball.speed() - 5.0).abs() < 1e-6);
         assert_eq!(ball.last_touch, Some(2));
+        let since = (ball.seconds_since_touch, ball.speed_after_touch, ball.height_since_touch);
+        assert_eq!(since, (0.05, 6.0, 0.2));
         let blue = sight.robot(0).expect("on the field");
         assert_eq!(blue.velocity, Vector::new(0.7, 0.8));
         assert_eq!((blue.has_ball, blue.touched_ball, blue.touched_opponent), (true, false, true));
