@@ -3,8 +3,8 @@
 use rsim_referee::codes::Command::{DirectFree, PrepareKickoff};
 use rsim_referee::config::Placement;
 use rsim_referee::events::EventKind::{
-    AttackerTouchedBallInDefenseArea, BallLeftFieldGoalLine, BotKickedBallTooFast, Goal,
-    InvalidGoal,
+    AttackerTouchedBallInDefenseArea, BallLeftFieldGoalLine, BotCrashUnique, BotKickedBallTooFast,
+    Goal, InvalidGoal,
 };
 
 use crate::scene::{A, B, Bot, Scene, Them, Us, views, views_with};
@@ -272,6 +272,22 @@ fn a_foul_in_the_step_of_the_goal_speaks_against_it() {
         scene.step();
         scene.only(BotKickedBallTooFast);
         assert_eq!(scene.score(), (0, 0));
+    }
+}
+
+#[test]
+fn a_foul_of_the_others_in_the_step_of_the_goal_does_not_speak_against_it() {
+    for mut scene in views(B) {
+        touch_before_goal(&mut scene, (Us, 2));
+        scene.ball(4.4, 0.2);
+        scene.robot_velocity((Them, 4), 2.0, 0.0);
+        scene.settle();
+        scene.collide((Us, 4), (Them, 4), 2.0);
+        scene.ball(4.6, 0.2);
+        scene.step();
+        scene.only(BotCrashUnique);
+        scene.expect_fouls(0, 1);
+        assert_eq!(scene.score(), (1, 0));
     }
 }
 

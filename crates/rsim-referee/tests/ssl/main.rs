@@ -7,6 +7,7 @@ mod contacts;
 mod flow;
 mod goals;
 mod kicks;
+mod limits;
 mod offenses_at_once;
 mod penalty;
 mod penalty_positions;

@@ -1,4 +1,4 @@
-//! Whose robot touched the ball last, for every robot and every line.
+//! The last toucher of a ball that leaves the field or enters a goal: every robot, for every line.
 
 use rsim_referee::codes::Command::{DirectFree, ForceStart, PrepareKickoff};
 use rsim_referee::events::EventKind::{
