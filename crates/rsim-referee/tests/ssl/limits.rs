@@ -1,7 +1,9 @@
 //! What a rule forbids beyond a number, it allows at the number.
 
 use rsim_referee::codes::Command::{BallPlacement, DirectFree, ForceStart};
-use rsim_referee::events::EventKind::{BotInterferedPlacement, PlacementSucceeded};
+use rsim_referee::events::EventKind::{
+    BotInterferedPlacement, NoProgressInGame, PlacementSucceeded,
+};
 
 use crate::scene::{B, ROBOT_RADIUS, Scene, Them, Us, views, views_with_placement};
 
@@ -69,6 +71,21 @@ fn a_robot_may_drive_at_the_limit_in_a_stop() {
         scene.game.wait_steps = scene.steps(60.0);
         scene.robot_velocity((Them, 3), 1.5, 0.0);
         assert_eq!(scene.wait(3.0), []);
+    }
+}
+
+#[test]
+fn a_decimeter_is_no_progress_yet() {
+    for mut scene in views(B) {
+        scene.ball(0.0, 0.0);
+        scene.settle();
+        for nth in 0..scene.steps(10.0) {
+            scene.ball(if nth % 2 == 0 { 0.1 } else { 0.0 }, 0.0);
+            scene.step();
+            scene.expect_play();
+        }
+        scene.step();
+        scene.only(NoProgressInGame);
     }
 }
 
