@@ -1,4 +1,4 @@
-//! What a rule forbids beyond a number, it allows at the number.
+//! Scenes at the limits: a rule allows at a number what it forbids beyond it.
 
 use rsim_referee::codes::Command::{BallPlacement, DirectFree, ForceStart};
 use rsim_referee::events::EventKind::{
