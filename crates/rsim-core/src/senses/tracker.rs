@@ -71,9 +71,8 @@ struct Filters {
 impl Filters {
     /// The filters for the noise of some senses, with a frame each `period`, s.
     fn of(sensing: &Sensing, period: f32) -> Self {
-        let position = |noise: f32, acceleration| {
-            Filter::new(noise.max(MIN_DEVIATION), period, acceleration)
-        };
+        let position =
+            |noise: f32, acceleration| Filter::new(noise.max(MIN_DEVIATION), period, acceleration);
         let heading = sensing.heading_noise.max(MIN_HEADING_DEVIATION);
         Self {
             ball: position(sensing.ball_position_noise, BALL_ACCELERATION),
