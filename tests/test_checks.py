@@ -81,7 +81,7 @@ def test_wrong_options_are_refused(
         ({"seed": "x"}, TypeError, "seed: expected a whole number"),
         ({"mask": np.ones(4, np.bool_)}, ValueError, r"mask: expected bool \(5,\)"),
         ({"mask": np.ones(5)}, ValueError, "mask: expected bool"),
-        ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 86\)"),
+        ({"rows": np.zeros((5, 3), np.float32)}, ValueError, r"rows: expected shape \(5, 89\)"),
     ],
 )
 def test_wrong_resets_are_refused(
@@ -121,7 +121,7 @@ def test_a_state_of_other_matches_is_refused_without_a_change() -> None:
     renamed["rng.green_0"] = renamed.pop("rng.yellow_0")
     with pytest.raises(ValueError, match=r"state: missing or unknown \['rng.green_0'"):
         matches.load_state_dict(renamed)
-    with pytest.raises(ValueError, match=r"state: expected float32 \(5, 86\) for 'frame'"):
+    with pytest.raises(ValueError, match=r"state: expected float32 \(5, 89\) for 'frame'"):
         matches.load_state_dict(before | {"frame": before["frame"][:3]})
     with pytest.raises(ValueError, match="snapshot"):
         matches.load_state_dict(

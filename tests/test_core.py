@@ -208,7 +208,7 @@ def test_errors_of_placing_name_world_and_robots() -> None:
         (onto, "world 2: blue_0 and blue_1 overlap by"),
         (outside, r"world 0: ball is outside the field, at \(5.000, 0.000\) m"),
         (heading, "world 2: the heading of blue_0 must be a unit vector"),
-        (out[:1], r"rows must have shape \(2, 86\), got \(1, 86\)"),
+        (out[:1], r"rows must have shape \(2, 89\), got \(1, 89\)"),
     ]:
         with pytest.raises(ValueError, match=words):
             simulator.place(mask, rows, out)
@@ -239,7 +239,7 @@ def test_a_copied_simulator_continues_as_the_original(
     np.testing.assert_array_equal(driven(twin, 60, seed=1), driven(simulator, 60, seed=1))
 
 
-@pytest.mark.parametrize("junk", [b"", b"junk", b"rsimsnap", b"rsimsnap" + bytes(100)])
+@pytest.mark.parametrize("junk", [b"", b"junk", b"rsimsna2", b"rsimsna2" + bytes(100)])
 def test_a_foreign_snapshot_is_refused(junk: bytes) -> None:
     simulator = Simulator(CONFIG, WORLDS)
     before = simulator.snapshot()

@@ -30,6 +30,8 @@ def test_properties_read_the_cores_columns() -> None:
     assert frame.ball.velocity[1].tolist() == [ball["v_x"], ball["v_y"]]
     assert frame.ball.crossed[1] == ball["crossed"]
     assert frame.ball.crossed_at[1].tolist() == [ball["crossed_x"], ball["crossed_y"]]
+    for name in ("seconds_since_touch", "speed_after_touch", "height_since_touch"):
+        assert getattr(frame.ball, name)[1] == ball[name]
     assert frame.yellow.position[1, 1].tolist() == [third["x"], third["y"]]
     assert frame.robots.heading[1, 2].tolist() == [third["cos"], third["sin"]]
     assert frame.robots.velocity[1, 2].tolist() == [third["v_x"], third["v_y"]]

@@ -178,7 +178,7 @@ def test_wrong_arrays_are_refused_by_name() -> None:
     play = initial_play(2)
     last_rows, rows, viewpoint = play.last_frame.rows, play.frame.rows, play.viewpoint.core
     potential = Potential.ball_to_goal(FIELD)
-    with pytest.raises(ValueError, match=r"last_rows must have shape \(2, 86\), got \(1, 86\)"):
+    with pytest.raises(ValueError, match=r"last_rows must have shape \(2, 89\), got \(1, 89\)"):
         potential.difference(viewpoint, last_rows[:1], rows)
     with pytest.raises(ValueError, match="rows must have 2 axes"):
         potential.difference(viewpoint, last_rows, rows[0])

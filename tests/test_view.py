@@ -160,11 +160,11 @@ def test_fill_overwrites_everything() -> None:
 
 def test_wrong_arrays_and_slots_are_refused_by_name() -> None:
     frame, viewpoint = random_frame(4, 2, 2), _core.Viewpoint(4, [[0, 1, 2, None]], [False])
-    ball, robots = np.zeros((4, 1, 14), np.float32), np.zeros((4, 1, 4, 12), np.float32)
+    ball, robots = np.zeros((4, 1, 17), np.float32), np.zeros((4, 1, 4, 12), np.float32)
     viewpoint.fill(frame.rows, ball, robots)
-    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(62,\)"):
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(65,\)"):
         viewpoint.fill(frame.rows[0], ball, robots)
-    with pytest.raises(ValueError, match=r"ball must have shape \(4, 1, 14\), got \(3, 1, 14\)"):
+    with pytest.raises(ValueError, match=r"ball must have shape \(4, 1, 17\), got \(3, 1, 17\)"):
         viewpoint.fill(frame.rows, ball[:3], robots)
     with pytest.raises(TypeError, match="robots must be an array of float32, got float64"):
         viewpoint.fill(frame.rows, ball, robots.astype(np.float64))

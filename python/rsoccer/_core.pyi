@@ -106,6 +106,12 @@ BALL_COLUMNS: tuple[str, ...]
 | `last_touch` | index of the last robot that touched the ball | 1 | -1 for none |
 | `crossed` | first line crossed in the last control step | 1 | index in `CROSSINGS` |
 | `crossed_x`, `crossed_y`, `crossed_z` | point of that crossing | m | 0 for none |
+| `seconds_since_touch` | time since the last touch by a robot | s | 0 or above |
+| `speed_after_touch` | speed of the ball right after it, in three dimensions | m/s | 0 or above |
+| `height_since_touch` | greatest `z` since it | m | 0 or above |
+
+The last three are 0 where no robot has touched the ball since it was placed. The time is 0 while a
+robot keeps the ball; the speed of a kick is that at the end of its physics tick.
 """
 ROBOT_COLUMNS: tuple[str, ...]
 """Names of a robot's columns in a state row.

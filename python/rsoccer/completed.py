@@ -20,6 +20,9 @@ from rsoccer.simulator_interface import Placer, Stepper, close, placer_of, reade
 
 _BALL_MOTION: Final = column_slice(BALL_COLUMNS, "v_x", "v_y", "v_z")
 _ROBOT_MOTION: Final = column_slice(ROBOT_COLUMNS, "v_x", "v_y", "v_theta")
+_SINCE_TOUCH: Final = column_slice(
+    BALL_COLUMNS, "seconds_since_touch", "speed_after_touch", "height_since_touch"
+)
 _CROSSED_AT: Final = column_slice(BALL_COLUMNS, "crossed_x", "crossed_y", "crossed_z")
 
 
@@ -129,6 +132,7 @@ class CompletedStepper:
         frame.ball.last_touch[:] = NOBODY
         frame.ball.crossed[:] = 0.0
         frame.ball.data[:, _CROSSED_AT] = 0.0
+        frame.ball.data[:, _SINCE_TOUCH] = 0.0
         robots = frame.robots
         robots.infrared[:] = derived.beam_broken(frame, self._config)
         for column in (robots.touched_ball, robots.touched_opponent, robots.collision_speed):
@@ -168,6 +172,9 @@ class CompletedStepper:
         touched = derived.ball_touches(last, frame, config, seconds, gap)
         robots.touched_ball[:] = touched
         ball.last_touch[:] = derived.last_touch(last.ball.last_touch, touched, frame, config)
+        ball.data[:, _SINCE_TOUCH] = np.stack(
+            derived.since_touch(last, frame, touched, seconds), axis=1
+        )
         contacts = derived.collisions(last, frame, config, seconds, gap)
         robots.touched_opponent[:], robots.collision_speed[:] = contacts
         robots.infrared[:] = derived.beam_broken(frame, config)

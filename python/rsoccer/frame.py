@@ -50,6 +50,9 @@ class BallColumns:
     _LAST_TOUCH = BALL_COLUMNS.index("last_touch")
     _CROSSED = BALL_COLUMNS.index("crossed")
     _CROSSED_AT = column_slice(BALL_COLUMNS, "crossed_x", "crossed_y")
+    _SECONDS_SINCE_TOUCH = BALL_COLUMNS.index("seconds_since_touch")
+    _SPEED_AFTER_TOUCH = BALL_COLUMNS.index("speed_after_touch")
+    _HEIGHT_SINCE_TOUCH = BALL_COLUMNS.index("height_since_touch")
 
     def __init__(self, data: Floats) -> None:
         """Name the columns of an array.
@@ -101,6 +104,21 @@ class BallColumns:
     def crossed_at(self) -> Floats:
         """(..., 2) position x, y of the crossing in meters; valid if there was one."""
         return self.data[..., self._CROSSED_AT]
+
+    @property
+    def seconds_since_touch(self) -> Floats:
+        """(...) time since a robot touched the ball last in seconds; 0 if none has."""
+        return self.data[..., self._SECONDS_SINCE_TOUCH]
+
+    @property
+    def speed_after_touch(self) -> Floats:
+        """(...) speed of the ball right after its last touch in m/s, upward too; 0 if none."""
+        return self.data[..., self._SPEED_AFTER_TOUCH]
+
+    @property
+    def height_since_touch(self) -> Floats:
+        """(...) maximum of `height` since the last touch in meters; 0 if none."""
+        return self.data[..., self._HEIGHT_SINCE_TOUCH]
 
 
 class RobotColumns:

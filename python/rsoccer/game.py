@@ -96,6 +96,8 @@ class EventKind(IntEnum):
     """The team got a red card."""
     MULTIPLE_FOULS = 34
     """The team got a card for its fouls."""
+    UNSPORTING_BEHAVIOR_MINOR = 35
+    """The robot did not keep to its position at a penalty kick."""
     TOO_MANY_ROBOTS = 38
     """The team did not take its robots out in time."""
     BOUNDARY_CROSSING = 41

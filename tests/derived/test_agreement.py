@@ -104,6 +104,22 @@ def test_the_last_touch_agrees_where_one_robot_has_the_ball(play: Play) -> None:
     assert (robot == frame.ball.last_touch)[single].mean() >= 0.99
 
 
+def test_time_speed_and_height_since_a_touch_agree_but_for_the_rest_of_its_step(play: Play) -> None:
+    config, (last, frame) = play.matches.task.config, play.pair
+    touched = frame.robots.touched_ball > 0.5
+    found = derived.since_touch(last, frame, touched, config.time_step)
+    ball, anew = frame.ball, touched.any(axis=1)
+    step = config.time_step + 1e-3
+    assert (np.abs(found.seconds - ball.seconds_since_touch) < step).all()
+    assert (found.seconds[anew] <= ball.seconds_since_touch[anew]).all()
+    slower = ball.speed_after_touch - found.speed
+    assert np.median(np.abs(slower[anew])) < 0.05
+    assert (slower[~anew] == 0.0).all()
+    # The ball's height in the step is that of its end, or of the moment of a touch or a peak.
+    assert (found.height <= ball.height_since_touch + 1e-6).all()
+    assert np.quantile(ball.height_since_touch - found.height, 0.99) < 0.05
+
+
 def test_contacts_of_opponents_and_their_speeds_agree(play: Play) -> None:
     config, (last, frame) = play.matches.task.config, play.pair
     found = derived.collisions(last, frame, config, config.time_step)

@@ -55,3 +55,20 @@ def test_the_nearest_of_several_robots_touched_last() -> None:
     assert derived.last_touch(frame.ball.last_touch, both, frame, SSL).tolist() == [0]
     nobody = np.zeros((1, 2), np.bool_)
     assert derived.last_touch(np.ones(1, np.float32), nobody, frame, SSL).tolist() == [1]
+
+
+def test_time_speed_and_height_since_a_touch_begin_anew_with_each() -> None:
+    last, frame = frame_with((0.5, 0.0)), frame_with((0.6, 0.0), height=0.3)
+    frame.ball.last_touch[0] = last.ball.last_touch[0] = 1
+    last.ball.seconds_since_touch[0], last.ball.speed_after_touch[0] = 0.5, 4.0
+    last.ball.height_since_touch[0] = 0.4
+    frame.ball.velocity[0], frame.ball.vertical_velocity[0] = (3.0, 4.0), 12.0
+    nobody, somebody = np.zeros((1, 2), np.bool_), np.array([[False, True]])
+    after = derived.since_touch(last, frame, nobody, 0.025)
+    assert [float(part[0]) for part in after] == pytest.approx([0.525, 4.0, 0.4])
+    last.ball.height_since_touch[0] = 0.2
+    assert derived.since_touch(last, frame, nobody, 0.025).height[0] == np.float32(0.3)
+    anew = derived.since_touch(last, frame, somebody, 0.025)
+    assert [float(part[0]) for part in anew] == pytest.approx([0.0, 13.0, 0.3])
+    frame.ball.last_touch[0] = NOBODY
+    assert [float(part[0]) for part in derived.since_touch(last, frame, nobody, 0.025)] == [0, 0, 0]

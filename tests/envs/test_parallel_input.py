@@ -83,10 +83,10 @@ def test_a_match_starts_from_a_given_frame() -> None:
 @pytest.mark.parametrize(
     ("row", "error", "message"),
     [
-        (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(86,\).*\(3,\)"),
+        (np.zeros(3, np.float32), ValueError, r"options\['frame'\].*shape \(89,\).*\(3,\)"),
         ("left", TypeError, r"options\['frame'\].*floating-point"),
-        (np.full(86, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
-        (np.zeros(86, np.float32), ValueError, "blue_0.*unit vector"),
+        (np.full(89, np.nan, np.float32), ValueError, r"options\['frame'\].*finite.*nan"),
+        (np.zeros(89, np.float32), ValueError, "blue_0.*unit vector"),
         (crowded(), ValueError, "blue_0.*yellow_2"),
     ],
 )

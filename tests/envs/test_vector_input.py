@@ -55,7 +55,7 @@ def test_matches_start_from_given_frames() -> None:
     rows, mask = np.stack([left, right, left]), np.array([True, False, True])
     envs.reset(options={"frame": rows, "reset_mask": mask})
     assert comparable(envs._matches.frame.rows) == comparable(rows)
-    with pytest.raises(ValueError, match=r"options\['frame'\]: expected shape \(3, 86\)"):
+    with pytest.raises(ValueError, match=r"options\['frame'\]: expected shape \(3, 89\)"):
         envs.reset(options={"frame": rows[:2], "reset_mask": mask})
 
 

@@ -122,7 +122,7 @@ def changed(key: str, value: object) -> bytes:
         ("frames", True, "frames: expected int, got bool"),
         ("names", ["A"], "names: expected two"),
         ("names", [1, 2], "names: expected texts"),
-        ("steps.rows", [1.0], "rows: expected 80 columns"),
+        ("steps.rows", [1.0], "rows: expected 83 columns"),
         ("steps.commands", [0.0] * 12, "steps of commands: expected positive numbers"),
         ("steps.terms", {"goal": float("1e300")}, "steps of term:goal: expected positive"),
         ("steps.terms", {"other": 1.0}, "expected 'term:other'"),

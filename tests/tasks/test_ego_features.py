@@ -145,7 +145,7 @@ def test_features_do_not_depend_on_the_number_of_threads() -> None:
 
 def test_wrong_arrays_are_refused_by_name() -> None:
     rows, actions = states(2)
-    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(86,\)"):
+    with pytest.raises(ValueError, match=r"rows must have 2 axes, got shape \(89,\)"):
         encoded(rows[0], actions)
     with pytest.raises(ValueError, match=r"actions must have shape \(2, 6, 2\)"):
         encoded(rows, actions[:, :5])

@@ -7,8 +7,10 @@
 /// Position (m; `z` is the height of the lowest point, 0 on the floor), velocity (m/s), spin (rad/s,
 /// about the field's axes), index of the last robot that touched the ball (or -1), the line that its
 /// center crossed during the control step (an index in [`CROSSINGS`]), and the point of the crossing (m;
-/// 0 without one).
-pub const BALL_COLUMNS: [&str; 14] = [
+/// 0 without one). Last, of the last touch by a robot: the time since it (s), the speed of the ball right after it
+/// (m/s, in three dimensions), and the maximum of `z` since it (m); 0 where nobody has touched the ball. A tick of
+/// contact is a touch, so that the time is 0 while a robot keeps the ball.
+pub const BALL_COLUMNS: [&str; 17] = [
     "x",
     "y",
     "z",
@@ -23,6 +25,9 @@ pub const BALL_COLUMNS: [&str; 14] = [
     "crossed_x",
     "crossed_y",
     "crossed_z",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
 ];
 
 /// Columns of a robot.

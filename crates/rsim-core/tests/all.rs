@@ -19,6 +19,7 @@ mod input;
 mod jerk;
 mod joints;
 mod kickers;
+mod last_touch;
 mod layers;
 mod limits;
 mod mirror;

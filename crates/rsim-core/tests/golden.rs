@@ -69,13 +69,17 @@ fn own_parameters() -> Scene {
     scene
 }
 
-/// Hash (FNV-1a) of all rows of a match, without the robots' column `absent`, which no physics change.
+/// Columns that no physics read, and that came after the hashes.
+const NOT_HASHED: [&str; 4] =
+    ["absent", "seconds_since_touch", "speed_after_touch", "height_since_touch"];
+
+/// Hash (FNV-1a) of all rows of a match.
 fn hash(scene: &Scene) -> u64 {
     let (rows, _) = scene.play(&mut scene.world(), STEPS);
     let columns = BALL_COLUMNS.into_iter().chain(ROBOT_COLUMNS.repeat(scene.config.n_robots()));
     rows.iter()
         .zip(columns.collect::<Vec<_>>().iter().cycle())
-        .filter(|(_, column)| **column != "absent")
+        .filter(|(_, column)| !NOT_HASHED.contains(column))
         .flat_map(|(value, _)| value.to_bits().to_le_bytes())
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

@@ -130,6 +130,8 @@ config! {
         extra_half_seconds, "s";
         /// Penalty kicks of each team in the shoot-out after a draw, before sudden death; 0 for none.
         shootout_kicks, "1";
+        /// Penalty kicks of each team after which the shoot-out ends, with a draw where it decided nothing.
+        max_shootout_kicks, "1";
         /// Goals of a team from which a lead of `early_end_lead` ends the match; 0 for never.
         early_end_goals, "1";
         /// Lead that ends the match early.

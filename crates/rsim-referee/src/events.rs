@@ -70,6 +70,8 @@ kinds! {
     MultipleCards = 32, "MULTIPLE_CARDS";
     /// A team got enough fouls for a card.
     MultipleFouls = 34, "MULTIPLE_FOULS";
+    /// A robot did not keep to the positions of a penalty kick.
+    UnsportingBehaviorMinor = 35, "UNSPORTING_BEHAVIOR_MINOR";
     /// A team had too many robots on the field.
     TooManyRobots = 38, "TOO_MANY_ROBOTS";
     /// A robot kicked the ball over the outer walls.

@@ -165,8 +165,7 @@ fn finish(game: &mut Game) -> Arrangement {
 }
 
 fn after_halt(game: &mut Game, moment: &Moment) -> Arrangement {
-    let is_over = game.stage == Stage::PostGame;
-    if !is_over && game.command_steps >= moment.steps(moment.config.halt_seconds) {
+    if game.command_steps >= moment.steps(moment.config.halt_seconds) {
         game.give(Command::Stop, game.next_command);
         game.close_fouls = ByTeam::default();
     }

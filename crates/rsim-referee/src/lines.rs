@@ -34,7 +34,7 @@ pub struct Lines {
     pub center_circle_radius: f32,
     /// Distance of a penalty mark from the goal line that it attacks.
     pub penalty_mark_distance: f32,
-    /// Distance of the outer walls from the center along x.
+    /// Distance of the outer walls from the center along x; the goal line's where goals are pockets in a wall.
     pub boundary_x: f32,
     /// Distance of the outer walls from the center along y.
     pub boundary_y: f32,

@@ -53,14 +53,12 @@ impl Pitch {
     }
 
     /// Whether a body stands before the goal line, in the mouth of a goal, or beside a goal that stands free.
-    /// The goals of a table are pockets in its wall.
+    /// The goals of a table are pockets in its wall, on the goal line.
     fn is_clear_of_goals(&self, x: f32, y: f32, radius: f32) -> bool {
         let lines = &self.lines;
         let from_post = (y - lines.half_goal_width).abs() - lines.goal_wall_thickness;
         let in_mouth = y < lines.half_goal_width && x <= lines.half_length;
-        let beside_goal = y > lines.half_goal_width
-            && lines.goal_wall_thickness > 0.0
-            && x <= lines.boundary_x - radius;
+        let beside_goal = y > lines.half_goal_width && x <= lines.boundary_x - radius;
         x + radius <= lines.half_length || from_post >= radius && (in_mouth || beside_goal)
     }
 }

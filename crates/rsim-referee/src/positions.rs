@@ -124,12 +124,10 @@ impl<'a> Positions<'a> {
 
     /// "Penalty Kick": the keeper on its line, the kicker anywhere, all others behind the ball.
     fn obeys_penalty(&self, robot: &Robot, place: Vector, attacker: Team) -> bool {
-        let (lines, radius) = (self.moment.lines(), self.moment.pitch.robot_radius);
         if self.is_penalty_keeper(robot, attacker) {
-            let on_line = (place.x - lines.goal(robot.team).x).abs() <= radius;
-            return on_line && place.y.abs() <= lines.half_goal_width - radius;
+            return is_on_goal_line(self.moment, robot.team, place);
         }
-        let behind = attacker.own_side() * (place.x - self.ball.x) - radius;
+        let behind = attacker.own_side() * (place.x - self.ball.x) - self.moment.pitch.robot_radius;
         self.taker == Some(robot.index) && behind >= 0.0
             || behind >= self.moment.config.penalty_distance
     }
@@ -155,8 +153,15 @@ pub(crate) fn command_of_positions(game: &Game) -> Command {
     }
 }
 
+/// Whether a robot at a place touches the goal line of its team, and is between the posts.
+pub(crate) fn is_on_goal_line(moment: &Moment, team: Team, place: Vector) -> bool {
+    let (lines, radius) = (moment.lines(), moment.pitch.robot_radius);
+    (place.x - lines.goal(team).x).abs() <= radius
+        && place.y.abs() <= lines.half_goal_width - radius
+}
+
 /// The robot of a team that is nearest to a place; the keeper only if there is no other.
-fn nearest_to(moment: &Moment, team: Team, place: Vector) -> Option<usize> {
+pub(crate) fn nearest_to(moment: &Moment, team: Team, place: Vector) -> Option<usize> {
     let keeper = moment.keeper(team);
     let rank = |robot: &Robot| (robot.index == keeper, robot.position.distance(place));
     let nearest = moment.now.team(team).min_by(|a, b| {

@@ -21,7 +21,8 @@ impl RefereeConfig {
     /// "Referee Commands", "Ball Leaves The Field", "Scoring Goals" and "Offenses". The duration of a stop,
     /// the time to prepare and the way that is no progress are those of the game controller 78a9b3b
     /// (2026-08-03, `DefaultControllerConfig`); the way of pushing is that of the autoref Sumatra; the walls
-    /// are 0.1 m high in ER-Force's and grSim's fields.
+    /// are 0.1 m high in ER-Force's and grSim's fields. The rules see no progress in a shoot-out after 10 kicks
+    /// of each team, and name no end: here it ends then.
     fn ssl_2026_a() -> Self {
         Self {
             half_end: HalfEnd::NextStop,
@@ -30,6 +31,7 @@ impl RefereeConfig {
             halves: 2.0,
             extra_half_seconds: 150.0,
             shootout_kicks: 5.0,
+            max_shootout_kicks: 10.0,
             early_end_goals: 10.0,
             early_end_lead: 2.0,
             stop_seconds: 2.0,
@@ -90,15 +92,16 @@ impl RefereeConfig {
     }
 
     /// VSSS, three a side. Source: the league's referee, VSSSLeague/VSSReferee 2862742 (2022-03-12),
-    /// `src/constants/constants.json` and `referee/checkers`. Numbers of rules that only SSL has are 0. Two
-    /// numbers of the shoot-out are SSL's, since the league's referee leaves its end to people: the kicks of
-    /// a team, and the time of a kick.
+    /// `src/constants/constants.json` and `referee/checkers`. Numbers of rules that only SSL has are 0. The
+    /// numbers of the shoot-out are SSL's, since the league's referee leaves its end to people: the kicks of a
+    /// team, and the time of a kick.
     fn vsss_3v3() -> Self {
         Self {
             half_seconds: 300.0,
             halves: 2.0,
             extra_half_seconds: 180.0,
             shootout_kicks: 5.0,
+            max_shootout_kicks: 10.0,
             stop_seconds: 4.0,
             goal_stop_seconds: 8.0,
             prepare_seconds: 4.0,

@@ -1,7 +1,7 @@
 //! The referee of a match: judges a step, and restarts play.
 
 use crate::cards;
-use crate::codes::Command;
+use crate::codes::{Command, Stage};
 use crate::config::{League, RefereeConfig};
 use crate::error::RefereeError;
 use crate::events::{Event, EventKind};
@@ -119,6 +119,9 @@ impl Referee {
         decisions.events.clear();
         decisions.rulings.clear();
         decisions.restarts = false;
+        if game.stage == Stage::PostGame {
+            return Ok(()); // nothing is an offense any more
+        }
         let moment = Moment::new(&self.config, &self.pitch, before, now);
         self.follow(game, &moment);
         for rule in &self.rules {

@@ -15,8 +15,21 @@ pub struct Layout {
     n_yellow: usize,
 }
 
-const BALL: [&str; 10] =
-    ["x", "y", "z", "v_x", "v_y", "v_z", "spin_x", "spin_y", "spin_z", "last_touch"];
+const BALL: [&str; 13] = [
+    "x",
+    "y",
+    "z",
+    "v_x",
+    "v_y",
+    "v_z",
+    "spin_x",
+    "spin_y",
+    "spin_z",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
+    "last_touch",
+];
 const ROBOT: [&str; 12] = [
     "x",
     "y",
@@ -45,6 +58,12 @@ pub struct Ball {
     pub vertical_velocity: f32,
     /// Index of the last robot that touched the ball.
     pub last_touch: Option<usize>,
+    /// Time since then, s.
+    pub seconds_since_touch: f32,
+    /// Speed right after that touch, in three dimensions, m/s.
+    pub speed_after_touch: f32,
+    /// Maximum height of the lowest point since that touch, m.
+    pub height_since_touch: f32,
 }
 
 impl Ball {
@@ -228,7 +247,7 @@ fn find(
 impl Sight<'_> {
     /// The ball.
     pub fn ball(&self) -> Ball {
-        let [x, y, height, v_x, v_y, vertical_velocity, .., touch] =
+        let [x, y, height, v_x, v_y, vertical_velocity, _, _, _, seconds, speed, highest, touch] =
             self.layout.ball.map(|place| self.row[place]);
         Ball {
             position: Vector::new(x, y),
@@ -236,6 +255,9 @@ impl Sight<'_> {
             velocity: Vector::new(v_x, v_y),
             vertical_velocity,
             last_touch: index_of(touch),
+            seconds_since_touch: seconds,
+            speed_after_touch: speed,
+            height_since_touch: highest,
         }
     }
 
@@ -322,16 +344,21 @@ mod tests {
     #[test]
     fn ball_and_robots_are_read_by_the_names_of_columns() {
         let layout = layout();
-        let row: Vec<f32> = numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 2.0])
-            .chain(numbers([0.5, 0.6, 0.0, 1.0, 0.7, 0.8, 2.0, 1.0, 0.0, 1.0, 1.25, 0.0]))
-            .chain(numbers([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
-            .chain(numbers([-1.0, -1.0, 1.0, 0.0, -1.0, -1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0]))
-            .collect();
+        let row: Vec<f32> =
+            numbers([1.0, 2.0, 0.1, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.05, 6.0, 0.2, 2.0])
+                .chain(numbers([0.5, 0.6, 0.0, 1.0, 0.7, 0.8, 2.0, 1.0, 0.0, 1.0, 1.25, 0.0]))
+                .chain(numbers([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+                .chain(numbers([
+                    -1.0, -1.0, 1.0, 0.0, -1.0, -1.0, 0.0, -1.0, -1.0, -1.0, -1.0, 0.0,
+                ]))
+                .collect();
         let sight = layout.sight(&row).expect("a row of this layout");
         let ball = sight.ball();
         assert_eq!(ball.position, Vector::new(1.0, 2.0));
         assert!((ball.speed() - 5.0).abs() < 1e-6);
         assert_eq!(ball.last_touch, Some(2));
+        let since = (ball.seconds_since_touch, ball.speed_after_touch, ball.height_since_touch);
+        assert_eq!(since, (0.05, 6.0, 0.2));
         let blue = sight.robot(0).expect("on the field");
         assert_eq!(blue.velocity, Vector::new(0.7, 0.8));
         assert_eq!((blue.has_ball, blue.touched_ball, blue.touched_opponent), (true, false, true));

@@ -22,14 +22,16 @@ pub(crate) fn follow(game: &mut Game, moment: &Moment) {
     follow_dribbling(game, moment);
 }
 
-/// Follows who touched the ball last, where, and how high it has been since.
+/// Follows who touched the ball last, where, and how high it has been since. The row knows the order of touches
+/// within the step, and the height between them and its end.
 fn follow_touches(game: &mut Game, moment: &Moment) {
-    let height = moment.ball.height;
+    let ball = moment.ball;
     for team in Team::BOTH {
-        game.height_since_touch[team] = game.height_since_touch[team].max(height);
+        let highest = ball.height.max(ball.height_since_touch);
+        game.height_since_touch[team] = game.height_since_touch[team].max(highest);
     }
     for robot in moment.now.robots().filter(|robot| robot.touched_ball) {
-        game.height_since_touch[robot.team] = height;
+        game.height_since_touch[robot.team] = ball.height_since_touch;
         if game.kick_taker.is_some_and(|taker| taker != robot.index) {
             game.kick_taker = None;
         }

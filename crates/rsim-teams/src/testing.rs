@@ -7,8 +7,21 @@ use crate::config::{BallNumbers, RobotNumbers, TeamConfig};
 use crate::pitch::Pitch;
 use crate::view::View;
 
-const BALL: [&str; 10] =
-    ["x", "y", "z", "v_x", "v_y", "v_z", "spin_x", "spin_y", "spin_z", "last_touch"];
+const BALL: [&str; 13] = [
+    "x",
+    "y",
+    "z",
+    "v_x",
+    "v_y",
+    "v_z",
+    "spin_x",
+    "spin_y",
+    "spin_z",
+    "last_touch",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
+];
 const ROBOT: [&str; 12] = [
     "x",
     "y",
@@ -98,7 +111,9 @@ impl Scene {
     }
 
     pub(crate) fn ball(&mut self, [x, y]: [f32; 2], [v_x, v_y]: [f32; 2]) {
-        self.row[..BALL.len()].copy_from_slice(&[x, y, 0.0, v_x, v_y, 0.0, 0.0, 0.0, 0.0, -1.0]);
+        let since_touch = [-1.0, 0.0, 0.0, 0.0]; // nobody has touched it
+        let motion = [x, y, 0.0, v_x, v_y, 0.0, 0.0, 0.0, 0.0];
+        self.row[..BALL.len()].copy_from_slice(&[&motion[..], &since_touch].concat());
     }
 
     /// Puts a robot at rest, facing +x.

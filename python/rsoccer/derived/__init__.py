@@ -9,7 +9,14 @@ and to have come with its present one.
 from rsoccer.derived.collisions import Collisions, collisions
 from rsoccer.derived.lines import Crossing, crossing
 from rsoccer.derived.motion import differentiate, roll
-from rsoccer.derived.touches import ball_holder, ball_touches, beam_broken, last_touch
+from rsoccer.derived.touches import (
+    SinceTouch,
+    ball_holder,
+    ball_touches,
+    beam_broken,
+    last_touch,
+    since_touch,
+)
 
-__all__ = ["Collisions", "Crossing", "ball_holder", "ball_touches", "beam_broken", "collisions"]
-__all__ += ["crossing", "differentiate", "last_touch", "roll"]
+__all__ = ["Collisions", "Crossing", "SinceTouch", "ball_holder", "ball_touches", "beam_broken"]
+__all__ += ["collisions", "crossing", "differentiate", "last_touch", "roll", "since_touch"]

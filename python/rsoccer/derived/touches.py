@@ -1,6 +1,6 @@
 """Break beams, touches of the ball between two frames, and possession."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,6 +86,39 @@ def last_touch(previous: Floats, touched: Mask, frame: Frame, config: SimConfig)
         return previous
     gaps = np.where(touched, ball_gaps_after(frame, outlines_of(config), column(0.0)), np.inf)
     return np.where(touched.any(axis=1), np.argmin(gaps, axis=1), previous).astype(np.float32)
+
+
+class SinceTouch(NamedTuple):
+    """The ball since a robot touched it last; 0 where none has."""
+
+    seconds: Floats
+    """(n,) time since then, s."""
+    speed: Floats
+    """(n,) speed right after the touch, m/s."""
+    height: Floats
+    """(n,) maximum height since then, m."""
+
+
+def since_touch(last: Frame, frame: Frame, touched: Mask, seconds: Seconds) -> SinceTouch:
+    """Return how long ago the last touch was, how fast the ball was then, and how high since.
+
+    Moments between the frames are not known: a touch is taken to be that of the present frame.
+
+    Args:
+        last: the earlier frame, with these columns.
+        frame: poses and velocities of the present frame, and `last_touch`.
+        touched: (n, robots) robots that touched the ball since, see `ball_touches`.
+        seconds: time between the two.
+    """
+    before, ball = last.ball, frame.ball
+    anew, nobody = touched.any(axis=1), ball.last_touch == NOBODY
+    speed = norm(norm(ball.velocity[:, 0], ball.velocity[:, 1]), ball.vertical_velocity)
+    found = (
+        np.where(anew, 0.0, before.seconds_since_touch + seconds),
+        np.where(anew, speed, before.speed_after_touch),
+        np.where(anew, ball.height, np.maximum(before.height_since_touch, ball.height)),
+    )
+    return SinceTouch(*(np.where(nobody, 0.0, part).astype(np.float32) for part in found))
 
 
 def ball_holder(frame: Frame, config: SimConfig, gap: float = CONTACT_GAP) -> NDArray[np.intp]:

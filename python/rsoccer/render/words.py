@@ -186,6 +186,7 @@ _EVENTS: Final = {
     "bot_too_fast_in_stop": "Too fast in stop",
     "defender_too_close_to_kick_point": "Too close to ball",
     "defender_in_defense_area": "Defender in area",
+    "unsporting_behavior_minor": "Wrong place at penalty",
     "too_many_robots": "Too many robots",
     "boundary_crossing": "Ball over the walls",
     "invalid_goal": "Goal does not count",

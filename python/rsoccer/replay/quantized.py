@@ -24,7 +24,8 @@ HEADING = "heading"
 """Stored column for a robot's `cos` and `sin`: the angle, which may exceed a turn."""
 STEPS = {
     **dict.fromkeys(("x", "y", "z", "crossed_x", "crossed_y", "crossed_z"), 1e-4),
-    **dict.fromkeys(("v_x", "v_y", "v_z"), 2e-3),
+    **dict.fromkeys(("v_x", "v_y", "v_z", "speed_after_touch"), 2e-3),
+    **{"seconds_since_touch": 1e-3, "height_since_touch": 1e-4},
     **dict.fromkeys(("spin_x", "spin_y", "spin_z"), 0.1),
     **dict.fromkeys(("last_touch", "crossed"), 1.0),
     **dict.fromkeys(("infrared", "touched_ball", "touched_opponent", "absent"), 1.0),

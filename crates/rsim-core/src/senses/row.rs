@@ -14,10 +14,10 @@ pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &m
     let (position, velocity) = (known.track.position, known.track.velocity);
     let [z, v_z] = known.height;
     let (spin, no_touch) = (known.spin, -1.0);
-    ball.copy_from_slice(&[
-        position.x, position.y, z, velocity.x, velocity.y, v_z, spin.x, spin.y, spin.z, no_touch,
-        0.0, 0.0, 0.0, 0.0,
-    ]);
+    ball.fill(0.0);
+    let motion = [position.x, position.y, z, velocity.x, velocity.y, v_z, spin.x, spin.y, spin.z];
+    ball[..motion.len()].copy_from_slice(&motion);
+    ball[motion.len()] = no_touch;
     for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
         let robot = &tracker.robots[index];
         let (position, heading) = (robot.track.position, robot.heading.heading);

@@ -57,6 +57,8 @@ impl Tick<'_> {
         estimate_loads(state, &scratch.contacts.robots);
         let after = state.bodies.motion(BALL).position.extend(state.ball.z);
         state.crossing.update(&self.setup.config.field, before, after);
+        let State { touches, ball, bodies, .. } = state;
+        touches.end_tick(ball.z, || bodies.motion(BALL).velocity.extend(ball.v_z).length());
         Ok(())
     }
 

@@ -79,7 +79,7 @@ impl World {
         }
         let placement = Placement::new(config, &walls);
         let mut row = vec![0.0; config.row_size()];
-        row::write(&parameters, &pristine, &mut row);
+        row::write(&parameters, &pristine, config.tick, &mut row);
         placement.read(&row, &parameters).map_err(|error| {
             ConfigError::Inconsistent(format!("the teams do not fit on the field: {error}"))
         })?;
@@ -197,7 +197,7 @@ impl World {
 
     /// Writes the state row.
     pub fn write_row(&self, out: &mut [f32]) {
-        row::write(self.parameters(), &self.state, out);
+        row::write(self.parameters(), &self.state, self.config().tick, out);
     }
 
     /// Number of pairs of bodies, or of a body and a wall, with an impulse between them in the last tick.

@@ -7,18 +7,18 @@ use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
 use crate::geometry::motion::Motion;
 use crate::state::State;
 
-/// Writes the row of `state`.
-pub(super) fn write(parameters: &BodyParameters, state: &State, out: &mut [f32]) {
+/// Writes the row of `state`. `tick` is the duration of a tick, s.
+pub(super) fn write(parameters: &BodyParameters, state: &State, tick: f32, out: &mut [f32]) {
     let (ball, robots) = out.split_at_mut(BALL_COLUMNS.len());
-    write_ball(state, ball);
+    write_ball(state, tick, ball);
     for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
         write_robot(parameters, state, index, columns);
     }
 }
 
-fn write_ball(state: &State, columns: &mut [f32]) {
+fn write_ball(state: &State, tick: f32, columns: &mut [f32]) {
     let Motion { position, velocity, .. } = state.bodies.motion(BALL);
-    let (ball, crossing) = (&state.ball, &state.crossing);
+    let (ball, crossing, touch) = (&state.ball, &state.crossing, &state.touches.last);
     columns.copy_from_slice(&[
         position.x,
         position.y,
@@ -29,11 +29,14 @@ fn write_ball(state: &State, columns: &mut [f32]) {
         ball.spin.x,
         ball.spin.y,
         ball.spin.z,
-        state.touches.last.map_or(-1.0, f32::from),
+        touch.map_or(-1.0, |touch| f32::from(touch.robot)),
         f32::from(crossing.code),
         crossing.at.x,
         crossing.at.y,
         crossing.at.z,
+        touch.map_or(0.0, |touch| touch.seconds(tick)),
+        touch.map_or(0.0, |touch| touch.speed),
+        touch.map_or(0.0, |touch| touch.height),
     ]);
 }
 

@@ -3,8 +3,8 @@
 use rsim_referee::codes::Command::{DirectFree, PrepareKickoff};
 use rsim_referee::config::Placement;
 use rsim_referee::events::EventKind::{
-    AttackerTouchedBallInDefenseArea, BallLeftFieldGoalLine, BotKickedBallTooFast, Goal,
-    InvalidGoal,
+    AttackerTouchedBallInDefenseArea, BallLeftFieldGoalLine, BotCrashUnique, BotKickedBallTooFast,
+    Goal, InvalidGoal,
 };
 
 use crate::scene::{A, B, Bot, Scene, Them, Us, views, views_with};
@@ -151,6 +151,37 @@ fn the_height_counts_since_the_last_touch_of_the_scoring_team() {
 }
 
 #[test]
+fn the_height_between_touch_and_end_of_a_step_counts() {
+    for (height, is_goal) in [(0.16, false), (0.14, true)] {
+        for mut scene in views(B) {
+            scene.ball(3.0, 0.2);
+            scene.settle();
+            scene.touch((Us, 2));
+            scene.since_touch(5.0, height); // it comes down in the step
+            scene.step();
+            enter(&mut scene);
+            assert_eq!(scene.score(), (i32::from(is_goal), 0), "{height}");
+        }
+    }
+}
+
+#[test]
+fn the_last_of_two_robots_that_touch_the_ball_in_a_step_is_the_scorer() {
+    for mut scene in views(B) {
+        for (first, second) in [((Us, 2), (Them, 3)), ((Them, 3), (Us, 2))] {
+            scene.free();
+            scene.ball(3.0, 0.2);
+            scene.settle();
+            scene.touch(first);
+            scene.touch(second);
+            scene.step();
+            enter(&mut scene);
+            assert_eq!(scene.only(Goal).bot, Some(second));
+        }
+    }
+}
+
+#[test]
 fn a_chip_into_the_own_goal_is_as_high_as_since_the_others_touched_the_ball() {
     for mut scene in views(B) {
         shoot_high(&mut scene, (Them, 2), 0.3);
@@ -241,6 +272,22 @@ fn a_foul_in_the_step_of_the_goal_speaks_against_it() {
         scene.step();
         scene.only(BotKickedBallTooFast);
         assert_eq!(scene.score(), (0, 0));
+    }
+}
+
+#[test]
+fn a_foul_of_the_others_in_the_step_of_the_goal_does_not_speak_against_it() {
+    for mut scene in views(B) {
+        touch_before_goal(&mut scene, (Us, 2));
+        scene.ball(4.4, 0.2);
+        scene.robot_velocity((Them, 4), 2.0, 0.0);
+        scene.settle();
+        scene.collide((Us, 4), (Them, 4), 2.0);
+        scene.ball(4.6, 0.2);
+        scene.step();
+        scene.only(BotCrashUnique);
+        scene.expect_fouls(0, 1);
+        assert_eq!(scene.score(), (1, 0));
     }
 }
 

@@ -1,11 +1,11 @@
 //! "Shoot-Out": alternating penalty kicks.
 
 use rsim_referee::Team;
-use rsim_referee::codes::Command::PreparePenalty;
+use rsim_referee::codes::Command::{Halt, PreparePenalty};
 use rsim_referee::codes::Stage;
 use rsim_referee::events::EventKind::{AttackerTooCloseToDefenseArea, Goal, PenaltyKickFailed};
 
-use crate::scene::{B, Scene, Side, Them, Us, views};
+use crate::scene::{B, Scene, Side, Them, Us, views, views_with};
 
 /// A shoot-out begins, with a first kick of ours.
 fn begin(scene: &mut Scene) {
@@ -59,20 +59,46 @@ fn the_teams_take_turns_from_their_marks() {
 }
 
 #[test]
-fn it_ends_when_a_team_cannot_catch_up() {
+fn each_team_has_its_five_kicks() {
     for mut scene in views(B) {
-        play(&mut scene, &[true, false, true, false, true, false]);
-        assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (3, 0)));
-    }
-    for mut scene in views(B) {
-        play(&mut scene, &[true, false, false, false, true, false, true]);
-        assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (3, 0)));
+        play(&mut scene, &[true, false, true, false, true, false, false, false, false]);
+        assert_eq!(scene.game.stage, Stage::Shootout, "they have lost, and have their kick");
+        kick(&mut scene, true);
+        assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (3, 1)));
     }
     for mut scene in views(B) {
         play(&mut scene, &[true, true, true, true, true, true, true, true, false]);
         assert_eq!(scene.game.stage, Stage::Shootout, "they may still win");
         kick(&mut scene, true);
         assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (4, 5)));
+    }
+}
+
+#[test]
+fn a_shoot_out_that_decides_nothing_ends_with_a_draw() {
+    for is_goal in [false, true] {
+        for mut scene in views(B) {
+            play(&mut scene, &[is_goal; 19]);
+            assert_eq!(scene.game.stage, Stage::Shootout, "their tenth kick may decide it");
+            kick(&mut scene, is_goal);
+            let goals = if is_goal { 10 } else { 0 };
+            assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (goals, goals)));
+            assert_eq!(scene.game.command, Halt);
+        }
+    }
+    for mut scene in views_with(B, |rules| rules.max_shootout_kicks = 2.0) {
+        play(&mut scene, &[false, false, true, false]);
+        assert_eq!((scene.game.stage, scene.score()), (Stage::PostGame, (1, 0)));
+    }
+}
+
+#[test]
+fn a_shoot_out_in_which_nobody_moves_ends() {
+    for mut scene in views(B) {
+        begin(&mut scene);
+        let events = scene.run(20.0 * 25.0, |scene| scene.game.stage == Stage::PostGame);
+        let failed = events.iter().filter(|event| event.kind == PenaltyKickFailed).count();
+        assert_eq!((failed, scene.score()), (20, (0, 0)));
     }
 }
 

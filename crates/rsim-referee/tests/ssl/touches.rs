@@ -256,6 +256,29 @@ fn a_robot_that_makes_a_fast_ball_faster_is_at_fault_too() {
 }
 
 #[test]
+fn the_speed_of_a_kick_is_that_right_after_the_touch() {
+    for (speed, is_foul) in [(6.49, false), (6.51, true)] {
+        for mut scene in views(B) {
+            scene.touch((Us, 2));
+            scene.ball_velocity(6.45, 0.0, 0.0); // it slows down within the step
+            scene.since_touch(speed, 0.0);
+            scene.step();
+            assert_eq!(scene.count_of(BotKickedBallTooFast), usize::from(is_foul), "{speed}");
+        }
+    }
+    for mut scene in views(B) {
+        scene.touch((Us, 2));
+        scene.ball_velocity(3.0, 0.0, 0.0);
+        scene.since_touch(3.0, 0.0);
+        scene.step();
+        scene.ball_velocity(7.0, 0.0, 0.0);
+        scene.since_touch(7.0, 0.0);
+        scene.step();
+        scene.expect_play(); // nobody has touched it in the step
+    }
+}
+
+#[test]
 fn a_ball_that_makes_no_progress_is_free_for_both() {
     for (division, seconds) in [(A, 5.0), (B, 10.0)] {
         for mut scene in views(division) {

@@ -57,6 +57,24 @@ fn a_stop_is_followed_by_the_kick_after_four_seconds_and_by_play_after_four_more
 }
 
 #[test]
+fn where_the_rules_give_more_time_play_waits_for_robots_that_touch_the_ball() {
+    let mut config = Size::Three.config();
+    config.max_prepare_seconds = 6.0;
+    for (touches, seconds) in [(false, 4.0), (true, 6.0)] {
+        let mut scene = Scene::in_play_with(Size::Three, config.clone());
+        scene.ball([0.2, 0.2]);
+        scene.first_event(6.0).expect("it is stuck");
+        scene.wait_for(Command::FreeBall);
+        if touches {
+            let ball = scene.ball_position();
+            scene.robot(Team::Blue, 1, [ball.x - 0.06, ball.y]);
+        }
+        assert_eq!(scene.wait_for(Command::NormalStart), steps(seconds));
+        assert_eq!(scene.restarts, touches);
+    }
+}
+
+#[test]
 fn bodies_that_move_before_the_kick_return_to_their_places() {
     each(|mut scene, command| {
         scene.wait_for(command);

@@ -98,6 +98,41 @@ fn a_goal_names_the_last_toucher_and_counts_for_the_team_that_attacks_the_goal()
 }
 
 #[test]
+fn every_robot_or_nobody_may_be_the_last_toucher_of_a_goal() {
+    each(|size, attacker| {
+        let robots = (0..size.robots()).flat_map(|nth| Team::BOTH.map(|team| (team, nth)));
+        for toucher in robots.map(Some).chain([None]) {
+            let mut scene = Scene::in_play(size);
+            if let Some((team, nth)) = toucher {
+                scene.touch(team, nth);
+            }
+            scene.step();
+            shoot(&mut scene, attacker, 0.0);
+            let event = scene.step_to(EventKind::Goal);
+            let robot = toucher.map(|(team, nth)| scene.index(team, nth));
+            assert_eq!((event.team, event.robot), (Some(attacker), robot));
+            assert_eq!(scene.game.score[attacker], 1);
+            assert_eq!(scene.game.score[attacker.opponent()], 0);
+        }
+    });
+}
+
+#[test]
+fn the_last_of_two_touchers_is_named() {
+    each(|size, attacker| {
+        let mut scene = Scene::in_play(size);
+        scene.touch(attacker, 1);
+        scene.step();
+        scene.touch(attacker, 2);
+        scene.touch(attacker.opponent(), 1);
+        scene.step();
+        shoot(&mut scene, attacker, 0.0);
+        let event = scene.step_to(EventKind::Goal);
+        assert_eq!(event.robot, Some(scene.index(attacker.opponent(), 1)));
+    });
+}
+
+#[test]
 fn a_goal_after_two_attackers_in_the_area_is_a_goal_kick() {
     each(|size, attacker| {
         let mut scene = Scene::in_play(size);

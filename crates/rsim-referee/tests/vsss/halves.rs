@@ -129,6 +129,33 @@ fn a_goal_in_the_last_step_of_a_half_counts() {
 }
 
 #[test]
+fn a_goal_in_the_last_step_of_a_match_decides_it() {
+    let mut scene = begun(short(), Team::Blue);
+    play_half(&mut scene);
+    scene.wait_for(Command::NormalStart);
+    scene.roll([0.0, 0.0], [1.0, 0.0]);
+    assert_eq!(scene.run(1.975), []);
+    score(&mut scene, Team::Yellow);
+    assert_eq!((scene.game.stage, scene.game.command), (Stage::PostGame, Command::Halt));
+    assert_eq!(scene.game.score[Team::Yellow], 1);
+}
+
+#[test]
+fn after_the_match_nothing_counts_any_more() {
+    let mut scene = begun(RefereeConfig { halves: 1.0, ..short() }, Team::Blue);
+    scene.wait_for(Command::NormalStart);
+    score(&mut scene, Team::Yellow);
+    play_half(&mut scene);
+    assert_eq!(scene.game.stage, Stage::PostGame);
+    defend(&mut scene, Team::Yellow, 2);
+    assert_eq!(scene.run(6.0), []);
+    scene.ball([0.0, 0.0]);
+    assert_eq!(scene.run(6.0), [], "nor is it stuck");
+    assert_eq!((scene.game.stage, scene.game.command), (Stage::PostGame, Command::Halt));
+    assert_eq!(scene.game.score[Team::Yellow], 1);
+}
+
+#[test]
 fn a_half_ends_on_time_after_a_penalty_kick() {
     let mut scene = begun(short(), Team::Blue);
     scene.wait_for(Command::NormalStart);

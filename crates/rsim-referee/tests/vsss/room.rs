@@ -6,6 +6,7 @@ use rsim_referee::{Team, Vector};
 use crate::formation::{arrange, kicks, scattered};
 use crate::outlines::assert_valid;
 use crate::pitches::{BALL_RADIUS, Size};
+use crate::scene::Scene;
 
 #[test]
 fn any_robots_are_put_on_the_table_without_touching_anything() {
@@ -19,8 +20,31 @@ fn any_robots_are_put_on_the_table_without_touching_anything() {
                 assert_eq!(before, after, "absent robots stay away");
                 assert!(scene.row.iter().all(|value| value.is_finite()));
                 assert_valid(&scene);
+                assert_can_turn(&scene);
             }
         }
+    }
+}
+
+/// Fails unless all robots are so far apart that they may turn where they stand.
+fn assert_can_turn(scene: &Scene) {
+    let (robots, diagonal) = (scene.robots(), 2.0 * scene.referee.pitch().robot_radius);
+    for (nth, robot) in robots.iter().enumerate() {
+        for other in &robots[nth + 1..] {
+            let distance = robot.position.distance(other.position);
+            assert!(distance >= diagonal, "{distance} m between {robot:?} and {other:?}");
+        }
+    }
+}
+
+#[test]
+fn robots_are_moved_toward_their_own_goal_first() {
+    for team in Team::BOTH {
+        let mut scene = scattered(Size::Three, [4, 4], 7, 0.0);
+        scene.robot(team, 3, [0.0, 0.07]);
+        arrange(&mut scene, Command::PrepareKickoff(team), Vector::default());
+        let expected = Vector::new(team.own_side() * 0.03, 0.07);
+        assert!(scene.position(team, 3).distance(expected) < 1e-6);
     }
 }
 

@@ -12,8 +12,21 @@ use rsim_referee::{Decisions, Referee, Team, Vector};
 use crate::pitches::{Size, TIME_STEP};
 
 /// Columns of a row, in another order than that of the rules.
-const BALL: [&str; 10] =
-    ["last_touch", "x", "y", "z", "spin_x", "spin_y", "spin_z", "v_x", "v_y", "v_z"];
+const BALL: [&str; 13] = [
+    "last_touch",
+    "x",
+    "y",
+    "z",
+    "spin_x",
+    "spin_y",
+    "spin_z",
+    "v_x",
+    "v_y",
+    "v_z",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
+];
 const ROBOT: [&str; 12] = [
     "absent",
     "x",

@@ -2,6 +2,7 @@
 
 use rsim_referee::Team;
 use rsim_referee::codes::{Command, Stage};
+use rsim_referee::column::ByTeam;
 use rsim_referee::config::RefereeConfig;
 use rsim_referee::events::{Event, EventKind};
 use rsim_referee::game::Game;
@@ -56,12 +57,12 @@ fn each(check: impl Fn(Size, Team)) {
 }
 
 #[test]
-fn the_teams_take_turns_until_one_cannot_catch_up() {
+fn the_teams_take_turns_until_each_has_had_five_kicks() {
     each(|size, first| {
         let mut scene = kick(size, first);
-        for (nth, is_goal) in [true, false, true, false, true].into_iter().enumerate() {
+        for nth in 0..9 {
             let taker = if nth % 2 == 0 { first } else { first.opponent() };
-            take(&mut scene, taker, is_goal);
+            take(&mut scene, taker, taker == first && nth < 6);
             assert_eq!((scene.game.stage, scene.game.command), (Stage::Shootout, Command::Stop));
             begin_kick(&mut scene, taker.opponent());
         }
@@ -70,6 +71,20 @@ fn the_teams_take_turns_until_one_cannot_catch_up() {
         assert_eq!(scene.game.score[first], 3);
         assert_eq!(scene.game.score[first.opponent()], 0);
     });
+}
+
+#[test]
+fn after_ten_each_without_a_winner_it_is_a_draw() {
+    let mut scene = kick(Size::Three, Team::Blue);
+    let mut taker = Team::Blue;
+    for _ in 0..19 {
+        take(&mut scene, taker, false);
+        taker = taker.opponent();
+        begin_kick(&mut scene, taker);
+    }
+    take(&mut scene, taker, false);
+    assert_eq!((scene.game.stage, scene.game.command), (Stage::PostGame, Command::Halt));
+    assert_eq!(scene.game.score, ByTeam::default());
 }
 
 #[test]

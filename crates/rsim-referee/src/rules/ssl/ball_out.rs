@@ -33,13 +33,10 @@ pub fn aimless_kick(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     }
 }
 
-/// "Throw-In": inside the touch line, where the ball crossed it.
+/// "Throw-In": inside the touch line, where the ball crossed it. That is the nearest place of a free kick.
 pub fn touch_line(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some((Line::Touch, left_at)) = line_crossed(game, moment) else { return };
-    let (lines, from_lines) = (moment.lines(), moment.config.kick_line_distance);
-    let max_x = lines.half_length - from_lines;
-    let y = (lines.half_width - from_lines).copysign(left_at.y);
-    let place = kick_place(moment, Vector::new(left_at.x.clamp(-max_x, max_x), y));
+    let place = kick_place(moment, left_at);
     rulings.add(left_field(EventKind::BallLeftFieldTouchLine, game, moment, left_at, place));
 }
 
@@ -52,7 +49,7 @@ pub fn goal_line(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
         return;
     }
     let from_goal_line = match game.last_touch.map(|robot| moment.team_of(robot)) {
-        Some(team) if team == defender => moment.config.kick_line_distance,
+        Some(team) if team == defender => 0.0,
         _ => moment.config.goal_kick_distance,
     };
     let place = beside_corner(moment, left_at.y, defender, from_goal_line);
@@ -68,11 +65,11 @@ pub(crate) fn goal_kick_place(moment: &Moment, y: f32, defender: Team) -> Vector
     beside_corner(moment, y, defender, moment.config.goal_kick_distance)
 }
 
+/// The place of a free kick that is nearest to a point of the touch line.
 fn beside_corner(moment: &Moment, y: f32, defender: Team, from_goal_line: f32) -> Vector {
     let lines = moment.lines();
     let x = defender.own_side() * (lines.half_length - from_goal_line);
-    let y = (lines.half_width - moment.config.kick_line_distance).copysign(y);
-    kick_place(moment, Vector::new(x, y))
+    kick_place(moment, Vector::new(x, lines.half_width.copysign(y)))
 }
 
 /// A free kick for the opponents of the last toucher. If nobody touched the ball since play went on, it is

@@ -10,6 +10,7 @@ pub mod dribbling;
 pub mod goal;
 pub mod kick_point;
 pub mod penalty;
+pub mod penalty_positions;
 pub mod placement;
 pub mod progress;
 pub mod pushing;
@@ -67,6 +68,9 @@ pub const RULES: &[Rule] = table! {
         "The ball rests at its place, and robots keep their distance.";
     "PLACEMENT_FAILED", placement::failed, "Ball Placement",
         "The ball is not placed in time.";
+    "UNSPORTING_BEHAVIOR_MINOR", penalty_positions::judge, "Penalty Kick, Disrespect Procedures",
+        "At a penalty kick the keeper leaves its line before the kick, or another robot but the kicker is less \
+         than 1 m behind the ball.";
     "PENALTY_KICK_FAILED", penalty::conclude, "Penalty Kick",
         "A penalty kick ends without a goal: ball out, turned by 90 degrees by the keeper, moved back, a \
          foul of the attackers, or 10 s. A foul of the defenders is a goal.";

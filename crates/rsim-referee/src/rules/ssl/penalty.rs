@@ -8,6 +8,7 @@ use crate::rules::ssl::ball_out::{goal_kick_place, line_crossed};
 use crate::rules::ssl::goal::awarded;
 use crate::ruling::{Ruling, Rulings};
 use crate::team::Team;
+use crate::vector::Vector;
 
 /// Way back of the ball that is no measuring noise, m: as much as brings a ball into play.
 const WAY_BACK: f32 = 0.05;
@@ -22,9 +23,11 @@ pub fn conclude(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let defender = attacker.opponent();
     let committed = |team: Team| {
         rulings.iter().any(|ruling| {
-            (ruling.is_foul || ruling.then.is_some())
-                && ruling.event.team == Some(team)
-                && !is_ball_out(ruling.event.kind)
+            let kind = ruling.event.kind;
+            let is_offense = ruling.is_foul
+                || ruling.then.is_some() && !is_ball_out(kind)
+                || kind == EventKind::UnsportingBehaviorMinor;
+            is_offense && ruling.event.team == Some(team)
         })
     };
     if committed(defender) {
@@ -48,9 +51,14 @@ const fn is_ball_out(kind: EventKind) -> bool {
 
 /// Whether the ball has moved away from the goal.
 fn moved_back(game: &mut Game, moment: &Moment, attacker: Team) -> bool {
-    let way = attacker.own_side() * (game.kick_position.x - moment.ball.position.x);
+    let way = way_to_goal(game, attacker, moment.ball.position);
     game.penalty_way = game.penalty_way.max(way);
     game.penalty_way - way > WAY_BACK
+}
+
+/// Way from the place of the kick to another place, toward the goal, m.
+pub(crate) fn way_to_goal(game: &Game, attacker: Team, place: Vector) -> f32 {
+    attacker.own_side() * (game.kick_position.x - place.x)
 }
 
 /// Whether the keeper touched the ball and changed its direction by at least 90 degrees.

@@ -3,11 +3,24 @@
 use rsim_referee::Vector;
 use rsim_referee::sight::{Placed, Robot, Sight};
 
-use super::{Bot, Scene, Side};
+use super::{Bot, Scene, Side, TIME_STEP};
 
 /// Columns of the ball, as the physics has them.
-pub(crate) const BALL: [&str; 10] =
-    ["x", "y", "z", "v_x", "v_y", "v_z", "spin_x", "spin_y", "spin_z", "last_touch"];
+pub(crate) const BALL: [&str; 13] = [
+    "x",
+    "y",
+    "z",
+    "v_x",
+    "v_y",
+    "v_z",
+    "spin_x",
+    "spin_y",
+    "spin_z",
+    "seconds_since_touch",
+    "speed_after_touch",
+    "height_since_touch",
+    "last_touch",
+];
 /// Columns of a robot.
 pub(crate) const ROBOT: [&str; 12] = [
     "x",
@@ -88,6 +101,27 @@ impl Scene {
     pub(crate) fn touch(&mut self, bot: Bot) {
         *self.robot_column(bot, "touched_ball") = 1.0;
         self.row[BALL.len() - 1] = f32::from(u8::try_from(self.index(bot)).expect("few robots"));
+    }
+
+    /// Says how fast the ball was right after its last touch in the step, and how high since.
+    pub(crate) fn since_touch(&mut self, speed: f32, height: f32) {
+        self.since_touch = Some((speed, height));
+    }
+
+    /// Writes the facts about the last touch: those of the end of the step, unless the test says others.
+    pub(super) fn write_since_touch(&mut self) {
+        let ball = self.sight().ball();
+        let before =
+            self.referee.layout().sight(&self.before).expect("a row of this layout").ball();
+        let has_touch = self.sight().robots().any(|robot| robot.touched_ball);
+        let (speed, height) = self.since_touch.take().unwrap_or(if has_touch {
+            (ball.speed(), ball.height)
+        } else {
+            (before.speed_after_touch, before.height_since_touch.max(ball.height))
+        });
+        let seconds = if has_touch { 0.0 } else { before.seconds_since_touch + TIME_STEP };
+        let first = BALL.len() - 4;
+        self.row[first..first + 3].copy_from_slice(&[seconds, speed, height]);
     }
 
     /// A robot has the ball between its jaws in the next step, without touching it.

@@ -57,6 +57,8 @@ pub(crate) struct Scene {
     row: Vec<f32>,
     decisions: Decisions,
     events: Vec<Seen>,
+    /// Speed and height that the test says of the next step.
+    since_touch: Option<(f32, f32)>,
     pub(crate) restarted: bool,
 }
 
@@ -96,6 +98,7 @@ impl Scene {
             row,
             decisions: Decisions::default(),
             events: Vec::new(),
+            since_touch: None,
             restarted: false,
         };
         scene.game.stage = Stage::FirstHalf;

@@ -75,6 +75,7 @@ impl Scene {
 
     /// Judges a step that ends with the bodies where the test put them.
     pub(crate) fn step(&mut self) {
+        self.write_since_touch();
         let mut statistics = Statistics::default();
         let mut restart = vec![0.0; self.row.len()];
         self.referee
