@@ -28,7 +28,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs format docs site physics golden soak agreement coverage bench clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs format docs site physics golden soak agreement coverage bench compare clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -135,6 +135,10 @@ coverage: $(VENV)/built ## measure the line coverage of Python and Rust (some mi
 bench: $(VENV)/built ## measure the speed of this machine (some minutes; no other load)
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
+
+BEFORE ?= main
+compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main
+	$(BIN)/python -m benches.comparison $(BEFORE)
 
 clean: ## remove all outputs of make, installed Python packages included
 	rm -rf $(VENV) $(VENV)-* target out .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -86,24 +86,41 @@ pub(crate) struct Acceleration {
     pub(crate) angular: f32,
 }
 
-/// Motion of a robot without contacts.
+/// Motion of the bodies of a block after a tick, or a part of it, without contacts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Undisturbed {
-    /// m/s.
-    pub(crate) velocity: Vector,
-    /// rad/s.
-    pub(crate) angular_velocity: f32,
-    /// Part of both that the robot's own wheels gave it in that time.
-    pub(crate) gain: Gain,
+    motion: Change,
+    /// Part of it that the wheels gave in that time.
+    gain: Change,
 }
 
-/// Change of a robot's motion by its wheels.
+/// Velocities of the bodies of a block, or changes of them.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Gain {
+struct Change {
     /// m/s.
-    pub(crate) velocity: Vector,
+    velocity: VectorLanes,
     /// rad/s.
-    pub(crate) angular_velocity: f32,
+    angular_velocity: Lanes,
+}
+
+impl Change {
+    fn get(&self, lane: usize) -> (Vector, f32) {
+        (self.velocity.get(lane), self.angular_velocity.as_array()[lane])
+    }
+}
+
+impl Undisturbed {
+    /// Velocity (m/s) and angular velocity (rad/s) that a robot would have.
+    pub(crate) fn motion(blocks: &[Self], index: usize) -> (Vector, f32) {
+        let (block, lane) = place_of(robot(index));
+        blocks[block].motion.get(lane)
+    }
+
+    /// Part of both that the robot's own wheels gave it.
+    pub(crate) fn gain(blocks: &[Self], index: usize) -> (Vector, f32) {
+        let (block, lane) = place_of(robot(index));
+        blocks[block].gain.get(lane)
+    }
 }
 
 /// Sub-steps of a tick.
@@ -212,20 +229,20 @@ impl Bodies {
         }
     }
 
-    /// Writes the motion of robots after `time` without contacts into `undisturbed`.
+    /// Writes the motion of all bodies after `time` (s) without contacts into `undisturbed`, by block.
     pub(crate) fn list_undisturbed(&self, time: f32, undisturbed: &mut Vec<Undisturbed>) {
+        let time = Lanes::splat(time);
         undisturbed.clear();
-        undisturbed.extend((robot(0)..self.len()).map(|body| {
-            let (motion, acceleration) = (self.motion(body), self.acceleration(body));
-            let gain = Gain {
+        undisturbed.extend(self.blocks.iter().map(|BodyBlock { motion, acceleration, .. }| {
+            let gain = Change {
                 velocity: acceleration.linear * time,
                 angular_velocity: acceleration.angular * time,
             };
-            Undisturbed {
+            let motion = Change {
                 velocity: motion.velocity + gain.velocity,
                 angular_velocity: motion.angular_velocity + gain.angular_velocity,
-                gain,
-            }
+            };
+            Undisturbed { motion, gain }
         }));
     }
 

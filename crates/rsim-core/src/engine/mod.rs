@@ -186,6 +186,9 @@ impl Engine {
     /// Sub-steps of a tick, or of a part of it of length `time` (s). The compact solver finds contacts
     /// anew in each sub-step, so that a part of a tick needs no shorter ones.
     fn sub_steps(&self, time: f32) -> SubSteps {
+        if time >= self.tick {
+            return SubSteps { time: time / self.sub_steps as f32, count: self.sub_steps };
+        }
         let parts = (self.tick / time).round();
         let count = match self.solver {
             Solver::Rapier(_) => self.sub_steps as f32,

@@ -5,6 +5,8 @@
 //! vectors takes products. The features are in the core, and not with the tasks, because they are
 //! computed for every robot of every world in every step.
 
+use std::mem::take;
+
 use crate::features::viewpoint::{Observer, Presence, ViewedBall, ViewedRobot};
 use crate::math::Vector;
 use crate::models::field::Field;
@@ -38,13 +40,14 @@ const NEARNESS_DECAY: f32 = 8.0;
 const MIN_LENGTH: f32 = 1e-6;
 
 /// Writes numbers one after the other.
-struct Writer<'a>(std::slice::IterMut<'a, f32>);
+struct Writer<'a>(&'a mut [f32]);
 
 impl Writer<'_> {
     fn write<const N: usize>(&mut self, numbers: [f32; N]) {
-        for (number, to) in numbers.into_iter().zip(&mut self.0) {
-            *to = number;
-        }
+        // All at once: a check of the end before each number would take half the time of an encoding.
+        let (to, rest) = take(&mut self.0).split_first_chunk_mut().expect("room for all features");
+        *to = numbers;
+        self.0 = rest;
     }
 }
 
@@ -152,7 +155,7 @@ impl EgoFeatures {
         if observer.is_absent(row) {
             return out.fill(0.0);
         }
-        let mut writer = Writer(out.iter_mut());
+        let mut writer = Writer(out);
         let ball = observer.ball(row);
         self.encode_ball(&ball, &mut writer);
         for robot in observer.robots(row) {

@@ -88,8 +88,8 @@ fn contact_body(
                 other.surface = surface;
                 other.velocity.z = -down;
             }
-            let before = &undisturbed[index];
-            (before.velocity + other.arm.perp() * before.angular_velocity, other)
+            let (velocity, angular_velocity) = Undisturbed::motion(undisturbed, index);
+            (velocity + other.arm.perp() * angular_velocity, other)
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Bounce of robots off each other and off walls, and the record of their collisions.
 
 use crate::blocks::robot;
-use crate::bodies::{Gain, Undisturbed};
+use crate::bodies::Undisturbed;
 use crate::body_parameters::BodyParameters;
 use crate::engine::{Partner, RobotContact};
 use crate::math::Vector;
@@ -27,10 +27,8 @@ pub(super) fn resolve(
     undisturbed: &[Undisturbed],
 ) {
     for contact in contacts {
-        let closing = -separation_speed(state, contact, |_, index| {
-            let before = &undisturbed[index];
-            (before.velocity, before.angular_velocity)
-        });
+        let closing =
+            -separation_speed(state, contact, |_, index| Undisturbed::motion(undisturbed, index));
         if let Partner::Robot(other) = contact.with {
             let pair = [contact.robot, other];
             if (contact.robot < n_blue) != (other < n_blue) {
@@ -42,10 +40,8 @@ pub(super) fn resolve(
         }
         // Wheels that press a pair together, and those that resist, add to the closing speed of each tick.
         // A closing speed that is mostly theirs is that of a push, which does not bounce.
-        let pressed = -separation_speed(state, contact, |_, index| {
-            let Gain { velocity, angular_velocity } = undisturbed[index].gain;
-            (velocity, angular_velocity)
-        });
+        let pressed =
+            -separation_speed(state, contact, |_, index| Undisturbed::gain(undisturbed, index));
         if closing > MIN_BOUNCE_SPEED.max(2.0 * pressed) {
             bounce(state, parameters, contact, closing);
         }

@@ -94,7 +94,7 @@ impl Squeeze {
         height: f32,
         tick: f32,
     ) -> Option<Self> {
-        let sides = Sides::find(bodies, parameters, free_space, height, tick);
+        let sides = Sides::find(bodies, parameters, free_space, height, tick)?;
         if sides.count < 2 {
             return None;
         }
@@ -114,18 +114,21 @@ impl Squeeze {
 }
 
 impl Sides {
+    /// The sides around a ball at `height`, if a robot is near it.
     fn find(
         bodies: &Bodies,
         parameters: &BodyParameters,
         free_space: &FreeSpace,
         height: f32,
         tick: f32,
-    ) -> Self {
-        let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
+    ) -> Option<Self> {
         let (center, radius) = (bodies.motion(BALL).position, parameters.ball.radius);
         // A body from one side may press the ball against one at rest on the other.
         let reach = NEAR + (2.0 * bodies.fastest_robot(0.0) + JAMMED_SLACK) * tick;
-        for index in bodies.robots_near_ball(parameters, reach) {
+        let mut near = bodies.robots_near_ball(parameters, reach).peekable();
+        near.peek()?; // in most ticks
+        let mut sides = Self { all: [None; MAX_SIDES], count: 0 };
+        for index in near {
             let body = &parameters.robots[index];
             if height < body.model.height {
                 sides.add(Side::of_robot(bodies, index, body, center, radius, tick));
@@ -139,7 +142,7 @@ impl Sides {
                 sides.add(Side { normal: nearest.normal, gap, speed: 0.0, mass: f32::INFINITY });
             }
         }
-        sides
+        Some(sides)
     }
 
     fn add(&mut self, side: Side) {
