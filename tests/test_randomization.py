@@ -85,7 +85,7 @@ def test_wrong_distributions_are_refused(
 
 def test_a_number_of_the_ball_that_is_0_cannot_vary() -> None:
     config = SimConfig("ssl_b", 1, 1, ball=BallModel("ssl_tigers", wall_friction=0.0))
-    with pytest.raises(ValueError, match="ball.wall_friction is 0 for the ball 'ssl_tigers'"):
+    with pytest.raises(ValueError, match=r"ball\.wall_friction is 0 for the ball 'ssl_tigers'"):
         Randomization.of({"ball.wall_friction": (0.1, 0.2)}, config, None)
 
 

@@ -72,7 +72,7 @@ def test_a_run_resumes_with_the_same_texts_only(tmp_path: Path) -> None:
     ("name", "given"), [("simulator", still), ("sensing", BLIND), ("sensing", Blind)]
 )
 def test_what_json_cannot_hold_is_refused(name: str, given: Any) -> None:  # noqa: ANN401
-    with pytest.raises(ValueError, match=f"^{name} must be a text 'module:name', by which a resu"):
+    with pytest.raises(ValueError, match=f"^{name} must be a text, by which a resumed"):
         Args(**{name: given})
 
 

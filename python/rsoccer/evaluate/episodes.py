@@ -64,8 +64,9 @@ class EpisodeRunner:
     simulator: SimulatorSource | None = None
     """moves the robots, as for `Matches`"""
     sensing: SensingSource | None = None
+    """senses of the robots, as for `Matches`"""
     randomization: Ranges | None = None
-    """sensor model of the robots, as for `Matches`"""
+    """numbers that each episode draws, as for `Matches`"""
 
     def run(self, count: int, first_seed: int) -> Episodes:
         """Play matches, at most `worlds` at once.
