@@ -159,7 +159,8 @@ fn run(s: &Situation, from: Vector) -> Kick {
     let goal = (s.pitch.their_goal() - from).unit_or(Vector::new(1.0, 0.0));
     let at = from + goal * RUN;
     let is_free = s.nearest_opponent(from) > RUN_SPACE && s.nearest_opponent(at) > RUN_SPACE;
-    let value = if is_free && s.pitch.distance_to(Area::Theirs, at) > 0.3 { RUN_VALUE } else { 0.0 };
+    let value =
+        if is_free && s.pitch.distance_to(Area::Theirs, at) > 0.3 { RUN_VALUE } else { 0.0 };
     Kick { at, speed: RUN_SPEED, chip: false, receiver: None, value }
 }
 
@@ -189,4 +190,69 @@ pub(crate) fn with_error(s: &Situation, kick: Kick, from: Vector, robot: usize) 
     let way = kick.at - from;
     let turned = Vector::new(1.0, error).unit_or(Vector::new(1.0, 0.0));
     Kick { at: from + turned.turned_by(way), ..kick }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    #[test]
+    fn shots_go_beside_the_keeper() {
+        let mut scene = Scene::new(1, 1);
+        scene.ball([2.5, 0.0], [0.0, 0.0]);
+        scene.robot(1, [4.4, 0.3]);
+        scene.situation(PLAY, |s| {
+            let kick = shot(s, s.ball());
+            assert!(kick.at.y < -0.1 && kick.at.y > -0.5 && kick.value > 0.5, "{kick:?}");
+            assert!(kick.speed <= MAX_BALL_SPEED && !kick.chip);
+            let far = shot(s, Vector::new(-2.0, 0.0));
+            assert!(far.value < 0.3, "{far:?}");
+        });
+    }
+
+    #[test]
+    fn a_free_mate_before_the_goal_is_better_than_a_blocked_shot() {
+        let mut scene = Scene::new(2, 2);
+        scene.ball([2.0, -2.0], [0.0, 0.0]);
+        scene.robot(0, [-4.0, 0.0]);
+        scene.robot(1, [3.0, 1.5]);
+        scene.robot(2, [2.3, -1.75]);
+        scene.robot(3, [4.3, -0.4]);
+        scene.situation(PLAY, |s| {
+            let kick = best_kick(s, s.ball(), 5);
+            assert_eq!(kick.receiver, Some(1), "{kick:?}");
+        });
+    }
+
+    #[test]
+    fn passes_fly_over_an_opponent_in_the_way() {
+        let mut scene = Scene::new(2, 1);
+        scene.ball([-1.0, 0.0], [0.0, 0.0]);
+        scene.robot(1, [2.0, 0.0]);
+        scene.robot(2, [-0.2, 0.0]);
+        scene.situation(PLAY, |s| {
+            let mate = s.view.own.with_index(1).expect("a mate");
+            let over = pass(s, s.ball(), mate).expect("it flies");
+            assert!(over.chip && over.speed <= MAX_BALL_SPEED, "{over:?}");
+        });
+        scene.robot(2, [-0.2, 1.5]);
+        scene.situation(PLAY, |s| {
+            let mate = s.view.own.with_index(1).expect("a mate");
+            assert!(!pass(s, s.ball(), mate).expect("it rolls").chip);
+        });
+    }
+
+    #[test]
+    fn less_skill_kicks_less_accurately() {
+        let error = |skill: f32| {
+            let mut scene = Scene::new(1, 0);
+            scene.config.skill = skill;
+            scene.situation(PLAY, |s| {
+                let kick = shot(s, s.ball());
+                (with_error(s, kick, s.ball(), 0).at - kick.at).length()
+            })
+        };
+        assert!(error(1.0) > 0.0 && error(0.0) > 10.0 * error(1.0));
+    }
 }

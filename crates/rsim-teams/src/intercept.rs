@@ -31,8 +31,8 @@ pub(crate) struct Meeting {
 }
 
 /// Time in which a robot reaches a place, without braking there, s.
-pub(crate) fn travel_time(robot: &Player, place: Vector, distance: f32, pace: Pace) -> f32 {
-    let way = place - robot.position;
+pub(crate) fn travel_time(robot: &Player, to: Vector, distance: f32, pace: Pace) -> f32 {
+    let way = to - robot.position;
     let length = way.length();
     let left = (length - distance).max(0.0);
     if left <= 0.0 {

@@ -75,10 +75,7 @@ fn cover(s: &Situation, from: Vector) -> Vector {
     let from = Vector::new(from.x.max(goal.x + 0.05), from.y);
     let out = (from - goal).unit_or(Vector::new(1.0, 0.0));
     let place = goal + out * (OFF_LINE * half);
-    Vector::new(
-        place.x.max(goal.x + LINE_ROOM),
-        place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM),
-    )
+    Vector::new(place.x.max(goal.x + LINE_ROOM), place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM))
 }
 
 /// Order of the keeper before a penalty kick: on its line, before the ball.
@@ -88,4 +85,48 @@ pub(crate) fn on_line(s: &Situation, keeper: &Player) -> Order {
     let aside = (ball.y / (ball.x - goal.x).max(0.5)) * 0.1;
     let target = Vector::new(goal.x + 0.03, aside);
     Order::to(target, ball - keeper.position)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    fn order(scene: &Scene) -> Order {
+        scene.situation(PLAY, |s| guard(s, &s.view.own[0]))
+    }
+
+    #[test]
+    fn the_keeper_stands_between_ball_and_goal() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([-3.0, 1.5], [0.0, 0.0]);
+        scene.robot(0, [-4.2, 0.0]);
+        let target = order(&scene).target;
+        let off = target.distance_to_segment(Vector::new(-4.5, 0.0), Vector::new(-3.0, 1.5));
+        assert!(off < 0.05 && target.x > -4.5, "{target:?}");
+    }
+
+    #[test]
+    fn the_keeper_goes_into_the_way_of_a_shot() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([-2.0, 0.0], [-4.0, 0.7]);
+        scene.robot(0, [-4.2, 0.0]);
+        let target = order(&scene).target;
+        assert!(target.y > 0.3, "{target:?}");
+        scene.ball([-2.0, 0.0], [-4.0, 4.0]);
+        let beside = order(&scene).target;
+        assert!(beside.y.abs() < 0.1, "this one goes beside the goal: {beside:?}");
+    }
+
+    #[test]
+    fn only_slow_balls_in_its_area_are_the_keepers() {
+        let mut scene = Scene::new(1, 0);
+        let takes = |scene: &Scene| scene.situation(PLAY, takes_ball);
+        scene.ball([-4.0, 0.5], [0.2, 0.0]);
+        assert!(takes(&scene));
+        scene.ball([-4.0, 0.5], [-3.0, 0.0]);
+        assert!(!takes(&scene));
+        scene.ball([-3.4, 0.5], [0.0, 0.0]);
+        assert!(!takes(&scene));
+    }
 }

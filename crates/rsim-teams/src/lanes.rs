@@ -73,12 +73,7 @@ mod tests {
     const BODY: f32 = 0.11;
 
     fn lane(x: f32) -> Lane {
-        Lane {
-            start: Vector::default(),
-            end: Vector::new(x, 0.0),
-            speed: 6.0,
-            flies: 0.0,
-        }
+        Lane { start: Vector::default(), end: Vector::new(x, 0.0), speed: 6.0, flies: 0.0 }
     }
 
     fn opponent(x: f32, y: f32) -> [Player; 1] {

@@ -6,6 +6,7 @@
 
 mod aim;
 mod approach;
+mod avoidance;
 mod bounds;
 mod config;
 mod defense;
@@ -13,10 +14,12 @@ mod error;
 mod intercept;
 mod jobs;
 mod keeper;
+mod kicking;
 mod lanes;
 mod memory;
 mod motion;
 mod order;
+mod orders;
 mod path;
 mod phase;
 mod pitch;

@@ -157,10 +157,7 @@ impl Memory {
 
     /// Memory before the first step.
     pub(crate) fn new(seed: u32) -> Self {
-        Self {
-            team: TeamMemory::new(seed),
-            robots: [RobotMemory::NEW; crate::config::MAX_ROBOTS],
-        }
+        Self { team: TeamMemory::new(seed), robots: [RobotMemory::NEW; crate::config::MAX_ROBOTS] }
     }
 
     /// Reads the memory of `robots` from a row.

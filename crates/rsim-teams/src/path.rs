@@ -74,7 +74,8 @@ impl Obstacles {
     fn forbidden(&self, place: Vector, pitch: &Pitch) -> f32 {
         let beyond = place.distance(pitch.within_walls(place, 0.1));
         let areas = [Area::Own, Area::Theirs].into_iter().zip(self.areas);
-        let inside = areas.filter_map(|(area, margin)| Some(margin? - pitch.distance_to(area, place)));
+        let inside =
+            areas.filter_map(|(area, margin)| Some(margin? - pitch.distance_to(area, place)));
         inside.fold(beyond, f32::max)
     }
 }

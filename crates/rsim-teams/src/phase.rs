@@ -71,7 +71,6 @@ impl Phase {
         let kicks_next = game.next_command == Some(Command::DirectFree(team));
         Self { mode, restart, ours, kicks_next }
     }
-
 }
 
 #[cfg(test)]

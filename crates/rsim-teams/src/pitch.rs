@@ -75,9 +75,7 @@ impl Pitch {
         let toward_middle = Vector::new(-side, 0.0);
         let outward = Vector::new(0.0, 1.0_f32.copysign(place.y));
         match (ahead > 0.0, aside > 0.0) {
-            (true, true) => {
-                (toward_middle * ahead + outward * aside).unit_or(toward_middle)
-            }
+            (true, true) => (toward_middle * ahead + outward * aside).unit_or(toward_middle),
             (false, false) if aside > ahead => outward,
             (false, true) => outward,
             _ => toward_middle,
@@ -110,11 +108,8 @@ impl Pitch {
         if (0.0..=1.0).contains(&share_x) && through_front.y.abs() <= flank {
             return Some(through_front);
         }
-        let share_y = if way.y.abs() > 1e-6 {
-            (flank.copysign(from.y) - from.y) / way.y
-        } else {
-            -1.0
-        };
+        let share_y =
+            if way.y.abs() > 1e-6 { (flank.copysign(from.y) - from.y) / way.y } else { -1.0 };
         (0.0..=1.0).contains(&share_y).then_some(from + way * share_y)
     }
 }

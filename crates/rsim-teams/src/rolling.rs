@@ -43,7 +43,8 @@ impl BallPath {
         };
         let (flown, landed) =
             if flight > 0.0 { (speed * flight, speed * LANDING) } else { (0.0, speed) };
-        let rolls_from = if flight > 0.0 { landed } else { kick_speed * numbers.slide_to_roll_ratio };
+        let rolls_from =
+            if flight > 0.0 { landed } else { kick_speed * numbers.slide_to_roll_ratio };
         let roll = Roll { speed: landed, rolls_from, numbers };
         let places = std::array::from_fn(|nth| {
             let time = nth as f32 * INTERVAL;
@@ -66,8 +67,7 @@ struct Roll<'a> {
 impl Roll<'_> {
     /// Way in a time, m.
     fn way(&self, time: f32) -> f32 {
-        let (slows, rolls) =
-            (self.numbers.sliding_deceleration, self.numbers.rolling_deceleration);
+        let (slows, rolls) = (self.numbers.sliding_deceleration, self.numbers.rolling_deceleration);
         let slides_for = ((self.speed - self.rolls_from) / slows).max(0.0);
         let sliding = slides_for.min(time);
         let slid = (self.speed - 0.5 * slows * sliding) * sliding;

@@ -72,8 +72,9 @@ impl<'a> Situation<'a> {
     /// Whether a robot stays in the goal. A keeper without mates leaves it, but for a penalty kick of the
     /// opponents.
     pub(crate) fn keeps(&self, index: usize) -> bool {
-        let is_their_penalty =
-            self.phase.restart == Restart::Penalty && !self.phase.ours && self.phase.mode != Mode::Play;
+        let is_their_penalty = self.phase.restart == Restart::Penalty
+            && !self.phase.ours
+            && self.phase.mode != Mode::Play;
         index == KEEPER && (is_their_penalty || self.field_players().next().is_some())
     }
 

@@ -45,7 +45,8 @@ pub(crate) fn spot(
     let value = |place: Vector| {
         let mates = robots.iter().enumerate();
         let mates = mates.filter(|(mate, _)| *mate != index && runners >> mate & 1 == 1);
-        let nearest = mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
+        let nearest =
+            mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
         value_of(s, robot, place) - 0.5 * (1.0 - nearest / MATE_DISTANCE)
     };
     let start = if is_new { robot.position } else { robots[index].spot };
@@ -97,4 +98,33 @@ fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
     (0.3 + arrives) * (0.3 + value_at(s, place)) * (0.5 + 0.5 * free)
         - 0.15 * off
         - WAY_COST * place.distance(robot.position)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::memory::Memory;
+    use crate::testing::{PLAY, Scene};
+
+    #[test]
+    fn runners_leave_the_shadow_of_an_opponent() {
+        let mut scene = Scene::new(2, 1);
+        scene.ball([0.0, 0.0], [0.0, 0.0]);
+        scene.robot(1, [2.5, 0.0]);
+        scene.robot(2, [1.5, 0.0]);
+        let mut memory = Memory::new(3);
+        let (mut at, mut value) = (Vector::default(), [0.0; 2]);
+        for step in 0..400 {
+            scene.situation(PLAY, |s| {
+                let s = Situation { step, path: s.path.clone(), ..*s };
+                let robot = s.view.own.with_index(1).expect("a runner");
+                at = spot(&s, robot, 0b10, &mut memory.robots);
+                memory.robots[1].job = RUNNER;
+                value = [robot.position, at].map(|place| value_of(&s, robot, place));
+                assert!(s.pitch.distance_to(Area::Theirs, at) > 0.2, "{at:?}");
+                assert!(s.pitch.lines.is_inside(at, -0.2), "{at:?}");
+            });
+        }
+        assert!(value[1] > value[0] + 0.05 && at.y.abs() > 0.3, "{at:?}: {value:?}");
+    }
 }

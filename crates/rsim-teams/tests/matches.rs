@@ -19,8 +19,7 @@ fn report() {
         if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
     let mut wins = [0, 0, 0];
     for seed in 0..matches {
-        let mut arena =
-            Arena::new(config(robots), skills, half, placement, seed);
+        let mut arena = Arena::new(config(robots), skills, half, placement, seed);
         arena.run();
         let score = Team::BOTH.map(|team| arena.game.score[team]);
         let c = &arena.counts;
@@ -70,35 +69,73 @@ fn trace() {
             continue;
         }
         if last != Some(arena.game.command) {
-            println!("{step} {:?} next {:?} at {:?}", arena.game.command, arena.game.next_command, arena.game.designated_position);
+            println!(
+                "{step} {:?} next {:?} at {:?}",
+                arena.game.command, arena.game.next_command, arena.game.designated_position
+            );
             last = Some(arena.game.command);
         }
         for event in events {
-            println!("{step} !! {:?} {:?} {:?} {:?}", event.kind, event.team, event.robot, event.position);
+            println!(
+                "{step} !! {:?} {:?} {:?} {:?}",
+                event.kind, event.team, event.robot, event.position
+            );
             if let Some(robot) = event.robot {
                 let nth = usize::from(robot >= robots);
                 let names = arena.sides[0].memory_columns();
                 let kept = &arena.memories[nth];
                 let at = |name: &str| kept[names.iter().position(|n| n == name).expect("a column")];
-                println!("      taker {} carrier {} start {:.2},{:.2} steps {} receiver {}", at("taker"), at("carrier"), at("carry_start_x"), at("carry_start_y"), at("carry_steps"), at("receiver"));
+                println!(
+                    "      taker {} carrier {} start {:.2},{:.2} steps {} receiver {}",
+                    at("taker"),
+                    at("carrier"),
+                    at("carry_start_x"),
+                    at("carry_start_y"),
+                    at("carry_steps"),
+                    at("receiver")
+                );
                 println!("      {:?}", &arena.row[14 + robot * 12..][..12]);
-                println!("      ball {:?} dribbler {:?} {:?}", &arena.row[..6], arena.game.dribbler, arena.game.dribble_start);
+                println!(
+                    "      ball {:?} dribbler {:?} {:?}",
+                    &arena.row[..6],
+                    arena.game.dribbler,
+                    arena.game.dribble_start
+                );
             }
         }
         if step % every == 0 {
             let row = &arena.row;
-            print!("{step} {} ball {:.2} {:.2} z{:.2} v {:.2} {:.2} |", arena.game.in_play, row[0], row[1], row[2], row[3], row[4]);
+            print!(
+                "{step} {} ball {:.2} {:.2} z{:.2} v {:.2} {:.2} |",
+                arena.game.in_play, row[0], row[1], row[2], row[3], row[4]
+            );
             for robot in 0..2 * robots {
                 let r = &row[14 + robot * 12..][..12];
                 let mark = if r[7] > 0.5 { "*" } else { "" };
-                print!(" {}{:.2},{:.2}{mark}", if robot == robots { "|| " } else { "" }, r[0], r[1]);
+                print!(
+                    " {}{:.2},{:.2}{mark}",
+                    if robot == robots { "|| " } else { "" },
+                    r[0],
+                    r[1]
+                );
             }
             println!();
             if std::env::var("COMMANDS").is_ok() {
                 let [blue, _] = &arena.memories;
                 let names = arena.sides[0].memory_columns();
                 let at = |name: &str| blue[names.iter().position(|n| n == name).expect("a column")];
-                println!("    taker {} carrier {} receiver {} aimer {} aim {:.2},{:.2} value {:.2} rec {} attacks {}", at("taker"), at("carrier"), at("receiver"), at("aimer"), at("aim_x"), at("aim_y"), at("aim_value"), at("aim_receiver"), at("attacks"));
+                println!(
+                    "    taker {} carrier {} receiver {} aimer {} aim {:.2},{:.2} value {:.2} rec {} attacks {}",
+                    at("taker"),
+                    at("carrier"),
+                    at("receiver"),
+                    at("aimer"),
+                    at("aim_x"),
+                    at("aim_y"),
+                    at("aim_value"),
+                    at("aim_receiver"),
+                    at("attacks")
+                );
             }
         }
     }
@@ -114,7 +151,12 @@ fn story() {
     let placement =
         if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
     let mut arena = Arena::new(
-        SimConfig::ssl(6, 6), skills, number("HALF", 60.0), placement, number("SEED", 0.0) as u32);
+        SimConfig::ssl(6, 6),
+        skills,
+        number("HALF", 60.0),
+        placement,
+        number("SEED", 0.0) as u32,
+    );
     let names = arena.sides[0].memory_columns();
     let place = |name: &str| names.iter().position(|n| n == name).expect("a column");
     let mut last = [-1.0; 2];
@@ -129,17 +171,45 @@ fn story() {
             println!("{step} {:?} {:?}", arena.game.command, arena.game.designated_position);
         }
         for event in events {
-            println!("{step} !! {:?} {:?} {:?} heights {:?} fouls {:?} yellow {:?} removal {:?} ball v {:?}", event.kind, event.team, event.robot, arena.game.height_since_touch, arena.game.foul_steps, arena.game.yellow_steps_left, arena.game.removal_steps_left, &before[..6]);
+            println!(
+                "{step} !! {:?} {:?} {:?} heights {:?} fouls {:?} yellow {:?} removal {:?} ball v {:?}",
+                event.kind,
+                event.team,
+                event.robot,
+                arena.game.height_since_touch,
+                arena.game.foul_steps,
+                arena.game.yellow_steps_left,
+                arena.game.removal_steps_left,
+                &before[..6]
+            );
         }
         for nth in 0..2 {
             let at = |name: &str| arena.memories[nth][place(name)];
             let was = |name: &str| old[nth][place(name)];
             if at("carrier") != last[nth] {
-                println!("{step} team {nth} carrier {} at {:.2},{:.2} after {} steps", at("carrier"), before[0], before[1], was("carry_steps"));
+                println!(
+                    "{step} team {nth} carrier {} at {:.2},{:.2} after {} steps",
+                    at("carrier"),
+                    before[0],
+                    before[1],
+                    was("carry_steps")
+                );
                 last[nth] = at("carrier");
             }
             if at("pass_steps") == 100.0 {
-                println!("{step} team {nth} KICK by {} at {:.2},{:.2} to {:.2},{:.2} speed {:.1} chip {} receiver {} value {:.2} after {} steps", at("carrier"), before[0], before[1], was("aim_x"), was("aim_y"), was("aim_speed"), was("aim_chip"), at("receiver"), was("aim_value"), was("carry_steps"));
+                println!(
+                    "{step} team {nth} KICK by {} at {:.2},{:.2} to {:.2},{:.2} speed {:.1} chip {} receiver {} value {:.2} after {} steps",
+                    at("carrier"),
+                    before[0],
+                    before[1],
+                    was("aim_x"),
+                    was("aim_y"),
+                    was("aim_speed"),
+                    was("aim_chip"),
+                    at("receiver"),
+                    was("aim_value"),
+                    was("carry_steps")
+                );
             }
         }
     }
@@ -155,7 +225,12 @@ fn watch() {
         if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
     let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
     let mut arena = Arena::new(
-        SimConfig::ssl(6, 6), skills, number("HALF", 60.0), placement, number("SEED", 0.0) as u32);
+        SimConfig::ssl(6, 6),
+        skills,
+        number("HALF", 60.0),
+        placement,
+        number("SEED", 0.0) as u32,
+    );
     let robot = number("ROBOT", 0.0) as usize;
     let (from, to) = (number("FROM", 0.0) as u32, number("TO", 400.0) as u32);
     while arena.counts.steps < to && !arena.ended {
@@ -165,9 +240,29 @@ fn watch() {
             let r = &arena.row[14 + robot * 12..][..12];
             let b = &arena.row;
             let c = &arena.last_commands()[robot * 6..][..6];
-            println!("{step} ball {:.3},{:.3} v {:.2},{:.2} | robot {:.3},{:.3} h {:.2},{:.2} v {:.2},{:.2} w {:.1} ir {} t {} | gap {:.3} cmd {:.2} {:.2} {:.1} k {:.1} {:.1} d {}",
-                b[0], b[1], b[3], b[4], r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8],
-                ((r[0]-b[0]).powi(2) + (r[1]-b[1]).powi(2)).sqrt(), c[0], c[1], c[2], c[3], c[4], c[5]);
+            println!(
+                "{step} ball {:.3},{:.3} v {:.2},{:.2} | robot {:.3},{:.3} h {:.2},{:.2} v {:.2},{:.2} w {:.1} ir {} t {} | gap {:.3} cmd {:.2} {:.2} {:.1} k {:.1} {:.1} d {}",
+                b[0],
+                b[1],
+                b[3],
+                b[4],
+                r[0],
+                r[1],
+                r[2],
+                r[3],
+                r[4],
+                r[5],
+                r[6],
+                r[7],
+                r[8],
+                ((r[0] - b[0]).powi(2) + (r[1] - b[1]).powi(2)).sqrt(),
+                c[0],
+                c[1],
+                c[2],
+                c[3],
+                c[4],
+                c[5]
+            );
         }
     }
 }

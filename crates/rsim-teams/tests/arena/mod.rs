@@ -1,7 +1,7 @@
 //! A match of two sides: physics, referee, and what is counted.
 
-use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use rsim_core::SimConfig;
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS, ball_column, robot_column};
 use rsim_core::{Drive, RobotModel, World};
 use rsim_referee::codes::{Command, Stage};
 use rsim_referee::config::{Placement, RefereeConfig};
@@ -204,8 +204,7 @@ impl Arena {
             for team in Team::BOTH {
                 if event.team.is_none_or(|own| own == team) {
                     counts[team.index()] += 1;
-                    self.counts.fouls[team.index()] +=
-                        u32::from(OFFENSES.contains(&event.kind));
+                    self.counts.fouls[team.index()] += u32::from(OFFENSES.contains(&event.kind));
                 }
             }
         }
@@ -219,7 +218,8 @@ impl Arena {
             return;
         }
         let robot = touched as usize;
-        let column = BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len() + robot_column("touched_ball");
+        let column =
+            BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len() + robot_column("touched_ball");
         if self.row[column] > 0.5 {
             let n_blue = self.config.blue.len();
             let team = usize::from(robot >= n_blue);
