@@ -3,6 +3,7 @@
 use rsim_referee::Vector;
 
 use crate::order::Order;
+use crate::phase::{Mode, Restart};
 use crate::pitch::Area;
 use crate::plane::Plane;
 use crate::situation::Situation;
@@ -14,6 +15,9 @@ const SHOT_SPEED: f32 = 0.6;
 const POST_ROOM: f32 = 0.15;
 /// Distance of the keeper from the middle of the goal, as a share of half its width.
 const OFF_LINE: f32 = 0.9;
+/// Distance from the goal of a keeper that a kicker comes to, as a share of the ball's, and at most, m.
+const OUT_SHARE: f32 = 0.6;
+const MAX_OUT: f32 = 1.6;
 /// Distance from the goal line, m, so that it stays clear of the posts.
 const LINE_ROOM: f32 = 0.1;
 /// Time until the ball is there in which the keeper hurries, s.
@@ -48,7 +52,7 @@ pub(crate) fn guard(s: &Situation, keeper: &Player) -> Order {
     let facing = ball - keeper.position;
     let target = match shot_place(s) {
         Some(place) => save(s, keeper, place),
-        None => cover(s, ball),
+        None => cover(s, ball, off_line(s)),
     };
     Order { dribbler: 0.0, ball_distance: 0.0, ..Order::to(target, facing) }
 }
@@ -68,13 +72,22 @@ fn save(s: &Situation, keeper: &Player, crossing: Vector) -> Vector {
     if room > 0.05 && time < HURRY { foot + to * (0.15 / room) } else { foot }
 }
 
+/// Distance of the keeper from the middle of the goal, m: against a kicker that comes alone it comes out.
+fn off_line(s: &Situation) -> f32 {
+    let usual = OFF_LINE * s.pitch.lines.half_goal_width;
+    if s.phase.mode == Mode::Play || s.phase.restart != Restart::Penalty {
+        return usual;
+    }
+    (OUT_SHARE * s.ball().distance(s.pitch.own_goal())).clamp(usual, MAX_OUT)
+}
+
 /// The place that covers the goal against a shot from a place.
-fn cover(s: &Situation, from: Vector) -> Vector {
+fn cover(s: &Situation, from: Vector, off_line: f32) -> Vector {
     let goal = s.pitch.own_goal();
     let half = s.pitch.lines.half_goal_width;
     let from = Vector::new(from.x.max(goal.x + 0.05), from.y);
     let out = (from - goal).unit_or(Vector::new(1.0, 0.0));
-    let place = goal + out * (OFF_LINE * half);
+    let place = goal + out * off_line;
     Vector::new(place.x.max(goal.x + LINE_ROOM), place.y.clamp(-half + LINE_ROOM, half - LINE_ROOM))
 }
 

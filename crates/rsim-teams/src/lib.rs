@@ -21,6 +21,7 @@ mod motion;
 mod order;
 mod orders;
 mod path;
+mod penalty;
 mod phase;
 mod pitch;
 mod placement;

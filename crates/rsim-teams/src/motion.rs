@@ -13,7 +13,7 @@ use crate::skill::Skill;
 use crate::view::{Player, View};
 
 /// Share of the maximum deceleration with which robots plan to brake.
-const BRAKING: f32 = 0.7;
+const BRAKING: f32 = 0.55;
 /// Speed by the distance that is left, 1/s: the last centimeters.
 const POSITION_GAIN: f32 = 9.0;
 /// Angular velocity by the angle that is left, 1/s.

@@ -8,7 +8,8 @@ use crate::config::MAX_ROBOTS;
 use crate::keeper;
 use crate::memory::Memory;
 use crate::order::Order;
-use crate::phase::Mode;
+use crate::penalty;
+use crate::phase::{Mode, Restart};
 use crate::placement;
 use crate::plane::Plane;
 use crate::possession;
@@ -89,6 +90,9 @@ fn keeper_order(s: &Situation, memory: &mut Memory, keeper: &Player) -> Order {
 fn taker_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
     match s.phase.mode {
         Mode::Play | Mode::Halt => ball_order(s, memory, robot),
+        Mode::Kick if s.phase.ours && s.phase.restart == Restart::Penalty => {
+            penalty::kick(s, &mut memory.team, robot)
+        }
         Mode::Kick if s.phase.ours => restart::take_kick(s, &mut memory.team, robot),
         Mode::Place if s.phase.ours => placement::place(s, &mut memory.team, robot),
         Mode::Stop | Mode::Prepare if s.phase.ours => restart::wait_for_kick(s),

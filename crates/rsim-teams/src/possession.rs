@@ -129,16 +129,7 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let is_good = kick.value >= GOOD_VALUE * hurry * (1.0 - waited / patience);
     let way = ball.distance(memory.carry_start);
     let facing = kick.at - ball;
-    let mut order = Order {
-        max_speed: SPEED,
-        acceleration: ACCELERATION,
-        turning: turning(s, robot),
-        turn_acceleration: TURN_ACCELERATION,
-        dribbler: 1.0,
-        ball_distance: 0.0,
-        straight: true,
-        ..Order::to(robot.position, facing)
-    };
+    let mut order = turn(s, robot, facing);
     // A robot that came fast brakes as hard as it has to: then the ball rolls away from it.
     let left = (MAX_DRIBBLE - way).max(0.05);
     let limit = if is_good { DECELERATION } else { ACCELERATION };
@@ -166,6 +157,20 @@ pub(crate) fn turning(s: &Situation, robot: &Player) -> f32 {
     let (r, v) = (s.config.mouth(), robot.velocity.length());
     let held = ((v * v + 4.0 * r * SIDE_ACCELERATION).sqrt() - v) / (2.0 * r);
     held.min(TURNING * s.skill.turning)
+}
+
+/// Order of a robot that turns on the spot with the ball.
+pub(crate) fn turn(s: &Situation, robot: &Player, facing: Vector) -> Order {
+    Order {
+        max_speed: SPEED,
+        acceleration: ACCELERATION,
+        turning: turning(s, robot),
+        turn_acceleration: TURN_ACCELERATION,
+        dribbler: 1.0,
+        ball_distance: 0.0,
+        straight: true,
+        ..Order::to(robot.position, facing)
+    }
 }
 
 /// Lets go of a ball that has been dribbled far: a weak kick ahead, or none backward.

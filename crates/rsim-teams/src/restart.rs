@@ -1,8 +1,8 @@
-//! The robot that takes the team's kick-off, free kick or penalty kick.
+//! The robot that takes the team's kick-off or free kick.
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, MAX_BALL_SPEED};
+use crate::aim::{self, Kick, MAX_BALL_SPEED};
 use crate::kicking;
 use crate::memory::TeamMemory;
 use crate::order::Order;
@@ -27,14 +27,18 @@ const MAX_ASIDE: f32 = 0.012;
 /// Sine of the heading's error for the final approach.
 const MAX_SINE: f32 = 0.025;
 
-/// Order of the robot that takes the kick. It touches the ball only to kick it.
+/// Order of the robot that takes the kick-off or free kick.
 pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
     let ball = s.ball();
-    let chosen = possession::chosen(s, memory, robot.index, || match s.phase.restart {
-        Restart::Penalty => aim::shot(s, ball),
-        _ => aim::best_kick(s, ball, robot.index),
-    });
+    let choose = || aim::best_kick(s, ball, robot.index);
+    let chosen = possession::chosen(s, memory, robot.index, choose);
     let kick = aim::with_error(s, chosen, ball, robot.index);
+    take(s, memory, robot, &kick)
+}
+
+/// Order of a robot that makes a kick from behind a resting ball. It touches the ball only to kick it.
+pub(crate) fn take(s: &Situation, memory: &mut TeamMemory, robot: &Player, kick: &Kick) -> Order {
+    let ball = s.ball();
     let direction = (kick.at - ball).unit_or(Vector::new(1.0, 0.0));
     let mouth = s.config.mouth();
     let behind = ball - direction * (mouth + STANDOFF);
@@ -50,12 +54,12 @@ pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) 
     }
     let ahead = robot.velocity.dot(robot.heading);
     if robot.has_ball || own.x < mouth + TOUCHING {
-        kicking::expect(memory, &kick);
+        kicking::expect(memory, kick);
     }
     Order {
         target: ball - direction * (mouth - PRESS_DEPTH),
         max_speed: KICK_APPROACH,
-        kick: kicking::command(s, &kick, ahead.max(0.0)),
+        kick: kicking::command(s, kick, ahead.max(0.0)),
         ball_distance: 0.0,
         straight: true,
         ..Order::to(ball, direction)
@@ -84,7 +88,7 @@ mod tests {
     use crate::testing::Scene;
 
     const KICK: Phase =
-        Phase { mode: Mode::Kick, restart: Restart::Penalty, ours: true, kicks_next: false };
+        Phase { mode: Mode::Kick, restart: Restart::Kickoff, ours: true, kicks_next: false };
 
     fn order(scene: &Scene) -> Order {
         let mut memory = TeamMemory::new(1);
@@ -94,14 +98,14 @@ mod tests {
     #[test]
     fn the_kicker_touches_the_ball_only_from_behind_and_with_its_kick() {
         let mut scene = Scene::new(1, 0);
-        scene.ball([-1.5, 0.0], [0.0, 0.0]);
-        scene.robot(0, [-1.2, 0.3]);
+        scene.ball([1.5, 0.0], [0.0, 0.0]);
+        scene.robot(0, [1.8, 0.3]);
         let around = order(&scene);
-        assert!(around.kick[0] <= 0.0 && around.target.x < -1.7, "{around:?}");
+        assert!(around.kick[0] <= 0.0 && around.target.x < 1.3, "{around:?}");
         assert!(around.ball_distance > 0.15, "{around:?}");
-        scene.robot(0, [-1.5 - 0.093 - 0.1, 0.0]);
+        scene.robot(0, [1.5 - 0.093 - 0.1, 0.0]);
         let kicks = order(&scene);
-        assert!(kicks.kick[0] > 5.0 && kicks.target.x > -1.6, "{kicks:?}");
+        assert!(kicks.kick[0] > 5.0 && kicks.target.x > 1.4, "{kicks:?}");
     }
 
     #[test]

@@ -24,6 +24,9 @@ pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
             return Some(carrier);
         }
     }
+    if is_penalty(s) && s.in_play && memory.taker.is_some() {
+        return memory.taker; // the kicker goes on alone
+    }
     // Before a kick only places count, and the ball lies where it has to be.
     let is_restart = s.phase.mode != Mode::Play;
     let time = |index: usize| {
@@ -98,7 +101,7 @@ pub(crate) fn jobs(s: &Situation, memory: &Memory, free: u32) -> [Option<Job>; M
     jobs.assign(&s.view.own, free, |index| memory.robots[index].job)
 }
 
-/// Whether robots only take positions: they keep no ball and play no passes.
+/// Whether a penalty kick is prepared or taken.
 pub(crate) fn is_penalty(s: &Situation) -> bool {
     s.phase.restart == Restart::Penalty && s.phase.mode != Mode::Play
 }

@@ -162,6 +162,7 @@ impl ScriptedTeam {
             view,
             phase,
             command_time: game.command_steps as f32 * self.config.time_step,
+            in_play: game.in_play,
             place: game.designated_position * -team.own_side(),
             barred: game.kick_taker.and_then(own_index),
             path: BallPath::new(&view.ball, memory.team.kick_speed, &self.config.ball),

@@ -141,6 +141,7 @@ impl Scene {
             view: &view,
             phase,
             command_time: 2.0,
+            in_play: phase.mode == Mode::Play,
             place: view.ball.position,
             barred: None,
             path: BallPath::new(&view.ball, view.ball.velocity.length(), &self.config.ball),

@@ -1,276 +1,85 @@
-//! Whole matches.
+//! Matches of scripted sides.
 
-use rsim_core::SimConfig;
+use rsim_core::{Field, SimConfig};
 use rsim_referee::Team;
 use rsim_referee::config::Placement;
 
-use crate::arena::Arena;
+use crate::arena::{Arena, Counts};
+
+fn six(skills: [f32; 2], half_seconds: f32, placement: Placement, seed: u32) -> Arena {
+    Arena::new(SimConfig::ssl(6, 6), skills, half_seconds, placement, seed)
+}
+
+fn count(counts: &Counts, event: &str) -> u32 {
+    counts.events.get(event).map_or(0, |teams| teams.iter().sum())
+}
 
 #[test]
-#[ignore = "a tool"]
-fn report() {
-    let number = |name: &str, default: f32| {
-        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
-    };
-    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
-    let (half, matches) = (number("HALF", 300.0), number("MATCHES", 1.0) as u32);
-    let robots = number("ROBOTS", 6.0) as usize;
-    let placement =
-        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
-    let mut wins = [0, 0, 0];
-    for seed in 0..matches {
-        let mut arena = Arena::new(config(robots), skills, half, placement, seed);
+fn skilled_teams_pass_and_obey_the_rules() {
+    let mut arena = six([1.0, 1.0], 120.0, Placement::Teleport, 1);
+    arena.run();
+    let counts = &arena.counts;
+    let minutes = counts.steps as f32 * arena.config.time_step / 60.0;
+    let passes: u32 = counts.passes.iter().sum();
+    let offenses: u32 = counts.offenses.iter().sum();
+    assert!(passes as f32 > 4.0 * minutes, "{passes} passes in {minutes} minutes");
+    assert!((offenses as f32) < minutes, "{offenses} in {minutes} minutes: {:?}", counts.events);
+    assert!(2 * counts.in_play > counts.steps, "{counts:?}");
+}
+
+#[test]
+fn unskilled_teams_obey_the_rules_too() {
+    let mut arena = six([0.0, 0.0], 120.0, Placement::Teleport, 2);
+    arena.run();
+    let minutes = arena.counts.steps as f32 * arena.config.time_step / 60.0;
+    let offenses: u32 = arena.counts.offenses.iter().sum();
+    assert!((offenses as f32) < minutes, "{offenses}: {:?}", arena.counts.events);
+}
+
+#[test]
+fn robots_place_the_ball_wherever_it_lies() {
+    let mut arena = six([1.0, 0.5], 90.0, Placement::Robots, 3);
+    arena.run();
+    let placed = count(&arena.counts, "PLACEMENT_SUCCEEDED");
+    let failed = count(&arena.counts, "PLACEMENT_FAILED");
+    assert!(placed > 5 && 10 * failed <= placed, "{placed} placed, {failed} failed");
+}
+
+#[test]
+fn skill_wins() {
+    let mut goals = [0, 0];
+    for seed in 0..2 {
+        let mut arena = six([1.0, 0.2], 150.0, Placement::Teleport, seed);
         arena.run();
-        let score = Team::BOTH.map(|team| arena.game.score[team]);
-        let c = &arena.counts;
-        let minutes = f64::from(c.steps) * 0.025 / 60.0;
-        let nth = usize::from(score[1] > score[0]) + 2 * usize::from(score[0] == score[1]);
-        wins[nth] += 1;
-        println!(
-            "{score:?} passes {:?} fouls {:?} shots {:?} minutes {minutes:.1} in play {:.2} us/robot {:.2} x real time {:.0}",
-            c.passes,
-            arena.fouls(),
-            Team::BOTH.map(|team| arena.statistics.shots[team]),
-            f64::from(c.in_play) / f64::from(c.steps),
-            c.acting_seconds * 1e6 / f64::from(c.steps) / (2.0 * robots as f64),
-            minutes * 60.0 / c.seconds
-        );
-        println!("{:?}", c.events);
+        for team in Team::BOTH {
+            goals[team.index()] += arena.game.score[team];
+        }
     }
-    println!("wins {wins:?}");
+    assert!(goals[0] >= goals[1] + 3, "{goals:?}");
 }
 
 #[test]
-#[ignore = "a tool"]
-fn trace() {
-    let number = |name: &str, default: f32| {
-        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
-    };
-    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
-    let (from, to) = (number("FROM", 0.0) as u32, number("TO", 400.0) as u32);
-    let every = number("EVERY", 4.0) as u32;
-    let placement =
-        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
-    let robots = number("ROBOTS", 6.0) as usize;
-    let mut arena = Arena::new(
-        SimConfig::ssl(robots, robots),
-        skills,
-        number("HALF", 60.0),
-        placement,
-        number("SEED", 0.0) as u32,
-    );
-    let mut last = None;
-    for step in 0..to {
-        if arena.ended {
-            break;
-        }
-        let events = arena.step();
-        if step < from {
-            continue;
-        }
-        if last != Some(arena.game.command) {
-            println!(
-                "{step} {:?} next {:?} at {:?}",
-                arena.game.command, arena.game.next_command, arena.game.designated_position
-            );
-            last = Some(arena.game.command);
-        }
-        for event in events {
-            println!(
-                "{step} !! {:?} {:?} {:?} {:?}",
-                event.kind, event.team, event.robot, event.position
-            );
-            if let Some(robot) = event.robot {
-                let nth = usize::from(robot >= robots);
-                let names = arena.sides[0].memory_columns();
-                let kept = &arena.memories[nth];
-                let at = |name: &str| kept[names.iter().position(|n| n == name).expect("a column")];
-                println!(
-                    "      taker {} carrier {} start {:.2},{:.2} steps {} receiver {}",
-                    at("taker"),
-                    at("carrier"),
-                    at("carry_start_x"),
-                    at("carry_start_y"),
-                    at("carry_steps"),
-                    at("receiver")
-                );
-                println!("      {:?}", &arena.row[14 + robot * 12..][..12]);
-                println!(
-                    "      ball {:?} dribbler {:?} {:?}",
-                    &arena.row[..6],
-                    arena.game.dribbler,
-                    arena.game.dribble_start
-                );
-            }
-        }
-        if step % every == 0 {
-            let row = &arena.row;
-            print!(
-                "{step} {} ball {:.2} {:.2} z{:.2} v {:.2} {:.2} |",
-                arena.game.in_play, row[0], row[1], row[2], row[3], row[4]
-            );
-            for robot in 0..2 * robots {
-                let r = &row[14 + robot * 12..][..12];
-                let mark = if r[7] > 0.5 { "*" } else { "" };
-                print!(
-                    " {}{:.2},{:.2}{mark}",
-                    if robot == robots { "|| " } else { "" },
-                    r[0],
-                    r[1]
-                );
-            }
-            println!();
-            if std::env::var("COMMANDS").is_ok() {
-                let [blue, _] = &arena.memories;
-                let names = arena.sides[0].memory_columns();
-                let at = |name: &str| blue[names.iter().position(|n| n == name).expect("a column")];
-                println!(
-                    "    taker {} carrier {} receiver {} aimer {} aim {:.2},{:.2} value {:.2} rec {} attacks {}",
-                    at("taker"),
-                    at("carrier"),
-                    at("receiver"),
-                    at("aimer"),
-                    at("aim_x"),
-                    at("aim_y"),
-                    at("aim_value"),
-                    at("aim_receiver"),
-                    at("attacks")
-                );
-            }
-        }
-    }
-}
-
-#[test]
-#[ignore = "a tool"]
-fn story() {
-    let number = |name: &str, default: f32| {
-        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
-    };
-    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
-    let placement =
-        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
-    let mut arena = Arena::new(
-        SimConfig::ssl(6, 6),
-        skills,
-        number("HALF", 60.0),
-        placement,
-        number("SEED", 0.0) as u32,
-    );
-    let names = arena.sides[0].memory_columns();
-    let place = |name: &str| names.iter().position(|n| n == name).expect("a column");
-    let mut last = [-1.0; 2];
-    let mut command = None;
-    while !arena.ended {
-        let old = arena.memories.clone();
-        let before = arena.row.clone();
-        let events = arena.step();
-        let step = arena.counts.steps;
-        if command != Some(arena.game.command) {
-            command = Some(arena.game.command);
-            println!("{step} {:?} {:?}", arena.game.command, arena.game.designated_position);
-        }
-        for event in events {
-            println!(
-                "{step} !! {:?} {:?} {:?} heights {:?} fouls {:?} yellow {:?} removal {:?} ball v {:?}",
-                event.kind,
-                event.team,
-                event.robot,
-                arena.game.height_since_touch,
-                arena.game.foul_steps,
-                arena.game.yellow_steps_left,
-                arena.game.removal_steps_left,
-                &before[..6]
-            );
-        }
-        for nth in 0..2 {
-            let at = |name: &str| arena.memories[nth][place(name)];
-            let was = |name: &str| old[nth][place(name)];
-            if at("carrier") != last[nth] {
-                println!(
-                    "{step} team {nth} carrier {} at {:.2},{:.2} after {} steps",
-                    at("carrier"),
-                    before[0],
-                    before[1],
-                    was("carry_steps")
-                );
-                last[nth] = at("carrier");
-            }
-            if at("pass_steps") == 100.0 {
-                println!(
-                    "{step} team {nth} KICK by {} at {:.2},{:.2} to {:.2},{:.2} speed {:.1} chip {} receiver {} value {:.2} after {} steps",
-                    at("carrier"),
-                    before[0],
-                    before[1],
-                    was("aim_x"),
-                    was("aim_y"),
-                    was("aim_speed"),
-                    was("aim_chip"),
-                    at("receiver"),
-                    was("aim_value"),
-                    was("carry_steps")
-                );
-            }
-        }
-    }
-}
-
-#[test]
-#[ignore = "a tool"]
-fn watch() {
-    let number = |name: &str, default: f32| {
-        std::env::var(name).map_or(default, |text| text.parse().expect("a number"))
-    };
-    let placement =
-        if number("PLACE", 0.0) > 0.0 { Placement::Robots } else { Placement::Teleport };
-    let skills = [number("BLUE", 1.0), number("YELLOW", 1.0)];
-    let mut arena = Arena::new(
-        SimConfig::ssl(6, 6),
-        skills,
-        number("HALF", 60.0),
-        placement,
-        number("SEED", 0.0) as u32,
-    );
-    let robot = number("ROBOT", 0.0) as usize;
-    let (from, to) = (number("FROM", 0.0) as u32, number("TO", 400.0) as u32);
-    while arena.counts.steps < to && !arena.ended {
+fn a_match_goes_on_from_its_rows_bit_for_bit() {
+    let mut arena = six([1.0, 0.3], 60.0, Placement::Teleport, 4);
+    (0..400).for_each(|_| arena.step());
+    let mut copy = arena.clone();
+    for _ in 0..400 {
         arena.step();
-        let step = arena.counts.steps;
-        if step >= from {
-            let r = &arena.row[14 + robot * 12..][..12];
-            let b = &arena.row;
-            let c = &arena.last_commands()[robot * 6..][..6];
-            println!(
-                "{step} ball {:.3},{:.3} v {:.2},{:.2} | robot {:.3},{:.3} h {:.2},{:.2} v {:.2},{:.2} w {:.1} ir {} t {} | gap {:.3} cmd {:.2} {:.2} {:.1} k {:.1} {:.1} d {}",
-                b[0],
-                b[1],
-                b[3],
-                b[4],
-                r[0],
-                r[1],
-                r[2],
-                r[3],
-                r[4],
-                r[5],
-                r[6],
-                r[7],
-                r[8],
-                ((r[0] - b[0]).powi(2) + (r[1] - b[1]).powi(2)).sqrt(),
-                c[0],
-                c[1],
-                c[2],
-                c[3],
-                c[4],
-                c[5]
-            );
-        }
+        copy.step();
     }
+    assert_eq!(arena.row, copy.row);
+    assert_eq!(arena.game, copy.game);
 }
 
-fn config(robots: usize) -> SimConfig {
-    let mut config = SimConfig::ssl(robots, robots);
-    if std::env::var("FIELD_A").is_ok() {
-        config.field = rsim_core::Field::SSL_A;
+#[test]
+fn teams_of_all_sizes_play() {
+    let large = SimConfig { field: Field::SSL_A, ..SimConfig::ssl(11, 11) };
+    for config in [SimConfig::ssl(1, 1), SimConfig::ssl(2, 3), SimConfig::ssl(6, 1), large] {
+        let sizes = (config.blue.len(), config.yellow.len());
+        let mut arena = Arena::new(config, [1.0, 1.0], 20.0, Placement::Teleport, 5);
+        (0..1200).for_each(|_| arena.step());
+        let lost = count(&arena.counts, "NO_PROGRESS_IN_GAME");
+        assert_eq!(lost, 0, "{sizes:?}: somebody plays the ball: {:?}", arena.counts.events);
+        assert!(arena.counts.in_play > 200, "{sizes:?}: {:?}", arena.counts);
     }
-    config
 }
