@@ -19,7 +19,7 @@ import rsoccer
 from benches.play_statistics import Statistics, in_batches, play_ou, play_scenario
 from benches.result_files import RESULTS, ROOT, this_machine
 from benches.scenarios import SCENARIOS, Scenario
-from benches.solvers import SOLVERS
+from benches.solvers import EPISODIC
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Evaluation
 from rsoccer.evaluate.results import MIN_PER_SIDE
@@ -214,7 +214,7 @@ def policies(policy: Path, matches: int) -> Iterator[Comparison]:
     """Yield the success of a trained policy and of the best script of each task."""
     for opponent in ("ou", "zero"):
         yield _compare_policy(TRAINED_TASK, str(policy), opponent, matches, "trained")
-    for task, script in sorted(SOLVERS.items()):
+    for task, script in sorted(EPISODIC.items()):
         yield _compare_policy(task, script, None, matches, f"`{script}`")
 
 

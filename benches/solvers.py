@@ -6,7 +6,7 @@ SOLVERS: Final[dict[str, str]] = {
     "SSLContestedPossession-v0": "strike",
     "SSLDribbling-v0": "weave",
     "SSLGoToBall-v0": "fetch",
-    "SSLMatch-v0": "strike",
+    "SSLMatch-v0": "scripted",
     "SSLPassEndurance-v1": "passer",
     "SSLPassEnduranceMulti-v1": "passer",
     "SSLSelfPlay-v0": "strike",
@@ -17,3 +17,6 @@ SOLVERS: Final[dict[str, str]] = {
     "VSSSelfPlay-v0": "scripted",
 }
 """Name of the policy by task. `docs/solved.json` has its measured results."""
+
+EPISODIC: Final = {task: name for task, name in SOLVERS.items() if "Match-" not in task}
+"""The same without whole matches, which last too long to be played many times."""

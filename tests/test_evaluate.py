@@ -332,7 +332,11 @@ def test_other_metrics_are_means_from_the_view_of_the_policy() -> None:
     passing = evaluate("strike", "zero", matches=4, task=PassingTask())
     assert passing.metrics == {"own_passes": 3.0, "opponent_passes": 1.0, "throw_ins": 4.0}
     assert passing.as_dict()["metrics"] == passing.metrics
-    assert "own passes" in str(passing)
+    assert passing.goal_rates == {}
+    lines = str(passing).splitlines()
+    assert lines[0].endswith("throw ins") and lines[1].endswith("4.00")
+    assert lines[3].split() == ["policy", "opponent", "passes"]
+    assert lines[4].split() == ["strike", "zero", "3.00", ":", "1.00"]
 
 
 class PassingTask(SslSelfPlay):

@@ -182,7 +182,8 @@ def test_each_task_names_its_success(name: str, tmp_path: Path) -> None:
     result = evaluate(tmp_path / "policy.safetensors", matches=2, task=task)
     assert result.metric == task.success
     assert set(result.sides) == ({"blue", "yellow"} if task.two_sided else set())
-    assert task.two_sided == (name.startswith("VSS") or name == "SSLSelfPlay-v0")
+    both_sides = ("SSLSelfPlay-v0", "SSLMatch-v0")
+    assert task.two_sided == (name.startswith("VSS") or name in both_sides)
 
 
 def test_a_lineup_resizes_teams_that_change_sides() -> None:

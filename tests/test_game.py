@@ -6,7 +6,27 @@ import pickle
 import numpy as np
 import pytest
 
-from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind, Events, new_game
+from rsoccer._core import (
+    COMMANDS,
+    EVENT_KINDS,
+    GAME_COLUMNS,
+    MAX_EVENTS,
+    OFFENSES,
+    STAGES,
+    STATISTICS_COLUMNS,
+    Referee,
+)
+from rsoccer.game import (
+    BLUE,
+    NOBODY,
+    YELLOW,
+    Command,
+    Event,
+    EventKind,
+    Events,
+    Stage,
+    new_game,
+)
 from tests.helpers import same
 
 
@@ -101,3 +121,84 @@ def test_copies_share_no_memory(copied: object) -> None:
 def test_teams_and_nobody_differ() -> None:
     assert len({BLUE, YELLOW, NOBODY}) == 3
     assert (BLUE, YELLOW) == (0, 1), "they are indices of scores"
+
+
+def test_several_events_of_a_world_are_added_in_order() -> None:
+    events = Events.empty(3)
+    events.add(np.array([2]), EventKind.PASS, BLUE, 1)
+    rows = [
+        [0, EventKind.BOT_CRASH_UNIQUE, BLUE, 2, 0.5, -1.0],
+        [0, EventKind.MULTIPLE_FOULS, BLUE, NOBODY, 0.0, 0.0],
+        [2, EventKind.GOAL, YELLOW, 4, -4.5, 0.25],
+        [2, EventKind.BOT_CRASH_DRAWN, NOBODY, 0, 0.0, 0.0],
+        [2, EventKind.GOAL, BLUE, 1, 4.5, 0.0],
+    ]
+    events.extend(np.array(rows, np.float32))
+    assert events.count.tolist() == [2, 0, 4]
+    assert events.of_world(0) == [
+        Event(EventKind.BOT_CRASH_UNIQUE, BLUE, 2, (0.5, -1.0)),
+        Event(EventKind.MULTIPLE_FOULS, BLUE, NOBODY, (0.0, 0.0)),
+    ]
+    assert [event.kind for event in events.of_world(2)] == [
+        EventKind.PASS,
+        EventKind.GOAL,
+        EventKind.BOT_CRASH_DRAWN,
+        EventKind.GOAL,
+    ]
+    assert events.by_team(EventKind.GOAL).tolist() == [[0, 0], [0, 0], [1, 1]]
+
+
+def test_more_rows_of_events_than_slots_are_refused() -> None:
+    events = Events.empty(2)
+    row = [1, EventKind.BOT_CRASH_DRAWN, NOBODY, NOBODY, 0.0, 0.0]
+    events.extend(np.array([row] * Events.SLOTS, np.float32))
+    assert events.count.tolist() == [0, Events.SLOTS]
+    with pytest.raises(RuntimeError, match=f"events: expected at most {Events.SLOTS} in a step"):
+        events.extend(np.array([row], np.float32))
+
+
+def test_columns_of_the_referee_are_attributes() -> None:
+    game = new_game(
+        3,
+        {
+            "referee": np.stack([Referee.new_game(team) for team in (0, 1, 1)]),
+            "statistics": np.zeros((3, len(STATISTICS_COLUMNS)), np.float32),
+        },
+    )
+    game.referee[2, GAME_COLUMNS.index("yellow_cards_yellow")] = 2.0
+    game.referee[1, GAME_COLUMNS.index("designated_position_y")] = -0.5
+    assert game.yellow_cards.tolist() == [[0, 0], [0, 0], [0, 2]]
+    assert game.yellow_cards_yellow.tolist() == [0, 0, 2]
+    assert game.designated_position.tolist() == [[0, 0], [0, -0.5], [0, 0]]
+    assert game.yellow_steps_left.shape == (3, 4)
+    assert game.push_start.shape == (3, 4)
+    assert game.shots.shape == game.possession_steps.shape == (3, 2)
+    assert game.offenses.shape == (3, 2 * len(OFFENSES))
+    assert game.first_kickoff.tolist() == [0, 1, 1]
+    assert (
+        game.command.tolist()
+        == [Command.PREPARE_KICKOFF_BLUE] + [Command.PREPARE_KICKOFF_YELLOW] * 2
+    )
+    assert game.command.dtype == np.int64
+    assert (game.next_command == Command.NORMAL_START).all()
+    assert (game.stage == Stage.NORMAL_FIRST_HALF_PRE).all()
+    game.yellow_cards[0, 0] = 1.0  # a view
+    assert game.yellow_cards_blue.tolist() == [1, 0, 0]
+
+
+def test_without_a_referee_its_columns_do_not_exist() -> None:
+    game = new_game(2, {})
+    for name in ("yellow_cards", "shots", "cards"):
+        with pytest.raises(AttributeError, match=f"Game has no '{name}'"):
+            getattr(game, name)
+
+
+def test_numbers_are_those_of_the_core() -> None:
+    assert {command.name: command.value for command in Command} == COMMANDS
+    assert {stage.name: stage.value for stage in Stage} == STAGES
+    own = {EventKind.NONE, EventKind.PASS}  # not decided by the referee
+    kinds = {kind.name: kind.value for kind in EventKind if kind not in own}
+    assert kinds == EVENT_KINDS
+    assert set(OFFENSES) < set(kinds.values())
+    assert len(set(OFFENSES)) == len(OFFENSES)
+    assert Events.SLOTS == MAX_EVENTS

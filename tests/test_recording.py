@@ -72,6 +72,30 @@ def test_after_a_goal_a_new_episode_begins() -> None:
     assert all(moved[i] > 0.1 for i in goals if i < len(moved))  # the ball is placed again
 
 
+def test_a_match_shows_its_referee_and_what_has_just_happened() -> None:
+    rules = {"prepare_seconds": 0.5, "max_prepare_seconds": 0.5, "stop_seconds": 0.5}
+    task = make_task("VSSMatch-v0", half_seconds=1.0, halves=1, referee=rules)
+    matches = Matches(task, controllers={"all": "ou"}, autoreset="disabled")
+    spy = Spy()
+    renderer: Any = spy
+    images = list(_images(matches, renderer, 3.0, ("A", "B")))
+    states = [drawn["referee"] for drawn in spy.drawn]
+    assert len({state.command for state in states}) > 2
+    over = [drawn["caption"] for drawn in spy.drawn if drawn["referee"].is_over]
+    assert over
+    assert set(over) == {"full time"}
+    pause = round(GOAL_PAUSE / 0.025)
+    assert len(images) == len(spy.drawn) + len(over) * (pause - 1)
+
+
+def test_a_film_of_a_match_has_room_for_the_words_of_the_referee() -> None:
+    def height(name: str) -> int:
+        images, _ = film_match(name, {"all": "ou"}, seconds=0.05, width=96)
+        return len(list(images)[-1])
+
+    assert height("VSSMatch-v0") > height("VSSSelfPlay-v0")
+
+
 @pytest.mark.parametrize("name", ["match.gif"])
 def test_a_recorded_match_has_an_image_for_each_step(tmp_path: Path, name: str) -> None:
     path = record_match(tmp_path / name, controllers=CHASE, seed=1, seconds=0.5, width=96)

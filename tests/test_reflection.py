@@ -48,7 +48,7 @@ def reflected_actions(actions: Floats) -> Floats:
 
 
 def first_rows(task: Task) -> Floats | None:
-    """Initial states of a task's own; for matches of VSSS robots, which line up at walls, others."""
+    """Initial states; None for the task's own. Matches of VSSS robots line up at walls."""
     if not isinstance(task, VssMatch):
         return None
     return VssSelfPlay().get_initial_positions_frame(rsoccer.WorldRng.seeded(1, WORLDS)).rows

@@ -57,6 +57,9 @@ OF_OTHERS = {
     "ATTACKER_TOUCHED_BALL_IN_DEFENSE_AREA": "the game controller",
     "ATTACKER_TOO_CLOSE_TO_DEFENSE_AREA": "the game controller",
     "DEFENDER_IN_DEFENSE_AREA": "the game controller",
+    "attacker_touched_ball_in_defense_area": "the game controller",
+    "attacker_too_close_to_defense_area": "the game controller",
+    "defender_in_defense_area": "the game controller",
 }
 """Phrases with a replaced word in a name that is not the project's, and whose name it is."""
 

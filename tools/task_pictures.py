@@ -13,6 +13,7 @@ from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, draw_image
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.pygame_import import pygame
+from rsoccer.render.referee_state import referee_state
 from tools.paths import DOCS
 
 FOLDER: Final = DOCS / "tasks"
@@ -21,11 +22,18 @@ SECONDS: Final = 1.5  # of play before the moment that is drawn
 
 CONTROLLERS: Final[dict[str, Controllers]] = {
     "VSS-v0": {"blue": "chase", "yellow": "ou"},
+    "VSSMatch-v0": {"blue": "chase", "yellow": "chase"},
     "VSSMulti-v0": {"blue": "chase", "yellow": "ou"},
     "VSSSelfPlay-v0": {"blue": "chase", "yellow": "chase"},
 }
 """Controllers, where they are not the task's defaults with its solver as the learners."""
-MOMENTS: Final = {"SSLGoToBall-v0": 0.5, "SSLPassEndurance-v1": 0.8, "VSSSelfPlay-v0": 0.75}
+MOMENTS: Final = {
+    "SSLGoToBall-v0": 0.5,
+    "SSLMatch-v0": 7.0,
+    "SSLPassEndurance-v1": 0.8,
+    "VSSMatch-v0": 6.0,
+    "VSSSelfPlay-v0": 0.75,
+}
 """Seconds of play, where `SECONDS` is not the moment that shows the task."""
 SEEDS: Final = {"SSLGoToBall-v0": 4, "SSLSelfPlay-v0": 2, "VSSMulti-v0": 1, "VSSSelfPlay-v0": 2}
 """Seeds of the matches, where it is not 0."""
@@ -61,7 +69,8 @@ def draw(name: str) -> Image:
         events = effects.update(matches.frame.rows[0], clock, matches.play.commands[0])
     extras = (*task_overlay(matches.task, matches.play), *events)
     row, clock = matches.frame.rows[0], steps * config.time_step
-    return draw_image(config, row, clock=clock, extras=extras, width=WIDTH)
+    referee = referee_state(matches.task, matches.play)
+    return draw_image(config, row, clock=clock, referee=referee, extras=extras, width=WIDTH)
 
 
 def save(path: Path, image: Image) -> None:

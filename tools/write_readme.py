@@ -21,6 +21,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
+from tools import referee_tables
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
@@ -35,6 +36,7 @@ WRITTEN = (
     *learning.PAGES,
     DOCS / "libraries.md",
     DOCS / "policies.md",
+    DOCS / "referee.md",
     DOCS / "speed.md",
     DOCS / "tutorials" / "new-task.md",
 )
@@ -224,12 +226,16 @@ PARTS: dict[str, Callable[[], str]] = {
     "new_task": new_task,
     "old_names": old_names,
     "policies": policy_names,
+    "referee_choices": referee_tables.choices,
+    "referee_numbers": referee_tables.numbers,
     "policy_table": policy_table,
     "trained_table": trained_table,
+    "ssl_rules": referee_tables.ssl_rules,
     "speed": speed,
     "speed_feature": feature,
     "speed_summary": summary,
     "tasks": tasks,
+    "vsss_rules": referee_tables.vsss_rules,
 }
 
 

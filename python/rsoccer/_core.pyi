@@ -37,6 +37,7 @@ __all__ = [
     "Potential",
     "Referee",
     "RobotModel",
+    "ScriptedTeam",
     "SimConfig",
     "Simulator",
     "Steering",
@@ -52,6 +53,7 @@ __all__ = [
     "pooled_moments",
     "referee_preset",
     "referee_rules",
+    "referee_values",
 ]
 
 COMMANDS: dict[str, int]
@@ -875,6 +877,63 @@ class Referee:
         """
 
 @final
+class ScriptedTeam:
+    """Scripted side of SSL matches with the same field, robots and ball.
+
+    Args:
+        config: Field, ball, robots and time step. The numbers of the first robot hold for all.
+        skill: How well the side plays, 0 to 1.
+
+    Raises:
+        ValueError: Robots without an omnidirectional drive or a mouth, more than 11 a side, or a
+            skill out of range.
+    """
+
+    def __new__(cls, config: SimConfig, skill: float) -> ScriptedTeam: ...
+    @property
+    def memory_size(self) -> int:
+        """Numbers in a team's memory."""
+
+    def begin(self, memory: NDArray[np.float32], seeds: Sequence[int]) -> None:
+        """Set the memories of teams before their first step.
+
+        Args:
+            memory: (n, memory) memories, changed in place.
+            seeds: n seeds of the sides' random numbers, 0 to 2**32 - 1.
+
+        Raises:
+            OverflowError: A seed is out of range.
+            TypeError: `memory` has another type.
+            ValueError: `memory` has another shape.
+        """
+
+    def commands(
+        self,
+        rows: NDArray[np.float32],
+        game: NDArray[np.float32],
+        memory: NDArray[np.float32],
+        team: int,
+        threads: Threads | None = None,
+    ) -> NDArray[np.float32]:
+        """Return the commands of a team's robots, and bring its memory up to date.
+
+        Args:
+            rows: (n, row) state rows.
+            game: (n, game) states of matches, with the columns `GAME_COLUMNS`.
+            memory: (n, memory) memories of the team, changed in place.
+            team: 0 for blue, 1 for yellow.
+            threads: Threads that share the work; None for the caller's alone.
+
+        Returns:
+            (n, robots, 6) commands of the team's robots, with the columns of `COMMAND_COLUMNS`
+            for "omni"; zeros for absent robots.
+
+        Raises:
+            TypeError: An array has another type.
+            ValueError: An array has another shape or a wrong number, or there is no such team.
+        """
+
+@final
 class Steering:
     """Commands of omnidirectional robots from actions.
 
@@ -1520,4 +1579,11 @@ def referee_rules(league: str) -> list[list[str]]:
 
     Raises:
         ValueError: There is no such league.
+    """
+
+def referee_values() -> list[list[str]]:
+    """Return the choices and numbers of the rules' configuration, in the order of a preset's.
+
+    Returns:
+        For each value its name, its unit (empty for a choice), and its meaning.
     """

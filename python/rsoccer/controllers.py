@@ -11,7 +11,7 @@ from rsoccer import checks
 from rsoccer.arrays import Array, Floats
 from rsoccer.frame import team_of
 from rsoccer.policies import make_policy
-from rsoccer.policies.base import CommandPolicy, Memory, Policy, PolicyInput
+from rsoccer.policies.base import CommandPolicy, MatchState, Memory, Policy, PolicyInput
 from rsoccer.rng import WorldRng
 from rsoccer.task import LEARN, Learn, Play, Task
 from rsoccer.view import SIDES
@@ -84,12 +84,13 @@ class PolicyGroup:
 
     def _inputs(self, play: Play, observations: Floats, shape: tuple[int, int, int]) -> PolicyInput:
         """Input of the policy: view and observations of its robots, as far as it observes."""
-        view = observed = None
+        view = observed = match = None
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
+            match = MatchState(play.sensed.rows, play.game, self.robots, play.threads)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
-        return PolicyInput(shape, view, observed, self.optional_actions)
+        return PolicyInput(shape, view, observed, self.optional_actions, match)
 
     def restart(self, worlds: NDArray[np.intp], rng: WorldRng, action_size: int) -> None:
         """Begin new episodes in some worlds.

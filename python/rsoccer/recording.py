@@ -18,7 +18,7 @@ from rsoccer.render.effects import Effects
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.referee_state import referee_of, referee_state
-from rsoccer.render.scoreboard import GOAL_PAUSE
+from rsoccer.render.scoreboard import GOAL_PAUSE, caption_of
 from rsoccer.render.video import MIN_WIDTH, write_video
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
@@ -137,7 +137,7 @@ def _film(
 def _images(
     matches: Matches, renderer: Renderer, seconds: float, names: tuple[str, str]
 ) -> Iterator[Image]:
-    """An image for each control step, and a pause at each goal."""
+    """An image for each control step, and a pause at each goal and at the end of a match."""
     task, time_step = matches.task, matches.task.config.time_step
     actions = np.zeros((1, 0, matches.action_size), np.float32)  # no robot learns
     blue = yellow = 0
@@ -157,19 +157,21 @@ def _images(
         matches.step(actions)
         play, clock = matches.play, step * time_step
         goals = play.events.by_team(EventKind.GOAL)[0].tolist()
-        blue, yellow, scored = blue + goals[BLUE], yellow + goals[YELLOW], any(goals)
+        blue, yellow = blue + goals[BLUE], yellow + goals[YELLOW]
+        state = referee_state(task, play)
+        caption = caption_of(state, scored=any(goals))
         image = renderer.draw(
             matches.frame.rows[0],
             score=(blue, yellow),
             clock=clock,
             names=names,
-            caption="goal" if scored else "",
-            referee=referee_state(task, play),
+            caption=caption,
+            referee=state,
             announcement=announcer.update(named_events(task, play.events.of_world(0)), clock),
             extras=(
                 *task_overlay(task, play),
                 *effects.update(matches.frame.rows[0], clock, play.commands[0]),
             ),
         )
-        for _ in range(math.ceil(GOAL_PAUSE / time_step) if scored else 1):
+        for _ in range(math.ceil(GOAL_PAUSE / time_step) if caption else 1):
             yield image

@@ -53,7 +53,8 @@ class Task(TaskDefinition):
     def two_sided(self) -> bool:
         """True where yellow can play blue's part, that is, where both teams learn.
 
-        Such a task is evaluated from both sides, with `success` +1, 0 or -1 for blue.
+        Such a task is evaluated from both sides, with `success` above 0 where blue has won, and
+        below 0 where yellow has.
         """
         learning = {team_of(name) for name in self.agents}
         return set(SIDES) <= learning.intersection(self.sides)

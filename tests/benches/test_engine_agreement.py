@@ -21,7 +21,7 @@ from benches.play_statistics import (
     play_scenario,
 )
 from benches.scenarios import CROWD, ENGINES, Scenario
-from benches.solvers import SOLVERS
+from benches.solvers import EPISODIC
 from tools.engine_agreement import play_table, policy_table
 
 SHORT = Scenario("VSSS 3 v 3", "vss_3v3", 3, "crowd", episode=40)
@@ -68,7 +68,7 @@ def test_statistics_are_counted_per_step_and_per_minute() -> None:
 def test_the_result_file_is_complete_and_reads_back() -> None:
     results, play, policies = load()
     assert {row.scene for row in play} == {*engine_agreement.CROWDS, engine_agreement.OU}
-    assert len(policies) == len(SOLVERS) + 2
+    assert len(policies) == len(EPISODIC) + 2
     assert results["profile"] == "release"
     for row in (*play, *policies):
         assert row.low <= row.difference + 1e-3 * abs(row.reference) + 1e-9

@@ -17,6 +17,7 @@ from rsoccer.human.gamepad import Gamepad
 from rsoccer.human.session import SPEEDS, Session
 from rsoccer.human.teams import team_controllers
 from rsoccer.render.shapes import Polygon, Text
+from rsoccer.render.words import NOTHING
 
 STEP = 0.025
 
@@ -223,7 +224,20 @@ def test_without_a_gamepad_there_is_the_keyboard() -> None:
     assert devices.controls() == Controls()
 
 
-@pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0"])
+def test_a_match_announces_what_the_referee_decides() -> None:
+    rules = {"prepare_seconds": 0.2, "max_prepare_seconds": 0.2, "no_progress_seconds": 0.5}
+    session = session_of("VSSMatch-v0", referee=rules)
+    for _ in range(400):
+        session.step()
+        if session._announcement.text:
+            break
+    assert session._announcement.text
+    announced = session.image()
+    session._announcement = NOTHING
+    assert (session.image() != announced).any()
+
+
+@pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0", "SSLMatch-v0"])
 def test_the_picture_shows_help_status_and_the_driven_robot(name: str) -> None:
     task = make_task(name)
     session = Session(task, team_controllers(task, "blue_0"))

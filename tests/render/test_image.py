@@ -11,14 +11,19 @@ from rsoccer import SimConfig
 from rsoccer._core import Field, RobotModel
 from rsoccer.arrays import Floats
 from rsoccer.frame import Frame
+from rsoccer.game import BLUE
 from rsoccer.render import Image, Renderer, draw_image, palette
 from rsoccer.render.image import DEFAULT_WIDTHS, WIDTHS, _renderer, default_width
 from rsoccer.render.overlay import area_shapes
 from rsoccer.render.pitch import is_table, wall_thickness
 from rsoccer.render.scoreboard import scene_bounds
 from rsoccer.render.shapes import Bounds, Circle, Color, Point, Pose, Text
+from rsoccer.render.words import Words
+from tests.render.referee import state_of
 
 SIZES = [320, 640, 1280]
+PLAY = {"in_play": True, "may_touch": (True,) * 6}
+"""Fields of a state of the referee while all robots may play the ball."""
 
 
 def pixel(image: Image, config: SimConfig, point: Point) -> Color:
@@ -209,6 +214,33 @@ def test_score_clock_names_and_caption_change_the_image(config: SimConfig, row: 
     assert (plain[height // 2] != others[4][height // 2]).any()
 
 
+def test_a_referee_is_shown_on_board_floor_and_ticker(config: SimConfig, row: Floats) -> None:
+    state = state_of(**PLAY)
+    renderer = Renderer(config, 640, has_referee=True)
+    plain = renderer.draw(row, referee=state)
+    height = plain.shape[0]
+    top, bottom = height // 8, height - height // 14
+    assert height > Renderer(config, 640).height
+    cards = renderer.draw(row, referee=state_of(**PLAY, yellow_cards=(1, 0)))
+    announced = renderer.draw(row, referee=state, announcement=Words("Goal Blue", BLUE))
+    kick = renderer.draw(row, referee=state_of(designated_position=(-0.3, -0.3), ball_distance=0.0))
+    assert (plain[:top] != cards[:top]).any()
+    np.testing.assert_array_equal(plain[top:], cards[top:])
+    assert (plain[bottom:] != announced[bottom:]).any()
+    np.testing.assert_array_equal(plain[:bottom], announced[:bottom])
+    assert (plain[bottom:] != kick[bottom:]).any()
+    assert (plain[top:bottom] != kick[top:bottom]).any()
+    np.testing.assert_array_equal(plain[:top], kick[:top])
+    np.testing.assert_array_equal(draw_image(config, row, referee=state, width=640), plain)
+
+
+def test_a_state_is_expected_exactly_with_a_referee(config: SimConfig, row: Floats) -> None:
+    with pytest.raises(ValueError, match="referee: expected a state, got None"):
+        Renderer(config, 160, has_referee=True).draw(row)
+    with pytest.raises(ValueError, match="referee: expected None, got RefereeState"):
+        Renderer(config, 160).draw(row, referee=state_of())
+
+
 def test_a_body_out_of_the_picture_is_left_out(config: SimConfig, row: Floats) -> None:
     frame = Frame(row[None].copy(), config.n_blue, config.n_yellow)
     frame.ball.position[0] = 40.0, -3e6
@@ -220,6 +252,9 @@ def test_a_renderer_survives_pickling(config: SimConfig, row: Floats) -> None:
     renderer = Renderer(config, 160)
     again = pickle.loads(pickle.dumps(renderer))
     np.testing.assert_array_equal(again.draw(row), renderer.draw(row))
+    with_referee = pickle.loads(pickle.dumps(Renderer(config, 160, has_referee=True)))
+    assert with_referee.has_referee
+    assert with_referee.height > again.height
 
 
 def test_few_renderers_are_kept(config: SimConfig, row: Floats) -> None:

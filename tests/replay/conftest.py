@@ -10,6 +10,15 @@ from rsoccer.replay import Replay, record_replay
 
 GOALS_SEED = 2
 """Seed of a VSSS match with goals in its first eight seconds."""
+MATCH_SEED = 4
+"""Seed of a short VSSS match with goals."""
+QUICK = {
+    "prepare_seconds": 0.5,
+    "max_prepare_seconds": 0.5,
+    "stop_seconds": 0.5,
+    "goal_stop_seconds": 0.5,
+}
+"""Rules of a referee with short stops."""
 
 
 @cache
@@ -28,7 +37,22 @@ def ssl() -> Replay:
     return record_replay(task, lineup(task, "passer"), seconds=4.0)
 
 
-@pytest.fixture(params=[vss, ssl], ids=["VSSS", "SSL"])
+@cache
+def vss_match() -> Replay:
+    """A whole match under a referee, with goals, and the beginning of a second one."""
+    task = make_task("VSSMatch-v0", half_seconds=5.0, referee=QUICK)
+    return record_replay(task, lineup(task, "scripted", "chase"), MATCH_SEED, 20.0)
+
+
+@cache
+def ssl_match() -> Replay:
+    """A match with ball placements, cards for all fouls, and robots that are taken out."""
+    rules = {"fouls_per_card": 1, "placement_seconds": 2.0, "removal_seconds": 1.0}
+    task = make_task("SSLMatch-v0", placement="robots", referee={**QUICK, **rules})
+    return record_replay(task, lineup(task, "strike", "strike"), seconds=12.0)
+
+
+@pytest.fixture(params=[vss, ssl, ssl_match], ids=["VSSS", "SSL", "SSL match"])
 def replay(request: pytest.FixtureRequest) -> Replay:
     recorded: Replay = request.param()
     return recorded

@@ -8,10 +8,11 @@ pytest.importorskip("pygame")
 from rsoccer.lineup import lineup
 from rsoccer.recording import film_match
 from rsoccer.registry import make_task
+from rsoccer.render.scoreboard import GOAL_PAUSE
 from rsoccer.replay import Replay
 from rsoccer.replay.film import film_replay
 from tests.helpers import same
-from tests.replay.conftest import GOALS_SEED, ssl, vss
+from tests.replay.conftest import GOALS_SEED, MATCH_SEED, QUICK, ssl, vss, vss_match
 
 
 def test_a_replay_shows_the_images_of_the_match() -> None:
@@ -24,6 +25,25 @@ def test_a_replay_shows_the_images_of_the_match() -> None:
     count = first_goal + 60  # with the pause at the goal and the next episode
     for image, expected in zip(islice(replayed, count), islice(played, count), strict=True):
         assert same(image, expected)
+
+
+def test_a_replay_of_a_match_shows_its_referee_as_the_film_does() -> None:
+    task = make_task("VSSMatch-v0", half_seconds=5.0, referee=QUICK)
+    controllers = lineup(task, "scripted", "chase")
+    played, _ = film_match(task, controllers, MATCH_SEED, 20.0, width=96)
+    replayed, _ = film_replay(vss_match(), 96)
+    count = next(e.frame for e in vss_match().events if e.kind == "goal") + 40  # with the pause
+    for image, expected in zip(islice(replayed, count), islice(played, count), strict=True):
+        assert same(image, expected)
+
+
+def test_goals_and_ends_of_matches_are_shown_for_a_moment() -> None:
+    shown = [event.kind for event in vss_match().events if event.kind in ("goal", "end")]
+    assert {*shown} == {"goal", "end"}
+    images = sum(1 for _ in film_replay(vss_match(), 64)[0])
+    pause = round(GOAL_PAUSE / vss_match().config.time_step)
+    starts = len(vss_match().episodes) - 1
+    assert images == len(vss_match()) - starts + len(shown) * (pause - 1)
 
 
 def test_markers_are_drawn() -> None:

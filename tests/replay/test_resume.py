@@ -34,6 +34,20 @@ def test_a_resumed_match_goes_on_exactly_as_it_did() -> None:
         assert matches.done[0] == bool(episode.end)
 
 
+@pytest.mark.parametrize("name", ["VSSMatch-v0", "SSLMatch-v0"])
+def test_a_resumed_match_has_the_same_referee(name: str) -> None:
+    task = rsoccer.make_task(name, referee={"max_prepare_seconds": 0.5, "prepare_seconds": 0.5})
+    controllers = {robot: "scripted" for robot in task.robots}
+    replay = record_replay(task, controllers, 4, seconds=6.0, snapshot_interval=3.0)
+    read = Replay.from_bytes(replay.to_bytes())
+    for frame in (0, 120):
+        matches = read.resume(frame)
+        for later in range(frame + 1, 241):
+            matches.step(zeros(matches))
+            assert same(matches.frame.rows[0], replay.rows[later])
+        assert matches.play.game.statistics.any(), "it was never in play"
+
+
 def test_a_frame_without_a_snapshot_is_refused() -> None:
     held = ", ".join(map(str, vss().snapshots))
     with pytest.raises(ReplayError, match=rf"expected one with a snapshot \(\[{held}\]\), got 1$"):

@@ -12,6 +12,7 @@ from rsoccer.new_play import new_play, new_viewpoint
 from rsoccer.play import Play
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Crossings
+from rsoccer.rules.referee import RefereeRule
 from rsoccer.tasks import SslGoToBall, VssSelfPlay
 from tests.helpers import zeros
 from tests.tasks.ssl_scenes import STAND, scene
@@ -94,4 +95,4 @@ def test_a_task_without_other_rules_reports_balls_that_left() -> None:
 
 def test_every_registered_task_judges_the_lines() -> None:
     for name in rsoccer.list_tasks():
-        assert isinstance(rsoccer.make_task(name).rules[0], Crossings)
+        assert isinstance(rsoccer.make_task(name).rules[0], Crossings | RefereeRule)

@@ -11,11 +11,13 @@ import pytest
 
 import rsoccer
 from rsoccer import Matches
+from rsoccer.arrays import Floats
 from rsoccer.play import Play
 from rsoccer.rules import BallOut, Restart, Rule
 from rsoccer.task import Task
-from rsoccer.tasks import SslSelfPlay
+from rsoccer.tasks import SslMatch, SslSelfPlay, VssMatch
 from rsoccer.testing.pressure import Pressing
+from tests.games import begin_play
 from tests.helpers import same, touches
 
 STEPS = int(os.environ.get("RSOCCER_SOAK_STEPS", "10000"))  # of all worlds together, in each test
@@ -23,6 +25,16 @@ TASKS: dict[str, Task] = {name: rsoccer.make_task(name) for name in rsoccer.list
     "five a side": rsoccer.make_task("VSSSelfPlay-v0", n_blue=5, n_yellow=5),
     "eleven a side": rsoccer.make_task("SSLSelfPlay-v0", n_blue=11, n_yellow=11),
 }
+MATCHES: dict[str, Task] = {
+    "VSSS 1": VssMatch(n_blue=1, n_yellow=1),
+    "VSSS 3": VssMatch(engine="rapier"),
+    "VSSS 5": VssMatch(n_blue=5, n_yellow=5, field="vss_5v5"),
+    "SSL 1": SslMatch(n_blue=1, n_yellow=1, placement="robots"),
+    "SSL 6": SslMatch(placement="robots", engine="rapier"),
+    "SSL 8": SslMatch(n_blue=8, n_yellow=4, knockout=True),
+    "SSL 11": SslMatch(n_blue=11, n_yellow=11, division="A"),
+}
+"""Matches under a referee: team sizes, ways of placing the ball, and engines in turn."""
 WORLDS = 32
 
 
@@ -80,3 +92,34 @@ def test_a_ball_can_be_repositioned_while_robots_press(robots: int, seed: int) -
             assert same(play.view.ball.position[worlds, 0], position)
     assert len(moved) > 20, "too few balls were repositioned"
     assert contacts > 1000, "too few contacts"
+
+
+def corner(task: Task, robots: int, sign: float) -> Floats:
+    """Actions (robots, action) by which SSL robots drive to a corner, and VSSS robots whirl."""
+    actions = np.full((robots, task.action_size), sign, np.float32)
+    if not task.config.robot.has_mouth:
+        actions[::2, 0] *= -1.0
+    return actions
+
+
+@pytest.mark.parametrize("name", MATCHES)
+def test_a_referee_restarts_play_in_crowds_without_errors(name: str) -> None:
+    """Robots at the ball, robots at a corner, and robots that do all that they can."""
+    task = MATCHES[name]
+    matches, worlds = Matches(task, 12, seed=3), np.arange(12)
+    pressing, restarts = Pressing(task), 0
+    rng = np.random.default_rng(0)
+    matches.reset()
+    begin_play(matches)
+    for step in range(STEPS // 8):
+        actions = pressing.actions(matches)
+        actions[worlds % 3 == 1] = corner(task, actions.shape[1], 1.0 if step % 300 < 150 else -1.0)
+        saturated = worlds % 3 == 2
+        actions[saturated] = rng.choice([-1.0, 1.0], actions[saturated].shape)
+        before = matches.play.game.command.copy()
+        outcome = matches.step(actions)
+        restarts += int((matches.play.game.command != before).sum())
+        assert np.isfinite(outcome.observations).all()
+        assert np.isfinite(outcome.rewards).all()
+        assert np.isfinite(matches.frame.rows).all()
+    assert restarts > 12, "too few commands"

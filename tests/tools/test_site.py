@@ -13,6 +13,7 @@ from rsoccer._core import BALL_COLUMNS, build_info
 from rsoccer.registry import list_options
 from tools.paths import DOCS
 from tools.site import api, docstrings, matches, meanings, solved, source, stub, task_docs, tasks
+from tools.whole_matches import WHOLE_MATCHES, WholeMatch
 
 TASKS = rsoccer.list_tasks()
 
@@ -36,6 +37,7 @@ def test_every_task_has_a_page_with_all_sections(name: str) -> None:
 
 def test_every_task_shows_a_match(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(matches, "SECONDS", 1.0)
+    monkeypatch.setattr(matches, "WHOLE_SECONDS", 1.0)
     matches.write(tmp_path)
     written = sorted(tmp_path.iterdir())
     assert [path.stem for path in written] == TASKS
@@ -50,6 +52,17 @@ def test_a_match_is_played_by_the_solver_of_its_task() -> None:
     assert replay.names == ("FETCH", "")
     assert replay.seconds == matches.SECONDS
     assert {event.kind for event in replay.events} >= {"touch", "end"}
+
+
+def test_whole_matches_are_recorded_to_their_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    short = WholeMatch("scripted", "chase", {"half_seconds": 1.0, "halves": 1})
+    monkeypatch.setitem(WHOLE_MATCHES, "VSSMatch-v0", short)
+    replay = matches.record("VSSMatch-v0")
+    states = replay.referee_states
+    assert states is not None
+    assert [state.is_over for state in states[-2:]] == [False, True]
+    assert replay.names == ("SCRIPTED", "CHASE")
+    assert replay.seconds < matches.WHOLE_SECONDS
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -1,4 +1,7 @@
-"""Matches on the site: for each task a page that plays one of the policy that plays it best."""
+"""Matches on the site: for each task a page that plays one of the policy that plays it best.
+
+Tasks of whole matches under a referee have one up to its end.
+"""
 
 from pathlib import Path
 from typing import Final
@@ -7,12 +10,16 @@ import rsoccer
 from benches.solvers import SOLVERS
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.replay import Replay, record_replay
+from tools import whole_matches
 from tools.task_pictures import SEEDS
+from tools.whole_matches import WHOLE_MATCHES
 
 FOLDER: Final = "matches"
 """Folder of the pages on the site."""
 SECONDS: Final = 12.0
 """Duration of play; pages stay small."""
+WHOLE_SECONDS: Final = whole_matches.SECONDS
+"""Longest duration of a whole match."""
 HEIGHT: Final = 620
 """Height of a match within the page of a task, pixels."""
 
@@ -29,7 +36,9 @@ def write(folder: Path) -> None:
 
 
 def record(name: str) -> Replay:
-    """Return a match of the policy that plays a task best, from a fixed seed."""
+    """Return a match of the policy that plays a task best, or a whole match, from a fixed seed."""
+    if name in WHOLE_MATCHES:
+        return whole_matches.record(name, WHOLE_SECONDS)
     task, solver = rsoccer.make_task(name), SOLVERS[name]
     names = (solver.upper(), " ".join(opponents_of(task)).upper())
     return record_replay(task, lineup(task, solver), SEEDS.get(name, 0), SECONDS, names=names)
@@ -38,8 +47,10 @@ def record(name: str) -> Replay:
 def shown(name: str) -> str:
     """Return the part of a task's page that shows its match."""
     page = f"../{FOLDER}/{name}.html"
+    whole = WHOLE_MATCHES.get(name)
+    teams = f"`{SOLVERS[name]}`" if whole is None else f"`{whole.blue}` and `{whole.yellow}`"
     return (
-        f"Played by `{SOLVERS[name]}`. A pointer over a robot shows its numbers and its reward; "
+        f"Played by {teams}. A pointer over a robot shows its numbers and its reward; "
         f'<a href="{page}">on a page of its own</a> keys work too. `rsoccer watch --html` writes '
         "such a page: see [Replays](../replays.md).\n\n"
         f'<iframe src="{page}" title="A match of {name}" loading="lazy" width="100%" '

@@ -62,6 +62,30 @@ BLOCKS: Final[dict[str, tuple[Part, ...] | str]] = {
     "body_positions": (
         Part(2, "forward and left offsets: of the ball, each teammate, each opponent", LENGTH),
     ),
+    "presence": (
+        Part(0, "1 if the robot, each teammate, each opponent is on the field, else 0", "0 or 1"),
+    ),
+    "game": (
+        Part(
+            12,
+            "command of the referee, one of these is 1: halt; stop; ball in play; kick-off, "
+            "penalty kick, free kick and ball placement, each of the own team and of the "
+            "opponents; free ball",
+            "0 or 1",
+        ),
+        Part(
+            7,
+            "command after a stop or a placement, at most one of these is 1: kick-off, penalty "
+            "kick and free kick, each of the own team and of the opponents; free ball",
+            "0 or 1",
+        ),
+        Part(1, "1 if the robot may touch the ball, else 0", "0 or 1"),
+        Part(1, "time until the command ends or the kick has to be taken", "10 s"),
+        Part(2, "offset to the place of the next kick, x and y; 0 in play", LENGTH),
+        Part(1, "goals of the own team less those of the opponents, -1 to 1", "5 goals"),
+        Part(1, "share of the half that is left", "1"),
+        Part(2, "share of the robots on the field: own team, opponents", "1"),
+    ),
     "action": (Part(0, "last action of the robot, 0 after a reset", "1"),),
     "nearness": (
         Part(
@@ -117,6 +141,7 @@ ACTIONS: Final = {
         Number("angular velocity", "counterclockwise positive", "rad/s"),
         Number("kick", "speed of a straight kick; no kick at or below 0", "m/s"),
         Number("dribbler", "dribbler speed, as a fraction of its maximum; off at or below 0", "1"),
+        Number("chip", "above 0 a kick is a chip at 45 degrees, else it is flat", "1"),
     ),
 }
-"""Numbers of an action by kind of drive, each in [-1, 1]."""
+"""Numbers of an action by kind of drive, each in [-1, 1]; the last one only with `chip_kick`."""

@@ -238,14 +238,14 @@ def _action(task: Task) -> str:
 
 def actions(task: Task) -> tuple[Number, ...]:
     """Return the numbers of a task's action, by the drive of its robots."""
-    return meanings.ACTIONS[task.config.robot.drive]
+    return meanings.ACTIONS[task.config.robot.drive][: task.action_size]
 
 
 def action_scales(task: Task) -> list[float]:
     """Return the command at an action of 1, by number of the action, in SI units."""
     scales = getattr(task, "action_scales", None)
     if scales is not None:
-        return [float(scale) for scale in scales]
+        return [*(float(scale) for scale in scales), 1.0][: task.action_size]  # 1 for the chip
     return [task.config.robot.max_wheel_speed] * task.action_size
 
 
@@ -339,10 +339,14 @@ def _solution(name: str) -> str:
     interval = f"(95% interval {found['low']:g} to {found['high']:g})"
     if math.isclose(found["low"], found["high"]):
         interval = "(the same in every match)"
+    options = "".join(f", {option}={value!r}" for option, value in found["options"].items())
+    task, shorter = f'"{name}"', ""
+    if options:
+        task, shorter = f'rsoccer.make_task("{name}"{options})', f" with `{options[2:]}`"
     return (
         f"The policy `{found['policy']}`{against} reaches a mean `{found['metric']}` of "
-        f"{found['score']:g} {interval} over {kept['matches']} matches; an episode lasts "
+        f"{found['score']:g} {interval} over {kept['matches']} matches{shorter}; an episode lasts "
         f"{found['seconds']:g} s on average.\n\n"
         "```python\nimport rsoccer\n\n"
-        f'print(rsoccer.evaluate("{found["policy"]}", task="{name}", matches=20))\n```'
+        f'print(rsoccer.evaluate("{found["policy"]}", task={task}, matches=20))\n```'
     )

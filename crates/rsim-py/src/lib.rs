@@ -12,6 +12,7 @@ mod match_arrays;
 mod models;
 mod moments;
 mod referee;
+mod scripted_team;
 mod shaping;
 mod simulator;
 mod steering;
@@ -34,7 +35,9 @@ mod _core {
     #[pymodule_export]
     use crate::moments::{add_rewards, normalized, pooled_moments};
     #[pymodule_export]
-    use crate::referee::{Referee, referee_preset, referee_rules};
+    use crate::referee::{Referee, referee_preset, referee_rules, referee_values};
+    #[pymodule_export]
+    use crate::scripted_team::ScriptedTeam;
     #[pymodule_export]
     use crate::shaping::{Potential, mean_action_magnitude, nearest_to_ball};
     #[pymodule_export]

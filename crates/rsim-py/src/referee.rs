@@ -285,31 +285,36 @@ fn layout(config: &SimConfig) -> PyResult<Layout> {
     Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, sim.blue.len(), sim.yellow.len()).map_err(invalid)
 }
 
+/// Lines of the field of a configuration.
+pub(crate) fn lines(config: &SimConfig) -> Lines {
+    let field = &config.0.field;
+    Lines {
+        half_length: field.half_length(),
+        half_width: field.half_width(),
+        half_goal_width: field.goal_width / 2.0,
+        goal_height: field.goal_height,
+        area_depth: field.goal_area_depth,
+        half_area_width: field.goal_area_width / 2.0,
+        inner_area_depth: field.inner_area_depth,
+        half_inner_area_width: field.inner_area_width / 2.0,
+        line_width: field.line_width,
+        corner_leg: field.corner_leg,
+        goal_wall_thickness: field.goal_wall_thickness,
+        center_circle_radius: field.center_circle_radius,
+        penalty_mark_distance: field.penalty_mark_distance,
+        boundary_x: field.half_length() + field.goal_line_margin,
+        boundary_y: field.half_width() + field.touch_line_margin,
+        free_ball_x: field.free_ball_x,
+        free_ball_y: field.free_ball_y,
+    }
+}
+
 /// Numbers of a configuration that the rules read.
 fn pitch(config: &SimConfig) -> Pitch {
     let sim = &config.0;
-    let field = &sim.field;
     let radius = sim.robots().map(RobotModel::bounding_radius).fold(0.0, f32::max);
     Pitch {
-        lines: Lines {
-            half_length: field.half_length(),
-            half_width: field.half_width(),
-            half_goal_width: field.goal_width / 2.0,
-            goal_height: field.goal_height,
-            area_depth: field.goal_area_depth,
-            half_area_width: field.goal_area_width / 2.0,
-            inner_area_depth: field.inner_area_depth,
-            half_inner_area_width: field.inner_area_width / 2.0,
-            line_width: field.line_width,
-            corner_leg: field.corner_leg,
-            goal_wall_thickness: field.goal_wall_thickness,
-            center_circle_radius: field.center_circle_radius,
-            penalty_mark_distance: field.penalty_mark_distance,
-            boundary_x: field.half_length() + field.goal_line_margin,
-            boundary_y: field.half_width() + field.touch_line_margin,
-            free_ball_x: field.free_ball_x,
-            free_ball_y: field.free_ball_y,
-        },
+        lines: lines(config),
         robot_radius: radius,
         ball_radius: sim.ball.radius,
         time_step: sim.time_step,
@@ -321,7 +326,7 @@ fn pitch(config: &SimConfig) -> Pitch {
 pub(crate) fn referee_preset(name: &str) -> PyResult<String> {
     let Some(preset) = RefereeConfig::preset(name) else {
         let known = RefereeConfig::PRESETS.join(", ");
-        return Err(PyKeyError::new_err(format!("expected one of {known}, got {name:?}")));
+        return Err(PyKeyError::new_err(format!("name: expected one of {known}, got {name:?}")));
     };
     serde_json::to_string(&preset).map_err(|error| PyValueError::new_err(error.to_string()))
 }
@@ -340,6 +345,15 @@ pub(crate) fn referee_rules(league: &str) -> PyResult<Vec<[&'static str; 4]>> {
     };
     let rules = rules::of_league(league).iter();
     Ok(rules.map(|rule| [rule.name, rule.source, rule.summary, rule.function]).collect())
+}
+
+/// Returns name, unit and meaning of each value of a `RefereeConfig`; choices have no unit.
+#[pyfunction]
+pub(crate) fn referee_values() -> Vec<[&'static str; 3]> {
+    let choices = RefereeConfig::CHOICES.iter().map(|(name, meaning)| [*name, "", meaning.trim()]);
+    let numbers =
+        RefereeConfig::NUMBERS.iter().map(|(name, unit, meaning)| [*name, *unit, meaning.trim()]);
+    choices.chain(numbers).collect()
 }
 
 /// Names and numbers of commands, stages and kinds of events, for constants of the module.

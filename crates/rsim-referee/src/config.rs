@@ -1,4 +1,4 @@
-//! Numbers and switches of the rules of a match. [`crate::presets`] has those of the leagues.
+//! Numbers and switches of the rules of a match. [`RefereeConfig::preset`] has those of the leagues.
 
 use serde::{Deserialize, Serialize};
 
@@ -48,15 +48,15 @@ pub enum HalfEnd {
 /// Declares the configuration: its choices, and its numbers with unit and source.
 macro_rules! config {
     (
-        choices { $($(#[$choice_doc:meta])* $choice:ident: $kind:ty,)* }
-        numbers { $($(#[$doc:meta])* $name:ident, $unit:literal;)* }
+        choices { $($(#[doc = $choice_doc:literal])* $choice:ident: $kind:ty,)* }
+        numbers { $($(#[doc = $doc:literal])* $name:ident, $unit:literal;)* }
     ) => {
         /// Numbers and switches of the rules of a match.
         #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
         pub struct RefereeConfig {
-            $($(#[$choice_doc])* pub $choice: $kind,)*
-            $($(#[$doc])* pub $name: f32,)*
+            $($(#[doc = $choice_doc])* pub $choice: $kind,)*
+            $($(#[doc = $doc])* pub $name: f32,)*
         }
 
         impl RefereeConfig {
@@ -74,9 +74,13 @@ macro_rules! config {
                 }
             }
 
-            /// Names and units of all numbers.
-            pub const NUMBERS: &'static [(&'static str, &'static str)] =
-                &[$((stringify!($name), $unit),)*];
+            /// Names and meanings of all choices.
+            pub const CHOICES: &'static [(&'static str, &'static str)] =
+                &[$((stringify!($choice), concat!($($choice_doc),*)),)*];
+
+            /// Names, units and meanings of all numbers.
+            pub const NUMBERS: &'static [(&'static str, &'static str, &'static str)] =
+                &[$((stringify!($name), $unit, concat!($($doc),*)),)*];
 
             /// All numbers, in the order of [`Self::NUMBERS`].
             pub fn numbers(&self) -> impl Iterator<Item = f32> {

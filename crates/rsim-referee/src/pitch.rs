@@ -87,11 +87,11 @@ mod tests {
         let pitch = pitch(SSL_B);
         for (x, y, expected) in [
             (0.0, 0.0, true),
-            (4.70, 2.0, true),
-            (4.72, 2.0, false),
-            (0.0, 3.20, true),
-            (0.0, 3.22, false),
-            (4.70, 3.20, true),
+            (4.7085, 2.0, true),
+            (4.7095, 2.0, false),
+            (0.0, 3.2085, true),
+            (0.0, 3.2095, false),
+            (4.7085, 3.2085, true),
         ] {
             assert_eq!(has_room(&pitch, x, y), expected, "{x} {y}");
         }
@@ -101,14 +101,15 @@ mod tests {
     fn robots_have_no_room_in_the_walls_of_goals_and_behind_the_line() {
         let pitch = pitch(SSL_B);
         for (x, y, expected) in [
-            (4.40, 0.5, true),
-            (4.42, 0.5, false),
+            (4.4085, 0.5, true),
+            (4.4095, 0.5, false),
             (4.45, 0.45, false),
-            (4.45, 0.38, true),
+            (4.45, 0.3885, true),
+            (4.45, 0.3895, false),
             (4.50, 0.0, true),
             (4.51, 0.0, false),
-            (4.60, 0.60, false),
-            (4.60, 0.62, true),
+            (4.60, 0.6105, false),
+            (4.60, 0.6115, true),
         ] {
             assert_eq!(has_room(&pitch, x, y), expected, "{x} {y}");
         }

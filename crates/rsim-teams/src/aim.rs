@@ -56,7 +56,7 @@ const GRAVITY: f32 = 9.81;
 /// A kick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Kick {
-    /// Where the ball goes, m.
+    /// Place where the ball goes, m.
     pub(crate) at: Vector,
     /// Speed of the ball, m/s.
     pub(crate) speed: f32,
@@ -64,7 +64,7 @@ pub(crate) struct Kick {
     pub(crate) chip: bool,
     /// Robot that is to receive it.
     pub(crate) receiver: Option<usize>,
-    /// How good it is: the likelihood of a goal, roughly.
+    /// Value: the likelihood of a goal, roughly.
     pub(crate) value: f32,
 }
 
@@ -78,8 +78,8 @@ pub(crate) fn best_kick(s: &Situation, from: Vector, kicker: usize) -> Kick {
     };
     consider(shot(s, from));
     consider(run(s, from));
-    for mate in s.field_players().filter(|mate| mate.index != kicker) {
-        if let Some(pass) = pass(s, from, mate) {
+    for teammate in s.field_players().filter(|teammate| teammate.index != kicker) {
+        if let Some(pass) = pass(s, from, teammate) {
             consider(pass);
         }
     }
@@ -112,16 +112,16 @@ fn best_goal_place(s: &Situation, from: Vector, places: &[f32]) -> (Vector, f32)
     (best.0, chance(best.1) * frontal)
 }
 
-/// How good it is to have the ball at a place.
+/// Value of having the ball at a place.
 pub(crate) fn value_at(s: &Situation, place: Vector) -> f32 {
     let half_length = s.pitch.lines.half_length;
     let progress = (place.x + half_length) / (2.0 * half_length);
     0.55 * best_goal_place(s, place, &FEW_PLACES).1 + 0.12 * progress
 }
 
-/// The better of the flat and the high pass to a mate; none if it is unlikely to arrive.
-fn pass(s: &Situation, from: Vector, mate: &Player) -> Option<Kick> {
-    let wanted = s.pitch.inside(mate.position + mate.velocity * LEAD, 0.15);
+/// The better of the flat and the high pass to a teammate; none if it is unlikely to arrive.
+fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
+    let wanted = s.pitch.inside(teammate.position + teammate.velocity * LEAD, 0.15);
     let at = s.pitch.outside(Area::Theirs, wanted, s.config.robot.radius);
     let distance = from.distance(at);
     if !(PASS_DISTANCES[0]..PASS_DISTANCES[1]).contains(&distance)
@@ -149,7 +149,7 @@ fn pass(s: &Situation, from: Vector, mate: &Player) -> Option<Kick> {
         at,
         speed: if chip { chip_speed } else { speed },
         chip,
-        receiver: Some(mate.index),
+        receiver: Some(teammate.index),
         value: arrives * value_at(s, at),
     })
 }
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_free_mate_before_the_goal_is_better_than_a_blocked_shot() {
+    fn a_free_teammate_before_the_goal_is_better_than_a_blocked_shot() {
         let mut scene = Scene::new(2, 2);
         scene.ball([2.0, -2.0], [0.0, 0.0]);
         scene.robot(0, [-4.0, 0.0]);
@@ -232,14 +232,14 @@ mod tests {
         scene.robot(1, [2.0, 0.0]);
         scene.robot(2, [-0.2, 0.0]);
         scene.situation(PLAY, |s| {
-            let mate = s.view.own.with_index(1).expect("a mate");
-            let over = pass(s, s.ball(), mate).expect("it flies");
+            let teammate = s.view.own.with_index(1).expect("a teammate");
+            let over = pass(s, s.ball(), teammate).expect("it flies");
             assert!(over.chip && over.speed <= MAX_BALL_SPEED, "{over:?}");
         });
         scene.robot(2, [-0.2, 1.5]);
         scene.situation(PLAY, |s| {
-            let mate = s.view.own.with_index(1).expect("a mate");
-            assert!(!pass(s, s.ball(), mate).expect("it rolls").chip);
+            let teammate = s.view.own.with_index(1).expect("a teammate");
+            assert!(!pass(s, s.ball(), teammate).expect("it rolls").chip);
         });
     }
 

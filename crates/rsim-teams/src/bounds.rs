@@ -1,4 +1,4 @@
-//! Where a robot may be and how fast, by the rules.
+//! Place where a robot may be and how fast, by the rules.
 
 use rsim_referee::Vector;
 
@@ -34,7 +34,7 @@ pub(crate) enum Part {
     Other,
 }
 
-/// Where a robot may be and how fast.
+/// Place where a robot may be and how fast.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bounds {
     /// m/s.

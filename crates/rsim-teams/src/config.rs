@@ -1,4 +1,4 @@
-//! What a scripted side knows of field, robots and ball, and how well it plays.
+//! Knowledge of a scripted side of field, robots and ball, and how well it plays.
 
 use rsim_referee::Lines;
 use rsim_referee::sight::Layout;
@@ -44,7 +44,7 @@ pub struct BallNumbers {
     pub slide_to_roll_ratio: f32,
 }
 
-/// What a scripted side knows.
+/// Knowledge of a scripted side.
 #[derive(Debug, Clone)]
 pub struct TeamConfig {
     /// Lines and walls of the field.
@@ -57,7 +57,7 @@ pub struct TeamConfig {
     pub robot: RobotNumbers,
     /// The ball.
     pub ball: BallNumbers,
-    /// How well the team plays, 0 to 1.
+    /// Skill of the team, 0 to 1.
     pub skill: f32,
 }
 

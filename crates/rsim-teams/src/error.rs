@@ -10,9 +10,9 @@ pub enum TeamsError {
     Number {
         /// Name of the number.
         name: &'static str,
-        /// What it may be.
+        /// Numbers that it may be.
         expected: &'static str,
-        /// What it is.
+        /// Number given.
         got: f32,
     },
     /// A team that is too large.

@@ -1,4 +1,4 @@
-//! Where and when robots can reach the ball.
+//! Places and times at which robots can reach the ball.
 
 use rsim_referee::Vector;
 
@@ -12,7 +12,7 @@ const DELAY: f32 = 0.2;
 /// Distance beyond the lines at which a ball is out of reach, m.
 const OUT: f32 = 0.05;
 
-/// How fast robots are.
+/// Speed and acceleration of robots.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pace {
     /// m/s.
@@ -21,7 +21,7 @@ pub(crate) struct Pace {
     pub(crate) acceleration: f32,
 }
 
-/// Where a robot meets the ball.
+/// Place where a robot meets the ball.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Meeting {
     /// Time until then, s.
@@ -48,7 +48,7 @@ pub(crate) fn travel_time(robot: &Player, to: Vector, distance: f32, pace: Pace)
     }
 }
 
-/// Where a robot that reaches as far as `reach` meets the ball first.
+/// Place where a robot that reaches as far as `reach` meets the ball first.
 pub(crate) fn meeting(
     robot: &Player,
     path: &BallPath,

@@ -13,7 +13,7 @@ const LOYALTY: f32 = 0.35;
 pub(crate) struct Job {
     /// Number by which a robot knows its job again.
     pub(crate) number: i32,
-    /// Where it is done, m; none for a robot that finds its place itself.
+    /// Place where it is done, m; none for a robot that finds its place itself.
     pub(crate) place: Option<Vector>,
 }
 
@@ -86,7 +86,9 @@ mod tests {
 
     fn assigned(jobs: &[Job], last: [i32; 3]) -> [Option<i32>; 3] {
         let mut all = Jobs::default();
-        jobs.iter().for_each(|job| all.add(*job));
+        for job in jobs {
+            all.add(*job);
+        }
         let players = [player(0, 0.0), player(1, 1.0), player(2, 2.0)];
         let found = all.assign(&players, 0b110, |index| last[index]);
         [0, 1, 2].map(|index| found[index].map(|job: Job| job.number))

@@ -27,7 +27,7 @@ const DEPTH: f32 = 0.0;
 /// Speed of a ball that the keeper goes for, m/s.
 const FETCHED_SPEED: f32 = 1.2;
 
-/// Where the ball crosses the goal line; `None` for one that does not come, or goes beside the goal.
+/// Place where the ball crosses the goal line; `None` for one that does not come, or goes beside the goal.
 fn shot_place(s: &Situation) -> Option<Vector> {
     let ball = &s.view.ball;
     let line = s.pitch.own_goal().x;

@@ -131,7 +131,8 @@ mod tests {
             scene.situation(PLAY, |s| out_of_crowd(s, &s.view.own[0], flat(s.ball(), 1.0)).chip)
         };
         assert!(!chip(&scene), "it faces the goal");
-        (scene.set(0, "cos", 0.0), scene.set(0, "sin", 1.0));
+        scene.set(0, "cos", 0.0);
+        scene.set(0, "sin", 1.0);
         assert!(chip(&scene));
     }
 }

@@ -1,4 +1,4 @@
-//! How free the way of a kicked ball is of opponents.
+//! Freedom of the way of a kicked ball from opponents.
 
 use rsim_referee::Vector;
 
@@ -19,9 +19,9 @@ pub(crate) const FREE: f32 = 1.0;
 /// Way of a kicked ball.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lane {
-    /// Where it is kicked, m.
+    /// Place where it is kicked, m.
     pub(crate) start: Vector,
-    /// Where it goes, m.
+    /// Place where it goes, m.
     pub(crate) end: Vector,
     /// Speed of the kick, m/s.
     pub(crate) speed: f32,

@@ -1,4 +1,4 @@
-//! What a team keeps between steps: a row of numbers in named columns, which the caller owns.
+//! Memory of a team between steps: a row of numbers in named columns, which the caller owns.
 
 use rsim_referee::Vector;
 use rsim_referee::column::Column;
@@ -38,7 +38,7 @@ macro_rules! record {
 }
 
 record! {
-    /// What a team keeps.
+    /// Memory of a team.
     struct TeamMemory {
         /// Upper 16 bits of the seed.
         seed_high: i32,
@@ -58,13 +58,13 @@ record! {
         kick_speed: f32,
         /// Robot that has the ball.
         carrier: Option<usize>,
-        /// Where it began to have it, m.
+        /// Place where it began to have it, m.
         carry_start: Vector,
         /// Control steps for which it has had it.
         carry_steps: i32,
         /// Robot for which a kick was chosen; none if no kick is.
         aimer: Option<usize>,
-        /// Where the kick goes, m.
+        /// Place where the kick goes, m.
         aim: Vector,
         /// Speed of the kick, m/s.
         aim_speed: f32,
@@ -72,7 +72,7 @@ record! {
         aim_chip: bool,
         /// Robot that is to receive it.
         aim_receiver: Option<usize>,
-        /// How good it is.
+        /// Value.
         aim_value: f32,
         /// Whether the team attacks.
         attacks: bool,
@@ -82,13 +82,13 @@ record! {
 }
 
 record! {
-    /// What a team keeps of a robot.
+    /// Memory of a team about a robot.
     struct RobotMemory {
         /// Job among the robots without the ball, by number; -1 for none.
         job: i32,
-        /// Where it runs free, m.
+        /// Place where it runs free, m.
         spot: Vector,
-        /// Where it goes, m.
+        /// Place where it goes, m.
         target: Vector,
         /// Direction that it is to face.
         facing: Vector,
@@ -139,7 +139,7 @@ impl RobotMemory {
     };
 }
 
-/// What a team of `robots` keeps.
+/// Memory of a team of `robots`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Memory {
     /// Of the team.

@@ -217,11 +217,13 @@ mod tests {
         let mut scene = Scene::new(1, 0);
         scene.ball([0.0, 2.5], [0.0, 0.0]);
         scene.robot(0, [0.0, 0.0]);
-        (scene.set(0, "cos", 0.0), scene.set(0, "sin", 1.0));
+        scene.set(0, "cos", 0.0);
+        scene.set(0, "sin", 1.0);
         let facing = Vector::new(0.0, 1.0);
         let far = command(&scene, &Order::to(Vector::new(3.0, 0.0), facing));
         assert!(far[1] < -0.09 && far[0].abs() < 1e-4, "to its right: {far:?}");
-        (scene.set(0, "v_x", 3.0), scene.set(0, "v_y", 0.0));
+        scene.set(0, "v_x", 3.0);
+        scene.set(0, "v_y", 0.0);
         let fast = command(&scene, &Order::to(Vector::new(3.0, 0.0), facing));
         assert!((fast[1] + 3.0).abs() < 1e-4, "{fast:?}");
         let near = command(&scene, &Order::to(Vector::new(0.05, 0.0), facing));

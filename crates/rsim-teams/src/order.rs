@@ -1,4 +1,4 @@
-//! What a robot is to do in a step.
+//! Order to a robot in a step.
 
 use rsim_referee::Vector;
 
@@ -7,10 +7,10 @@ pub(crate) const FREELY: f32 = 1000.0;
 /// Angular velocity without a limit of its own, rad/s.
 pub(crate) const QUICKLY: f32 = 100.0;
 
-/// What a robot is to do.
+/// Order to a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Order {
-    /// Where its center goes, m.
+    /// Place where its center goes, m.
     pub(crate) target: Vector,
     /// Velocity of that place, m/s.
     pub(crate) moving: Vector,

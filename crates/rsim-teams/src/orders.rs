@@ -23,7 +23,7 @@ use crate::view::Player;
 const CLOSE: f32 = 0.6;
 /// Distance from the ball of the robot that blocks a kick of the opponents, m.
 const BLOCK_DISTANCE: f32 = 0.8;
-/// Time by which an opponent is earlier at the ball from which a robot without mates guards its goal, s.
+/// Time by which an opponent is earlier at the ball from which a robot without teammates guards its goal, s.
 const ALONE: f32 = 0.2;
 /// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
 /// ball, with time and without.

@@ -23,7 +23,7 @@ struct Disc {
     radius: f32,
 }
 
-/// What is in the way of a robot.
+/// Obstacle in the way of a robot.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Obstacles {
     discs: [Disc; MAX_DISCS],

@@ -1,10 +1,10 @@
-//! What a team is to do, by the referee's command.
+//! Duty of a team, by the referee's command.
 
 use rsim_referee::Team;
 use rsim_referee::codes::Command;
 use rsim_referee::game::Game;
 
-/// What robots may do now.
+/// Permission of robots.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mode {
     /// Stand still.
@@ -32,10 +32,10 @@ pub(crate) enum Restart {
     Free,
 }
 
-/// What a team is to do.
+/// Duty of a team.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Phase {
-    /// What robots may do now.
+    /// Permission of robots.
     pub(crate) mode: Mode,
     /// Kind of the kick.
     pub(crate) restart: Restart,
@@ -46,7 +46,7 @@ pub(crate) struct Phase {
 }
 
 impl Phase {
-    /// What `team` is to do.
+    /// Duty of `team`.
     pub(crate) fn of(game: &Game, team: Team) -> Self {
         let mode = match game.command {
             Command::Halt => Mode::Halt,

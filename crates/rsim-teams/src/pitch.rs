@@ -94,7 +94,7 @@ impl Pitch {
         Vector::new(place.x.clamp(-max_x, max_x), place.y.clamp(-max_y, max_y))
     }
 
-    /// Where the way from `from` to `to`, a place in the own area, enters the area extended by `margin`;
+    /// Place where the way from `from` to `to`, a place in the own area, enters the area extended by `margin`;
     /// `None` if it begins in there.
     pub(crate) fn entry(&self, from: Vector, to: Vector, margin: f32) -> Option<Vector> {
         if self.distance_to(Area::Own, from) <= margin {

@@ -179,7 +179,7 @@ fn give_up(robot: &Player, order: Order) -> Order {
     Order { kick: [ahead, 0.0], dribbler: 0.0, ..order }
 }
 
-/// Where to dribble: ahead, and away from opponents.
+/// Direction to dribble: ahead, and away from opponents.
 fn dribble_target(s: &Situation, memory: &TeamMemory, robot: &Player) -> Vector {
     let goal = (s.pitch.their_goal() - robot.position).unit_or(Vector::new(1.0, 0.0));
     let mut direction = goal * 0.5;

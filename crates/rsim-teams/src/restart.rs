@@ -12,7 +12,7 @@ use crate::possession;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Time from the permission until the kick, in which mates run free, s.
+/// Time from the permission until the kick, in which teammates run free, s.
 const WAITING: f32 = 1.0;
 /// Distance between mouth and ball where the kicker waits, m. The rules want 0.05 between hull and ball.
 const STANDOFF: f32 = 0.13;

@@ -1,4 +1,4 @@
-//! Who goes to the ball, and what the others do.
+//! Choice of who goes to the ball, and what the others do.
 
 use crate::config::MAX_ROBOTS;
 use crate::defense;
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_without_mates_plays_the_ball_itself() {
+    fn a_robot_without_teammates_plays_the_ball_itself() {
         let mut scene = Scene::new(2, 0);
         scene.take_out(1);
         scene.situation(PLAY, |s| {

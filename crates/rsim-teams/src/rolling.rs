@@ -1,4 +1,4 @@
-//! Where the ball will be: it slides, then rolls to rest.
+//! Place where the ball will be: it slides, then rolls to rest.
 
 use rsim_referee::Vector;
 

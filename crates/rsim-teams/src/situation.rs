@@ -1,4 +1,4 @@
-//! What a team knows in a step, and decides from.
+//! Knowledge of a team in a step, from which it decides.
 
 use rsim_referee::Vector;
 
@@ -13,10 +13,10 @@ use crate::view::{Player, View};
 
 /// Index of the keeper in its team.
 pub(crate) const KEEPER: usize = 0;
-/// How fast opponents are thought to be.
+/// Speed of opponents, as it is assumed.
 const THEIR_PACE: Pace = Pace { speed: 3.0, acceleration: 4.0 };
 
-/// What a team knows in a step.
+/// Knowledge of a team in a step.
 pub(crate) struct Situation<'a> {
     pub(crate) config: &'a TeamConfig,
     pub(crate) pitch: &'a Pitch,
@@ -27,7 +27,7 @@ pub(crate) struct Situation<'a> {
     pub(crate) command_time: f32,
     /// Whether the ball is in play.
     pub(crate) in_play: bool,
-    /// Where the ball has to be, m.
+    /// Place where the ball has to be, m.
     pub(crate) place: Vector,
     /// Robot that may not touch the ball.
     pub(crate) barred: Option<usize>,
@@ -71,7 +71,7 @@ impl<'a> Situation<'a> {
         distances.fold(f32::INFINITY, f32::min)
     }
 
-    /// Whether a robot stays in the goal. A keeper without mates leaves it, but for a penalty kick of the
+    /// Whether a robot stays in the goal. A keeper without teammates leaves it, but for a penalty kick of the
     /// opponents.
     pub(crate) fn keeps(&self, index: usize) -> bool {
         let is_their_penalty = self.phase.restart == Restart::Penalty

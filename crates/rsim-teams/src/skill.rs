@@ -1,4 +1,4 @@
-//! How well a team plays: one number from 0 to 1 sets a few limits of people and robots.
+//! Skill of a team: one number from 0 to 1 sets a few limits of people and robots.
 
 /// Limits of a team's play.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,8 +16,8 @@ const SEARCH_STEPS: i32 = 8;
 const TRIALS: u32 = 5;
 /// Share of the ball's maximum speed that a pass has.
 const PASS_SPEED: f32 = 0.7;
-/// Distance from mates that is wanted, m.
-const MATE_DISTANCE: f32 = 1.5;
+/// Distance from teammates that is wanted, m.
+const TEAMMATE_DISTANCE: f32 = 1.5;
 /// Least and largest distance from the ball that are wanted, m.
 const BALL_DISTANCES: [f32; 2] = [1.4, 4.0];
 /// Distance from opponents that is wanted, m.
@@ -29,7 +29,7 @@ const AREA_ROOM: f32 = 0.15;
 /// Distance from the lines, m.
 const LINE_ROOM: f32 = 0.3;
 
-/// Where a robot runs free. `spots` has the places of all robots; that of `robot` is brought up to date.
+/// Place where a robot runs free. `spots` has the places of all robots; that of `robot` is brought up to date.
 pub(crate) fn spot(
     s: &Situation,
     robot: &Player,
@@ -43,11 +43,13 @@ pub(crate) fn spot(
         return robots[index].spot;
     }
     let value = |place: Vector| {
-        let mates = robots.iter().enumerate();
-        let mates = mates.filter(|(mate, _)| *mate != index && runners >> mate & 1 == 1);
-        let nearest =
-            mates.map(|(_, mate)| mate.spot.distance(place)).fold(MATE_DISTANCE, f32::min);
-        value_of(s, robot, place) - 0.5 * (1.0 - nearest / MATE_DISTANCE)
+        let teammates = robots.iter().enumerate();
+        let teammates =
+            teammates.filter(|(teammate, _)| *teammate != index && runners >> teammate & 1 == 1);
+        let nearest = teammates
+            .map(|(_, teammate)| teammate.spot.distance(place))
+            .fold(TEAMMATE_DISTANCE, f32::min);
+        value_of(s, robot, place) - 0.5 * (1.0 - nearest / TEAMMATE_DISTANCE)
     };
     let start = if is_new { robot.position } else { robots[index].spot };
     let mut best = (start, value(legal(s, start)) + 0.02);
@@ -87,7 +89,7 @@ fn legal(s: &Situation, place: Vector) -> Vector {
     s.pitch.outside(Area::Theirs, inside, s.config.robot.radius + AREA_ROOM)
 }
 
-/// How good it is to stand at a place.
+/// Value of standing at a place.
 fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
     let ball = s.ball();
     let lane = Lane { start: ball, end: place, speed: PASS_SPEED * MAX_BALL_SPEED, flies: 0.0 };

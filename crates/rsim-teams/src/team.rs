@@ -25,12 +25,12 @@ use crate::view::{Player, View};
 pub const COMMAND_COLUMNS: [&str; 6] =
     ["v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler"];
 
-/// Change of the ball's velocity in a step by which a kick is told from friction, m/s.
+/// Change of the ball's velocity in a step by which a kick differs from friction, m/s.
 const KICKED: f32 = 0.3;
 /// Time for which an error of aim lasts, s.
 const AIM_SECONDS: f32 = 1.0;
-/// Distance from the ball of robots that leave it to a mate, m.
-const MATE_DISTANCE: f32 = 0.3;
+/// Distance from the ball of robots that leave it to a teammate, m.
+const TEAMMATE_DISTANCE: f32 = 0.3;
 
 /// A scripted side: the same for all matches, and without state of its own.
 #[derive(Debug, Clone)]
@@ -62,7 +62,7 @@ impl ScriptedTeam {
     /// # Errors
     /// A memory of another length.
     pub fn begin(&self, memory: &mut [f32], seed: u32) -> Result<(), TeamsError> {
-        check("memory", self.memory_columns().len(), memory.len())?;
+        check_size("memory", self.memory_columns().len(), memory.len())?;
         Memory::new(seed).write(memory, self.robots());
         Ok(())
     }
@@ -82,7 +82,7 @@ impl ScriptedTeam {
     ) -> Result<(), TeamsError> {
         let layout = &self.config.layout;
         let size = layout.team_size(team) * COMMAND_COLUMNS.len();
-        check("commands", size, commands.len())?;
+        check_size("commands", size, commands.len())?;
         let sight = layout.sight(row)?;
         let first = [0, layout.team_size(Team::Blue)];
         let view = View::new(&sight, team, first);
@@ -132,7 +132,7 @@ impl ScriptedTeam {
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
-                bounds.avoided.distance = bounds.avoided.distance.max(MATE_DISTANCE);
+                bounds.avoided.distance = bounds.avoided.distance.max(TEAMMATE_DISTANCE);
             }
             let order = &orders[player.index];
             let command = driving.command(player, order, &bounds);
@@ -176,7 +176,7 @@ impl ScriptedTeam {
     }
 }
 
-fn check(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
+fn check_size(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
     if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
 }
 
@@ -214,8 +214,8 @@ mod tests {
 
     fn acted(scene: &Scene, game: &Game, team: Team, memory: &mut [f32]) -> Vec<f32> {
         let side = ScriptedTeam::new(&scene.config).expect("valid numbers");
-        let size = scene.config.layout.team_size(team) * COMMAND_COLUMNS.len();
-        let mut commands = vec![7.0; size];
+        let length = scene.config.layout.team_size(team) * COMMAND_COLUMNS.len();
+        let mut commands = vec![7.0; length];
         side.act(&scene.row, game, team, memory, &mut commands).expect("rows that fit");
         assert!(commands.iter().all(|number| number.is_finite()));
         commands

@@ -1,4 +1,4 @@
-//! What tests of this crate share: division B, and rows with bodies at places.
+//! Shared parts of the tests of this crate: division B, and rows with bodies at places.
 
 use rsim_referee::sight::{Layout, Placed};
 use rsim_referee::{Lines, Team, Vector};
@@ -130,7 +130,7 @@ impl Scene {
         layout.take_out(&mut self.row, robot);
     }
 
-    /// What blue knows, with the ball to be placed where it is.
+    /// Situation of blue, with the ball to be placed where it is.
     pub(crate) fn situation<R>(&self, phase: Phase, check: impl FnOnce(&Situation) -> R) -> R {
         let (view, pitch) = (self.view(Team::Blue), pitch());
         let skill = Skill::new(self.config.skill, self.config.time_step);

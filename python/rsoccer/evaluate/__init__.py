@@ -18,6 +18,7 @@ from rsoccer import checks
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate.episodes import EpisodeRunner, Episodes
 from rsoccer.evaluate.evaluation import Evaluation, table
+from rsoccer.evaluate.rates import goal_rates
 from rsoccer.evaluate.results import Interval, Results, bootstrap_interval, count_results
 from rsoccer.evaluate.schedule import first_seed, matches_per_side, processors
 from rsoccer.evaluate.standings import Standing
@@ -131,6 +132,7 @@ def _evaluation(
         decided=len(decided),
         own_goals=own_goals,
         metrics=_other_metrics(task, episodes),
+        goal_rates=goal_rates(episodes, rng) if task.two_sided else {},
     )
 
 

@@ -13,7 +13,7 @@ from rsoccer.controllers import Controller
 from rsoccer.game import BLUE, NOBODY, YELLOW, EventKind
 from rsoccer.matches import Matches, Outcome
 from rsoccer.play import Play
-from rsoccer.policies.base import Policy, PolicyInput, require_actions
+from rsoccer.policies.base import MatchState, Policy, PolicyInput, require_actions
 from rsoccer.rng import WorldRng
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
@@ -213,10 +213,12 @@ class LearnerPolicy:
         Returns:
             (n, agents, action) actions.
         """
-        view = None
+        view = match = None
+        play, assignment = self._matches.play, self._matches.assignment
         if self._policy.observes != "nothing":
-            view = self._matches.play.sensed_view.select(self._matches.assignment.learner_indices)
+            view = play.sensed_view.select(assignment.learner_indices)
+            match = MatchState(play.sensed.rows, play.game, assignment.learners, play.threads)
         own = observations if self._policy.observes == "observation" else None
         optional = self._matches.task.optional_action_size
-        inputs = PolicyInput(self._shape, view, own, optional)
+        inputs = PolicyInput(self._shape, view, own, optional, match)
         return inputs.completed(self._policy.act(inputs, self._rng, self._memory))

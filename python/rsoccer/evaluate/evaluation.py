@@ -43,6 +43,9 @@ class Evaluation(Results):
     metrics: dict[str, float]
     """mean per episode of each other metric of the task, by name; in two-sided tasks metrics of
     blue and yellow, such as `blue_passes`, are `own_passes` and `opponent_passes`"""
+    goal_rates: dict[str, Interval]
+    """goals in 10 minutes with the ball in play, of the policy's team ("own") and against it
+    ("opponent"); empty for tasks without the metrics `blue_goals`, `yellow_goals` and `in_play`"""
 
     def as_dict(self) -> dict[str, object]:
         """Return the fields as numbers, texts and dictionaries, ready for JSON."""
@@ -55,6 +58,7 @@ class Evaluation(Results):
 def table(evaluations: Iterable[Evaluation]) -> str:
     """Return evaluations as lines of text: a header, one line each, aligned columns.
 
+    Metrics of both teams follow in a table of their own, those of the policy's team first.
     Intervals of fewer than 10 matches a side are left out.
 
     Args:
@@ -63,15 +67,20 @@ def table(evaluations: Iterable[Evaluation]) -> str:
     Returns:
         The tables, separated by an empty line.
     """
-    groups = groupby(evaluations, _header)
-    return "\n\n".join(align([header, *map(_row, group)], 2) for header, group in groups)
+    tables = []
+    for header, group in groupby(evaluations, _header):
+        rows = list(group)
+        tables.append(align([header, *map(_row, rows)], 2))
+        if _of_teams(rows[0]):
+            tables.append(align([_team_header(rows[0]), *map(_team_row, rows)], 2))
+    return "\n\n".join(tables)
 
 
 def _header(evaluation: Evaluation) -> Cells:
     """Column titles: of a two-sided task if the evaluation has sides."""
     metric = evaluation.metric.replace("_", " ")
     first = ("policy", "opponent", "matches")
-    others = [name.replace("_", " ") for name in evaluation.metrics]
+    others = [name.replace("_", " ") for name in _of_matches(evaluation)]
     if evaluation.sides:
         counts = ("won", "drawn", "lost")
         named = (metric, _INTERVAL, "as blue", "as yellow", "goal after")
@@ -85,7 +94,7 @@ def _row(evaluation: Evaluation) -> Cells:
     after = evaluation.seconds_to_decision
     last = "-" if after is None else f"{after:.1f} s"
     first = (evaluation.policy, evaluation.opponent, str(evaluation.matches))
-    others = [f"{value:.2f}" for value in evaluation.metrics.values()]
+    others = [f"{evaluation.metrics[name]:.2f}" for name in _of_matches(evaluation)]
     score = Interval(evaluation.score, evaluation.low, evaluation.high)
     if not evaluation.sides:
         means = (score, evaluation.returns, evaluation.seconds)
@@ -95,6 +104,36 @@ def _row(evaluation: Evaluation) -> Cells:
     counts = (evaluation.wins, evaluation.draws, evaluation.losses)
     sides = (_score(evaluation.sides[side]) for side in ("blue", "yellow"))
     return (*first, *map(str, counts), *_mean(score, "+"), *sides, last, *others)
+
+
+def _of_teams(evaluation: Evaluation) -> list[str]:
+    """Names of the metrics that each team has, without the team."""
+    names = [name.removeprefix("own_") for name in evaluation.metrics if name.startswith("own_")]
+    return [name for name in names if f"opponent_{name}" in evaluation.metrics]
+
+
+def _of_matches(evaluation: Evaluation) -> list[str]:
+    """Names of the other metrics."""
+    pairs = {f"{team}_{name}" for name in _of_teams(evaluation) for team in ("own", "opponent")}
+    return [name for name in evaluation.metrics if name not in pairs]
+
+
+def _team_header(evaluation: Evaluation) -> Cells:
+    """Column titles of the table of both teams."""
+    rates = ("goals in 10 min", _INTERVAL, "against", _INTERVAL) if evaluation.goal_rates else ()
+    names = (name.replace("_", " ") for name in _of_teams(evaluation))
+    return ("policy", "opponent", *rates, *names)
+
+
+def _team_row(evaluation: Evaluation) -> Cells:
+    """Cells of an evaluation in the table of both teams."""
+    metrics = evaluation.metrics
+    rates = (cell for rate in evaluation.goal_rates.values() for cell in _mean(rate, ""))
+    pairs = (
+        f"{metrics[f'own_{name}']:.2f} : {metrics[f'opponent_{name}']:.2f}"
+        for name in _of_teams(evaluation)
+    )
+    return (evaluation.policy, evaluation.opponent, *rates, *pairs)
 
 
 def _mean(interval: Interval, sign: str) -> Cells:

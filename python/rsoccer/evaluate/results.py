@@ -49,7 +49,8 @@ class Results:
     losses: int
     """matches with a score below 0"""
     score: float
-    """mean score; for goal scores (wins - losses) / matches, from -1 to 1"""
+    """mean score; for goal scores the mean goal difference, which is (wins - losses) / matches
+    where a match ends with its first goal"""
     low: float | None
     """lower bound of the score's 95% interval, as in `Interval`; None for too few matches"""
     high: float | None
@@ -82,12 +83,37 @@ def bootstrap_interval(strata: Sequence[Doubles], rng: np.random.Generator) -> I
     mean = float(np.concatenate(strata).sum()) / total
     if min(map(len, strata)) < MIN_PER_SIDE:
         return Interval(mean, None, None)
-    sums = np.zeros(N_RESAMPLES)
+    return Interval(mean, *_quantiles(_resampled_sums(strata, rng) / total))
+
+
+def bootstrap_rate(strata: Sequence[Doubles], rng: np.random.Generator) -> Interval:
+    """Return a ratio of two sums over all matches with its 95% interval, by the same bootstrap.
+
+    Args:
+        strata: pairs (n, 2) of each match, one array per side that the policy played: what is
+            counted, and the time above 0 in which it is.
+        rng: draws the resamples.
+    """
+    counted, time = np.concatenate(strata).sum(axis=0).tolist()
+    if min(map(len, strata)) < MIN_PER_SIDE:
+        return Interval(counted / time, None, None)
+    sums = _resampled_sums(strata, rng)
+    return Interval(counted / time, *_quantiles(sums[:, 0] / sums[:, 1]))
+
+
+def _resampled_sums(strata: Sequence[Doubles], rng: np.random.Generator) -> Doubles:
+    """Sums (N_RESAMPLES, ...) of values (n, ...) drawn with replacement in each stratum."""
+    sums = np.zeros((N_RESAMPLES, *strata[0].shape[1:]))
     for values in strata:
         rows = max(1, _DRAWN_AT_ONCE // len(values))
         for start in range(0, N_RESAMPLES, rows):
             size = (min(rows, N_RESAMPLES - start), len(values))
             indices = rng.integers(len(values), size=size)
             sums[start : start + rows] += values[indices].sum(axis=1)
-    low, high = np.quantile(sums / total, (0.025, 0.975)).tolist()
-    return Interval(mean, low, high)
+    return sums
+
+
+def _quantiles(values: Doubles) -> tuple[float, float]:
+    """Bounds of a 95% interval."""
+    low, high = np.quantile(values, (0.025, 0.975)).tolist()
+    return low, high

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rsoccer._core import SimConfig
+from rsoccer._core import SimConfig, Threads
 from rsoccer.arrays import Array, Floats
+from rsoccer.game import Game
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
 from rsoccer.view import View
@@ -17,6 +19,28 @@ Memory = dict[str, Array]
 
 Observes = Literal["nothing", "view", "observation"]
 """Kinds of input: none, the `View` of the robots, or the view and the task's observations."""
+
+
+@dataclass(frozen=True)
+class MatchState:
+    """A match as a whole, for policies that control teams: absolute coordinates, all robots."""
+
+    rows: Floats
+    """(n, row) state as the robots know it, see `Frame`."""
+    game: Game
+    """(n, ...) score, and with a referee the state of the match."""
+    robots: NDArray[np.intp]
+    """(robots,) indices of the robots that the policy drives, in the order of a state row."""
+    threads: Threads
+    """Threads that may share the work."""
+
+    def take(self, worlds: NDArray[np.intp]) -> "MatchState":
+        """Return a copy of some worlds.
+
+        Args:
+            worlds: (k,) indices of worlds.
+        """
+        return MatchState(self.rows[worlds], self.game.take(worlds), self.robots, self.threads)
 
 
 @dataclass
@@ -34,6 +58,8 @@ class PolicyInput:
     """(n, robots, o) observations of the task; None unless the policy observes "observation"."""
     optional_actions: int = 0
     """Numbers at the end of an action that the policy may leave out."""
+    match: MatchState | None = None
+    """The match as a whole; None if the policy observes "nothing"."""
 
     def required_view(self, policy: str) -> View:
         """Return the view of a policy that cannot act without one.

@@ -14,6 +14,7 @@ from rsoccer.policies.ssl.fetch import Fetch
 from rsoccer.policies.ssl.hold import Hold, Receive
 from rsoccer.policies.ssl.passer import Passer
 from rsoccer.policies.ssl.strike import Strike
+from rsoccer.policies.ssl.team import ScriptedSsl
 from rsoccer.policies.ssl.weave import Weave
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.policies.vss.scripted import Scripted
@@ -26,6 +27,12 @@ be followed by a skill."""
 RESERVED: Final = ("LEARN", "all", "blue", "latest", "past", "yellow")
 """Names that stand for learners, robots or opponents of self-play."""
 _NAME: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+
+
+def _scripted(task: Task, skill: float = 1.0) -> Policy:
+    """The team script of the league of a task."""
+    is_omni = "dribbler" in task.config.command_columns
+    return ScriptedSsl(task, skill) if is_omni else Scripted(task, skill)
 
 
 def _best(task: Task) -> Policy:
@@ -43,7 +50,7 @@ _MAKERS: Final[dict[str, Maker]] = {
     "ou": lambda task: OrnsteinUhlenbeck(),
     "passer": Passer,
     "receive": Receive,
-    "scripted": Scripted,
+    "scripted": _scripted,
     "strike": Strike,
     "uniform": lambda task: Uniform(),
     "weave": Weave,

@@ -38,7 +38,7 @@ class RuleEntry(NamedTuple):
     source: str
     """Paragraph of the source."""
     summary: str
-    """What it says, in short."""
+    """Summary of what it says."""
     function: str
     """Its function in the core's crate."""
 

@@ -37,7 +37,7 @@ class SceneEvent:
 
 @dataclass(frozen=True)
 class Scene:
-    """What happened in a scene."""
+    """Result of a scene."""
 
     events: tuple[SceneEvent, ...]
     """Events in their order."""

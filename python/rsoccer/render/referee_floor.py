@@ -98,7 +98,7 @@ def _area(field: Field) -> tuple[Point, ...]:
 
 
 class FloorMarks(NamedTuple):
-    """What the floor shows around the ball, and of the next kick."""
+    """Marks around the ball, and of the next kick."""
 
     kept_off: str
     """Floor that opponents of the team keep off, or all robots: "disc" around the ball, "stadium"

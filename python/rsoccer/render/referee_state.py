@@ -10,36 +10,34 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from rsoccer._core import GAME_COLUMNS, STATISTICS_COLUMNS
 from rsoccer.game import NOBODY, Command, Stage
 from rsoccer.render.shapes import Point
-from rsoccer.rules.referee import Referee
+from rsoccer.rules.referee import RefereeRule
 from rsoccer.view import SIDES
 
 if TYPE_CHECKING:
-    from rsoccer.arrays import Array, Doubles
+    from rsoccer.arrays import Doubles
     from rsoccer.play import Play
     from rsoccer.task import Task
 
 Pair = tuple[int, int]
 """A number of blue and of yellow."""
 
-_OF_TEAMS: Final = ("score", "yellow_cards", "red_cards")
-_STATISTICS: Final = ("possession_steps", "shots", "passes", "distance")
-_FIRST_HALVES: Final = (Stage.NORMAL_FIRST_HALF_PRE, Stage.NORMAL_SECOND_HALF_PRE)
-_EXTRA_HALVES: Final = (Stage.EXTRA_FIRST_HALF_PRE, Stage.EXTRA_SECOND_HALF_PRE)
-
-
-def _of_teams(name: str) -> tuple[str, ...]:
-    """Names of the columns of a number of both teams."""
-    return tuple(f"{name}_{side}" for side in SIDES)
-
-
+_FROM_GAME: Final = (
+    *("command", "next_command", "kick", "command_steps", "stage", "in_play"),
+    *("designated_position_x", "designated_position_y"),
+    *("score_blue", "score_yellow", "yellow_cards_blue", "yellow_cards_yellow"),
+    *("red_cards_blue", "red_cards_yellow"),
+)
+_FROM_STATISTICS: Final = (
+    *("in_play_steps", "possession_steps_blue", "possession_steps_yellow"),
+    *("shots_blue", "shots_yellow", "distance_blue", "distance_yellow"),
+)
 COLUMNS: Final = (
-    *("command", "next_command", "kick", "command_steps", "stage", "seconds_left", "in_play"),
-    *("designated_position_x", "designated_position_y", "ball_distance"),
-    *(column for name in _OF_TEAMS for column in _of_teams(name)),
-    "in_play_steps",
-    *(column for name in _STATISTICS for column in _of_teams(name)),
+    *_FROM_GAME,
+    *_FROM_STATISTICS,
+    *("passes_blue", "passes_yellow", "seconds_left", "ball_distance"),
 )
 """Columns of a row; one for each robot follows, whether it may touch the ball.
 
@@ -47,15 +45,20 @@ Those that `play.game` has too mean the same, but `seconds_left` before a half i
 `ball_distance` is the distance from the ball that robots keep in a stop and before a kick of the
 opponents, m; 0 in VSSS."""
 _PLACES: Final = {name: place for place, name in enumerate(COLUMNS)}
+_GAME_PLACES: Final = [GAME_COLUMNS.index(name) for name in _FROM_GAME]
+_STATISTICS_PLACES: Final = [STATISTICS_COLUMNS.index(name) for name in _FROM_STATISTICS]
+
+_HALVES: Final = (Stage.NORMAL_FIRST_HALF_PRE, Stage.NORMAL_SECOND_HALF_PRE)
+_EXTRA_HALVES: Final = (Stage.EXTRA_FIRST_HALF_PRE, Stage.EXTRA_SECOND_HALF_PRE)
 
 
-def referee_of(task: Task) -> Referee | None:
+def referee_of(task: Task) -> RefereeRule | None:
     """Return the referee of a task; None for a task without one.
 
     Args:
         task: the task.
     """
-    return next((rule for rule in task.rules if isinstance(rule, Referee)), None)
+    return next((rule for rule in task.rules if isinstance(rule, RefereeRule)), None)
 
 
 def referee_row(task: Task, play: Play, world: int = 0) -> Doubles | None:
@@ -72,27 +75,26 @@ def referee_row(task: Task, play: Play, world: int = 0) -> Doubles | None:
     referee = referee_of(task)
     if referee is None:
         return None
-    game, rules = play.game, referee.rules
-    durations = {
-        **dict.fromkeys(_FIRST_HALVES, rules.half_seconds),
-        **dict.fromkeys(_EXTRA_HALVES, rules.extra_half_seconds),
-    }
-    values = {
-        "seconds_left": durations.get(Stage(game.stage[world]), game.seconds_left[world]),
-        "ball_distance": rules.ball_distance,
-    }
-    for name in (*_OF_TEAMS, *_STATISTICS):
-        values |= zip(_of_teams(name), _pair(play, name, world), strict=True)
-    shown = [values[name] if name in values else getattr(game, name)[world] for name in COLUMNS]
-    return np.array([*shown, *game.may_touch[world]], np.float64)
+    game = play.game
+    passes = game["passes"][world] if "passes" in game else np.zeros(len(SIDES))
+    parts = (
+        game.referee[world, _GAME_PLACES],
+        game.statistics[world, _STATISTICS_PLACES],
+        passes,
+        (_seconds_left(referee, play, world), referee.rules.ball_distance),
+        game.may_touch[world],
+    )
+    return np.concatenate(parts, dtype=np.float64)
 
 
-def _pair(play: Play, name: str, world: int) -> Array:
-    """Numbers of both teams; passes of a task that does not count them are 0."""
-    if name == "passes" and name not in play.game:
-        return np.zeros(len(SIDES))
-    pair: Array = getattr(play.game, name)[world]
-    return pair
+def _seconds_left(referee: RefereeRule, play: Play, world: int) -> float:
+    """Playing time that the half has left, or all of it before it begins, s."""
+    stage = play.game.stage[world]
+    if stage in _HALVES:
+        return float(referee.rules.half_seconds)
+    if stage in _EXTRA_HALVES:
+        return float(referee.rules.extra_half_seconds)
+    return float(play.game.seconds_left[world])
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +165,7 @@ class RefereeState:
 
     @property
     def is_over(self) -> bool:
-        """Whether the match is over."""
+        """True after the end of the match."""
         return self.stage is Stage.POST_GAME
 
 

@@ -38,7 +38,7 @@ class Board:
 
 
 GOAL_PAUSE = 0.8
-"""Seconds of still picture at a goal, before the next episode begins."""
+"""Seconds of still picture at a goal or the end of a match."""
 WIDTH = 0.6
 """Width of the board, as a fraction of the picture's width."""
 HEIGHT = 0.056
@@ -131,6 +131,21 @@ def caption_shapes(field: Field, caption: str) -> tuple[Shape, ...]:
     )
     text = Text((0.0, 0.0), 0.9 * half_height, caption.upper(), palette.WHITE, 1.8 * half_length)
     return (Polygon(plate, palette.CAPTION_BAND), text)
+
+
+def caption_of(referee: RefereeState | None, *, scored: bool) -> str:
+    """Return the caption of a step, which a film shows for a moment.
+
+    Args:
+        referee: state of the referee, if there is one.
+        scored: whether there was a goal.
+
+    Returns:
+        The caption; empty for none.
+    """
+    if scored:
+        return "goal"
+    return "full time" if referee is not None and referee.is_over else ""
 
 
 def clock_text(clock: float) -> str:

@@ -47,7 +47,7 @@ _KICKS: Final = {
     Command.GOAL_KICK_BLUE: "goal kick",
     Command.GOAL_KICK_YELLOW: "goal kick",
 }
-"""How play begins, by the command that prepares or allows it."""
+"""Way in which play begins, by the command that prepares or allows it."""
 _PREPARED: Final = (
     *(Command.PREPARE_KICKOFF_BLUE, Command.PREPARE_KICKOFF_YELLOW),
     *(Command.PREPARE_PENALTY_BLUE, Command.PREPARE_PENALTY_YELLOW),
@@ -100,7 +100,7 @@ def _result(state: RefereeState) -> Words:
 
 
 def _kick_text(kick: Command | None) -> str:
-    """How play begins, and the team that has the kick."""
+    """Way in which play begins, and the team that has the kick."""
     text = "start" if kick is None else _KICKS.get(kick, "start")
     team = team_of(kick)
     return text if team == NOBODY else f"{text} {_team_text(team)}"

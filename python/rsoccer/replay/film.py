@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import marker_shapes
-from rsoccer.render.scoreboard import GOAL_PAUSE
+from rsoccer.render.scoreboard import GOAL_PAUSE, caption_of
 from rsoccer.render.video import MIN_WIDTH
 from rsoccer.replay.recorded import Recorded
 
@@ -31,24 +31,25 @@ def film_replay(replay: Recorded, width: int | None = None) -> tuple[Iterator[Im
 
 
 def _images(replay: Recorded, renderer: Renderer) -> Iterator[Image]:
-    """An image for the first state and each control step, and a pause at each goal."""
+    """An image for the first state and each control step, and a pause at each caption."""
     goals = {event.frame for event in replay.events if event.kind == "goal"}
     pause = math.ceil(GOAL_PAUSE / replay.config.time_step)
-    states = replay.referee_states
+    states = replay.referee_states or (None,) * len(replay)
     announcements = replay.announcements
     for frame, row in enumerate(replay.rows):
         if frame and replay.starts[frame]:
             continue
         blue, yellow = replay.score[frame].tolist()
+        caption = caption_of(states[frame], scored=frame in goals)
         image = renderer.draw(
             row,
             score=(blue, yellow),
             clock=float(replay.clock[frame]),
             names=replay.names,
-            caption="goal" if frame in goals else "",
-            referee=None if states is None else states[frame],
+            caption=caption,
+            referee=states[frame],
             announcement=announcements[frame],
             extras=marker_shapes(replay.config.field, replay.markers[frame]),
         )
-        for _ in range(pause if frame in goals else 1):
+        for _ in range(pause if caption else 1):
             yield image

@@ -1,4 +1,4 @@
-"""What the page of a match with a referee has more: words, colors and marks by frame.
+"""Further content of the page of a match with a referee: words, colors and marks by frame.
 
 All words are made here, as for pictures; the page only chooses those of a frame.
 """
@@ -30,12 +30,12 @@ from rsoccer.render.words import (
 )
 from rsoccer.replay.recorded import Recorded
 
-DETAILS: Final = ("touch", "kick", "pass", "placement_succeeded")
+DETAILS: Final = ("touch", "kick", "pass", "placement_succeeded", "end")
 """Kinds of events that the list shows on request only."""
 
 
 def match(replay: Recorded) -> dict[str, Any] | None:
-    """Return what the page of a match with a referee has more; None without a referee.
+    """Return the further content of the page; None without a referee.
 
     Lists by frame hold a frame and the values from there on.
 

@@ -18,7 +18,7 @@ _NEW_GAMES: Final = np.stack([_core.Referee.new_game(team) for team in (BLUE, YE
 """(2, game) matches whose first kick-off blue or yellow has."""
 
 
-class Referee(Rule):
+class RefereeRule(Rule):
     """The referee of whole matches: commands, stages, clock, score, cards, restarts.
 
     The rules themselves are in the core. The state of a match is the row `play.game.referee`, whose

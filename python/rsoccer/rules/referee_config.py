@@ -1,13 +1,22 @@
 """Numbers and switches of the rules of a whole match."""
 
 import json
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
-from rsoccer._core import referee_preset
+from rsoccer._core import referee_preset, referee_rules
 
 PRESETS: Final = ("ssl_2026_a", "ssl_2026_b", "vsss_3v3", "vsss_5v5")
 """Names of the presets."""
+CHOICES: Final = {
+    "clock": ("stopped", "running"),
+    "placement": ("teleport", "robots"),
+    "half_end": ("at_once", "next_stop"),
+}
+"""Values of the choices by name."""
+RULES: Final = tuple(sorted({name for lg in ("ssl", "vsss") for name, *_ in referee_rules(lg)}))
+"""Names of the rules of both leagues."""
 
 
 class RefereeConfig(Mapping[str, Any]):
@@ -35,7 +44,8 @@ class RefereeConfig(Mapping[str, Any]):
 
         Raises:
             TypeError: a value of another type.
-            ValueError: an unknown preset, name or choice, or a number below 0.
+            ValueError: an unknown preset, name or choice, the other league, or a number that is
+                not finite or below 0.
         """
         if preset not in PRESETS:
             raise ValueError(f"preset: expected one of {PRESETS}, got {preset!r}")
@@ -89,13 +99,29 @@ def _like(name: str, value: object, old: object) -> object:
             return value
         raise TypeError(f"{name}: expected True or False, got {value!r}")
     if isinstance(old, float):
-        if isinstance(value, int | float) and not isinstance(value, bool):
-            return float(value)
-        raise TypeError(f"{name}: expected a number, got {value!r}")
+        return _number(name, value)
     if isinstance(old, list):
-        if isinstance(value, list | tuple) and all(isinstance(part, str) for part in value):
-            return list(value)
+        return _rules(name, value)
+    choices = CHOICES.get(name, (old,))
+    if value not in choices:
+        raise ValueError(f"{name}: expected one of {choices}, got {value!r}")
+    return value
+
+
+def _rules(name: str, value: object) -> list[str]:
+    """A list of names of rules."""
+    if not isinstance(value, list | tuple):
         raise TypeError(f"{name}: expected a list of names of rules, got {value!r}")
-    if isinstance(value, str):
-        return value
-    raise TypeError(f"{name}: expected a text, got {value!r}")
+    for part in value:
+        if part not in RULES:
+            raise ValueError(f"{name}: expected names of {', '.join(RULES)}, got {part!r}")
+    return list(value)
+
+
+def _number(name: str, value: object) -> float:
+    """A number as the rules have them: finite, at least 0."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        raise TypeError(f"{name}: expected a number, got {value!r}")
+    if not (math.isfinite(value) and value >= 0):
+        raise ValueError(f"{name}: expected a finite number, at least 0, got {value}")
+    return float(value)

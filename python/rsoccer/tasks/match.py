@@ -17,8 +17,8 @@ from rsoccer.game import EventKind, Stage
 from rsoccer.reflection import Reflection, Symmetry
 from rsoccer.rng import WorldRng
 from rsoccer.rules import Passes, Rule
-from rsoccer.rules.referee import Referee
-from rsoccer.rules.referee_config import RefereeConfig
+from rsoccer.rules.referee import RefereeRule
+from rsoccer.rules.referee_config import PRESETS, RefereeConfig
 from rsoccer.task import Play
 from rsoccer.tasks.soccer import Soccer
 
@@ -26,10 +26,6 @@ GAME_BLOCK: Final = "game"
 """Name of the observation block with the state of the match."""
 GAME_LIMIT: Final = 3.0
 """Bound of that block: times up to 30 s, in units of 10 s."""
-CLOCKS: Final = ("stopped", "running")
-"""Values of the option `clock`."""
-PLACEMENTS: Final = ("teleport", "robots")
-"""Values of the option `placement`."""
 TEAMS: Final = ("blue", "yellow")
 
 
@@ -68,13 +64,15 @@ class Match(Soccer):
 
     Termination: the end of the match. Truncation: after `max_steps`.
 
-    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals; `blue_shots`,
-    balls that leave a robot toward the mouth of the goal; `blue_passes`, passes that arrive;
-    `blue_possession`, share of the time in play in which the team touched the ball last;
-    `blue_distance`, way of all robots, m; `blue_fouls`, fouls; `blue_yellow_cards`, yellow cards;
-    `blue_red_cards`, red cards; `yellow_goals`, `yellow_shots`, `yellow_passes`,
-    `yellow_possession`, `yellow_distance`, `yellow_fouls`, `yellow_yellow_cards`,
-    `yellow_red_cards`, the same of yellow; `in_play`, time with the ball in play, s.
+    Metrics: `goal_score`, goals of blue less those of yellow; `blue_goals`, goals of
+    blue; `yellow_goals`, those of yellow; `blue_shots`, balls that leave a robot of blue toward the
+    mouth of the goal; `yellow_shots`, those of yellow; `blue_passes`, passes of blue that arrive;
+    `yellow_passes`, those of yellow; `blue_possession`, share of the time in play in which blue
+    touched the ball last; `yellow_possession`, that of yellow; `blue_distance`, way of all robots
+    of blue, m; `yellow_distance`, that of yellow; `blue_fouls`, fouls of blue; `yellow_fouls`,
+    those of yellow; `blue_yellow_cards`, yellow cards of blue; `yellow_yellow_cards`, those of
+    yellow; `blue_red_cards`, red cards of blue; `yellow_red_cards`, those of yellow; `in_play`,
+    time with the ball in play, s.
     """
 
     max_steps: int = 200_000
@@ -96,28 +94,28 @@ class Match(Soccer):
     """Robots are taken out for cards."""
     success = "goal_score"
     """Metric that measures the success of an episode."""
+    full_success = None
+    """There is no greatest goal difference."""
 
     def __post_init__(self) -> None:
         """Validate the options."""
         checks.number_in_range("half_seconds", self.half_seconds, 1e-3, 1e5)
         if checks.integer("halves", self.halves, 1) > 2:
             raise ValueError(f"halves: expected 1 or 2, got {self.halves}")
-        if self.clock not in CLOCKS:
-            raise ValueError(f"clock: expected one of {CLOCKS}, got {self.clock!r}")
         checks.boolean("knockout", self.knockout)
         if not isinstance(self.referee, Mapping):
             raise TypeError(f"referee: expected values by name, got {self.referee!r}")
+        RefereeConfig(PRESETS[0], **self.referee_values)  # all presets have the same names
         super().__post_init__()
-        _ = self.rules  # raises for wrong numbers
 
     @property
     @abstractmethod
     def preset(self) -> str:
         """Name of the rules' preset."""
 
-    @cached_property
-    def referee_config(self) -> RefereeConfig:
-        """Numbers and switches of the rules, with those of the options."""
+    @property
+    def referee_values(self) -> dict[str, Any]:
+        """Numbers and switches of the rules that the options give, by name."""
         values: dict[str, Any] = {
             "half_seconds": self.half_seconds,
             "halves": self.halves,
@@ -125,7 +123,12 @@ class Match(Soccer):
         }
         if not self.knockout:
             values |= {"extra_half_seconds": 0.0, "shootout_kicks": 0.0}
-        return RefereeConfig(self.preset, **{**values, **self.referee})
+        return {**values, **self.referee}
+
+    @cached_property
+    def referee_config(self) -> RefereeConfig:
+        """Numbers and switches of the rules, with those of the options."""
+        return RefereeConfig(self.preset, **self.referee_values)
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
@@ -138,8 +141,8 @@ class Match(Soccer):
         """Least length of a pass, m."""
 
     @cached_property
-    def _referee(self) -> Referee:
-        return Referee(self.config, self.referee_config)
+    def _referee(self) -> RefereeRule:
+        return RefereeRule(self.config, self.referee_config)
 
     def get_initial_positions_frame(self, rng: WorldRng) -> Frame:
         """Line both teams up for the first kick-off."""

@@ -2,15 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, ClassVar, Final
 
 from rsoccer import checks, rewards
-from rsoccer._core import Field, RobotModel, SimConfig
+from rsoccer._core import Field, RobotModel
 from rsoccer.arrays import Floats, Mask
-from rsoccer.rules.referee_config import RefereeConfig
 from rsoccer.task import Play
-from rsoccer.tasks.match import PLACEMENTS, Match
+from rsoccer.tasks.match import Match
 from rsoccer.tasks.ssl import Ssl
 from rsoccer.tasks.ssl_self_play import MIN_PASS_LENGTH
 
@@ -61,8 +59,6 @@ class SslMatch(Match, Ssl):
         """Validate the options."""
         if self.division not in DIVISIONS:
             raise ValueError(f"division: expected one of {tuple(DIVISIONS)}, got {self.division!r}")
-        if self.placement not in PLACEMENTS:
-            raise ValueError(f"placement: expected one of {PLACEMENTS}, got {self.placement!r}")
         checks.integer("n_blue", self.n_blue, 1)
         checks.integer("n_yellow", self.n_yellow, 1)
         if self.field == "division":
@@ -78,21 +74,15 @@ class SslMatch(Match, Ssl):
         """Rules of the division."""
         return f"ssl_2026_{self.division.lower()}"
 
-    @cached_property
-    def referee_config(self) -> RefereeConfig:
-        """Numbers and switches of the rules, with those of the options."""
-        values: dict[str, Any] = {"placement": self.placement, **self.referee}
-        return super().referee_config.replaced(**values)
+    @property
+    def referee_values(self) -> dict[str, Any]:
+        """Numbers and switches of the rules that the options give, by name."""
+        return {"placement": self.placement, **super().referee_values}
 
     @property
     def min_pass_length(self) -> float:
         """Least length of a pass, m."""
         return MIN_PASS_LENGTH
-
-    @cached_property
-    def config(self) -> SimConfig:
-        """Configuration with the field, robots and ball of the options and 25 ms steps."""
-        return super().config
 
     def approach(self, play: Play, nearest: Mask) -> Floats:
         """Return the progress of the nearest robot of each team toward the ball, m."""

@@ -19,8 +19,8 @@ MIN_PASS_LENGTH: Final = 0.2
 class VssMatch(Match, VssBase):
     """Match of two VSSS teams under the league's referee, in which all robots learn.
 
-    Actions are those of `VssBase`; observations, rewards, end and metrics those of `Match`. On a field
-    with two areas, as "vss_5v5", the rules are those of five a side.
+    Actions are those of `VssBase`; observations, rewards, end and metrics those of `Match`. On a
+    field with two areas, as "vss_5v5", the rules are those of five a side.
 
     Source: the league's referee (VSSSLeague/VSSReferee) for rules and positions.
     """

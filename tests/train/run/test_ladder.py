@@ -24,7 +24,10 @@ from tests.train.short_task import NAME, tiny
             "VSSSelfPlay-v0",
             [f"ladder_{name}_goal_score" for name in ("zero", "ou", "chase", "scripted")],
         ),
-        ("SSLSelfPlay-v0", [f"ladder_{name}_goal_score" for name in ("zero", "ou", "strike")]),
+        (
+            "SSLSelfPlay-v0",
+            [f"ladder_{name}_goal_score" for name in ("zero", "ou", "scripted", "strike")],
+        ),
         ("SSLStaticDefenders-v0", ["ladder_goal_score"]),
         ("SSLPassEnduranceMulti-v1", ["ladder_passes"]),
     ],

@@ -108,6 +108,13 @@ def test_scores_are_shown_on_their_whole_scale(
     assert axes.get_ylim() == pytest.approx(limits)
 
 
+def test_goal_differences_of_matches_have_no_limits(tmp_path: Path) -> None:
+    axes = plotted(tmp_path, [{"ladder_goal_score": score} for score in (-4.0, 9.0)], "VSSMatch-v0")
+    low, high = axes.get_ylim()
+    assert low < -4.0 and high > 9.0
+    assert axes.get_ylabel() == "goal score"
+
+
 def test_a_log_without_rows_is_refused(tmp_path: Path) -> None:
     new_logger(tmp_path).close()
     with pytest.raises(ValueError, match="no rows yet"):

@@ -1,4 +1,4 @@
-//! Touches in the defense areas: "Multiple Defenders", "Attacker Touched Ball In Opponent Defense Area",
+//! Touches in the goal areas: "Multiple Defenders", "Attacker Touched Ball In Opponent Defense Area",
 //! "Keeper Held Ball".
 
 use rsim_referee::codes::Command::{DirectFree, PreparePenalty};

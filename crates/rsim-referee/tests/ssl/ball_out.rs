@@ -127,7 +127,7 @@ fn a_ball_that_nobody_touched_since_play_went_on_is_free_for_both() {
 }
 
 #[test]
-fn the_last_toucher_counts_whoever_kicked() {
+fn the_last_toucher_counts_and_not_the_kicker() {
     for mut scene in views(B) {
         scene.ball(1.0, 2.5);
         scene.settle();

@@ -1,4 +1,4 @@
-//! Where a teleport puts ball and robots.
+//! Place where a teleport puts ball and robots.
 
 use rsim_referee::Team;
 use rsim_referee::codes::Command::{self, DirectFree, PrepareKickoff, PreparePenalty};
@@ -36,6 +36,23 @@ fn robots_in_valid_places_stay() {
         expect_near(at(&scene, (Us, 1)), (1.0 - 0.09 - 0.0215 - 0.06, 1.0));
         expect_near(at(&scene, (Them, 1)), (1.0, 1.595));
         expect_near(scene.ball_at(), (1.0, 1.0));
+    }
+}
+
+#[test]
+fn the_kicking_team_keeps_a_short_distance_from_the_ball() {
+    for (gap, stays) in [(0.052, true), (0.049, false)] {
+        for mut scene in views(B) {
+            scene.ball(0.0, 2.0);
+            scene.stop(DirectFree, Us, (0.0, 2.0));
+            scene.wait(1.975);
+            let x = -0.09 - 0.0215 - gap;
+            scene.robot((Us, 1), x, 2.0);
+            scene.step();
+            scene.expect_command(DirectFree, Us);
+            let moved = (at(&scene, (Us, 1)).0 - x).abs();
+            assert_eq!(moved < 1e-4, stays, "{gap}");
+        }
     }
 }
 

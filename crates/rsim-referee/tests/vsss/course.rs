@@ -57,7 +57,7 @@ fn a_stop_is_followed_by_the_kick_after_four_seconds_and_by_play_after_four_more
 }
 
 #[test]
-fn bodies_that_move_before_the_kick_are_put_back() {
+fn bodies_that_move_before_the_kick_return_to_their_places() {
     each(|mut scene, command| {
         scene.wait_for(command);
         let expected = scene.row.clone();

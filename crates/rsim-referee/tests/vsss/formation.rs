@@ -9,7 +9,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 
 /// All kicks with the places of their balls.
-fn kicks(size: Size) -> Vec<(Command, Vector)> {
+pub(crate) fn kicks(size: Size) -> Vec<(Command, Vector)> {
     let lines = size.pitch().lines;
     let mut kicks = Vec::new();
     for team in Team::BOTH {
@@ -63,7 +63,7 @@ fn positions(command: Command, size: Size) -> [Positions; 2] {
     }
 }
 
-/// Where the robots of a team have to stand.
+/// Place where the robots of a team have to stand.
 fn expected(command: Command, size: Size, ball: Vector, team: Team) -> Vec<Vector> {
     // The team that attacks in the half has the free ball.
     let kicking = command.team().unwrap_or(if ball.x < 0.0 { Team::Yellow } else { Team::Blue });
@@ -81,7 +81,7 @@ fn expected(command: Command, size: Size, ball: Vector, team: Team) -> Vec<Vecto
 }
 
 /// Ends the stop before a kick, with the bodies where they are.
-fn arrange(scene: &mut Scene, command: Command, ball: Vector) {
+pub(crate) fn arrange(scene: &mut Scene, command: Command, ball: Vector) {
     scene.game.give(Command::Stop, Some(command));
     scene.game.designated_position = ball;
     scene.game.wait_steps = 0;
@@ -90,7 +90,7 @@ fn arrange(scene: &mut Scene, command: Command, ball: Vector) {
 }
 
 /// A match with robots at random places, also in corners and goals, and some of them absent.
-fn scattered(size: Size, robots: [usize; 2], seed: u64, absent: f32) -> Scene {
+pub(crate) fn scattered(size: Size, robots: [usize; 2], seed: u64, absent: f32) -> Scene {
     let mut scene = Scene::with(size.config(), size.pitch(), robots);
     let mut random = Random::new(seed);
     let lines = size.pitch().lines;
@@ -165,194 +165,4 @@ fn smaller_teams_have_the_first_places() {
             }
         }
     }
-}
-
-#[test]
-fn any_robots_are_put_on_the_table_without_touching_anything() {
-    for size in Size::BOTH {
-        for seed in 0..40 {
-            for (command, ball) in kicks(size) {
-                let mut scene = scattered(size, [5, 5], seed, 0.2);
-                let before: Vec<usize> = scene.robots().iter().map(|robot| robot.index).collect();
-                arrange(&mut scene, command, ball);
-                let after: Vec<usize> = scene.robots().iter().map(|robot| robot.index).collect();
-                assert_eq!(before, after, "absent robots stay away");
-                assert!(scene.row.iter().all(|value| value.is_finite()));
-                assert_valid(&scene);
-            }
-        }
-    }
-}
-
-#[test]
-fn the_first_robot_on_the_field_keeps_the_goal() {
-    for size in Size::BOTH {
-        for seed in 0..10 {
-            for (command, ball) in kicks(size) {
-                let mut scene = scattered(size, [5, 4], seed, 0.4);
-                arrange(&mut scene, command, ball);
-                let lines = &scene.referee.pitch().lines;
-                for team in Team::BOTH {
-                    let robots = scene.robots();
-                    let Some(keeper) = robots.iter().find(|robot| robot.team == team) else {
-                        continue;
-                    };
-                    let from_goal = keeper.position.distance(lines.goal(team));
-                    // At three a side the keeper takes goal kicks, beside its goal.
-                    let kicks = size == Size::Three && command == Command::GoalKick(team);
-                    let limit = if kicks { 0.3 } else { 0.1 };
-                    assert!(from_goal <= limit + 1e-6, "{command:?}: {keeper:?}");
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn robots_without_a_place_stay_where_they_may() {
-    for size in Size::BOTH {
-        let robots = [size.robots() + 1; 2];
-        for (command, ball) in kicks(size) {
-            let mut scene = scattered(size, robots, 3, 0.0);
-            // Beside all places of the tables, and beside the blocks in the corners.
-            let x = size.pitch().lines.half_length - 0.1;
-            let y = size.pitch().lines.half_width - 0.15;
-            for team in Team::BOTH {
-                scene.robot(team, size.robots(), [team.own_side() * x, y]);
-            }
-            arrange(&mut scene, command, ball);
-            for team in Team::BOTH {
-                let place = Vector::new(team.own_side() * x, y);
-                assert_eq!(scene.position(team, size.robots()), place);
-            }
-        }
-    }
-}
-
-/// Where a robot without a place of a table comes from a place.
-fn moved_from(place: [f32; 2]) -> f32 {
-    let mut scene = scattered(Size::Three, [4, 3], 4, 0.0);
-    scene.robot(Team::Blue, 3, place);
-    arrange(&mut scene, Command::PrepareKickoff(Team::Blue), Vector::default());
-    scene.position(Team::Blue, 3).distance(Vector::new(place[0], place[1]))
-}
-
-#[test]
-fn robots_in_walls_corners_and_goals_are_moved_and_those_beside_them_are_not() {
-    // 0.0375 m times the root of 2, and 1 mm of room.
-    let radius = 0.054_03;
-    for (x, y) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
-        let corner = (0.75 + 0.65 - 0.07 - 2_f32.sqrt() * radius) / 2.0;
-        for ([ahead, aside], moves) in [
-            ([0.75 - radius - 0.001, 0.4], false),
-            ([0.75 - radius + 0.001, 0.4], true),
-            ([0.3, 0.65 - radius - 0.001], false),
-            ([0.3, 0.65 - radius + 0.001], true),
-            ([corner + 0.05 - 0.001, corner - 0.05], false),
-            ([corner + 0.05 + 0.002, corner - 0.05], true),
-            ([0.749, 0.2 - radius - 0.001], false),
-            ([0.749, 0.2 - radius + 0.001], true),
-            ([0.751, 0.12], true),
-            ([0.749, 0.2 + radius + 0.001], true),
-        ] {
-            let way = moved_from([x * ahead, y * aside]);
-            assert_eq!(way > 0.0, moves, "{ahead} {aside}");
-            assert!(way < 0.1, "to a place nearby");
-        }
-    }
-}
-
-#[test]
-fn robots_at_the_ball_are_moved_away_from_it() {
-    let touching = 0.053_03 + BALL_RADIUS + 0.001;
-    for (distance, moves) in [(touching + 0.001, false), (touching - 0.001, true), (0.0, true)] {
-        let way = moved_from([0.0, distance]);
-        assert_eq!(way > 0.0, moves, "{distance}");
-        assert!(way < 0.15);
-    }
-}
-
-#[test]
-fn a_kicker_whose_place_is_that_of_the_ball_is_moved_away_from_it() {
-    let mut scene = scattered(Size::Three, [3, 3], 5, 0.0);
-    arrange(&mut scene, Command::PreparePenalty(Team::Yellow), Vector::new(-0.3, 0.0));
-    assert_valid(&scene);
-}
-
-/// The same match with the teams swapped and x with the opposite sign.
-fn swapped(scene: &Scene, robots: [usize; 2], size: Size) -> Scene {
-    let mut other = Scene::with(size.config(), size.pitch(), [robots[1], robots[0]]);
-    for (team, count) in Team::BOTH.into_iter().zip(robots) {
-        for nth in 0..count {
-            let place = scene.position(team, nth);
-            other.robot(team.opponent(), nth, [-place.x, place.y]);
-        }
-    }
-    other
-}
-
-/// The same command of the other team.
-fn of_opponent(command: Command) -> Command {
-    match command {
-        Command::PrepareKickoff(team) => Command::PrepareKickoff(team.opponent()),
-        Command::PreparePenalty(team) => Command::PreparePenalty(team.opponent()),
-        Command::GoalKick(team) => Command::GoalKick(team.opponent()),
-        command => command,
-    }
-}
-
-#[test]
-fn both_teams_are_treated_alike() {
-    for size in Size::BOTH {
-        for seed in 0..40 {
-            for (command, ball) in kicks(size) {
-                let robots = [5, 4];
-                let mut scene = scattered(size, robots, seed, 0.0);
-                let mut other = swapped(&scene, robots, size);
-                arrange(&mut scene, command, ball);
-                arrange(&mut other, of_opponent(command), Vector::new(-ball.x, ball.y));
-                for (team, count) in Team::BOTH.into_iter().zip(robots) {
-                    for nth in 0..count {
-                        let place = scene.position(team, nth);
-                        let expected = Vector::new(-place.x, place.y);
-                        assert_eq!(other.position(team.opponent(), nth), expected);
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn left_and_right_are_treated_alike_at_free_balls_and_goal_kicks() {
-    for seed in 0..40 {
-        for (command, ball) in kicks(Size::Three).into_iter().filter(|(_, ball)| ball.y > 0.0) {
-            let mut scene = scattered(Size::Three, [5, 5], seed, 0.0);
-            let mut other = Scene::with(Size::Three.config(), Size::Three.pitch(), [5, 5]);
-            for team in Team::BOTH {
-                for nth in 0..5 {
-                    let place = scene.position(team, nth);
-                    other.robot(team, nth, [place.x, -place.y]);
-                }
-            }
-            arrange(&mut scene, command, ball);
-            arrange(&mut other, command, Vector::new(ball.x, -ball.y));
-            for (robot, mirrored) in scene.robots().iter().zip(other.robots()) {
-                let expected = Vector::new(robot.position.x, -robot.position.y);
-                assert_eq!(mirrored.position, expected);
-            }
-        }
-    }
-}
-
-#[test]
-fn robots_at_y_0_are_moved_as_after_half_a_turn() {
-    let mut scene = scattered(Size::Three, [4, 4], 6, 0.0);
-    for team in Team::BOTH {
-        scene.robot(team, 3, [team.own_side() * 0.25, 0.0]);
-    }
-    arrange(&mut scene, Command::PrepareKickoff(Team::Blue), Vector::default());
-    let [blue, yellow] = Team::BOTH.map(|team| scene.position(team, 3));
-    assert_eq!(blue, yellow * -1.0);
-    assert!(blue.y != 0.0, "the places in line with it are taken");
 }

@@ -105,6 +105,7 @@ fn a_goal_after_two_attackers_in_the_area_is_a_goal_kick() {
         scene.touch(attacker, 1);
         assert_eq!(scene.run(1.0), []);
         scene.park();
+        assert_eq!(scene.run(1.0), [], "the ball is still in the area");
         shoot(&mut scene, attacker, 0.0);
         let event = scene.step_to(EventKind::InvalidGoal);
         let toucher = scene.index(attacker, 1);

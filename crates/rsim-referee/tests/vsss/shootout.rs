@@ -15,10 +15,11 @@ fn kick(size: Size, first: Team) -> Scene {
     let config = RefereeConfig { half_seconds: 1.0, extra_half_seconds: 0.0, ..size.config() };
     let mut scene = Scene::with(config, size.pitch(), [size.robots(); 2]);
     scene.game = Game::new(first);
-    while scene.game.stage != Stage::Shootout {
+    for _ in 0..steps(14.0) {
         scene.roll([0.0, 0.0], [1.0, 0.0]);
         assert_eq!(scene.step(), []);
     }
+    assert_eq!(scene.game.stage, Stage::Shootout);
     assert_eq!(scene.game.next_command, Some(Command::PreparePenalty(first)));
     begin_kick(&mut scene, first);
     scene
@@ -148,6 +149,33 @@ fn a_kick_fails_after_ten_seconds() {
         scene.roll(seen_by(taker, [0.3, 0.3]), [1.0, 0.0]);
         let (nth, event) = scene.first_event(11.0).expect("it ends");
         assert_eq!((nth, event.kind), (steps(10.0), EventKind::PenaltyKickFailed));
+    });
+}
+
+#[test]
+fn a_goal_in_the_last_step_of_a_kick_counts() {
+    each(|size, taker| {
+        let mut scene = kick(size, taker);
+        scene.roll(seen_by(taker, [0.3, 0.1]), [1.0, 0.0]);
+        assert_eq!(scene.run(9.975), []);
+        take(&mut scene, taker, true);
+        assert_eq!(scene.game.score[taker], 1);
+        assert_eq!(scene.game.shootout_kicks[taker], 1);
+    });
+}
+
+#[test]
+fn a_kick_does_not_fail_before_it_may_be_taken() {
+    each(|size, taker| {
+        let mut scene = kick(size, taker);
+        take(&mut scene, taker, false);
+        let other = taker.opponent();
+        scene.wait_for(Command::PreparePenalty(other));
+        scene.roll(seen_by(other, [-0.1, 0.3]), [1.0, 0.0]);
+        assert_eq!(scene.run(4.0), []);
+        assert_eq!(scene.game.command, Command::NormalStart);
+        let mark = scene.referee.pitch().lines.penalty_mark(other);
+        assert!(scene.ball_position().distance(mark) < 1e-6, "the ball is put back");
     });
 }
 

@@ -28,7 +28,7 @@ struct Walk {
     /// The match as a row.
     row: Vec<f32>,
     random: Random,
-    /// Where each robot of blue and of yellow is going; `None` to the ball.
+    /// Place where each robot of blue and of yellow is going; `None` to the ball.
     targets: Vec<Option<Vector>>,
     /// Probability that a robot turns to the ball when it chooses a target.
     chases: f32,

@@ -296,7 +296,7 @@ class MatchView {
     for (const [frame, text] of this.match.stages) {
       context.fillRect(x(frame) - 0.5, 2, 1, height + LABEL_HEIGHT - 3);
       const { width } = context.measureText(text);
-      const left = Math.max(Math.min(x(frame) + 5, end - width), free);
+      const left = Math.max(Math.min(x(frame) + 5, end - width - 5), free);
       context.fillText(text, left, height + LABEL_HEIGHT - 1);
       free = left + width + 6;
     }

@@ -118,6 +118,7 @@ def _act_in(
         None if view is None or needed < 1 else view.take(worlds),
         None if observations is None or needed < 2 else observations[worlds],
         inputs.optional_actions,
+        None if inputs.match is None or needed < 1 else inputs.match.take(worlds),
     )
     streams = rng[worlds]
     own = {name: array[worlds] for name, array in memory.items()}

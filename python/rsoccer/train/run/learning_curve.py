@@ -109,7 +109,8 @@ def _plot(axes: Axes, name: str, x: Array, y: Array, **style: Any) -> None:  # n
 def _set_scale(axes: Axes, task: Task | None, metric: str, exploring: bool) -> None:
     """Set the label and the limits of the scores."""
     label = metric.replace("_", " ") + (" while exploring" if exploring else "")
-    if metric == GOAL_SCORE and (task is None or task.two_sided):
+    is_result = task is None or (task.two_sided and task.full_success is not None)
+    if metric == GOAL_SCORE and is_result:
         axes.set_ylim(-1.05, 1.05)
         axes.axhline(0.0, color="black", linewidth=0.6)
         label += "\n(wins - losses) / matches"

@@ -60,7 +60,7 @@ fn is_judged(game: &Game, rulings: &Rulings) -> bool {
     game.in_play && !is_shootout(game) && rulings.stop().is_none()
 }
 
-/// What became of a crowd in an area in a step.
+/// Change of a crowd in an area in a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Crowd {
     /// There is none, or it has not lasted.

@@ -25,10 +25,11 @@ fn scored(game: &Game, moment: &Moment) -> Option<(Team, Vector)> {
 pub fn goal(game: &mut Game, moment: &Moment, rulings: &mut Rulings) {
     let Some((scorer, position)) = scored(game, moment) else { return };
     let defender = scorer.opponent();
-    let had_both = game.had_attackers[scorer] && game.had_defenders[defender];
+    let is_defenders = game.had_defenders[defender]
+        && game.defenders_steps[defender] >= game.attackers_steps[scorer];
     let (kind, (command, place)) = if !game.had_attackers[scorer] {
         (EventKind::Goal, (Command::PrepareKickoff(defender), Vector::default()))
-    } else if had_both && game.defenders_steps[defender] >= game.attackers_steps[scorer] {
+    } else if is_defenders {
         (EventKind::InvalidGoal, penalty_kick(moment, scorer))
     } else {
         (EventKind::InvalidGoal, goal_kick(moment, defender))

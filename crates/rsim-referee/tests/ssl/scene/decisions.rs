@@ -1,4 +1,4 @@
-//! What a referee decided in a scene.
+//! Decisions of a referee in a scene.
 
 use rsim_referee::Team;
 use rsim_referee::codes::Command;

@@ -1,6 +1,6 @@
 //! Scenes of a match without physics: a test places ball and robots, says who touches what, and judges steps.
 //!
-//! A scene is told from the side of one team, "us", that attacks the goal at +x. [`views`] gives the same scene
+//! A scene is described from the side of one team, "us", that attacks the goal at +x. [`views`] gives the same scene
 //! for both teams, and reflected across the field, so that every test covers all sides.
 
 mod bodies;

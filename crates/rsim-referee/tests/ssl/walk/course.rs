@@ -1,4 +1,4 @@
-//! What holds in the course of all matches: commands, score and clock.
+//! Invariants of the course of all matches: commands, score and clock.
 
 use rsim_referee::codes::{Command, Stage};
 use rsim_referee::config::{Clock, Placement};

@@ -1,4 +1,4 @@
-//! What holds in all matches: a seeded walk through random bodies and touches.
+//! Invariants of all matches: a seeded walk through random bodies and touches.
 
 mod course;
 mod places;

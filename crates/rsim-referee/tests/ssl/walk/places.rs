@@ -1,4 +1,4 @@
-//! Where robots may stand after a teleport, by the text of the rules.
+//! Place where robots may stand after a teleport, by the text of the rules.
 
 use rsim_referee::codes::Command;
 use rsim_referee::events::EventKind::{AttackerTooCloseToDefenseArea, DefenderTooCloseToKickPoint};
@@ -17,7 +17,7 @@ fn distance_to_rectangle(place: Vector, x: (f32, f32), y: (f32, f32)) -> f32 {
     (place.x - nearest.0).hypot(place.y - nearest.1)
 }
 
-/// Distance of a place from the defense area at +x, or at -x.
+/// Distance of a place from the goal area at +x, or at -x.
 fn distance_to_area(lines: &Lines, place: Vector, side: f32) -> f32 {
     let front = lines.half_length - lines.area_depth;
     let turned = Vector::new(side * place.x, place.y);

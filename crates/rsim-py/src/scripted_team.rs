@@ -1,0 +1,173 @@
+//! Scripted sides of SSL matches, for arrays of rows.
+
+use std::sync::{Mutex, PoisonError};
+
+use numpy::{Ix2, PyArray3, PyArrayMethods, PyReadwriteArray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rsim_core::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use rsim_core::{Body, Drive, RobotModel};
+use rsim_referee::Team;
+use rsim_referee::game::Game;
+use rsim_referee::sight::Layout;
+use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, TeamConfig};
+
+use crate::arrays::{Rows, readable, sizes, values, writeable};
+use crate::config::SimConfig;
+use crate::referee::lines;
+use crate::threads::{Threads, write_rows};
+
+/// Most worlds whose commands the caller's thread computes alone.
+const ALONE: usize = 16;
+
+/// Scripted side of SSL matches with the same field, robots and ball.
+#[pyclass(frozen, module = "rsoccer._core")]
+pub(crate) struct ScriptedTeam {
+    team: rsim_teams::ScriptedTeam,
+    config: SimConfig,
+    skill: f32,
+    sizes: [usize; 2],
+    memory_size: usize,
+    row_size: usize,
+}
+
+#[pymethods]
+impl ScriptedTeam {
+    #[new]
+    fn new(config: &SimConfig, skill: f32) -> PyResult<Self> {
+        let sim = &config.0;
+        let (n_blue, n_yellow) = (sim.blue.len(), sim.yellow.len());
+        let Some(robot) = sim.robots().next() else {
+            return Err(PyValueError::new_err("config: expected robots, got none"));
+        };
+        let layout =
+            Layout::new(&BALL_COLUMNS, &ROBOT_COLUMNS, n_blue, n_yellow).map_err(invalid)?;
+        let numbers = TeamConfig {
+            lines: lines(config),
+            layout,
+            time_step: sim.time_step,
+            robot: robot_numbers(robot)?,
+            ball: BallNumbers {
+                radius: sim.ball.radius,
+                sliding_deceleration: sim.ball.sliding_deceleration,
+                rolling_deceleration: sim.ball.rolling_deceleration,
+                slide_to_roll_ratio: sim.ball.slide_to_roll_ratio,
+            },
+            skill,
+        };
+        let team = rsim_teams::ScriptedTeam::new(&numbers).map_err(invalid)?;
+        let memory_size = team.memory_columns().len();
+        let config = config.clone();
+        let row_size = config.0.row_size();
+        Ok(Self { team, config, skill, sizes: [n_blue, n_yellow], memory_size, row_size })
+    }
+
+    /// Number of columns of a team's memory.
+    #[getter]
+    fn memory_size(&self) -> usize {
+        self.memory_size
+    }
+
+    /// Sets the memories of teams before their first step.
+    fn begin(&self, memory: &Bound<'_, PyAny>, seeds: Vec<u32>) -> PyResult<()> {
+        let mut memory: PyReadwriteArray<'_, f32, Ix2> =
+            writeable("memory", memory, &[seeds.len(), self.memory_size])?;
+        let each = memory.as_slice_mut()?.chunks_exact_mut(self.memory_size);
+        for (memory, seed) in each.zip(seeds) {
+            self.team.begin(memory, seed).map_err(invalid)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the commands of a team's robots.
+    #[pyo3(signature = (rows, game, memory, team, threads = None))]
+    fn commands<'py>(
+        &self,
+        py: Python<'py>,
+        rows: &Bound<'py, PyAny>,
+        game: &Bound<'py, PyAny>,
+        memory: &Bound<'py, PyAny>,
+        team: usize,
+        threads: Option<&Threads>,
+    ) -> PyResult<Bound<'py, PyArray3<f32>>> {
+        let Some(side) = Team::BOTH.get(team) else {
+            return Err(PyValueError::new_err(format!("team: expected 0 or 1, got {team}")));
+        };
+        let [n, _] = sizes::<2>("rows", rows)?;
+        let rows: Rows = readable("rows", rows, &[n, self.row_size])?;
+        let columns = Game::columns().len();
+        let game: Rows = readable("game", game, &[n, columns])?;
+        let mut memory: PyReadwriteArray<'_, f32, Ix2> =
+            writeable("memory", memory, &[n, self.memory_size])?;
+        let (rows, games) = (values(&rows), values(&game));
+        let robots = self.sizes[team];
+        let commands = PyArray3::zeros(py, [n, robots, COMMAND_COLUMNS.len()], false);
+        // Each world's memory and commands are written together, as one row.
+        let numbers = self.memory_size + robots * COMMAND_COLUMNS.len();
+        let mut both = vec![0.0; n * numbers];
+        let memory = memory.as_slice_mut()?;
+        for (both, memory) in
+            both.chunks_exact_mut(numbers).zip(memory.chunks_exact(self.memory_size))
+        {
+            both[..self.memory_size].copy_from_slice(memory);
+        }
+        let failed = Mutex::new(None);
+        write_rows(py, threads, &mut both, numbers, ALONE, |world, both| {
+            let row = &rows[world * self.row_size..][..self.row_size];
+            let (memory, out) = both.split_at_mut(self.memory_size);
+            let acted = Game::read(&games[world * columns..][..columns])
+                .map_err(|error| error.to_string())
+                .and_then(|game| {
+                    let acted = self.team.act(row, &game, *side, memory, out);
+                    acted.map_err(|error| error.to_string())
+                });
+            if let Err(error) = acted {
+                failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+            }
+        });
+        if let Some(error) = failed.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            return Err(PyValueError::new_err(error));
+        }
+        {
+            let mut out = commands.readwrite();
+            let outs = out.as_slice_mut()?.chunks_exact_mut(numbers - self.memory_size);
+            let memories = memory.chunks_exact_mut(self.memory_size);
+            for (both, (memory, out)) in both.chunks_exact(numbers).zip(memories.zip(outs)) {
+                memory.copy_from_slice(&both[..self.memory_size]);
+                out.copy_from_slice(&both[self.memory_size..]);
+            }
+        }
+        Ok(commands)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (SimConfig, f32)) {
+        let Self { config, skill, .. } = slf.get();
+        (slf.get_type().into_any(), (config.clone(), *skill))
+    }
+}
+
+/// Numbers of a robot with an omnidirectional drive, a kicker and a dribbler.
+fn robot_numbers(robot: &RobotModel) -> PyResult<RobotNumbers> {
+    let (Body::Round { radius, front_distance }, Drive::Omni(drive), Some(mouth)) =
+        (robot.body, robot.drive, &robot.mouth)
+    else {
+        let name = &robot.name;
+        return Err(PyValueError::new_err(format!(
+            "config: expected round robots with an omnidirectional drive and a mouth, got {name}"
+        )));
+    };
+    Ok(RobotNumbers {
+        radius,
+        front_distance,
+        max_speed: drive.max_speed,
+        max_acceleration: drive.max_acceleration,
+        max_deceleration: drive.max_deceleration,
+        max_angular_velocity: drive.max_angular_velocity,
+        max_kick_speed: mouth.max_kick_speed,
+        max_chip_speed: mouth.max_chip_speed,
+    })
+}
+
+fn invalid(error: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
