@@ -1,0 +1,182 @@
+"""Measure the scripted SSL side in whole matches: `python -m benches.scripted_ssl`.
+
+Pairings of different skill tell whether the dial is monotonic, pairings of equal skill how often
+passes arrive and how many fouls there are. All counts are the referee's statistics of
+`SSLMatch-v0`, both teams together; a minute is one of the whole match, stoppages included. The
+result file keeps every row.
+"""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+import rsoccer
+from benches.markdown import table
+from benches.result_files import RESULTS, this_machine
+from rsoccer.arrays import Doubles
+from rsoccer.evaluate import Interval, bootstrap_interval
+from rsoccer.evaluate.episodes import EpisodeRunner
+from rsoccer.evaluate.results import bootstrap_rate
+from rsoccer.lineup import lineup
+from rsoccer.policies import make_policy
+
+TASK: Final = "SSLMatch-v0"
+FILE: Final = RESULTS / "scripted_ssl.json"
+LARGEST_IN_B: Final = 6
+"""Robots of a team in division B; larger teams play in division A."""
+WORLDS: Final = 64
+"""Matches that are played at once."""
+
+
+@dataclass(frozen=True)
+class Pairing:
+    """Two scripted sides that meet."""
+
+    blue: float
+    """Skill of blue."""
+    yellow: float
+    """Skill of yellow."""
+    robots: int = 6
+    """Robots of each team."""
+
+
+DIAL: Final = tuple(
+    Pairing(better, worse)
+    for better, worse in ((1.0, 0.5), (1.0, 0.2), (1.0, 0.0), (0.5, 0.2), (0.5, 0.0), (0.2, 0.0))
+)
+"""Pairings of different skill."""
+EQUALS: Final = tuple(Pairing(skill, skill) for skill in (0.0, 0.2, 0.5, 1.0))
+"""Pairings of equal skill."""
+SIZES: Final = tuple(Pairing(1.0, 1.0, robots) for robots in (1, 3, 11))
+"""Pairings of teams of other sizes."""
+GROUPS: Final = {"dial": DIAL, "equals": EQUALS, "sizes": SIZES}
+
+
+@dataclass(frozen=True)
+class Row:
+    """Results of the matches of a pairing; intervals are of 95%."""
+
+    pairing: Pairing
+    matches: int
+    won: Interval
+    """Share of the matches that blue wins."""
+    drawn: float
+    """Share of draws."""
+    goals: Interval
+    """Goals a minute."""
+    passes: Interval
+    """Passes a minute that arrive."""
+    fouls: Interval
+    """Fouls a minute."""
+    in_play: float
+    """Share of the time with the ball in play."""
+    speed: float
+    """Time of all matches together, in times of the processor's: once is real time."""
+
+
+def measure(pairing: Pairing, matches: int, half_seconds: float, seed: int) -> Row:
+    """Play matches of a pairing to their ends.
+
+    Args:
+        pairing: The two sides.
+        matches: Number of matches, at least 1.
+        half_seconds: Playing time of a half, s.
+        seed: Seed of the first match.
+
+    Returns:
+        Results of all matches.
+    """
+    division = "B" if pairing.robots <= LARGEST_IN_B else "A"
+    task = rsoccer.make_task(
+        TASK,
+        n_blue=pairing.robots,
+        n_yellow=pairing.robots,
+        division=division,
+        half_seconds=half_seconds,
+    )
+    policy = make_policy(f"scripted:{pairing.blue}", task)
+    controllers = lineup(task, rsoccer.LEARN, f"scripted:{pairing.yellow}")
+    runner = EpisodeRunner(task, controllers, policy, WORLDS, threads=1)
+    begin = time.process_time()
+    episodes = runner.run(matches, seed)
+    busy = time.process_time() - begin
+    rng = np.random.default_rng(seed)
+
+    def a_minute(name: str) -> Interval:
+        counted = episodes.metrics[f"blue_{name}"] + episodes.metrics[f"yellow_{name}"]
+        return bootstrap_rate([np.stack((counted, episodes.seconds / 60.0), axis=1)], rng)
+
+    won: Doubles = (episodes.scores > 0.0).astype(np.float64)
+    return Row(
+        pairing,
+        matches,
+        won=bootstrap_interval([won], rng),
+        drawn=float((episodes.scores == 0.0).mean()),
+        goals=a_minute("goals"),
+        passes=a_minute("passes"),
+        fouls=a_minute("fouls"),
+        in_play=float(episodes.metrics["in_play"].sum() / episodes.seconds.sum()),
+        speed=float(episodes.seconds.sum() / busy),
+    )
+
+
+def report(rows: Sequence[Row]) -> str:
+    """Return rows as a Markdown table."""
+    header = ("Robots", "Skill", "Against", "Matches", "Won", "Drawn")
+    header += ("Goals a minute", "Passes a minute", "Fouls a minute", "In play", "Speed")
+    return table(header, map(_cells, rows))
+
+
+def _cells(row: Row) -> tuple[str, ...]:
+    pairing = row.pairing
+    numbers = (str(pairing.robots), f"{pairing.blue:g}", f"{pairing.yellow:g}", str(row.matches))
+    rates = (_text(rate) for rate in (row.goals, row.passes, row.fouls))
+    shares = (f"{row.in_play:.0%}", f"{row.speed:.0f} x real time")
+    return (*numbers, _text(row.won), f"{row.drawn:.2f}", *rates, *shares)
+
+
+def _text(interval: Interval) -> str:
+    if interval.low is None or interval.high is None:
+        return f"{interval.mean:.2f}"
+    return f"{interval.mean:.2f} ({interval.low:.2f} to {interval.high:.2f})"
+
+
+def main(arguments: Sequence[str] | None = None) -> Path:
+    """Measure, print a table, write the result file and return its path.
+
+    Args:
+        arguments: Command line without the program name; default: that of the process.
+    """
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--only", choices=tuple(GROUPS), help="one group of pairings")
+    parser.add_argument("--matches", type=int, default=64, help="matches of a pairing")
+    parser.add_argument("--half-seconds", type=float, default=300.0, help="time of a half, s")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
+    parser.add_argument("--out", type=Path, default=FILE, help="result file")
+    options = parser.parse_args(arguments)
+    chosen = [options.only] if options.only else list(GROUPS)
+    rows = []
+    for pairing in (pairing for group in chosen for pairing in GROUPS[group]):
+        rows.append(measure(pairing, options.matches, options.half_seconds, options.seed))
+        sys.stderr.write(f"{report(rows[-1:]).splitlines()[-1]}\n")
+    sys.stdout.write(f"{report(rows)}\n")
+    result = {
+        "machine": asdict(this_machine()),
+        "half_seconds": options.half_seconds,
+        "seed": options.seed,
+        "rows": [asdict(row) for row in rows],
+    }
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    options.out.write_text(json.dumps(result, indent=1) + "\n")
+    return Path(options.out)
+
+
+if __name__ == "__main__":
+    main()
