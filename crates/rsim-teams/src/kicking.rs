@@ -7,8 +7,10 @@ use crate::plane::Plane;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Sine of the error of direction for a kick along the floor, and for a chip.
-const MAX_SINE: [f32; 2] = [0.025, 0.08];
+/// Sine of the error of direction for a shot, a pass along the floor, and a chip.
+const SHOT_SINE: f32 = 0.025;
+const PASS_SINE: f32 = 0.06;
+const CHIP_SINE: f32 = 0.12;
 /// Angular velocity for a kick, rad/s.
 const MAX_KICK_TURNING: f32 = 1.5;
 /// Way within the field that a kick out of a crowd needs, m.
@@ -53,9 +55,18 @@ fn aligned(s: &Situation, robot: &Player, kick: &Kick) -> Option<[f32; 2]> {
     let result = mouth_velocity + robot.heading * command[0];
     let result = result.unit_or(robot.heading);
     let is_aligned = result.dot(direction) > 0.0
-        && result.cross(direction).abs() < MAX_SINE[usize::from(kick.chip)]
+        && result.cross(direction).abs() < max_sine(kick)
         && robot.angular_velocity.abs() < MAX_KICK_TURNING;
     is_aligned.then_some(command)
+}
+
+/// Sine of the error of direction within which a kick is made: a receiver corrects that of a pass.
+fn max_sine(kick: &Kick) -> f32 {
+    match kick.receiver {
+        _ if kick.chip => CHIP_SINE,
+        Some(_) => PASS_SINE,
+        None => SHOT_SINE,
+    }
 }
 
 /// Speeds along the heading and upward that give the ball the speed of a kick, from a robot that moves ahead

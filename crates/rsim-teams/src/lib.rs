@@ -5,6 +5,7 @@
 //! platform.
 
 mod aim;
+mod anticipation;
 mod approach;
 mod avoidance;
 mod bounds;

@@ -19,7 +19,7 @@ const GOOD_VALUE: f32 = 0.3;
 /// Time after which any kick is made, and the same by the keeper, s.
 const PATIENCE: [f32; 2] = [1.8, 0.6];
 /// Distance of an opponent from the ball that hurries, m.
-const PRESSED: f32 = 0.35;
+const PRESSED: f32 = 0.45;
 /// Way that a robot dribbles, m; the rules allow 1.
 const DRIBBLE: f32 = 0.6;
 /// Way at which it gives the ball up, m.
@@ -36,8 +36,8 @@ const TURN_ACCELERATION: f32 = 15.0;
 const SPEED: f32 = 1.0;
 /// Angular velocity with the ball, rad/s: TIGERs turn at 5.
 const TURNING: f32 = 5.0;
-/// Time after which a robot in a crowd kicks high where it faces, s.
-const STUCK: f32 = 0.7;
+/// Time after which a robot in a crowd kicks high where it faces, s: without a pass that it aims at, and with.
+const STUCK: [f32; 2] = [0.7, 1.2];
 /// Speed of the ball in such a crowd, m/s.
 const STUCK_SPEED: f32 = 0.5;
 /// Least x of the heading for such a kick.
@@ -143,7 +143,8 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     if is_good || is_pressed {
         kicking::release(s, memory, robot, &kick, &mut order);
     }
-    let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
+    let longest = STUCK[usize::from(kick.receiver.is_some())];
+    let is_stuck = is_pressed && waited > longest && s.path.speed < STUCK_SPEED;
     if is_stuck && robot.heading.x > STUCK_HEADING {
         let ahead = kicking::out_of_crowd(s, robot, kick);
         order.kick = kicking::command(s, &ahead, 0.0);

@@ -92,12 +92,14 @@ fn legal(s: &Situation, place: Vector) -> Vector {
 /// Value of standing at a place.
 fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
     let ball = s.ball();
+    let distance = place.distance(ball);
     let lane = Lane { start: ball, end: place, speed: PASS_SPEED * MAX_BALL_SPEED, flies: 0.0 };
     let arrives = chance(margin(&lane, &s.view.others, s.body()));
     let free = (s.nearest_opponent(place) / FREE_DISTANCE).min(1.0);
-    let distance = place.distance(ball);
     let off = (BALL_DISTANCES[0] - distance).max(distance - BALL_DISTANCES[1]).max(0.0);
-    (0.3 + arrives) * (0.3 + value_at(s, place)) * (0.5 + 0.5 * free)
+    (0.3 + arrives)
+        * (0.3 + value_at(s, place, distance / (PASS_SPEED * MAX_BALL_SPEED)))
+        * (0.5 + 0.5 * free)
         - 0.15 * off
         - WAY_COST * place.distance(robot.position)
 }
