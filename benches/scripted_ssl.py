@@ -22,10 +22,9 @@ from benches.markdown import table
 from benches.result_files import RESULTS, this_machine
 from rsoccer.arrays import Doubles
 from rsoccer.evaluate import Interval, bootstrap_interval
-from rsoccer.evaluate.episodes import EpisodeRunner
 from rsoccer.evaluate.results import bootstrap_rate
 from rsoccer.lineup import lineup
-from rsoccer.policies import make_policy
+from rsoccer.task import Task
 
 TASK: Final = "SSLMatch-v0"
 FILE: Final = RESULTS / "scripted_ssl.json"
@@ -33,6 +32,8 @@ LARGEST_IN_B: Final = 6
 """Robots of a team in division B; larger teams play in division A."""
 WORLDS: Final = 64
 """Matches that are played at once."""
+SECONDS: Final = "seconds"
+"""Duration of a match, beside its metrics."""
 
 
 @dataclass(frozen=True)
@@ -101,30 +102,53 @@ def measure(pairing: Pairing, matches: int, half_seconds: float, seed: int) -> R
         division=division,
         half_seconds=half_seconds,
     )
-    policy = make_policy(f"scripted:{pairing.blue}", task)
-    controllers = lineup(task, rsoccer.LEARN, f"scripted:{pairing.yellow}")
-    runner = EpisodeRunner(task, controllers, policy, WORLDS, threads=1)
     begin = time.process_time()
-    episodes = runner.run(matches, seed)
+    parts = [
+        _play(task, pairing, min(WORLDS, matches - start), seed + start)
+        for start in range(0, matches, WORLDS)
+    ]
     busy = time.process_time() - begin
+    found = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    minutes = found[SECONDS] / 60.0
     rng = np.random.default_rng(seed)
 
     def a_minute(name: str) -> Interval:
-        counted = episodes.metrics[f"blue_{name}"] + episodes.metrics[f"yellow_{name}"]
-        return bootstrap_rate([np.stack((counted, episodes.seconds / 60.0), axis=1)], rng)
+        counted = found[f"blue_{name}"] + found[f"yellow_{name}"]
+        return bootstrap_rate([np.stack((counted, minutes), axis=1)], rng)
 
-    won: Doubles = (episodes.scores > 0.0).astype(np.float64)
+    score = found["goal_score"]
     return Row(
         pairing,
         matches,
-        won=bootstrap_interval([won], rng),
-        drawn=float((episodes.scores == 0.0).mean()),
+        won=bootstrap_interval([(score > 0.0).astype(np.float64)], rng),
+        drawn=float((score == 0.0).mean()),
         goals=a_minute("goals"),
         passes=a_minute("passes"),
         fouls=a_minute("fouls"),
-        in_play=float(episodes.metrics["in_play"].sum() / episodes.seconds.sum()),
-        speed=float(episodes.seconds.sum() / busy),
+        in_play=float(found["in_play"].sum() / found[SECONDS].sum()),
+        speed=float(found[SECONDS].sum() / busy),
     )
+
+
+def _play(task: Task, pairing: Pairing, worlds: int, seed: int) -> dict[str, Doubles]:
+    """Metrics (worlds,) at the end of matches that are played at once, and their durations, s."""
+    sides = (f"scripted:{pairing.blue}", f"scripted:{pairing.yellow}")
+    matches = rsoccer.Matches(
+        task, worlds, seed, controllers=lineup(task, *sides), autoreset="disabled"
+    )
+    matches.reset()
+    nobody = np.zeros((worlds, 0, matches.action_size), np.float32)
+    found: dict[str, Doubles] = {}
+    step = 0
+    while not matches.done.all():
+        outcome = matches.step(nobody)
+        step += 1
+        ended = outcome.ended
+        if ended.any():
+            now = {**outcome.metrics, SECONDS: np.full(worlds, step * task.config.time_step)}
+            for name, values in now.items():
+                found.setdefault(name, np.zeros(worlds))[ended] = values[ended]
+    return found
 
 
 def report(rows: Sequence[Row]) -> str:
