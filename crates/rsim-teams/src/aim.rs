@@ -56,7 +56,7 @@ const RUN_SPEED: f32 = 2.0;
 /// Distance from opponents that it needs, m.
 const RUN_SPACE: f32 = 1.0;
 /// Its value.
-const RUN_VALUE: f32 = 0.04;
+const RUN_VALUE: f32 = 0.1;
 const GRAVITY: f32 = 9.81;
 
 /// A kick.
