@@ -65,11 +65,13 @@ fn save(s: &Situation, keeper: &Player, crossing: Vector) -> Vector {
     let along = (keeper.position - ball).dot(ahead).clamp(0.0, way.length());
     let mut foot = ball + ahead * along;
     foot.x = foot.x.max(s.pitch.own_goal().x + 0.5 * LINE_ROOM);
-    // In a hurry it drives through the foot, so that it does not brake before the ball is there.
+    // If it comes late at its speed, it drives through the foot, so that it does not brake before the ball is
+    // there. Beyond the foot the ball would bounce from its side into the goal.
     let to = foot - keeper.position;
     let room = to.length();
     let time = along / s.path.speed.max(SHOT_SPEED);
-    if room > 0.05 && time < HURRY { foot + to * (0.15 / room) } else { foot }
+    let is_late = keeper.velocity.dot(to) * time < room * room;
+    if room > 0.05 && time < HURRY && is_late { foot + to * (0.15 / room) } else { foot }
 }
 
 /// Distance of the keeper from the middle of the goal, m: against a kicker that comes alone it comes out.

@@ -1,4 +1,6 @@
-//! Tests of scripted sides in matches with physics and referee.
+//! Tests of the scripted side with physics and referee.
 
 mod arena;
 mod matches;
+mod restarts;
+mod saves;

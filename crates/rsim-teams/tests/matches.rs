@@ -4,14 +4,10 @@ use rsim_core::{Field, SimConfig};
 use rsim_referee::Team;
 use rsim_referee::config::Placement;
 
-use crate::arena::{Arena, Counts};
+use crate::arena::Arena;
 
 fn six(skills: [f32; 2], half_seconds: f32, placement: Placement, seed: u32) -> Arena {
     Arena::new(SimConfig::ssl(6, 6), skills, half_seconds, placement, seed)
-}
-
-fn count(counts: &Counts, event: &str) -> u32 {
-    counts.events.get(event).map_or(0, |teams| teams.iter().sum())
 }
 
 #[test]
@@ -40,8 +36,8 @@ fn unskilled_teams_obey_the_rules_too() {
 fn robots_place_the_ball_wherever_it_lies() {
     let mut arena = six([1.0, 0.5], 90.0, Placement::Robots, 3);
     arena.run();
-    let placed = count(&arena.counts, "PLACEMENT_SUCCEEDED");
-    let failed = count(&arena.counts, "PLACEMENT_FAILED");
+    let placed = arena.counts.of("PLACEMENT_SUCCEEDED");
+    let failed = arena.counts.of("PLACEMENT_FAILED");
     assert!(placed > 5 && 10 * failed <= placed, "{placed} placed, {failed} failed");
 }
 
@@ -78,7 +74,7 @@ fn teams_of_all_sizes_play() {
         let sizes = (config.blue.len(), config.yellow.len());
         let mut arena = Arena::new(config, [1.0, 1.0], 20.0, Placement::Teleport, 5);
         (0..1200).for_each(|_| arena.step());
-        let lost = count(&arena.counts, "NO_PROGRESS_IN_GAME");
+        let lost = arena.counts.of("NO_PROGRESS_IN_GAME");
         assert_eq!(lost, 0, "{sizes:?}: somebody plays the ball: {:?}", arena.counts.events);
         assert!(arena.counts.in_play > 200, "{sizes:?}: {:?}", arena.counts);
     }

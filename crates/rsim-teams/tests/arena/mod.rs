@@ -32,6 +32,13 @@ pub(crate) struct Counts {
     pub(crate) steps: u32,
 }
 
+impl Counts {
+    /// Number of events of a kind, of both teams.
+    pub(crate) fn of(&self, event: &str) -> u32 {
+        self.events.get(event).map_or(0, |teams| teams.iter().sum())
+    }
+}
+
 /// A match.
 #[derive(Clone)]
 pub(crate) struct Arena {
@@ -45,9 +52,9 @@ pub(crate) struct Arena {
     pub(crate) counts: Counts,
     world: World,
     referee: Referee,
-    pub(crate) sides: [ScriptedTeam; 2],
-    pub(crate) memories: [Vec<f32>; 2],
-    pub(crate) statistics: Statistics,
+    sides: [ScriptedTeam; 2],
+    memories: [Vec<f32>; 2],
+    statistics: Statistics,
     before: Vec<f32>,
     restart: Vec<f32>,
     commands: Vec<f32>,
@@ -108,6 +115,26 @@ impl Arena {
             sides,
             memories,
         }
+    }
+
+    /// Puts a robot at a place (m), at rest.
+    pub(crate) fn set_robot(&mut self, robot: usize, place: [f32; 2]) {
+        let first = BALL_COLUMNS.len() + robot * ROBOT_COLUMNS.len();
+        for (name, value) in [("x", place[0]), ("y", place[1]), ("v_x", 0.0), ("v_y", 0.0)] {
+            self.row[first + robot_column(name)] = value;
+        }
+        self.world.place(&self.row, None).expect("a valid place");
+        self.world.write_row(&mut self.row);
+    }
+
+    /// Puts the ball at a place (m) with a velocity (m/s).
+    pub(crate) fn set_ball(&mut self, place: [f32; 2], velocity: [f32; 2]) {
+        let values = [place[0], place[1], velocity[0], velocity[1]];
+        for (name, value) in ["x", "y", "v_x", "v_y"].into_iter().zip(values) {
+            self.row[ball_column(name)] = value;
+        }
+        self.world.place(&self.row, None).expect("a valid place");
+        self.world.write_row(&mut self.row);
     }
 
     /// Plays until the end of the match.
