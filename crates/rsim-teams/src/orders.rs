@@ -1,4 +1,4 @@
-//! Who does what in a step: orders of all robots of a team.
+//! Orders of all robots of a team in a step: who does what.
 
 use rsim_referee::Vector;
 

@@ -17,12 +17,12 @@ use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, ScriptedTeam, TeamC
 /// Control steps after which a match is broken off, in case its last half never ends.
 const MAX_STEPS: u32 = 200_000;
 
-/// What is counted in a match, blue first.
+/// Counts of a match, blue first.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Counts {
     /// Events by their kind.
     pub(crate) events: BTreeMap<&'static str, [u32; 2]>,
-    /// Balls that came from one robot to a mate.
+    /// Balls that came from one robot to a teammate.
     pub(crate) passes: [u32; 2],
     /// Offenses.
     pub(crate) offenses: [u32; 2],
@@ -48,7 +48,7 @@ pub(crate) struct Arena {
     pub(crate) game: Game,
     /// State row.
     pub(crate) row: Vec<f32>,
-    /// What happened so far.
+    /// Counts so far.
     pub(crate) counts: Counts,
     world: World,
     referee: Referee,
