@@ -2,6 +2,7 @@
 
 use rsim_referee::Vector;
 
+use crate::anticipation;
 use crate::lanes::{Lane, chance, margin};
 use crate::pitch::Area;
 use crate::plane::Plane;
@@ -16,7 +17,7 @@ const GOAL_PLACES: [f32; 9] = [0.0, -0.22, 0.22, -0.44, 0.44, -0.63, 0.63, -0.8,
 /// Places in the goal by which a position is valued.
 const FEW_PLACES: [f32; 3] = [0.0, -0.7, 0.7];
 /// Speed of a pass on arrival, m/s: the dribbler stops it.
-const ARRIVAL_SPEED: f32 = 1.8;
+const ARRIVAL_SPEED: f32 = 2.4;
 /// Shortest and longest pass, m.
 const PASS_DISTANCES: [f32; 2] = [0.9, 6.5];
 /// Time for which a receiver goes on as it does, s.
@@ -29,6 +30,11 @@ const LOW: f32 = 0.25;
 const CHIP_RECEPTION: f32 = 0.75;
 /// Share of the value of a long shot that is worth it: aimless kicks give free kicks.
 const AIMLESS: f32 = 0.3;
+/// Value of the ball at a place from which a shot is a sure goal, and of the way over the field to the goal.
+const GOAL_VALUE: f32 = 0.55;
+const PROGRESS_VALUE: f32 = 0.25;
+/// Share of a pass's first speed that it has on its way, along the floor and in the air.
+const MEAN_PASS_SPEED: [f32; 2] = [0.7, 0.6];
 /// Directions of clearances.
 const CLEARANCES: [Vector; 5] = [
     Vector::new(1.0, 0.0),
@@ -42,7 +48,7 @@ const CLEARANCE: f32 = 3.0;
 /// Speed of a clearance, m/s.
 const CLEARANCE_SPEED: f32 = 4.5;
 /// Value of a clearance that no opponent stops.
-const CLEARANCE_VALUE: f32 = 0.08;
+const CLEARANCE_VALUE: f32 = 0.04;
 /// Way of a ball that its kicker follows, m.
 const RUN: f32 = 1.2;
 /// Speed of such a kick, m/s.
@@ -88,20 +94,25 @@ pub(crate) fn best_kick(s: &Situation, from: Vector, kicker: usize) -> Kick {
 
 /// The best shot at the goal.
 pub(crate) fn shot(s: &Situation, from: Vector) -> Kick {
-    let (at, chance) = best_goal_place(s, from, &GOAL_PLACES);
+    let (at, chance) = best_goal_place(s, from, &GOAL_PLACES, &s.view.others);
     let value = if from.x < 0.0 { AIMLESS * chance } else { chance };
     Kick { at, speed: MAX_BALL_SPEED, chip: false, receiver: None, value }
 }
 
 /// The place in the goal that is most likely hit, and the likelihood.
-fn best_goal_place(s: &Situation, from: Vector, places: &[f32]) -> (Vector, f32) {
+fn best_goal_place(
+    s: &Situation,
+    from: Vector,
+    places: &[f32],
+    opponents: &[Player],
+) -> (Vector, f32) {
     let goal = s.pitch.their_goal();
     let half = s.pitch.lines.half_goal_width - s.config.ball.radius;
     let mut best = (goal, -1.0);
     for share in places {
         let end = Vector::new(goal.x, share * half);
         let lane = Lane { start: from, end, speed: MAX_BALL_SPEED, flies: 0.0 };
-        let found = margin(&lane, &s.view.others, s.body());
+        let found = margin(&lane, opponents, s.body());
         if found > best.1 {
             best = (end, found);
         }
@@ -112,11 +123,13 @@ fn best_goal_place(s: &Situation, from: Vector, places: &[f32]) -> (Vector, f32)
     (best.0, chance(best.1) * frontal)
 }
 
-/// Value of having the ball at a place.
-pub(crate) fn value_at(s: &Situation, place: Vector) -> f32 {
+/// Value of receiving the ball at a place, `time` (s) after a kick to it: the opponents use that time.
+pub(crate) fn value_at(s: &Situation, place: Vector, time: f32) -> f32 {
+    let opponents = anticipation::opponents(s, place, time);
+    let (_, goal) = best_goal_place(s, place, &FEW_PLACES, &opponents);
     let half_length = s.pitch.lines.half_length;
     let progress = (place.x + half_length) / (2.0 * half_length);
-    0.55 * best_goal_place(s, place, &FEW_PLACES).1 + 0.12 * progress
+    GOAL_VALUE * goal + PROGRESS_VALUE * progress
 }
 
 /// The better of the flat and the high pass to a teammate; none if it is unlikely to arrive.
@@ -145,13 +158,10 @@ fn pass(s: &Situation, from: Vector, teammate: &Player) -> Option<Kick> {
         return None;
     }
     let chip = flies > passes;
-    Some(Kick {
-        at,
-        speed: if chip { chip_speed } else { speed },
-        chip,
-        receiver: Some(teammate.index),
-        value: arrives * value_at(s, at),
-    })
+    let speed = if chip { chip_speed } else { speed };
+    let time = distance / (speed * MEAN_PASS_SPEED[usize::from(chip)]);
+    let value = arrives * value_at(s, at, time);
+    Some(Kick { at, speed, chip, receiver: Some(teammate.index), value })
 }
 
 /// A weak kick ahead that the robot follows, where it has much space: it may not dribble far.
@@ -190,4 +200,69 @@ pub(crate) fn with_error(s: &Situation, kick: Kick, from: Vector, robot: usize) 
     let way = kick.at - from;
     let turned = Vector::new(1.0, error).unit_or(Vector::new(1.0, 0.0));
     Kick { at: from + turned.turned_by(way), ..kick }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    #[test]
+    fn shots_go_beside_the_keeper() {
+        let mut scene = Scene::new(1, 1);
+        scene.ball([2.5, 0.0], [0.0, 0.0]);
+        scene.robot(1, [4.4, 0.3]);
+        scene.situation(PLAY, |s| {
+            let kick = shot(s, s.ball());
+            assert!(kick.at.y < -0.1 && kick.at.y > -0.5 && kick.value > 0.5, "{kick:?}");
+            assert!(kick.speed <= MAX_BALL_SPEED && !kick.chip);
+            let far = shot(s, Vector::new(-2.0, 0.0));
+            assert!(far.value < 0.3, "{far:?}");
+        });
+    }
+
+    #[test]
+    fn a_free_teammate_before_the_goal_is_better_than_a_blocked_shot() {
+        let mut scene = Scene::new(2, 2);
+        scene.ball([2.0, -2.0], [0.0, 0.0]);
+        scene.robot(0, [-4.0, 0.0]);
+        scene.robot(1, [3.0, 1.5]);
+        scene.robot(2, [2.3, -1.75]);
+        scene.robot(3, [4.3, -0.4]);
+        scene.situation(PLAY, |s| {
+            let kick = best_kick(s, s.ball(), 5);
+            assert_eq!(kick.receiver, Some(1), "{kick:?}");
+        });
+    }
+
+    #[test]
+    fn passes_fly_over_an_opponent_in_the_way() {
+        let mut scene = Scene::new(2, 1);
+        scene.ball([-1.0, 0.0], [0.0, 0.0]);
+        scene.robot(1, [2.0, 0.0]);
+        scene.robot(2, [-0.2, 0.0]);
+        scene.situation(PLAY, |s| {
+            let teammate = s.view.own.with_index(1).expect("a teammate");
+            let over = pass(s, s.ball(), teammate).expect("it flies");
+            assert!(over.chip && over.speed <= MAX_BALL_SPEED, "{over:?}");
+        });
+        scene.robot(2, [-0.2, 1.5]);
+        scene.situation(PLAY, |s| {
+            let teammate = s.view.own.with_index(1).expect("a teammate");
+            assert!(!pass(s, s.ball(), teammate).expect("it rolls").chip);
+        });
+    }
+
+    #[test]
+    fn less_skill_kicks_less_accurately() {
+        let error = |skill: f32| {
+            let mut scene = Scene::new(1, 0);
+            scene.config.skill = skill;
+            scene.situation(PLAY, |s| {
+                let kick = shot(s, s.ball());
+                (with_error(s, kick, s.ball(), 0).at - kick.at).length()
+            })
+        };
+        assert!(error(1.0) > 0.0 && error(0.0) > 10.0 * error(1.0));
+    }
 }

@@ -93,3 +93,48 @@ fn fetch(s: &Situation, robot: &Player, meeting: Meeting, direction: Vector) -> 
     let dribbler = if near { 1.0 } else { 0.0 };
     Order { moving, dribbler, ball_distance: mouth + BALL_ROOM, ..Order::to(target, direction) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    const AHEAD: Vector = Vector::new(1.0, 0.0);
+
+    fn order(scene: &Scene) -> Order {
+        scene.situation(PLAY, |s| take(s, &s.view.own[0], s.own.of(0).expect("it is there"), AHEAD))
+    }
+
+    #[test]
+    fn a_robot_drives_behind_a_resting_ball_before_it_drives_into_it() {
+        let mut scene = Scene::new(1, 0);
+        scene.robot(0, [0.5, 0.0]);
+        let around = order(&scene);
+        assert!(around.target.x < -0.15 && around.ball_distance > 0.0, "{around:?}");
+        scene.robot(0, [-0.2, 0.0]);
+        let into = order(&scene);
+        assert!(into.straight && into.dribbler > 0.0 && into.moving.x > 0.0, "{into:?}");
+        scene.robot(0, [-0.2, 0.06]);
+        assert!(!order(&scene).straight, "it is too far to the side");
+    }
+
+    #[test]
+    fn a_robot_stands_in_the_way_of_a_coming_ball_and_faces_it() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([-2.0, 0.1], [2.0, 0.0]);
+        scene.robot(0, [-0.5, 0.0]);
+        let order = order(&scene);
+        assert!((order.target.y - 0.1).abs() < 1e-4, "{order:?}");
+        assert!(order.facing.x < -0.9 && order.dribbler > 0.0, "{order:?}");
+    }
+
+    #[test]
+    fn a_good_shot_is_made_at_first_touch() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([4.2, 1.5], [-1.25, -1.56]);
+        scene.robot(0, [2.9, -0.1]);
+        let order = order(&scene);
+        assert!(order.kick[0] > 5.0 && order.dribbler < 0.5, "{order:?}");
+        assert!(order.facing.x > 0.8, "{order:?}");
+    }
+}

@@ -2,9 +2,9 @@
 
 use rsim_referee::Vector;
 
+use crate::avoidance::{Avoided, Limit};
 use crate::phase::{Mode, Phase, Restart};
 use crate::pitch::{Area, Pitch};
-use crate::plane::Plane;
 
 /// Speed in a stop, m/s; the rules allow 1.5.
 const STOP_SPEED: f32 = 1.2;
@@ -14,8 +14,6 @@ const BALL_DISTANCE: f32 = 0.5;
 const AREA_DISTANCE: f32 = 0.2;
 /// Distance behind the ball of robots that take no part in a penalty kick, m.
 const PENALTY_DISTANCE: f32 = 1.0;
-/// Distance from the ball from which a robot may cross the way of a placement, m.
-const FAR: f32 = 1.2;
 /// Room to the limits of the rules, m.
 const ROOM: f32 = 0.04;
 /// Room to the distance from the ball, m: in the step of a kick the ball moves up to 0.16.
@@ -41,27 +39,14 @@ pub(crate) enum Part {
 pub(crate) struct Bounds {
     /// m/s.
     pub(crate) max_speed: f32,
-    /// Way around which the robot keeps `distance`, m.
-    pub(crate) avoided: [Vector; 2],
-    /// Distance from that way, m; 0 for none.
-    pub(crate) distance: f32,
+    /// Way around which the robot keeps its distance.
+    pub(crate) avoided: Avoided,
     /// Distance of the center from the opponents' area, m.
     pub(crate) their_area: f32,
     /// Distance of the center from the own area, m; none for the keeper.
     pub(crate) own_area: Option<f32>,
     /// Limits of x, m.
     pub(crate) x: [f32; 2],
-    /// Maximum of the absolute x and y, m.
-    walls: Vector,
-}
-
-/// A limit near a robot.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limit {
-    /// Distance from it, m; negative beyond it.
-    pub(crate) distance: f32,
-    /// Direction away from it.
-    pub(crate) away: Vector,
 }
 
 impl Bounds {
@@ -76,12 +61,14 @@ impl Bounds {
     ) -> Self {
         let mut bounds = Self {
             max_speed,
-            avoided: [ball; 2],
-            distance: 0.0,
+            avoided: Avoided {
+                ends: [ball; 2],
+                distance: 0.0,
+                walls: pitch.within_walls(Vector::new(100.0, 100.0), radius + PLAY_ROOM),
+            },
             their_area: radius + TOUCH_ROOM,
             own_area: (part != Part::Keeper).then_some(radius + PLAY_ROOM),
             x: [f32::NEG_INFINITY, f32::INFINITY],
-            walls: pitch.within_walls(Vector::new(100.0, 100.0), radius + PLAY_ROOM),
         };
         let from_ball = BALL_DISTANCE + radius + ROOM;
         let is_taker = part == Part::Taker;
@@ -89,20 +76,20 @@ impl Bounds {
             Mode::Play | Mode::Halt => return bounds,
             Mode::Stop => {
                 bounds.max_speed = max_speed.min(STOP_SPEED);
-                bounds.distance = from_ball;
+                bounds.avoided.distance = from_ball;
             }
             Mode::Place => {
-                bounds.avoided = [ball, place];
-                bounds.distance = from_ball + ROOM;
+                bounds.avoided.ends = [ball, place];
+                bounds.avoided.distance = from_ball + ROOM;
                 if is_taker && phase.ours {
                     // It takes the ball wherever it lies.
-                    bounds.distance = 0.0;
+                    bounds.avoided.distance = 0.0;
                     (bounds.own_area, bounds.their_area) = (None, f32::NEG_INFINITY);
                     return bounds;
                 }
             }
             Mode::Prepare | Mode::Kick if !phase.ours => {
-                bounds.distance = BALL_DISTANCE + radius + BALL_ROOM;
+                bounds.avoided.distance = BALL_DISTANCE + radius + BALL_ROOM;
             }
             Mode::Prepare | Mode::Kick => {}
         }
@@ -118,8 +105,8 @@ impl Bounds {
         let is_kicker = phase.ours && part == Part::Taker && phase.mode != Mode::Stop;
         if !is_kicker {
             // The center circle has the radius of the distance from the ball.
-            self.distance = BALL_DISTANCE + radius + BALL_ROOM;
-            self.avoided = [Vector::default(); 2];
+            self.avoided.distance = BALL_DISTANCE + radius + BALL_ROOM;
+            self.avoided.ends = [Vector::default(); 2];
             self.x[1] = -(radius + ROOM);
         }
     }
@@ -135,7 +122,7 @@ impl Bounds {
         } else if part != Part::Keeper {
             self.x[0] = place.x + behind;
         } else {
-            self.distance = 0.0;
+            self.avoided.distance = 0.0;
         }
     }
 
@@ -147,9 +134,9 @@ impl Bounds {
                 place = pitch.outside(Area::Own, place, own);
             }
             place = pitch.outside(Area::Theirs, place, self.their_area);
-            let limit = self.limit_of_avoided(place);
+            let limit = self.avoided.limit(place);
             if limit.distance < 0.0 {
-                place = self.nearest_avoided(place) + limit.away * self.distance;
+                place = self.avoided.nearest(place) + limit.away * self.avoided.distance;
             }
             place.x = place.x.clamp(self.x[0], self.x[1]);
         }
@@ -166,54 +153,10 @@ impl Bounds {
         [
             self.own_area.map_or(along_x(f32::INFINITY, 1.0), |margin| area(Area::Own, margin)),
             area(Area::Theirs, self.their_area),
-            self.limit_of_avoided(place),
+            self.avoided.limit(place),
             along_x(place.x - self.x[0], 1.0),
             along_x(self.x[1] - place.x, -1.0),
         ]
-    }
-
-    fn limit_of_avoided(&self, place: Vector) -> Limit {
-        if self.distance <= 0.0 {
-            return Limit { distance: f32::INFINITY, away: Vector::new(1.0, 0.0) };
-        }
-        let nearest = self.nearest_avoided(place);
-        let aside = (self.avoided[1] - self.avoided[0]).left().unit_or(Vector::new(-1.0, 0.0));
-        let away = (place - nearest).unit_or(aside);
-        let away = if self.is_within_walls(nearest + away * self.distance) {
-            away
-        } else {
-            self.along_wall(place, nearest, away)
-        };
-        Limit { distance: place.distance(nearest) - self.distance, away }
-    }
-
-    /// Direction in which a robot gets away that has no room before a wall: along the wall, or past the way
-    /// where the ball is far.
-    fn along_wall(&self, place: Vector, nearest: Vector, away: Vector) -> Vector {
-        let is_beside = (nearest + away * self.distance).y.abs() > self.walls.y;
-        let offset = place - nearest;
-        let along = if is_beside { Vector::new(offset.x, 0.0) } else { Vector::new(0.0, offset.y) };
-        let inward = (nearest * -1.0).unit_or(Vector::new(-1.0, 0.0));
-        let along = along.unit_or(inward);
-        let is_far = place.distance(self.avoided[0]) > FAR;
-        if is_far || !self.is_within_walls(nearest + along * self.distance) {
-            inward
-        } else {
-            along
-        }
-    }
-
-    fn is_within_walls(&self, place: Vector) -> bool {
-        place.x.abs() <= self.walls.x && place.y.abs() <= self.walls.y
-    }
-
-    /// The place on the avoided way that is nearest to a place.
-    fn nearest_avoided(&self, place: Vector) -> Vector {
-        let [start, end] = self.avoided;
-        let along = end - start;
-        let square = along.dot(along);
-        let share = if square > 0.0 { (place - start).dot(along) / square } else { 0.0 };
-        start + along * share.clamp(0.0, 1.0)
     }
 }
 

@@ -86,3 +86,54 @@ pub(crate) fn add_marks(s: &Situation, count: usize, jobs: &mut Jobs) -> usize {
     }
     added
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pitch::Area;
+    use crate::testing::{PLAY, Scene};
+
+    fn places(scene: &Scene, add: impl Fn(&Situation, &mut Jobs)) -> Vec<Vector> {
+        scene.situation(PLAY, |s| {
+            let mut jobs = Jobs::default();
+            add(s, &mut jobs);
+            let places: Vec<Vector> = jobs.iter().filter_map(|job| job.place).collect();
+            for place in &places {
+                let distance = s.pitch.distance_to(Area::Own, *place);
+                assert!(distance > 0.09, "{place:?} is in the own area");
+            }
+            places
+        })
+    }
+
+    #[test]
+    fn a_wall_stands_before_the_area_on_the_way_of_a_shot() {
+        let mut scene = Scene::new(3, 1);
+        for ball in [[-1.0, 0.5], [-3.0, 2.5], [-4.0, 0.3], [-4.3, 1.6]] {
+            scene.ball(ball, [0.0, 0.0]);
+            let wall = places(&scene, |s, jobs| add_wall(s, 2, jobs));
+            assert_eq!(wall.len(), 2);
+            assert!(wall[0].distance(wall[1]) > 0.18, "{ball:?}: {wall:?}");
+        }
+        scene.ball([-1.0, 0.5], [0.0, 0.0]);
+        let one = places(&scene, |s, jobs| add_wall(s, 1, jobs))[0];
+        let off = one.distance_to_segment(Vector::new(-1.0, 0.5), Vector::new(-4.5, 0.0));
+        assert!(off < 0.01, "{one:?}");
+    }
+
+    #[test]
+    fn opponents_near_the_goal_are_marked_on_its_side() {
+        let mut scene = Scene::new(3, 3);
+        scene.ball([2.0, 0.0], [0.0, 0.0]);
+        scene.robot(3, [2.2, 0.0]);
+        scene.robot(4, [-2.0, 1.5]);
+        scene.robot(5, [0.0, -1.5]);
+        let marks = places(&scene, |s, jobs| {
+            add_marks(s, 2, jobs);
+        });
+        assert_eq!(marks.len(), 2);
+        let [nearest, other] = [Vector::new(-2.0, 1.5), Vector::new(0.0, -1.5)];
+        assert!(marks[0].distance(nearest) < 0.33 && marks[0].x < -1.9, "{marks:?}");
+        assert!(marks[1].distance(other) < 0.33, "the one at the ball is not marked: {marks:?}");
+    }
+}

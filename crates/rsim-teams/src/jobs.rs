@@ -40,6 +40,12 @@ impl Jobs {
         }
     }
 
+    /// The jobs.
+    #[cfg(test)]
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Job> {
+        self.all[..self.count].iter()
+    }
+
     /// Number of jobs.
     pub(crate) const fn len(&self) -> usize {
         self.count

@@ -50,8 +50,8 @@ pub(crate) fn margin(lane: &Lane, opponents: &[Player], body: f32) -> f32 {
     least
 }
 
-/// Distance that an opponent moves toward the ball in a time after the kick, m.
-fn reach(time: f32) -> f32 {
+/// Distance that an opponent moves toward the ball in a time (s) after the kick, m.
+pub(crate) fn reach(time: f32) -> f32 {
     let time = (time - REACTION).max(0.0);
     let speeding_up = SPEED / ACCELERATION;
     if time < speeding_up {

@@ -5,7 +5,9 @@
 //! platform.
 
 mod aim;
+mod anticipation;
 mod approach;
+mod avoidance;
 mod bounds;
 mod config;
 mod defense;
@@ -13,11 +15,14 @@ mod error;
 mod intercept;
 mod jobs;
 mod keeper;
+mod kicking;
 mod lanes;
 mod memory;
 mod motion;
 mod order;
+mod orders;
 mod path;
+mod penalty;
 mod phase;
 mod pitch;
 mod placement;

@@ -142,3 +142,56 @@ fn leave(s: &Situation, robot: &Player) -> Order {
     let order = Order::to(target, away * -1.0);
     Order { max_speed: 0.8, acceleration: 1.5, ball_distance: 0.0, straight: true, ..order }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::{Mode, Phase, Restart};
+    use crate::testing::Scene;
+
+    const PLACE: Phase =
+        Phase { mode: Mode::Place, restart: Restart::Free, ours: true, kicks_next: true };
+
+    fn order(scene: &Scene, to: [f32; 2], kicks_next: bool) -> Order {
+        let mut memory = TeamMemory::new(1);
+        scene.situation(Phase { kicks_next, ..PLACE }, |s| {
+            let s = Situation { place: Vector::new(to[0], to[1]), path: s.path.clone(), ..*s };
+            place(&s, &mut memory, &s.view.own[0])
+        })
+    }
+
+    #[test]
+    fn balls_at_walls_and_goals_are_taken_from_where_there_is_room() {
+        let scene = Scene::new(1, 0);
+        for (x, y) in
+            [(4.75, 3.25), (-4.75, -3.25), (4.75, 0.58), (-4.6, 0.46), (4.66, 0.0), (1.0, -3.25)]
+        {
+            scene.situation(PLACE, |s| {
+                let ball = Vector::new(x, y);
+                let center = ball - outward(s, ball) * s.config.mouth();
+                let (wall_x, wall_y) = (4.8 - center.x.abs(), 3.3 - center.y.abs());
+                assert!(wall_x > 0.09 && wall_y > 0.09, "{ball:?}: {center:?}");
+                let beside_net = (center.y.abs() - 0.5).abs();
+                assert!(center.x.abs() < 4.4 || beside_net > 0.09, "{ball:?}: {center:?}");
+            });
+        }
+    }
+
+    #[test]
+    fn a_ball_in_the_mouth_is_carried_and_left_at_its_place() {
+        let mut scene = Scene::new(1, 0);
+        scene.robot(0, [0.0, 0.0]);
+        scene.ball([0.093, 0.0], [0.0, 0.0]);
+        scene.set(0, "infrared", 1.0);
+        let carries = order(&scene, [2.0, 0.0], true);
+        assert!(carries.target.x > 1.5 && carries.dribbler > 0.0, "{carries:?}");
+        let aside = order(&scene, [0.0, 2.0], true);
+        assert!(aside.target.x.abs() < 1e-3 && aside.facing.y > 0.9, "it turns first: {aside:?}");
+        for (kicks_next, gap) in [(true, 0.12), (false, 0.56)] {
+            let leaves = order(&scene, [0.093, 0.0], kicks_next);
+            let distance = leaves.target.distance(Vector::new(0.093, 0.0));
+            assert!((distance - 0.1115 - gap).abs() < 1e-3, "{leaves:?}");
+            assert!(leaves.dribbler <= 0.0 && leaves.target.x < 0.0, "{leaves:?}");
+        }
+    }
+}

@@ -2,7 +2,8 @@
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, Kick, MAX_BALL_SPEED};
+use crate::aim::{self, Kick};
+use crate::kicking;
 use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::plane::Plane;
@@ -18,7 +19,7 @@ const GOOD_VALUE: f32 = 0.3;
 /// Time after which any kick is made, and the same by the keeper, s.
 const PATIENCE: [f32; 2] = [1.8, 0.6];
 /// Distance of an opponent from the ball that hurries, m.
-const PRESSED: f32 = 0.35;
+const PRESSED: f32 = 0.45;
 /// Way that a robot dribbles, m; the rules allow 1.
 const DRIBBLE: f32 = 0.6;
 /// Way at which it gives the ball up, m.
@@ -35,20 +36,12 @@ const TURN_ACCELERATION: f32 = 15.0;
 const SPEED: f32 = 1.0;
 /// Angular velocity with the ball, rad/s: TIGERs turn at 5.
 const TURNING: f32 = 5.0;
-/// Sine of the error of direction for a kick along the floor, and for a chip.
-const MAX_SINE: [f32; 2] = [0.025, 0.08];
-/// Angular velocity for a kick, rad/s.
-const MAX_KICK_TURNING: f32 = 1.5;
-/// Time after which a robot in a crowd kicks high where it faces, s.
-const STUCK: f32 = 0.7;
+/// Time after which a robot in a crowd kicks high where it faces, s: without a pass that it aims at, and with.
+const STUCK: [f32; 2] = [0.7, 1.2];
 /// Speed of the ball in such a crowd, m/s.
 const STUCK_SPEED: f32 = 0.5;
 /// Least x of the heading for such a kick.
 const STUCK_HEADING: f32 = -0.3;
-/// Way that such a kick needs within the field, m.
-const STUCK_WAY: f32 = 2.0;
-/// Speed of such a kick, m/s.
-const STUCK_KICK: f32 = 3.5;
 /// Gap before the mouth at which a robot still controls the ball, m.
 const CONTROL_GAP: f32 = 0.025;
 /// Distance to the side at which it does, m.
@@ -136,16 +129,7 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     let is_good = kick.value >= GOOD_VALUE * hurry * (1.0 - waited / patience);
     let way = ball.distance(memory.carry_start);
     let facing = kick.at - ball;
-    let mut order = Order {
-        max_speed: SPEED,
-        acceleration: ACCELERATION,
-        turning: turning(s, robot),
-        turn_acceleration: TURN_ACCELERATION,
-        dribbler: 1.0,
-        ball_distance: 0.0,
-        straight: true,
-        ..Order::to(robot.position, facing)
-    };
+    let mut order = turn(s, robot, facing);
     // A robot that came fast brakes as hard as it has to: then the ball rolls away from it.
     let left = (MAX_DRIBBLE - way).max(0.05);
     let limit = if is_good { DECELERATION } else { ACCELERATION };
@@ -157,27 +141,15 @@ pub(crate) fn play(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
         order.target = dribble_target(s, memory, robot);
     }
     if is_good || is_pressed {
-        release(s, memory, robot, &kick, &mut order);
+        kicking::release(s, memory, robot, &kick, &mut order);
     }
-    let is_stuck = is_pressed && waited > STUCK && s.path.speed < STUCK_SPEED;
+    let longest = STUCK[usize::from(kick.receiver.is_some())];
+    let is_stuck = is_pressed && waited > longest && s.path.speed < STUCK_SPEED;
     if is_stuck && robot.heading.x > STUCK_HEADING {
-        let ahead = stuck_kick(s, robot, kick);
-        order.kick = kick_command(s, &ahead, 0.0);
+        let ahead = kicking::out_of_crowd(s, robot, kick);
+        order.kick = kicking::command(s, &ahead, 0.0);
     }
     order
-}
-
-/// A kick in the direction that a robot in a crowd faces: a shot, or over the others.
-fn stuck_kick(s: &Situation, robot: &Player, kick: Kick) -> Kick {
-    let (ball, goal) = (s.ball(), s.pitch.their_goal());
-    let share = (goal.x - ball.x) / robot.heading.x;
-    let y = ball.y + robot.heading.y * share;
-    let is_shot = robot.heading.x > 0.0 && y.abs() < s.pitch.lines.half_goal_width;
-    let at = ball + robot.heading * STUCK_WAY;
-    if is_shot {
-        return Kick { at: goal, speed: MAX_BALL_SPEED, chip: false, ..kick };
-    }
-    Kick { at, speed: STUCK_KICK, chip: s.pitch.lines.is_inside(at, 0.0), ..kick }
 }
 
 /// Angular velocity at which the ball stays in the mouth of a robot that drives, rad/s.
@@ -186,6 +158,20 @@ pub(crate) fn turning(s: &Situation, robot: &Player) -> f32 {
     let (r, v) = (s.config.mouth(), robot.velocity.length());
     let held = ((v * v + 4.0 * r * SIDE_ACCELERATION).sqrt() - v) / (2.0 * r);
     held.min(TURNING * s.skill.turning)
+}
+
+/// Order of a robot that turns on the spot with the ball.
+pub(crate) fn turn(s: &Situation, robot: &Player, facing: Vector) -> Order {
+    Order {
+        max_speed: SPEED,
+        acceleration: ACCELERATION,
+        turning: turning(s, robot),
+        turn_acceleration: TURN_ACCELERATION,
+        dribbler: 1.0,
+        ball_distance: 0.0,
+        straight: true,
+        ..Order::to(robot.position, facing)
+    }
 }
 
 /// Lets go of a ball that has been dribbled far: a weak kick ahead, or none backward.
@@ -210,49 +196,63 @@ fn dribble_target(s: &Situation, memory: &TeamMemory, robot: &Player) -> Vector 
     memory.carry_start + from_start
 }
 
-/// Kicks if the ball would go where the kick is to go.
-pub(crate) fn release(
-    s: &Situation,
-    memory: &mut TeamMemory,
-    robot: &Player,
-    kick: &Kick,
-    order: &mut Order,
-) {
-    let Some(command) = aligned_kick(s, robot, kick) else { return };
-    order.kick = command;
-    if robot.has_ball {
-        memory.receiver = kick.receiver;
-        memory.pass_steps = 100;
-        memory.aimer = None;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{PLAY, Scene};
+
+    /// A robot with the ball in its mouth, which it has taken at a distance.
+    fn order(scene: &mut Scene, taken: f32) -> Order {
+        scene.ball([0.093, 0.0], [0.0, 0.0]);
+        scene.robot(0, [0.0, 0.0]);
+        scene.set(0, "infrared", 1.0);
+        let mut memory = TeamMemory::new(1);
+        memory.carrier = Some(0);
+        memory.carry_start = Vector::new(0.093 - taken, 0.0);
+        scene.situation(PLAY, |s| {
+            follow(s, &mut memory);
+            play(s, &mut memory, &s.view.own[0])
+        })
     }
-}
 
-/// Command of a kick, if the ball would leave in the direction of the kick.
-pub(crate) fn aligned_kick(s: &Situation, robot: &Player, kick: &Kick) -> Option<[f32; 2]> {
-    let ball = s.ball();
-    let direction = (kick.at - ball).unit_or(robot.heading);
-    let arm = ball - robot.position;
-    let mouth_velocity = robot.velocity + arm.left() * robot.angular_velocity;
-    let ahead = mouth_velocity.dot(robot.heading);
-    let command = kick_command(s, kick, ahead);
-    let result = mouth_velocity + robot.heading * command[0];
-    let result = result.unit_or(robot.heading);
-    let is_aligned = result.dot(direction) > 0.0
-        && result.cross(direction).abs() < MAX_SINE[usize::from(kick.chip)]
-        && robot.angular_velocity.abs() < MAX_KICK_TURNING;
-    is_aligned.then_some(command)
-}
+    #[test]
+    fn a_robot_that_has_dribbled_far_gives_the_ball_up() {
+        let mut scene = Scene::new(1, 1);
+        scene.robot(1, [0.5, 0.0]);
+        assert!(order(&mut scene, 0.3).dribbler > 0.0);
+        let far = order(&mut scene, 0.85);
+        assert!(far.dribbler < 0.5 && far.kick[0] > 0.0, "{far:?}");
+    }
 
-/// Speeds along the heading and upward that give the ball the speed of a kick, from a robot that moves ahead
-/// at `ahead` m/s.
-pub(crate) fn kick_command(s: &Situation, kick: &Kick, ahead: f32) -> [f32; 2] {
-    const DIAGONAL: f32 = std::f32::consts::FRAC_1_SQRT_2;
-    let robot = &s.config.robot;
-    if kick.chip {
-        let speed = kick.speed.min(robot.max_chip_speed).min(MAX_BALL_SPEED) * DIAGONAL;
-        [(speed - ahead).clamp(0.3, speed), speed]
-    } else {
-        let speed = kick.speed.min(robot.max_kick_speed).min(MAX_BALL_SPEED);
-        [(speed - ahead).clamp(0.3, MAX_BALL_SPEED), 0.0]
+    #[test]
+    fn fast_robots_turn_slowly_with_the_ball() {
+        let mut scene = Scene::new(1, 0);
+        let at = |scene: &Scene| scene.situation(PLAY, |s| turning(s, &s.view.own[0]));
+        let resting = at(&scene);
+        scene.set(0, "v_x", 2.0);
+        let fast = at(&scene);
+        assert!(resting > 3.0 && fast < 1.0, "{resting} {fast}");
+        let held = fast * fast * 0.093 + fast * 2.0;
+        assert!((held - SIDE_ACCELERATION).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_way_with_the_ball_counts_from_where_it_was_taken() {
+        let mut scene = Scene::new(1, 0);
+        let mut memory = TeamMemory::new(1);
+        let mut step = |scene: &Scene| {
+            scene.situation(PLAY, |s| follow(s, &mut memory));
+            (memory.carrier, memory.carry_start.x)
+        };
+        scene.ball([1.0, 0.0], [0.0, 0.0]);
+        scene.robot(0, [0.0, 0.0]);
+        assert_eq!(step(&scene).0, None);
+        scene.robot(0, [0.9, 0.0]);
+        assert_eq!(step(&scene), (Some(0), 1.0));
+        scene.ball([1.5, 0.0], [0.0, 0.0]);
+        scene.robot(0, [1.38, 0.0]);
+        assert_eq!(step(&scene), (Some(0), 1.0), "a small gap does not end it");
+        scene.robot(0, [1.3, 0.0]);
+        assert_eq!(step(&scene).0, None);
     }
 }

@@ -1,8 +1,9 @@
-//! The robot that takes the team's kick-off, free kick or penalty kick.
+//! The robot that takes the team's kick-off or free kick.
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, MAX_BALL_SPEED};
+use crate::aim::{self, Kick, MAX_BALL_SPEED};
+use crate::kicking;
 use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::phase::{Mode, Restart};
@@ -26,14 +27,18 @@ const MAX_ASIDE: f32 = 0.012;
 /// Sine of the heading's error for the final approach.
 const MAX_SINE: f32 = 0.025;
 
-/// Order of the robot that takes the kick. It touches the ball only to kick it.
+/// Order of the robot that takes the kick-off or free kick.
 pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
     let ball = s.ball();
-    let chosen = possession::chosen(s, memory, robot.index, || match s.phase.restart {
-        Restart::Penalty => aim::shot(s, ball),
-        _ => aim::best_kick(s, ball, robot.index),
-    });
+    let choose = || aim::best_kick(s, ball, robot.index);
+    let chosen = possession::chosen(s, memory, robot.index, choose);
     let kick = aim::with_error(s, chosen, ball, robot.index);
+    take(s, memory, robot, &kick)
+}
+
+/// Order of a robot that makes a kick from behind a resting ball. It touches the ball only to kick it.
+pub(crate) fn take(s: &Situation, memory: &mut TeamMemory, robot: &Player, kick: &Kick) -> Order {
+    let ball = s.ball();
     let direction = (kick.at - ball).unit_or(Vector::new(1.0, 0.0));
     let mouth = s.config.mouth();
     let behind = ball - direction * (mouth + STANDOFF);
@@ -49,13 +54,12 @@ pub(crate) fn take_kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) 
     }
     let ahead = robot.velocity.dot(robot.heading);
     if robot.has_ball || own.x < mouth + TOUCHING {
-        memory.receiver = kick.receiver;
-        memory.pass_steps = 100;
+        kicking::expect(memory, kick);
     }
     Order {
         target: ball - direction * (mouth - PRESS_DEPTH),
         max_speed: KICK_APPROACH,
-        kick: possession::kick_command(s, &kick, ahead.max(0.0)),
+        kick: kicking::command(s, kick, ahead.max(0.0)),
         ball_distance: 0.0,
         straight: true,
         ..Order::to(ball, direction)
@@ -75,4 +79,43 @@ pub(crate) fn wait_for_kick(s: &Situation) -> Order {
     };
     let target = s.place - direction * distance;
     Order { ball_distance: 0.3, ..Order::to(target, direction * MAX_BALL_SPEED) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::phase::Phase;
+    use crate::testing::Scene;
+
+    const KICK: Phase =
+        Phase { mode: Mode::Kick, restart: Restart::Kickoff, ours: true, kicks_next: false };
+
+    fn order(scene: &Scene) -> Order {
+        let mut memory = TeamMemory::new(1);
+        scene.situation(KICK, |s| take_kick(s, &mut memory, &s.view.own[0]))
+    }
+
+    #[test]
+    fn the_kicker_touches_the_ball_only_from_behind_and_with_its_kick() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([1.5, 0.0], [0.0, 0.0]);
+        scene.robot(0, [1.8, 0.3]);
+        let around = order(&scene);
+        assert!(around.kick[0] <= 0.0 && around.target.x < 1.3, "{around:?}");
+        assert!(around.ball_distance > 0.15, "{around:?}");
+        scene.robot(0, [1.5 - 0.093 - 0.1, 0.0]);
+        let kicks = order(&scene);
+        assert!(kicks.kick[0] > 5.0 && kicks.target.x > 1.4, "{kicks:?}");
+    }
+
+    #[test]
+    fn in_a_stop_the_kicker_waits_far_behind_the_ball() {
+        let mut scene = Scene::new(1, 0);
+        scene.ball([1.0, 1.0], [0.0, 0.0]);
+        for (mode, least, most) in [(Mode::Stop, 0.6, 0.9), (Mode::Prepare, 0.17, 0.3)] {
+            let order = scene.situation(Phase { mode, ..KICK }, wait_for_kick);
+            let distance = order.target.distance(Vector::new(1.0, 1.0));
+            assert!((least..most).contains(&distance) && order.target.x < 1.0, "{order:?}");
+        }
+    }
 }

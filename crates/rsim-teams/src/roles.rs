@@ -24,6 +24,9 @@ pub(crate) fn taker(s: &Situation, memory: &TeamMemory) -> Option<usize> {
             return Some(carrier);
         }
     }
+    if is_penalty(s) && s.in_play && memory.taker.is_some() {
+        return memory.taker; // the kicker goes on alone
+    }
     // Before a kick only places count, and the ball lies where it has to be.
     let is_restart = s.phase.mode != Mode::Play;
     let time = |index: usize| {
@@ -98,7 +101,70 @@ pub(crate) fn jobs(s: &Situation, memory: &Memory, free: u32) -> [Option<Job>; M
     jobs.assign(&s.view.own, free, |index| memory.robots[index].job)
 }
 
-/// Whether robots only take positions: they keep no ball and play no passes.
+/// Whether a penalty kick is prepared or taken.
 pub(crate) fn is_penalty(s: &Situation) -> bool {
     s.phase.restart == Restart::Penalty && s.phase.mode != Mode::Play
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::situation::KEEPER;
+    use crate::testing::{PLAY, Scene};
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new(4, 4);
+        scene.ball([0.0, 0.0], [0.0, 0.0]);
+        scene.robot(0, [-0.3, 0.0]);
+        scene.robot(1, [-0.5, 0.0]);
+        scene.robot(2, [-0.5, 0.3]);
+        scene
+    }
+
+    #[test]
+    fn the_first_robot_that_may_goes_to_the_ball_and_never_the_keeper() {
+        let mut memory = TeamMemory::new(1);
+        scene().situation(PLAY, |s| {
+            assert_eq!(taker(s, &memory), Some(1));
+            memory.taker = Some(2);
+            assert_eq!(taker(s, &memory), Some(2), "it is hardly later");
+            memory.receiver = Some(3);
+            memory.taker = None;
+            let barred = Situation { barred: Some(1), path: s.path.clone(), ..*s };
+            assert_eq!(taker(&barred, &memory), Some(2));
+        });
+    }
+
+    #[test]
+    fn a_robot_without_teammates_plays_the_ball_itself() {
+        let mut scene = Scene::new(2, 0);
+        scene.take_out(1);
+        scene.situation(PLAY, |s| {
+            assert_eq!(taker(s, &TeamMemory::new(1)), Some(KEEPER));
+        });
+    }
+
+    #[test]
+    fn a_team_without_the_ball_defends() {
+        let mut memory = Memory::new(1);
+        let mut scene = scene();
+        let marks = |scene: &Scene, memory: &mut Memory| {
+            scene.situation(PLAY, |s| {
+                follow(s, &mut memory.team);
+                let all = jobs(s, memory, 0b1110);
+                all.iter().flatten().filter(|job| (10..RUNNER).contains(&job.number)).count()
+            })
+        };
+        assert_eq!(marks(&scene, &mut memory), 0);
+        assert!(memory.team.attacks);
+        scene.ball([-1.9, -1.25], [0.0, 0.0]);
+        scene.robot(4, [-1.8, -1.25]);
+        scene.robot(3, [3.0, 0.0]);
+        for robot in 1..4 {
+            scene.robot(robot, [2.0 + robot as f32 * 0.3, 2.0]);
+        }
+        scene.robot(0, [-4.0, 0.0]);
+        assert_eq!(marks(&scene, &mut memory), 1);
+        assert!(!memory.team.attacks);
+    }
 }

@@ -25,6 +25,8 @@ pub(crate) struct Situation<'a> {
     pub(crate) phase: Phase,
     /// Time since the referee's command, s.
     pub(crate) command_time: f32,
+    /// Whether the ball is in play.
+    pub(crate) in_play: bool,
     /// Place where the ball has to be, m.
     pub(crate) place: Vector,
     /// Robot that may not touch the ball.

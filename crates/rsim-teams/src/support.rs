@@ -92,12 +92,43 @@ fn legal(s: &Situation, place: Vector) -> Vector {
 /// Value of standing at a place.
 fn value_of(s: &Situation, robot: &Player, place: Vector) -> f32 {
     let ball = s.ball();
+    let distance = place.distance(ball);
     let lane = Lane { start: ball, end: place, speed: PASS_SPEED * MAX_BALL_SPEED, flies: 0.0 };
     let arrives = chance(margin(&lane, &s.view.others, s.body()));
     let free = (s.nearest_opponent(place) / FREE_DISTANCE).min(1.0);
-    let distance = place.distance(ball);
     let off = (BALL_DISTANCES[0] - distance).max(distance - BALL_DISTANCES[1]).max(0.0);
-    (0.3 + arrives) * (0.3 + value_at(s, place)) * (0.5 + 0.5 * free)
+    (0.3 + arrives)
+        * (0.3 + value_at(s, place, distance / (PASS_SPEED * MAX_BALL_SPEED)))
+        * (0.5 + 0.5 * free)
         - 0.15 * off
         - WAY_COST * place.distance(robot.position)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::memory::Memory;
+    use crate::testing::{PLAY, Scene};
+
+    #[test]
+    fn runners_leave_the_shadow_of_an_opponent() {
+        let mut scene = Scene::new(2, 1);
+        scene.ball([0.0, 0.0], [0.0, 0.0]);
+        scene.robot(1, [2.5, 0.0]);
+        scene.robot(2, [1.5, 0.0]);
+        let mut memory = Memory::new(3);
+        let (mut at, mut value) = (Vector::default(), [0.0; 2]);
+        for step in 0..400 {
+            scene.situation(PLAY, |s| {
+                let s = Situation { step, path: s.path.clone(), ..*s };
+                let robot = s.view.own.with_index(1).expect("a runner");
+                at = spot(&s, robot, 0b10, &mut memory.robots);
+                memory.robots[1].job = RUNNER;
+                value = [robot.position, at].map(|place| value_of(&s, robot, place));
+                assert!(s.pitch.distance_to(Area::Theirs, at) > 0.2, "{at:?}");
+                assert!(s.pitch.lines.is_inside(at, -0.2), "{at:?}");
+            });
+        }
+        assert!(value[1] > value[0] + 0.05 && at.y.abs() > 0.3, "{at:?}: {value:?}");
+    }
 }

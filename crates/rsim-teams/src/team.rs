@@ -1,30 +1,23 @@
 //! A scripted side.
 
+use rsim_referee::Team;
 use rsim_referee::game::Game;
-use rsim_referee::{Team, Vector};
 
-use crate::aim;
-use crate::approach;
 use crate::bounds::{Bounds, Part};
-use crate::config::{MAX_ROBOTS, TeamConfig};
+use crate::config::TeamConfig;
 use crate::error::TeamsError;
 use crate::intercept::Meetings;
-use crate::keeper;
 use crate::memory::Memory;
 use crate::motion::Driving;
-use crate::order::Order;
+use crate::orders::orders;
 use crate::phase::{Mode, Phase};
 use crate::pitch::Pitch;
-use crate::placement;
-use crate::plane::Plane;
 use crate::possession;
 use crate::random::Random;
-use crate::restart;
 use crate::roles;
 use crate::rolling::BallPath;
 use crate::situation::{KEEPER, Situation};
 use crate::skill::Skill;
-use crate::support::{self, RUNNER};
 use crate::view::{Player, View};
 
 /// Names of the columns of a command: velocity forward and to the left (m/s), angular velocity (rad/s), speed
@@ -36,16 +29,6 @@ pub const COMMAND_COLUMNS: [&str; 6] =
 const KICKED: f32 = 0.3;
 /// Time for which an error of aim lasts, s.
 const AIM_SECONDS: f32 = 1.0;
-/// Distance from the ball within which a robot reacts at once, m.
-const CLOSE: f32 = 0.6;
-/// Distance from the ball of the robot that blocks a kick of the opponents, m.
-const BLOCK_DISTANCE: f32 = 0.8;
-/// Time by which an opponent is earlier at the ball from which a robot without teammates guards its goal, s.
-const ALONE: f32 = 0.2;
-/// Cosine of the angle between the ways to the ball and on with it up to which a robot drives behind the
-/// ball, with time and without.
-const AIMED_WITH_TIME: f32 = -0.3;
-const AIMED: f32 = 0.6;
 /// Distance from the ball of robots that leave it to a teammate, m.
 const TEAMMATE_DISTANCE: f32 = 0.3;
 
@@ -149,7 +132,7 @@ impl ScriptedTeam {
             let leaves_ball = phase.mode == Mode::Play && part == Part::Other
                 || situation.barred == Some(player.index);
             if leaves_ball {
-                bounds.distance = bounds.distance.max(TEAMMATE_DISTANCE);
+                bounds.avoided.distance = bounds.avoided.distance.max(TEAMMATE_DISTANCE);
             }
             let order = &orders[player.index];
             let command = driving.command(player, order, &bounds);
@@ -167,7 +150,8 @@ impl ScriptedTeam {
         memory: &Memory,
     ) -> Situation<'a> {
         let first = if team == Team::Blue { 0 } else { self.config.layout.team_size(Team::Blue) };
-        let own_index = |robot: usize| robot.checked_sub(first).filter(|index| *index < MAX_ROBOTS);
+        let size = self.config.layout.team_size(team);
+        let own_index = |robot: usize| robot.checked_sub(first).filter(|index| *index < size);
         let seconds = AIM_SECONDS / self.config.time_step;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count of seconds
         let counter = (memory.team.step as f32 / seconds) as u32;
@@ -178,6 +162,7 @@ impl ScriptedTeam {
             view,
             phase,
             command_time: game.command_steps as f32 * self.config.time_step,
+            in_play: game.in_play,
             place: game.designated_position * -team.own_side(),
             barred: game.kick_taker.and_then(own_index),
             path: BallPath::new(&view.ball, memory.team.kick_speed, &self.config.ball),
@@ -189,6 +174,10 @@ impl ScriptedTeam {
         situation.meet();
         situation
     }
+}
+
+fn check_size(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
+    if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
 }
 
 /// Follows the speed that the last kick gave the ball.
@@ -210,110 +199,92 @@ fn part_of(s: &Situation, player: &Player, taker: Option<usize>) -> Part {
     }
 }
 
-/// Orders of all robots, by index.
-fn orders(s: &Situation, memory: &mut Memory) -> [Order; MAX_ROBOTS] {
-    let stay = Order::to(Vector::default(), Vector::new(1.0, 0.0));
-    let mut orders = [stay; MAX_ROBOTS];
-    let taker = memory.team.taker;
-    let mut free = 0;
-    for player in s.view.own.iter() {
-        if s.keeps(player.index) {
-            let order = keeper_order(s, memory, player);
-            orders[player.index] = reacting(s, memory, player, order);
-        } else if taker == Some(player.index) {
-            let order = taker_order(s, memory, player);
-            orders[player.index] = reacting(s, memory, player, order);
-        } else {
-            free |= 1 << player.index;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::Scene;
+    use rsim_referee::codes::Command;
+
+    fn in_play() -> Game {
+        let mut game = Game::new(Team::Blue);
+        game.give(Command::ForceStart, None);
+        game.in_play = true;
+        game
+    }
+
+    fn acted(scene: &Scene, game: &Game, team: Team, memory: &mut [f32]) -> Vec<f32> {
+        let side = ScriptedTeam::new(&scene.config).expect("valid numbers");
+        let length = scene.config.layout.team_size(team) * COMMAND_COLUMNS.len();
+        let mut commands = vec![7.0; length];
+        side.act(&scene.row, game, team, memory, &mut commands).expect("rows that fit");
+        assert!(commands.iter().all(|number| number.is_finite()));
+        commands
+    }
+
+    fn begun(scene: &Scene, seed: u32) -> Vec<f32> {
+        let side = ScriptedTeam::new(&scene.config).expect("valid numbers");
+        let mut memory = vec![0.0; side.memory_columns().len()];
+        side.begin(&mut memory, seed).expect("a memory");
+        memory
+    }
+
+    #[test]
+    fn commands_depend_on_row_match_and_memory_alone() {
+        let scene = Scene::new(3, 2);
+        let mut memory = begun(&scene, 5);
+        let mut copy = memory.clone();
+        for _ in 0..3 {
+            let first = acted(&scene, &in_play(), Team::Blue, &mut memory);
+            assert_eq!(first, acted(&scene, &in_play(), Team::Blue, &mut copy));
+            assert_eq!(memory, copy);
         }
     }
-    let jobs = roles::jobs(s, memory, free);
-    let is_runner = |index: usize| jobs[index].is_some_and(|job| job.number == RUNNER);
-    let runners = (0..MAX_ROBOTS).filter(|index| is_runner(*index)).fold(0, |all, i| all | 1 << i);
-    for player in s.view.own.iter().filter(|player| free >> player.index & 1 == 1) {
-        let Some(job) = jobs[player.index] else { continue };
-        let target =
-            job.place.unwrap_or_else(|| support::spot(s, player, runners, &mut memory.robots));
-        memory.robots[player.index].job = job.number;
-        let order = Order::to(target, s.ball() - player.position);
-        orders[player.index] = reacting(s, memory, player, order);
-    }
-    if let Some(index) = taker {
-        memory.robots[index].job = -1;
-    }
-    orders
-}
 
-/// The order as the robot follows it: it sees a new place only after its reaction time.
-fn reacting(s: &Situation, memory: &mut Memory, player: &Player, order: Order) -> Order {
-    let kept = &mut memory.robots[player.index];
-    let steps = s.skill.reaction_steps;
-    let turn = i32::try_from(player.index).unwrap_or(0) * 3;
-    let is_close = player.index != KEEPER && player.position.distance(s.ball()) < CLOSE;
-    if s.phase.mode != Mode::Play || is_close || (s.step + turn) % steps == 0 {
-        (kept.target, kept.facing) = (order.target, order.facing);
-        return order;
+    #[test]
+    fn both_teams_play_the_same_from_mirrored_places() {
+        let mut scene = Scene::new(3, 3);
+        for robot in 0..3 {
+            let (x, y) = (-1.0 - robot as f32, 0.7 * robot as f32 - 0.5);
+            scene.robot(robot, [x, y]);
+            scene.robot(robot + 3, [-x, -y]);
+            scene.set(robot + 3, "cos", -1.0);
+        }
+        let [blue, yellow] = Team::BOTH.map(|team| {
+            let mut memory = begun(&scene, 5);
+            acted(&scene, &in_play(), team, &mut memory)
+        });
+        for (ours, theirs) in blue.iter().zip(&yellow) {
+            assert!((ours - theirs).abs() < 1e-5, "{blue:?} {yellow:?}");
+        }
     }
-    Order { target: kept.target, facing: kept.facing, ..order }
-}
 
-fn keeper_order(s: &Situation, memory: &mut Memory, keeper: &Player) -> Order {
-    if roles::is_penalty(s) && !s.phase.ours && s.path.speed < 0.1 {
-        return keeper::on_line(s, keeper);
+    #[test]
+    fn absent_robots_and_halted_ones_get_zeros() {
+        let mut scene = Scene::new(3, 2);
+        scene.take_out(1);
+        let mut memory = begun(&scene, 5);
+        let commands = acted(&scene, &in_play(), Team::Blue, &mut memory);
+        assert!(commands[6..12].iter().all(|number| number.abs() < 1e-9));
+        assert!(commands[12..].iter().any(|number| number.abs() > 1e-3));
+        let mut halted = in_play();
+        halted.give(Command::Halt, None);
+        let commands = acted(&scene, &halted, Team::Blue, &mut memory);
+        assert!(commands.iter().all(|number| number.abs() < 1e-9));
     }
-    if s.phase.mode == Mode::Play && s.barred != Some(KEEPER) && keeper::takes_ball(s) {
-        return ball_order(s, memory, keeper);
-    }
-    keeper::guard(s, keeper)
-}
 
-fn taker_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
-    match s.phase.mode {
-        Mode::Play | Mode::Halt => ball_order(s, memory, robot),
-        Mode::Kick if s.phase.ours => restart::take_kick(s, &mut memory.team, robot),
-        Mode::Place if s.phase.ours => placement::place(s, &mut memory.team, robot),
-        Mode::Stop | Mode::Prepare if s.phase.ours => restart::wait_for_kick(s),
-        _ => Order::to(block_place(s), s.ball() - robot.position),
+    #[test]
+    fn rows_of_other_lengths_are_refused() {
+        let scene = Scene::new(3, 2);
+        let side = ScriptedTeam::new(&scene.config).expect("valid numbers");
+        let mut memory = begun(&scene, 5);
+        let act = |row: &[f32], memory: &mut [f32], size: usize| {
+            side.act(row, &in_play(), Team::Blue, memory, &mut vec![0.0; size])
+        };
+        assert!(matches!(act(&scene.row[1..], &mut memory, 18), Err(TeamsError::Row(_))));
+        let wrong = act(&scene.row, &mut memory, 17);
+        assert_eq!(wrong, Err(TeamsError::Size { name: "commands", expected: 18, got: 17 }));
+        let short = act(&scene.row, &mut memory[1..].to_vec(), 18);
+        assert!(short.is_err());
+        assert!(side.begin(&mut memory[1..].to_vec(), 5).is_err());
     }
-}
-
-/// Takes the ball, or plays it.
-fn ball_order(s: &Situation, memory: &mut Memory, robot: &Player) -> Order {
-    if possession::controls(s, robot) {
-        return possession::play(s, &mut memory.team, robot);
-    }
-    if possession::is_too_far(s, &memory.team, robot) {
-        return possession::stand(robot);
-    }
-    let meeting = s.own.of(robot.index).unwrap_or_default();
-    let to_ball = (meeting.place - robot.position).unit_or(robot.heading);
-    let rival = s.others.first(|_| true).map_or(f32::INFINITY, |(_, meeting)| meeting.time);
-    let is_alone = s.view.own.len() == 1;
-    if is_alone && rival + ALONE < meeting.time {
-        return keeper::guard(s, robot);
-    }
-    let place = meeting.place;
-    let kick = possession::chosen(s, &mut memory.team, robot.index, || {
-        aim::best_kick(s, place, robot.index)
-    });
-    let aim = (kick.at - place).unit_or(Vector::new(1.0, 0.0));
-    let least = if robot.index == KEEPER {
-        -1.0 // it never drives the ball toward its goal
-    } else if rival > meeting.time + 0.5 {
-        AIMED_WITH_TIME
-    } else {
-        AIMED
-    };
-    approach::take(s, robot, meeting, if aim.dot(to_ball) > least { aim } else { to_ball })
-}
-
-/// Place of the robot nearest to the ball where it may not play it: between ball and goal.
-fn block_place(s: &Situation) -> Vector {
-    let ball = s.ball();
-    let to_goal = (s.pitch.own_goal() - ball).unit_or(Vector::new(-1.0, 0.0));
-    ball + to_goal * BLOCK_DISTANCE
-}
-
-fn check_size(name: &'static str, expected: usize, got: usize) -> Result<(), TeamsError> {
-    if expected == got { Ok(()) } else { Err(TeamsError::Size { name, expected, got }) }
 }

@@ -4,8 +4,18 @@ use rsim_referee::sight::{Layout, Placed};
 use rsim_referee::{Lines, Team, Vector};
 
 use crate::config::{BallNumbers, RobotNumbers, TeamConfig};
+use crate::intercept::Meetings;
+use crate::phase::{Mode, Phase, Restart};
 use crate::pitch::Pitch;
+use crate::random::Random;
+use crate::rolling::BallPath;
+use crate::situation::Situation;
+use crate::skill::Skill;
 use crate::view::View;
+
+/// The ball in play.
+pub(crate) const PLAY: Phase =
+    Phase { mode: Mode::Play, restart: Restart::Free, ours: false, kicks_next: false };
 
 const BALL: [&str; 13] = [
     "x",
@@ -133,6 +143,30 @@ impl Scene {
     pub(crate) fn take_out(&mut self, robot: usize) {
         let layout = self.config.layout.clone();
         layout.take_out(&mut self.row, robot);
+    }
+
+    /// Situation of blue, with the ball to be placed where it is.
+    pub(crate) fn situation<R>(&self, phase: Phase, check: impl FnOnce(&Situation) -> R) -> R {
+        let (view, pitch) = (self.view(Team::Blue), pitch());
+        let skill = Skill::new(self.config.skill, self.config.time_step);
+        let mut situation = Situation {
+            config: &self.config,
+            pitch: &pitch,
+            skill: &skill,
+            view: &view,
+            phase,
+            command_time: 2.0,
+            in_play: phase.mode == Mode::Play,
+            place: view.ball.position,
+            barred: None,
+            path: BallPath::new(&view.ball, view.ball.velocity.length(), &self.config.ball),
+            own: Meetings::default(),
+            others: Meetings::default(),
+            random: Random::new(1, 2),
+            step: 5,
+        };
+        situation.meet();
+        check(&situation)
     }
 
     pub(crate) fn view(&self, team: Team) -> View {

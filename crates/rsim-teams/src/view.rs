@@ -1,6 +1,6 @@
 //! The match as a team sees it: its own goal is at -x.
 
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 
 use rsim_referee::sight::{Robot, Sight};
 use rsim_referee::{Team, Vector};
@@ -61,6 +61,12 @@ impl Deref for Players {
 
     fn deref(&self) -> &[Player] {
         &self.all[..self.count]
+    }
+}
+
+impl DerefMut for Players {
+    fn deref_mut(&mut self) -> &mut [Player] {
+        &mut self.all[..self.count]
     }
 }
 

@@ -1,0 +1,6 @@
+//! Tests of the scripted side with physics and referee.
+
+mod arena;
+mod matches;
+mod restarts;
+mod saves;
