@@ -44,7 +44,7 @@ def test_the_layout_is_the_documented_one() -> None:
         (b"", "magic"),
         (b"PK\x03\x04" * 30, "magic: expected the first bytes of a replay file"),
         (MAGIC, "length: expected at least 56 bytes, got 8: cut off"),
-        (signed(b"", version=1), "version: expected format 3, got 1"),
+        (signed(b"", version=1), "version: expected format 4, got 1"),
         (pack(HEADER, SECTIONS)[:-1], "cut off"),
         (pack(HEADER, SECTIONS) + b"\x00", r"length: expected \d+ bytes, got \d+$"),
         (signed(b"no zlib"), "header: expected zlib"),

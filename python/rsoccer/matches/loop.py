@@ -74,6 +74,9 @@ class Matches:
         observation_size: numbers in one agent's observation, o.
         observation_low: (o,) lower bounds.
         observation_high: (o,) upper bounds.
+        sensing: the `Sensing`, or what another sensor model was given as; None if robots know the
+            true state.
+        randomization: distributions of numbers that each episode draws, by name.
         play: state of all worlds, to be read only: frames, score, events of the last step.
 
     Example:
@@ -156,6 +159,9 @@ class Matches:
         )
         if self._randomization.sensing is not None and self._sensing is None:
             self._sensing = Sensing()
+        is_own_model = self._sensing is not None and not isinstance(self._sensing, Sensing)
+        self.sensing = sensing if is_own_model else simulated(self._sensing)
+        self.randomization = dict(randomization or {})
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")

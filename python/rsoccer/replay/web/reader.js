@@ -1,7 +1,7 @@
 // Reader of replay files; the format is described in docs/replays.md.
 
 const MAGIC = [0x89, 0x52, 0x53, 0x52, 0x0d, 0x0a, 0x1a, 0x0a];
-const VERSION = 3;
+const VERSION = 4;
 const START = 56; // bytes before the header
 
 /** Return the bytes of a text in base64. */
