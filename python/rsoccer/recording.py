@@ -16,6 +16,7 @@ from rsoccer.matches.policy_match import policy_match
 from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
+from rsoccer.render.ghosts import sensed_overlay
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.referee_state import referee_of, referee_state
@@ -161,7 +162,7 @@ def _images(
         matches.frame.rows[0],
         names=names,
         referee=referee_state(task, matches.play),
-        extras=task_overlay(task, matches.play),
+        extras=(*task_overlay(task, matches.play), *sensed_overlay(task.config, matches.play)),
     )
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
@@ -184,6 +185,7 @@ def _images(
             announcement=announcer.update(named_events(task, play.events.of_world(0)), clock),
             extras=(
                 *task_overlay(task, play),
+                *sensed_overlay(task.config, play),
                 *effects.update(matches.frame.rows[0], clock, play.commands[0]),
             ),
         )

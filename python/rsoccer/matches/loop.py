@@ -388,6 +388,7 @@ class Matches:
             from rsoccer.render import Picture, draw_image
         except ModuleNotFoundError:
             return None
+        from rsoccer.render.ghosts import sensed_overlay
         from rsoccer.render.overlay import task_overlay
         from rsoccer.render.referee_state import referee_state
 
@@ -396,7 +397,10 @@ class Matches:
             self.frame.rows[0],
             clock=float(self.play.steps[0]) * self.task.config.time_step,
             referee=referee_state(self.task, self.play),
-            extras=task_overlay(self.task, self.play),
+            extras=(
+                *task_overlay(self.task, self.play),
+                *sensed_overlay(self.task.config, self.play),
+            ),
         )
         return Picture(image).to_png()
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from rsoccer.render.ghosts import SensedWorld, ghost_shapes
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import marker_shapes
 from rsoccer.render.scoreboard import GOAL_PAUSE, caption_of
+from rsoccer.render.shapes import Shape
 from rsoccer.render.video import MIN_WIDTH
 from rsoccer.replay.recorded import Recorded
 
@@ -49,7 +51,20 @@ def _images(replay: Recorded, renderer: Renderer) -> Iterator[Image]:
             caption=caption,
             referee=states[frame],
             announcement=announcements[frame],
-            extras=marker_shapes(replay.config.field, replay.markers[frame]),
+            extras=(
+                *marker_shapes(replay.config.field, replay.markers[frame]),
+                *_ghosts(replay, frame),
+            ),
         )
         for _ in range(pause if caption else 1):
             yield image
+
+
+def _ghosts(replay: Recorded, frame: int) -> tuple[Shape, ...]:
+    """Ball and robots of a frame as the robots knew them, if they had senses."""
+    sensed = replay.sensed
+    if sensed is None:
+        return ()
+    present = replay.frame.robots.absent[frame] == 0
+    known = (sensed.ball[frame], sensed.robots[frame], sensed.headings[frame])
+    return ghost_shapes(replay.config, SensedWorld(*known, present))
