@@ -53,7 +53,7 @@ def test_a_text_that_names_nothing_is_refused(
 def test_a_text_without_a_module_is_a_factory_or_a_preset() -> None:
     with pytest.raises(ValueError, match=f"^simulator: .*{NOT_A_TEXT} 'still'"):
         Matches("VSS-v0", simulator="still")
-    with pytest.raises(ValueError, match='sensing must be one of none, friendly.* got "still"'):
+    with pytest.raises(ValueError, match=r'sensing must be one of none, friendly.* got "still"'):
         Matches("VSS-v0", sensing="still")
     assert Matches("VSS-v0", sensing="none").play.senses is None
 

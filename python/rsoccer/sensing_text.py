@@ -7,6 +7,24 @@ import json
 from rsoccer._core import Sensing
 
 
+def recordable(source: object) -> Sensing | str | None:
+    """Return what files can hold of senses.
+
+    Args:
+        source: what robots know of the true state, as for `Matches`.
+
+    Returns:
+        A `Sensing`, also for the name of a preset; the text "module:name" as it is; None for a
+        model that is an object, and without senses.
+
+    Raises:
+        ValueError: a text that is no preset's name.
+    """
+    if isinstance(source, str) and ":" not in source:
+        return Sensing(source)
+    return source if isinstance(source, Sensing | str) else None
+
+
 def to_text(sensing: Sensing | str) -> str:
     """Return senses as files hold them.
 

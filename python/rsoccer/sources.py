@@ -150,24 +150,3 @@ def make_sensing(source: SensingSource | None) -> Sensing | SensorModel | None:
         )
     found: SensorModel = model
     return found
-
-
-def recorded_sensing(source: SensingSource | None) -> Sensing | str | None:
-    """Return what files can hold of senses.
-
-    Args:
-        source: the model or its text; None if robots know the true state.
-
-    Returns:
-        A `Sensing`, or the text "module:name" of a sensor model; None for a model that is an object,
-        and if robots know the true state.
-
-    Raises:
-        ImportError: a text whose module or name does not exist.
-        TypeError: no sensor model.
-        ValueError: a text that is no preset's name.
-    """
-    model = make_sensing(source)
-    if isinstance(model, Sensing):
-        return model
-    return source if isinstance(source, str) and model is not None else None

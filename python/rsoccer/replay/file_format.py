@@ -6,7 +6,7 @@ Keys of the header:
 | --- | --- |
 | `package`, `physics` | versions of the package (text) and of its physics (number) |
 | `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
-| `sensing` | JSON of `Sensing.to_json`, or "module:name" of a sensor model; absent if none is named |
+| `sensing` | JSON of `Sensing.to_json`, or "module:name" of a model; absent if none is named |
 | `randomization` | distributions of numbers by name, as `Matches` takes them; absent if none |
 | `config` | the configuration, JSON of `SimConfig.to_json` |
 | `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee`, `sensed` |

@@ -73,7 +73,7 @@ class Recorded:
     """(f, column) state of the referee, columns of `rsoccer.render.referee_state`; None without
     one"""
     sensed: SensedPoses | None
-    """(f, ...) poses of ball and robots as the robots knew them; None if they knew the true state"""
+    """(f, ...) poses of ball and robots as the robots knew them; None without senses"""
     episodes: tuple[Episode, ...]
     """episodes in the order of play; their frames are all frames"""
     events: tuple[Event, ...]

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rsoccer import checks
-from rsoccer._core import Sensing, build_info
+from rsoccer import checks, sensing_text
+from rsoccer._core import build_info
 from rsoccer.arrays import Array, Doubles, Floats
 from rsoccer.controllers import Controllers, resolve
 from rsoccer.frame import Frame
@@ -163,14 +163,13 @@ class Recorder:
         names = {name: None for terms in self._terms for name in terms}
         none = np.zeros(len(observers), np.float32)
         terms = {name: np.stack([step.get(name, none) for step in self._terms]) for name in names}
-        sensing = self.matches.sensing
         last = [] if self._ended else [Episode(self._start, len(self._rows), "")]
         return Replay(
             task=task.name,
             options=options_of(task),
             controllers=self._controllers,
             names=self._names,
-            sensing=sensing if isinstance(sensing, Sensing | str) else None,
+            sensing=sensing_text.recordable(self.matches.sensing),
             randomization=self.matches.randomization,
             config=task.config,
             rows=np.stack(self._rows),

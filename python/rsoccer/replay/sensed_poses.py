@@ -54,7 +54,8 @@ class SensedPoses:
         robots = columns[:, 2:].reshape(len(columns), -1, 3)
         angles = robots[..., 2]
         headings = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-        return cls(*(part.astype(np.float32) for part in (columns[:, :2], robots[..., :2], headings)))
+        parts = (columns[:, :2], robots[..., :2], headings)
+        return cls(*(part.astype(np.float32) for part in parts))
 
     def columns(self) -> Doubles:
         """Return the columns of a file, with headings as angles without jumps.

@@ -12,6 +12,7 @@ import numpy as np
 import torch
 
 from rsoccer.matches import Matches
+from rsoccer.policies import training_conditions
 from rsoccer.policies.network import Network
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
@@ -177,7 +178,10 @@ class Trainer:
         """Return the current policy in NumPy."""
         args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
         repeat = args.rollout.action_repeat
-        return self.model.export(self.task, mean, std, repeat, args.task, args.task_options)
+        network = self.model.export(self.task, mean, std, repeat, args.task, args.task_options)
+        matches = self.collector.matches
+        network.metadata |= training_conditions.written(matches.sensing, matches.randomization)
+        return network
 
 
 def _check_batch(args: Args, learners: int) -> None:
