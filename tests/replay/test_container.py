@@ -13,7 +13,7 @@ HEADER = {"a": 1, "b": [1.5, "text"]}
 SECTIONS = {"one": b"\x00" * 1000, "two": bytes(range(256)), "none": b""}
 
 
-def signed(head: bytes, body: bytes = b"", version: int = 3, magic: bytes = MAGIC) -> bytes:
+def signed(head: bytes, body: bytes = b"", version: int = 4, magic: bytes = MAGIC) -> bytes:
     """A file whose lengths and checksum are right, whatever it holds."""
     fixed = struct.pack("<8sIIQ", magic, version, len(head), 56 + len(head) + len(body))
     return fixed + hashlib.sha256(fixed + head + body).digest() + head + body
@@ -33,7 +33,7 @@ def test_content_comes_back() -> None:
 def test_the_layout_is_the_documented_one() -> None:
     content = pack(HEADER, {})
     magic, version, head, size = struct.unpack_from("<8sIIQ", content)
-    assert (magic, version, size) == (b"\x89RSR\r\n\x1a\n", 3, len(content))
+    assert (magic, version, size) == (b"\x89RSR\r\n\x1a\n", 4, len(content))
     assert hashlib.sha256(content[:24] + content[56:]).digest() == content[24:56]
     assert json.loads(zlib.decompress(content[56 : 56 + head])) == {**HEADER, "sections": []}
 

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer import Sensing
+from rsoccer.policies.network import Network
 from rsoccer.replay import Replay
 from rsoccer.train import Args, train
 from rsoccer.train.clock import Clock, TimedSimulator
@@ -50,6 +52,16 @@ def test_the_match_of_the_policy_is_played_with_both(tmp_path: Path) -> None:
     assert np.abs(first - first[0]).max() < 0.02
 
 
+def test_the_policy_file_notes_senses_and_varied_numbers(tmp_path: Path) -> None:
+    conditions = {"sensing": "vsss", "randomization": {"robot.mass": (0.9, 1.1)}}
+    train(tiny(tmp_path, samples=1, **conditions))
+    network = Network.load(tmp_path / "policy.safetensors")
+    assert network.sensing == Sensing("vsss")
+    assert network.randomization == {"robot.mass": [0.9, 1.1]}
+    assert Trainer(tiny(tmp_path, **NAMED)).network().sensing == NAMED["sensing"]
+    assert "sensing" not in Trainer(tiny(tmp_path)).network().metadata
+
+
 def _noted(used: list[Any], given: Any) -> Still:  # noqa: ANN401
     used.append(given[0])
     return Still(*given[1:])
@@ -72,7 +84,7 @@ def test_a_run_resumes_with_the_same_texts_only(tmp_path: Path) -> None:
     ("name", "given"), [("simulator", still), ("sensing", BLIND), ("sensing", Blind)]
 )
 def test_what_json_cannot_hold_is_refused(name: str, given: Any) -> None:  # noqa: ANN401
-    with pytest.raises(ValueError, match=f"^{name} must be a text 'module:name', by which a resu"):
+    with pytest.raises(ValueError, match=f"^{name} must be a text, by which a resu"):
         Args(**{name: given})
 
 

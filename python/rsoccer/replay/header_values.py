@@ -235,8 +235,10 @@ def randomization(value: object, config: SimConfig) -> dict[str, Any]:
         raise ReplayError(f"randomization: expected an object, got {type(value).__name__}")
     try:
         Randomization.of(value, config, None)
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError) as error:
         raise ReplayError(str(error)) from None
+    except OverflowError as error:
+        raise ReplayError(f"randomization: {error}") from None
     return value
 
 
