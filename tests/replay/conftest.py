@@ -1,7 +1,7 @@
 """Short recorded matches of both leagues."""
 
 from functools import cache
-from typing import Final
+from typing import Any, Final
 
 import pytest
 
@@ -21,7 +21,7 @@ QUICK = {
     "goal_stop_seconds": 0.5,
 }
 """Rules of a referee with short stops."""
-RANDOMIZATION: Final = {
+RANDOMIZATION: Final[dict[str, Any]] = {
     "robot.mass": (0.8, 1.2),
     "ball.hop": ("normal", 0.5, 0.05),
     "sensing.delay": 0.1,

@@ -57,8 +57,9 @@ def test_a_replay_with_senses_shows_the_ghosts_that_the_film_shows() -> None:
     controllers = lineup(task, "scripted", "chase")
     replay = record_replay(task, controllers, seconds=1.0, sensing="vsss")
     for ghosts in (True, False):
-        options = {"sensing": "vsss", "width": 96, "ghosts": ghosts}
-        played, _ = film_match(task, controllers, seconds=1.0, **options)
+        played, _ = film_match(
+            task, controllers, seconds=1.0, width=96, ghosts=ghosts, sensing="vsss"
+        )
         replayed, _ = film_replay(replay, 96, ghosts=ghosts)
         for image, expected in zip(replayed, played, strict=True):
             assert same(image, expected)

@@ -174,7 +174,7 @@ class Network(HeldActions):
 
     @property
     def sensing(self) -> Sensing | str | None:
-        """What robots knew in the training: a `Sensing` or "module:name"; None for the truth."""
+        """Senses of the robots in the training, a `Sensing` or "module:name"; None for none."""
         return training_conditions.read_sensing(self.metadata)
 
     @property

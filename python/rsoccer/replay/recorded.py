@@ -53,8 +53,8 @@ class Recorded:
     names: tuple[str, str]
     """names of blue and of yellow on the score board"""
     sensing: Sensing | str | None
-    """what robots knew of the true state: a `Sensing`, or the text "module:name" of a sensor model;
-    None if they knew it, or by a model that is an object"""
+    """senses of the robots: a `Sensing`, or the text "module:name" of a sensor model; None without
+    senses, and for a model that is an object"""
     randomization: Ranges
     """distributions of numbers that each episode drew, by name; empty for none"""
     config: SimConfig

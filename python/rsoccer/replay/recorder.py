@@ -209,7 +209,7 @@ class Recorder:
             self._next_snapshot = self.seconds + self._interval
 
     def _sensed_poses(self) -> SensedPoses | None:
-        """What robots knew in all frames."""
+        """Poses as the robots knew them, in all frames."""
         if not self._sensed:
             return None
         config = self.matches.task.config

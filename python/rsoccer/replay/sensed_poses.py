@@ -25,7 +25,7 @@ HEADING_STEP: Final = TURN / 2**12
 
 @dataclass(frozen=True, eq=False)
 class SensedPoses:
-    """What robots knew of positions and headings in f frames."""
+    """Positions and headings as the robots knew them, in f frames."""
 
     ball: Floats
     """(f, 2) position of the ball, m"""
