@@ -28,7 +28,7 @@ from rsoccer.replay import file_format
 from rsoccer.replay.match_page import match
 from rsoccer.replay.recorded import Recorded
 
-SCRIPTS: Final = ("reader.js", "field.js", "charts.js", "player.js")
+SCRIPTS: Final = ("reader.js", "ghosts.js", "field.js", "charts.js", "player.js")
 """Scripts of the page, in their order."""
 MATCH_SCRIPTS: Final = ("match.js", "match_floor.js")
 """Further scripts of the page of a match with a referee."""

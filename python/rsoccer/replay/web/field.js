@@ -6,10 +6,8 @@ const KICK_SECONDS = 0.3;
 const MIN_ROBOT_PIXELS = 18; // smaller robots are drawn larger, up to MAX_ROBOT_GROWTH
 const MAX_ROBOT_GROWTH = 1.8;
 const MIN_BALL_PIXELS = 4; // smallest drawn radius
-const GHOST_PIXELS = 1.5; // width of the outlines of ghosts
 const STROKE = 2; // width of markers, in widths of the field's lines
 const ZOOMS = [1, 2, 4];
-const SENSED_JUMP = 0.3; // meters in a step beyond which a sensed body jumps
 
 /** Position of a body between frames `i` and `i + 1`, at the share `t`. */
 function between(a, b, t) {
@@ -38,23 +36,7 @@ class Moment {
         absent: absent[0],
       });
     }
-    this.sensed = replay.sensedNumbers && this.sensedBodies(replay, next, share);
-  }
-
-  /** Ball and robots where the robots believed them. */
-  sensedBodies(replay, next, share) {
-    const body = (x, y, heading) => {
-      const at = (name) => [this.frame, next].map((frame) => replay.sensed(name, frame));
-      const [xs, ys] = [at(x), at(y)];
-      const t = Math.hypot(xs[1] - xs[0], ys[1] - ys[0]) > SENSED_JUMP ? 0 : share;
-      return {
-        x: between(...xs, t),
-        y: between(...ys, t),
-        heading: heading && between(...at(heading), t),
-      };
-    };
-    const robots = this.robots.map((_, i) => body(`x_${i}`, `y_${i}`, `heading_${i}`));
-    return { ball: body("ball_x", "ball_y"), robots };
+    this.sensed = replay.sensedNumbers && sensedBodies(replay, this.frame, next, share);
   }
 
   bodyOfBall(replay, scene, next, share) {
@@ -198,7 +180,7 @@ class FieldView {
     if (this.trails) this.drawTrails(time, moment);
     this.drawBallOnFloor(moment.ball);
     this.drawKicks(time, moment);
-    if (this.ghosts && moment.sensed) this.drawGhosts(moment);
+    if (this.ghosts && moment.sensed) drawGhosts(this, moment);
     moment.robots.forEach((robot, index) => {
       if (!robot.absent) this.drawRobot(robot, index);
     });
@@ -363,37 +345,6 @@ class FieldView {
     context.drawImage(sprite, -sprite.width / 2, -sprite.height / 2);
     this.drawNumber(robot, index, outlines, team);
     if (index === this.selected || index === this.hovered) this.drawRing(x, y, index);
-  }
-
-  /** Thin outlines under the true robots and the true ball. */
-  drawGhosts({ sensed, robots }) {
-    const { context, camera, scene } = this;
-    const { tints, opacity, fill } = scene.ghosts;
-    sensed.robots.forEach(({ x, y, heading }, index) => {
-      if (robots[index].absent) return;
-      const outlines = this.outlinesOf(index);
-      const growth = this.growth(outlines);
-      const width = (GHOST_PIXELS * this.density) / (growth * camera.scale);
-      const front = Math.max(...outlines.hull.filter((_, i) => i % 2 === 0));
-      const [cos, sin] = [growth * Math.cos(heading), growth * Math.sin(heading)];
-      context.setTransform(...camera.matrix);
-      context.transform(cos, sin, -sin, cos, x, y);
-      context.fillStyle = context.strokeStyle = index < scene.nBlue ? tints.blue : tints.yellow;
-      context.lineWidth = width;
-      tracePolygon(context, outlines.hull);
-      context.globalAlpha = fill;
-      context.fill();
-      context.globalAlpha = opacity;
-      context.stroke();
-      strokeLine(context, 0, 0, front - width, 0);
-    });
-    context.setTransform(...camera.matrix);
-    context.strokeStyle = tints.ball;
-    context.lineWidth = (GHOST_PIXELS * this.density) / camera.scale;
-    context.beginPath();
-    context.arc(sensed.ball.x, sensed.ball.y, this.ballRadius({ z: 0 }), 0, 2 * Math.PI);
-    context.stroke();
-    context.globalAlpha = 1;
   }
 
   drawNumber(robot, index, outlines, team) {
