@@ -15,7 +15,10 @@ ROOT = Path(rsoccer.__file__).parent
 # Modules of the same layer do not import each other. The order is also a reading order.
 LAYERS = [
     {"_core"},
-    {"arrays", "files", "markers", "matches.consistency", "option_values", "plugins"},
+    {
+        *{"arrays", "files", "markers", "matches.consistency", "option_values", "plugins"},
+        "sensing_text",
+    },
     {"frame", "reflection", "vectors"},
     {"rng", "game", "global_state", "view", "entities"},
     {"checks", "derived", "randomization"},

@@ -5,8 +5,10 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
+import rsoccer
 from rsoccer.replay import Replay, record_replay
 from rsoccer.replay.page import to_html
 from tools import whole_matches
@@ -28,6 +30,8 @@ def main() -> None:
     replay = self_play()
     goals = [event.frame for event in replay.events if event.kind == "goal"]
     save(replay, goals[1] - BEFORE_GOAL, DOCS / "page.png", SIZE)
+    late = sensed()
+    save(late, farthest(late), DOCS / "page_sensed.png", SIZE)
     for name in whole_matches.WHOLE_MATCHES:
         match = whole_matches.record(name)
         save(match, moment(match), DOCS / f"{name}.png", MATCH_SIZE)
@@ -39,6 +43,23 @@ def self_play() -> Replay:
     return record_replay(
         "VSSSelfPlay-v0", teams, seed=SEED, seconds=20.0, names=("SCRIPTED", "CHASE")
     )
+
+
+def sensed() -> Replay:
+    """Return an SSL match of six a side in which robots see a tenth of a second late."""
+    task = rsoccer.make_task("SSLSelfPlay-v0", n_blue=6, n_yellow=6)
+    sensing = rsoccer.Sensing("rc2021", delay=0.1)
+    teams = {"blue": "scripted", "yellow": "scripted"}
+    return record_replay(
+        task, teams, seed=SEED, seconds=12.0, names=("BLUE", "YELLOW"), sensing=sensing
+    )
+
+
+def farthest(replay: Replay) -> int:
+    """Return the frame in which the ball is farthest from where the robots believe it."""
+    assert replay.sensed is not None
+    off = np.linalg.norm(replay.sensed.ball - replay.frame.ball.position, axis=-1)
+    return int(off.argmax())
 
 
 def moment(replay: Replay) -> int:

@@ -176,7 +176,7 @@ def command_of(settings: dict[str, Any]) -> str:
         part, dot, setting = option.rpartition(".")
         if isinstance(value, bool):
             words.append(f"--{option}" if value else f"--{part}{dot}no-{setting}")
-        elif name == "task_options":
+        elif name in ("task_options", "randomization"):
             words += [f"--{option}", *(f"{key}={each}" for key, each in value.items())]
         elif isinstance(value, dict):  # policies with their shares
             words += [f"--{option}", *(str(part) for pair in value.items() for part in pair)]

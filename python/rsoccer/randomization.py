@@ -191,6 +191,37 @@ class Randomization:
         )
 
 
+def written(ranges: Ranges) -> dict[str, Any]:
+    """Return distributions as JSON values by name, which `Randomization.of` reads again.
+
+    Args:
+        ranges: distributions by name.
+    """
+    return {
+        name: list(value) if isinstance(value, Sequence) else value
+        for name, value in ranges.items()
+    }
+
+
+def describe(ranges: Ranges) -> str:
+    """Return distributions in a line, such as "robot.mass 0.9 to 1.1".
+
+    Args:
+        ranges: distributions by name.
+    """
+    return ", ".join(f"{name} {_words(Distribution.of(name, v))}" for name, v in ranges.items())
+
+
+def _words(distribution: Distribution) -> str:
+    """A distribution in a few words."""
+    first, second = f"{distribution.first:g}", f"{distribution.second:g}"
+    if distribution.kind == "normal":
+        return f"{first} with deviation {second}"
+    if first == second:
+        return first
+    return f"{first} to {second}" + (" (log)" if distribution.kind == "log_uniform" else "")
+
+
 def _listed(name: str, value: object) -> list[Any]:
     """The parts of a description."""
     if isinstance(value, str) or not isinstance(value, Sequence):

@@ -16,10 +16,12 @@ from rsoccer.matches.policy_match import policy_match
 from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
+from rsoccer.render.ghosts import sensed_overlay
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.referee_state import referee_of, referee_state
 from rsoccer.render.scoreboard import GOAL_PAUSE, caption_of
+from rsoccer.render.shapes import Shape
 from rsoccer.render.video import MIN_WIDTH, write_video
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
@@ -34,6 +36,7 @@ def record_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
+    ghosts: bool = True,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
@@ -54,6 +57,7 @@ def record_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the video, 64 to 4096 pixels; by default 720, or more on a large field.
+        ghosts: whether to show ball and robots as the robots know them too, if they have senses.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
@@ -72,6 +76,7 @@ def record_match(
         seconds,
         names=names,
         width=width,
+        ghosts=ghosts,
         simulator=simulator,
         sensing=sensing,
         randomization=randomization,
@@ -88,6 +93,7 @@ def film_match(
     *,
     names: tuple[str, str] = ("BLUE", "YELLOW"),
     width: int | None = None,
+    ghosts: bool = True,
     simulator: SimulatorSource | None = None,
     sensing: SensingSource | None = None,
     randomization: Ranges | None = None,
@@ -104,6 +110,7 @@ def film_match(
         seconds: duration of play, without pauses at goals.
         names: names of blue and of yellow on the score board.
         width: width of the images, 64 to 4096 pixels; by default 720, or more on a large field.
+        ghosts: whether to show ball and robots as the robots know them too, if they have senses.
         simulator: moves the robots, as for `Matches`.
         sensing: what robots know of the true state, as for `Matches`.
         randomization: numbers that each episode draws, as for `Matches`.
@@ -124,7 +131,7 @@ def film_match(
         sensing=sensing,
         randomization=randomization,
     )
-    images = _film(matches, simulator, seconds, names, width)
+    images = _film(matches, simulator, seconds, names, width, ghosts)
     next(images)  # from now on it closes the simulator, whatever ends it
     return images, 1.0 / matches.task.config.time_step
 
@@ -135,6 +142,7 @@ def _film(
     seconds: float,
     names: tuple[str, str],
     width: int | None,
+    ghosts: bool,
 ) -> Generator[Image, None, None]:
     """An empty image, and those of the match, at whose end its simulator is closed."""
     with closed_after(matches, simulator):
@@ -145,11 +153,15 @@ def _film(
             has_referee=referee_of(matches.task) is not None,
         )
         yield np.empty((0, 0, 3), np.uint8)
-        yield from _images(matches, renderer, seconds, names)
+        yield from _images(matches, renderer, seconds, names, ghosts)
 
 
 def _images(
-    matches: Matches, renderer: Renderer, seconds: float, names: tuple[str, str]
+    matches: Matches,
+    renderer: Renderer,
+    seconds: float,
+    names: tuple[str, str],
+    ghosts: bool = True,
 ) -> Iterator[Image]:
     """An image for each control step, and a pause at each goal and at the end of a match."""
     task, time_step = matches.task, matches.task.config.time_step
@@ -161,7 +173,7 @@ def _images(
         matches.frame.rows[0],
         names=names,
         referee=referee_state(task, matches.play),
-        extras=task_overlay(task, matches.play),
+        extras=_floor(matches, ghosts),
     )
     for step in range(1, max(1, round(seconds / time_step)) + 1):
         if matches.done[0]:
@@ -183,9 +195,15 @@ def _images(
             referee=state,
             announcement=announcer.update(named_events(task, play.events.of_world(0)), clock),
             extras=(
-                *task_overlay(task, play),
+                *_floor(matches, ghosts),
                 *effects.update(matches.frame.rows[0], clock, play.commands[0]),
             ),
         )
         for _ in range(math.ceil(GOAL_PAUSE / time_step) if caption else 1):
             yield image
+
+
+def _floor(matches: Matches, ghosts: bool) -> tuple[Shape, ...]:
+    """Markers of the task, and what robots know."""
+    task, play = matches.task, matches.play
+    return (*task_overlay(task, play), *(sensed_overlay(task.config, play) if ghosts else ()))

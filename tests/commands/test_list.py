@@ -2,14 +2,16 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 import rsoccer
 from rsoccer import cli
-from rsoccer.policies import trained
+from rsoccer.policies import trained, training_conditions
 from rsoccer.registry import names as registry_names
 from rsoccer.tasks import VssSelfPlay
+from tests.policies.networks import network_for
 
 
 def test_list_names_tasks_options_and_policies(capsys: pytest.CaptureFixture[str]) -> None:
@@ -27,6 +29,19 @@ def test_list_shows_the_scores_of_trained_policies(capsys: pytest.CaptureFixture
         score = trained.list_scores(path)[0]
         assert f"{name}: {score.metric} {score.score:.3f} ({score.low:.3f} to " in printed
     assert trained.list_trained()
+
+
+def test_list_shows_the_senses_and_varied_numbers_of_a_training(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    network = network_for(rsoccer.make_task("VSS-v0"))
+    network.metadata |= training_conditions.written("vsss", {"robot.mass": (0.9, 1.1)})
+    network.save(tmp_path / "VSS-v0.safetensors")
+    monkeypatch.setattr(trained, "FOLDER", tmp_path)
+    assert cli.main(["list"]) == 0
+    printed = capsys.readouterr().out
+    assert "    VSS-v0: not measured\n" in printed
+    assert "    VSS-v0: trained with sensing vsss, robot.mass 0.9 to 1.1\n" in printed
 
 
 def test_a_task_whose_options_have_no_defaults_is_listed(

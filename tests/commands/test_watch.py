@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from rsoccer import cli
+from rsoccer import Sensing, cli
 from rsoccer.replay import Replay, record_replay
 from tests.commands.running import run
 
@@ -62,6 +62,20 @@ def test_watch_saves_a_replay_and_plays_it(
     assert printed.splitlines() == [f"page: {page}", f"video: {video}"]
     assert video.stat().st_size > 1000
     assert page.read_text() == replay.to_html()
+
+
+def test_watch_leaves_out_ghosts_on_request(tmp_path: Path) -> None:
+    pytest.importorskip("pygame")
+    saved = tmp_path / "match.rsr"
+    match = ["watch", "chase", "--seconds", "0.5", "--sensing", "vsss"]
+    assert cli.main([*match, "--save", str(saved)]) == 0
+    assert Replay.load(saved).sensing == Sensing("vsss")
+    for name, options in {"replay": ["watch", str(saved)], "match": match}.items():
+        shown, plain = (tmp_path / f"{name}_{kind}.gif" for kind in ("shown", "plain"))
+        small = ["--width", "128"]
+        assert cli.main([*options, *small, "--video", str(shown)]) == 0
+        assert cli.main([*options, *small, "--no-ghosts", "--video", str(plain)]) == 0
+        assert shown.read_bytes() != plain.read_bytes()
 
 
 def test_watch_plays_a_replay_in_a_window(tmp_path: Path) -> None:

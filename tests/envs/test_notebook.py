@@ -49,6 +49,28 @@ def test_matches_show_nothing_before_the_first_has_begun() -> None:
     assert matches._repr_png_() is not None
 
 
+@pytest.mark.parametrize("steps", [0, 20])
+def test_pictures_have_ghosts_where_robots_have_senses(steps: int) -> None:
+    shown = [
+        (rsoccer.single_env("VSS-v0", render_mode="rgb_array", sensing=sensing), sensing)
+        for sensing in (None, "vsss")
+    ]
+    matches = rsoccer.Matches("VSS-v0", seed=0, sensing="vsss")
+    matches.reset()
+    action = np.ones(2, np.float32)
+    for env, _ in shown:
+        env.reset(seed=0)
+    for _ in range(steps):
+        matches.step(action[None, None])
+        for env, _ in shown:
+            env.step(action)
+    plain, sensed = (env.render() for env, _ in shown)
+    assert isinstance(plain, np.ndarray)
+    assert isinstance(sensed, np.ndarray)
+    assert (plain != sensed).any()
+    assert matches._repr_png_() == Picture(sensed).to_png()
+
+
 def test_a_closed_environment_shows_nothing() -> None:
     env = rsoccer.single_env("VSS-v0")
     env.reset()

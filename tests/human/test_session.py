@@ -237,6 +237,15 @@ def test_a_match_announces_what_the_referee_decides() -> None:
     assert (session.image() != announced).any()
 
 
+def test_the_picture_shows_what_robots_know() -> None:
+    task = make_task("VSSSelfPlay-v0")
+    teams = team_controllers(task, "blue_0", "zero")
+    plain, sensed = (
+        Session(task, teams, width=128, sensing=sensing).image() for sensing in (None, "vsss")
+    )
+    assert (plain != sensed).any()
+
+
 @pytest.mark.parametrize("name", ["VSSSelfPlay-v0", "SSLSelfPlay-v0", "SSLMatch-v0"])
 def test_the_picture_shows_help_status_and_the_driven_robot(name: str) -> None:
     task = make_task(name)

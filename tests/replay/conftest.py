@@ -1,9 +1,11 @@
 """Short recorded matches of both leagues."""
 
 from functools import cache
+from typing import Any, Final
 
 import pytest
 
+from rsoccer import Sensing
 from rsoccer.lineup import lineup
 from rsoccer.registry import make_task
 from rsoccer.replay import Replay, record_replay
@@ -19,6 +21,12 @@ QUICK = {
     "goal_stop_seconds": 0.5,
 }
 """Rules of a referee with short stops."""
+RANDOMIZATION: Final[dict[str, Any]] = {
+    "robot.mass": (0.8, 1.2),
+    "ball.hop": ("normal", 0.5, 0.05),
+    "sensing.delay": 0.1,
+}
+"""Numbers that episodes draw."""
 
 
 @cache
@@ -50,6 +58,29 @@ def ssl_match() -> Replay:
     rules = {"fouls_per_card": 1, "placement_seconds": 2.0, "removal_seconds": 1.0}
     task = make_task("SSLMatch-v0", placement="robots", referee={**QUICK, **rules})
     return record_replay(task, lineup(task, "strike", "strike"), seconds=12.0)
+
+
+@cache
+def sensed_vss() -> Replay:
+    """Robots that see late, in episodes with numbers of their own."""
+    task = make_task("VSSSelfPlay-v0", max_steps=60)
+    return record_replay(
+        task,
+        lineup(task, "scripted", "chase"),
+        seconds=4.0,
+        snapshot_interval=1.0,
+        sensing="vsss",
+        randomization=RANDOMIZATION,
+    )
+
+
+@cache
+def sensed_ssl() -> Replay:
+    """Robots that see a fifth of a second late; some of them are taken out."""
+    rules = {"fouls_per_card": 1, "removal_seconds": 1.0}
+    task = make_task("SSLMatch-v0", referee={**QUICK, **rules})
+    sensing = Sensing("rc2021", delay=0.2)
+    return record_replay(task, lineup(task, "strike", "strike"), seconds=12.0, sensing=sensing)
 
 
 @pytest.fixture(params=[vss, ssl, ssl_match], ids=["VSSS", "SSL", "SSL match"])

@@ -14,10 +14,12 @@ from rsoccer import SimConfig
 from rsoccer.replay import Replay, ReplayError
 from rsoccer.replay.page import to_html
 from tests.replay.browser import show
-from tests.replay.conftest import ssl, vss
+from tests.replay.conftest import sensed_vss, ssl, vss
 
 VALUES = [1e4, 1e9, 1e30, -3e38]
-RECORDED = pytest.mark.parametrize("recorded", [vss, ssl], ids=["VSSS", "SSL"])
+RECORDED = pytest.mark.parametrize(
+    "recorded", [vss, ssl, sensed_vss], ids=["VSSS", "SSL", "senses"]
+)
 
 
 def absurd(replay: Replay, value: float) -> Replay:
@@ -29,7 +31,10 @@ def absurd(replay: Replay, value: float) -> Replay:
     robots.position[:, 0] = robots.velocity[:, 1] = value
     robots.position[:, 1, 0] = -value
     assert np.abs(changed.rows).max() >= abs(value) / 2
-    return changed
+    if replay.sensed is None:
+        return changed
+    far = np.full_like(replay.sensed.robots, value)
+    return replace(changed, sensed=replace(replay.sensed, ball=far[:, 0], robots=far))
 
 
 @RECORDED
@@ -49,10 +54,11 @@ def test_far_bodies_are_drawn(recorded: Callable[[], Replay], value: float) -> N
 def test_the_page_draws_far_bodies(
     recorded: Callable[[], Replay], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from rsoccer.replay import quantized
+    from rsoccer.replay import quantized, sensed_poses
 
     wide = dict.fromkeys(("x", "y", "z", "v_x", "v_y", "v_z"), 1e25)
     monkeypatch.setattr(quantized, "STEPS", quantized.STEPS | wide)
+    monkeypatch.setattr(sensed_poses, "POSITION_STEP", 1e25)
     replay = absurd(recorded(), 1e30)
     large = {name: np.full_like(term, 1e32) for name, term in replay.terms.items()}
     replay = replace(replay, terms=large)

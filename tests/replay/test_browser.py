@@ -13,7 +13,7 @@ from rsoccer.lineup import lineup
 from rsoccer.replay import Replay, record_replay
 from rsoccer.replay.page import to_frame, to_html
 from tests.replay.browser import show
-from tests.replay.conftest import ssl, vss
+from tests.replay.conftest import sensed_vss, ssl, vss
 
 
 @cache
@@ -128,6 +128,63 @@ def test_keys_move_through_time(tmp_path: Path) -> None:
         "zooms": [2, 4, 1],
         "trails": False,
     }
+
+
+def test_ghosts_are_drawn_where_the_robots_believe_the_bodies(tmp_path: Path) -> None:
+    replay = Replay.from_bytes(sensed_vss().to_bytes(snapshots=False))
+    assert replay.sensed is not None
+    off = np.linalg.norm(replay.sensed.robots - replay.frame.robots.position, axis=-1)
+    frame, robot = np.unravel_index(off.argmax(), off.shape)
+    script = f"""
+      const [frame, robot] = [{frame}, {robot}];
+      const picture = () => {{
+        player.draw();
+        return player.view.canvas.toDataURL();
+      }};
+      player.pause();
+      player.seek(frame);
+      const sensed = player.view.draw(frame).sensed;
+      const shown = picture();
+      key("s");
+      const hidden = picture();
+      const pressed = document.getElementById("sensed").getAttribute("aria-pressed");
+      document.getElementById("sensed").click();
+      const again = picture();
+      return {{
+        ball: [sensed.ball.x, sensed.ball.y],
+        robots: sensed.robots.map((body) => [body.x, body.y]),
+        headings: sensed.robots.map((body) => body.heading),
+        differ: shown !== hidden, same: shown === again, pressed,
+        number: player.numbersOf(robot, frame).find(([name]) => name === "sensed")[1],
+        visible: !document.getElementById("sensed").hidden,
+        about: document.getElementById("about").textContent,
+      }};
+    """
+    shown = show(to_html(replay), script, tmp_path)
+    assert shown.console == []
+    found = shown.result
+    assert found["ball"] == pytest.approx(replay.sensed.ball[frame].tolist(), abs=1e-6)
+    np.testing.assert_allclose(found["robots"], replay.sensed.robots[frame], atol=1e-6)
+    angles = np.array(found["headings"])
+    headings = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    np.testing.assert_allclose(headings, replay.sensed.headings[frame], atol=1e-5)
+    assert (found["differ"], found["same"], found["pressed"]) == (True, True, "false")
+    assert found["number"] == f"{1000 * off.max():.0f} mm off"
+    assert found["visible"]
+    assert "sensing vsss" in found["about"]
+    assert "robot.mass 0.8 to 1.2" in found["about"]
+
+
+def test_a_page_without_senses_has_no_switch_for_them(tmp_path: Path) -> None:
+    script = """
+      const hidden = ["sensed", "sensed-key"].map((id) => document.getElementById(id).hidden);
+      return {hidden, sensed: player.view.draw(3).sensed,
+        names: player.numbersOf(0, 3).map(([name]) => name)};
+    """
+    shown = show(to_html(vss()), script, tmp_path)
+    assert shown.console == []
+    assert (shown.result["hidden"], shown.result["sensed"]) == ([True, True], None)
+    assert "sensed" not in shown.result["names"]
 
 
 def test_space_presses_a_button_that_was_reached_by_tab_and_not_one_that_was_clicked(

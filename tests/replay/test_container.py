@@ -13,7 +13,7 @@ HEADER = {"a": 1, "b": [1.5, "text"]}
 SECTIONS = {"one": b"\x00" * 1000, "two": bytes(range(256)), "none": b""}
 
 
-def signed(head: bytes, body: bytes = b"", version: int = 3, magic: bytes = MAGIC) -> bytes:
+def signed(head: bytes, body: bytes = b"", version: int = 4, magic: bytes = MAGIC) -> bytes:
     """A file whose lengths and checksum are right, whatever it holds."""
     fixed = struct.pack("<8sIIQ", magic, version, len(head), 56 + len(head) + len(body))
     return fixed + hashlib.sha256(fixed + head + body).digest() + head + body
@@ -33,7 +33,7 @@ def test_content_comes_back() -> None:
 def test_the_layout_is_the_documented_one() -> None:
     content = pack(HEADER, {})
     magic, version, head, size = struct.unpack_from("<8sIIQ", content)
-    assert (magic, version, size) == (b"\x89RSR\r\n\x1a\n", 3, len(content))
+    assert (magic, version, size) == (b"\x89RSR\r\n\x1a\n", 4, len(content))
     assert hashlib.sha256(content[:24] + content[56:]).digest() == content[24:56]
     assert json.loads(zlib.decompress(content[56 : 56 + head])) == {**HEADER, "sections": []}
 
@@ -44,7 +44,7 @@ def test_the_layout_is_the_documented_one() -> None:
         (b"", "magic"),
         (b"PK\x03\x04" * 30, "magic: expected the first bytes of a replay file"),
         (MAGIC, "length: expected at least 56 bytes, got 8: cut off"),
-        (signed(b"", version=1), "version: expected format 3, got 1"),
+        (signed(b"", version=1), "version: expected format 4, got 1"),
         (pack(HEADER, SECTIONS)[:-1], "cut off"),
         (pack(HEADER, SECTIONS) + b"\x00", r"length: expected \d+ bytes, got \d+$"),
         (signed(b"no zlib"), "header: expected zlib"),

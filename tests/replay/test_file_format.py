@@ -11,7 +11,7 @@ import pytest
 from rsoccer.replay import Replay, ReplayError, container
 from rsoccer.replay.quantized import STEPS
 from tests.helpers import same
-from tests.replay.conftest import ssl, vss
+from tests.replay.conftest import sensed_vss, ssl, vss
 
 
 def test_a_replay_comes_back(replay: Replay) -> None:
@@ -192,7 +192,7 @@ def test_damage_under_a_valid_checksum_raises_no_other_error() -> None:
     assert 0 < refused < 400
 
 
-@pytest.mark.parametrize("recorded", [vss, ssl])
+@pytest.mark.parametrize("recorded", [vss, ssl, sensed_vss])
 def test_a_scrambled_header_raises_no_other_error(recorded: Callable[[], Replay]) -> None:
     rng = random.Random(2)
     header, sections = container.unpack(recorded().to_bytes())

@@ -9,7 +9,7 @@ from rsoccer.lineup import lineup
 from rsoccer.recording import film_match
 from rsoccer.registry import make_task
 from rsoccer.render.scoreboard import GOAL_PAUSE
-from rsoccer.replay import Replay
+from rsoccer.replay import Replay, record_replay
 from rsoccer.replay.film import film_replay
 from tests.helpers import same
 from tests.replay.conftest import GOALS_SEED, MATCH_SEED, QUICK, ssl, vss, vss_match
@@ -50,6 +50,21 @@ def test_markers_are_drawn() -> None:
     with_markers = next(film_replay(ssl(), 96)[0])
     bare: Replay = replace(ssl(), markers=((),) * len(ssl()))
     assert not same(with_markers, next(film_replay(bare, 96)[0]))
+
+
+def test_a_replay_with_senses_shows_the_ghosts_that_the_film_shows() -> None:
+    task = make_task("VSSSelfPlay-v0")
+    controllers = lineup(task, "scripted", "chase")
+    replay = record_replay(task, controllers, seconds=1.0, sensing="vsss")
+    for ghosts in (True, False):
+        played, _ = film_match(
+            task, controllers, seconds=1.0, width=96, ghosts=ghosts, sensing="vsss"
+        )
+        replayed, _ = film_replay(replay, 96, ghosts=ghosts)
+        for image, expected in zip(replayed, played, strict=True):
+            assert same(image, expected)
+    last, plain = [*film_replay(replay, 96)[0]][-1], [*film_replay(replay, 96, ghosts=False)[0]][-1]
+    assert not same(last, plain)
 
 
 def test_a_width_out_of_range_is_refused() -> None:

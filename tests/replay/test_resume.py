@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import LEARN, Field, Matches, RobotModel
+from rsoccer import LEARN, Field, Matches, RobotModel, Sensing
 from rsoccer.controllers import Controller
 from rsoccer.policies.vss.chase import Chase
 from rsoccer.registry import options_of
@@ -13,7 +13,7 @@ from rsoccer.replay import Recorder, Replay, ReplayError, record_replay
 from rsoccer.task import Task
 from rsoccer.tasks import VssSelfPlay
 from tests.helpers import same, zeros
-from tests.replay.conftest import vss
+from tests.replay.conftest import sensed_vss, vss
 
 
 @dataclass(frozen=True)
@@ -112,6 +112,40 @@ def test_a_match_goes_on_with_the_simulator_and_the_senses_that_are_given() -> N
     assert not resumed.play.sensed.ball.position.any()
     with pytest.raises(ReplayError, match=r"resume: sensing: the module .* has no 'missing'"):
         replay.resume(10, sensing="tests.simulators:missing")
+
+
+def test_a_resumed_match_has_the_senses_and_the_varied_numbers_of_the_recording() -> None:
+    recorded = sensed_vss()
+    read = Replay.from_bytes(recorded.to_bytes())
+    assert len(recorded.episodes) > 2, "each of them draws numbers"
+    assert recorded.sensed is not None
+    for frame in list(read.snapshots)[:2]:
+        matches = read.resume(frame)
+        assert matches.sensing == Sensing("vsss")
+        for later in range(frame + 1, len(recorded)):
+            if recorded.starts[later]:
+                matches.reset()
+            else:
+                matches.step(zeros(matches))
+            assert same(matches.frame.rows[0], recorded.rows[later])
+            assert same(matches.play.sensed.robots.position[0], recorded.sensed.robots[later])
+
+
+def test_a_resumed_match_has_the_sensor_model_that_the_recording_names() -> None:
+    teams: dict[str, Controller] = {"blue": "chase", "yellow": "ou"}
+    text = "tests.simulators:Blind"
+    replay = record_replay(
+        "VSSSelfPlay-v0", teams, seconds=0.5, snapshot_interval=0.25, sensing=text
+    )
+    resumed = Replay.from_bytes(replay.to_bytes()).resume(10)
+    for _ in range(5):
+        resumed.step(zeros(resumed))
+    assert same(resumed.frame.rows[0], replay.rows[15])
+    assert resumed.sensing == text
+    unnamed = replace(replay, sensing=None)
+    with pytest.raises(ReplayError, match=r"sensing: expected the sensor model as an argument"):
+        unnamed.resume(10)
+    assert unnamed.resume(10, sensing=text).play.senses is not None
 
 
 def test_default_options_are_not_written() -> None:

@@ -91,6 +91,7 @@ def test_the_recorded_command_has_the_settings_of_the_run(
     received: list[Args] = []
     monkeypatch.setattr(train_command, "train", received.append)
     shared = Args(task=task, network=NetworkSettings(robot_units=3))
-    for args in (Args.for_task(task), Args(task=task), shared):
+    varied = Args(task=task, sensing="vsss", randomization={"robot.mass": (0.9, 1.1)})
+    for args in (Args.for_task(task), Args(task=task), shared, varied):
         assert cli.main(shlex.split(command_of(args.to_json()))[1:]) == 0
         assert received[-1].to_json() == args.to_json()

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rsoccer import Sensing
+from rsoccer.policies.network import Network
 from rsoccer.replay import Replay
 from rsoccer.train import Args, train
 from rsoccer.train.clock import Clock, TimedSimulator
@@ -48,6 +50,16 @@ def test_the_match_of_the_policy_is_played_with_both(tmp_path: Path) -> None:
     first = replay.frame.robots.position[: replay.episodes[0].stop]
     assert len(first) > 5
     assert np.abs(first - first[0]).max() < 0.02
+
+
+def test_the_policy_file_notes_senses_and_varied_numbers(tmp_path: Path) -> None:
+    conditions = {"sensing": "vsss", "randomization": {"robot.mass": (0.9, 1.1)}}
+    train(tiny(tmp_path, samples=1, **conditions))
+    network = Network.load(tmp_path / "policy.safetensors")
+    assert network.sensing == Sensing("vsss")
+    assert network.randomization == {"robot.mass": [0.9, 1.1]}
+    assert Trainer(tiny(tmp_path, **NAMED)).network().sensing == NAMED["sensing"]
+    assert "sensing" not in Trainer(tiny(tmp_path)).network().metadata
 
 
 def _noted(used: list[Any], given: Any) -> Still:  # noqa: ANN401

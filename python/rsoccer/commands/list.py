@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from rsoccer import plugins, policies, registry
 from rsoccer.commands.imports import Imports
@@ -28,8 +29,7 @@ class List(Imports):
         write(f"policies: {', '.join(_usable_policies())}, or the path of a policy file")
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
         for name, path in trained.list_trained().items():
-            scores = [_score_text(score) for score in trained.list_scores(path)]
-            write("\n".join(f"    {name}: {score}" for score in scores or ["not measured"]))
+            write("\n".join(f"    {name}: {fact}" for fact in _facts(path)))
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
         write("best and files play as they were trained; :mean or :sample may follow the name")
         write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
@@ -45,6 +45,13 @@ def _usable_policies() -> list[str]:
         except ImportError as error:
             write(str(error))
     return names
+
+
+def _facts(path: Path) -> list[str]:
+    """Scores of a trained policy, and the senses and varied numbers of its training."""
+    scores = [_score_text(score) for score in trained.list_scores(path)] or ["not measured"]
+    conditions = trained.describe_training(path)
+    return [*scores, f"trained with {conditions}"] if conditions else scores
 
 
 def _score_text(score: Score) -> str:

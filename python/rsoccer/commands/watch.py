@@ -66,6 +66,8 @@ class Watch(Sources, Imports):
     """speed of the window, above 0: 1 is real time, 2 is twice as fast"""
     width: int | None = None
     """width of the picture in pixels; by default one at which robots can be distinguished"""
+    ghosts: bool = True
+    """show ball and robots as the robots know them too, in thin outlines, if they have senses"""
     video: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
     """.mp4 or .gif file to write instead of opening a window; needs no display"""
     html: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
@@ -130,7 +132,7 @@ class Watch(Sources, Imports):
         if self.video is not None or not (self.html or self.save):
             from rsoccer.replay.film import film_replay
 
-            self._show(replay.task, *film_replay(replay, self.width))
+            self._show(replay.task, *film_replay(replay, self.width, ghosts=self.ghosts))
 
     def _play_match(self) -> None:
         """Show a new match while it is played."""
@@ -144,6 +146,7 @@ class Watch(Sources, Imports):
             self.seconds,
             names=names,
             width=self.width,
+            ghosts=self.ghosts,
             simulator=self.simulator,
             sensing=self.sensing,
             randomization=self.randomization,

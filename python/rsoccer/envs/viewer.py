@@ -99,6 +99,7 @@ class Viewer:
             raise RuntimeError("render before reset: call reset() to begin an episode")
         from rsoccer.render.announcer import Announcer, named_events
         from rsoccer.render.effects import Effects
+        from rsoccer.render.ghosts import sensed_overlay
         from rsoccer.render.image import draw_image
         from rsoccer.render.overlay import task_overlay
         from rsoccer.render.referee_state import referee_state
@@ -116,6 +117,7 @@ class Viewer:
             announcement=announcer.update(named_events(task, play.events.of_world(world)), clock),
             extras=(
                 *task_overlay(task, play, world),
+                *sensed_overlay(config, play, world),
                 *effects.update(row, clock, play.commands[world]),
             ),
         )

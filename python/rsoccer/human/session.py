@@ -18,6 +18,7 @@ from rsoccer.matches import Matches
 from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer, named_events
 from rsoccer.render.effects import Effects
+from rsoccer.render.ghosts import sensed_overlay
 from rsoccer.render.image import Image, Renderer, default_width
 from rsoccer.render.overlay import task_overlay
 from rsoccer.render.referee_state import referee_of, referee_state
@@ -234,6 +235,7 @@ class Session:
             announcement=self._announcement,
             extras=(
                 *task_overlay(self.matches.task, self.matches.play),
+                *sensed_overlay(config, self.matches.play),
                 *self._events,
                 *screen.selection_shapes(config.field, config.robots[driver.index], (x, y)),
             ),

@@ -76,6 +76,9 @@ class Matches:
         observation_size: numbers in one agent's observation, stacked or plain, o.
         observation_low: (o,) lower bounds.
         observation_high: (o,) upper bounds.
+        sensing: the `Sensing`, or what another sensor model was given as; None if robots know the
+            true state.
+        randomization: distributions of numbers that each episode draws, by name.
         play: state of all worlds, to be read only: frames, score, events of the last step.
 
     Example:
@@ -163,6 +166,9 @@ class Matches:
         )
         if self._randomization.sensing is not None and self._sensing is None:
             self._sensing = Sensing()
+        is_own_model = self._sensing is not None and not isinstance(self._sensing, Sensing)
+        self.sensing = sensing if is_own_model else simulated(self._sensing)
+        self.randomization = dict(randomization or {})
         self._rules = self.task.rules
         root = WorldRng.seeded(checks.integer("seed", seed, 0), worlds)
         self._start = root.split("start")
@@ -393,6 +399,7 @@ class Matches:
             from rsoccer.render import Picture, draw_image
         except ModuleNotFoundError:
             return None
+        from rsoccer.render.ghosts import sensed_overlay
         from rsoccer.render.overlay import task_overlay
         from rsoccer.render.referee_state import referee_state
 
@@ -401,7 +408,10 @@ class Matches:
             self.frame.rows[0],
             clock=float(self.play.steps[0]) * self.task.config.time_step,
             referee=referee_state(self.task, self.play),
-            extras=task_overlay(self.task, self.play),
+            extras=(
+                *task_overlay(self.task, self.play),
+                *sensed_overlay(self.task.config, self.play),
+            ),
         )
         return Picture(image).to_png()
 

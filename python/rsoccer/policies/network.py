@@ -14,14 +14,17 @@ from numpy.typing import ArrayLike, NDArray
 from rsoccer import checks, option_values
 from rsoccer.arrays import Array, Floats
 from rsoccer.history import ObservationStack
-from rsoccer.policies import policy_file
+from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.held_actions import HeldActions
 from rsoccer.registry import as_task, options_of
 
 if TYPE_CHECKING:
     from torch import nn
 
+    from rsoccer._core import Sensing
+    from rsoccer.randomization import Ranges
     from rsoccer.rng import WorldRng
+    from rsoccer.sources import SensingSource
     from rsoccer.task import Task
 
 SINGLE_THREAD_SIZE: Final = 2**18
@@ -66,6 +69,7 @@ class Network(HeldActions):
         self.metadata = dict(metadata)
         self.clip, self.action_repeat = policy_file.read_metadata(self.metadata)
         policy_file.read_task_options(self.metadata)  # refuses wrong ones before they are needed
+        training_conditions.describe(self.metadata)
         self.layers = policy_file.read_layers(arrays)
         self.mean, self.std = policy_file.read_normalizer(arrays, self.observation_size)
         self.action_std = policy_file.read_action_std(arrays, self.action_size)
@@ -92,6 +96,8 @@ class Network(HeldActions):
         clip: float = 10.0,
         task_name: str | None = None,
         task_options: Mapping[str, Any] | None = None,
+        sensing: SensingSource | None = None,
+        randomization: Ranges | None = None,
     ) -> Self:
         """Return a network of weights that another program has trained.
 
@@ -110,6 +116,9 @@ class Network(HeldActions):
             task_name: name of the task for `make_task`; None for the task's own.
             task_options: options of the task for `make_task`; None for those of the task that
                 differ from its defaults.
+            sensing: what robots knew of the true state in the training, as for `Matches`; a note
+                in the file, which does not change how the policy plays.
+            randomization: numbers that each episode of the training drew; a note, too.
 
         Raises:
             TypeError: neither a task nor its name, or something else than layers.
@@ -145,6 +154,7 @@ class Network(HeldActions):
         if task_options:
             encoded = {name: option_values.encoded(name, v) for name, v in task_options.items()}
             metadata["task_options"] = json.dumps(encoded, sort_keys=True)
+        metadata |= training_conditions.written(sensing, randomization)
         network = cls(arrays, metadata)
         network.check_fits(task, task.layout.size)
         return network
@@ -173,6 +183,16 @@ class Network(HeldActions):
     def task_options(self) -> dict[str, Any]:
         """Options of that task in the training, for `make_task`; {} for the defaults."""
         return policy_file.read_task_options(self.metadata)
+
+    @property
+    def sensing(self) -> Sensing | str | None:
+        """Senses of the robots in the training, a `Sensing` or "module:name"; None for none."""
+        return training_conditions.read_sensing(self.metadata)
+
+    @property
+    def randomization(self) -> dict[str, Any]:
+        """Distributions of numbers in the training by name; {} if all matches had the same."""
+        return training_conditions.read_randomization(self.metadata)
 
     def choose(self, observations: Floats, rng: WorldRng) -> Floats:
         """Choose actions as the mode says, without holding them.

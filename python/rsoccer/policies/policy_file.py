@@ -20,6 +20,8 @@ The metadata are text:
 | `format` | `rsoccer-policy-2` | version of this format |
 | `task` | a task's name | task of the training, for `make_task` |
 | `task_options` | JSON object; optional | options of `make_task` that the training set |
+| `sensing` | JSON of a `Sensing`, or `module:name`; optional | what robots knew in training |
+| `randomization` | JSON object; optional | distributions of numbers in training, by name |
 | `observation_size` | o | numbers in an observation, a stacked one with a `history` |
 | `action_size` | a | numbers in an action |
 | `activation` | `tanh` | activation after each layer but the last |
@@ -31,7 +33,9 @@ The metadata are text:
 | `scores` | JSON list; optional | results: objects with the fields of `Score` |
 
 `training` says how the policy was made: the command, the decisions that it learned from, the seed,
-and the versions of the package and of its physics in which the scores were measured.
+and the versions of the package and of its physics in which the scores were measured. `sensing` and
+`randomization` are those of the matches in which it learned, as `Matches` takes them; they are
+absent where robots knew the true state and no numbers varied. They do not change how it plays.
 
 The mean action for an observation x is
 

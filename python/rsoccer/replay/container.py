@@ -22,7 +22,7 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 MAGIC: Final = b"\x89RSR\r\n\x1a\n"
-VERSION: Final = 3
+VERSION: Final = 4
 """Version of the format that this module writes, and the only one that it reads."""
 
 _FIXED: Final = struct.Struct("<8sIIQ")

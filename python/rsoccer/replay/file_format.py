@@ -6,28 +6,33 @@ Keys of the header:
 | --- | --- |
 | `package`, `physics` | versions of the package (text) and of its physics (number) |
 | `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
+| `sensing` | JSON of `Sensing.to_json`, or "module:name" of a model; absent if none is named |
+| `randomization` | distributions of numbers by name, as `Matches` takes them; absent if none |
 | `config` | the configuration, JSON of `SimConfig.to_json` |
-| `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee` |
-| `steps` | steps of the columns of `rows`, `commands` and `referee`, and of each reward term |
+| `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee`, `sensed` |
+| `steps` | steps of the columns of `rows`, `commands`, `referee`, `sensed`; of each reward term |
 | `frames`, `observers` | number of frames, names of the robots that are paid |
 | `episodes` | for each start, stop, end and metrics |
 | `events` | for each frame, kind, robot and detail |
 | `marker_sets`, `markers` | sets of markers; pairs of a frame and the set from there on |
 | `snapshots` | for each its frame, and name, type and shape of its arrays |
 
-Sections: `rows`, `commands`, `term:<name>` and, of a match with a referee, `referee` hold columns
-as `rsoccer.replay.quantized` writes them; `snapshot:<frame>` holds the arrays of a snapshot one
-after the other, exact to the last bit. The state row of such a frame is taken from there.
+Sections: `rows`, `commands`, `term:<name>`, `referee` of a match with a referee and `sensed` of one
+in which robots have senses hold columns as `rsoccer.replay.quantized` writes them;
+`snapshot:<frame>` holds the arrays of a snapshot one after the other, exact to the last bit. The
+state row of such a frame is taken from there.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 
+from rsoccer import randomization, sensing_text
 from rsoccer._core import SimConfig
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.frame import robot_names
@@ -37,11 +42,13 @@ from rsoccer.replay import (
     marker_sets,
     quantized,
     referee_columns,
+    sensed_poses,
     snapshot_arrays,
 )
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.header_values import get
 from rsoccer.replay.recorded import Recorded
+from rsoccer.replay.sensed_poses import SensedPoses
 
 # -- Writing -----------------------------------------------------------------------------------
 
@@ -73,6 +80,9 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     referee_steps = [] if replay.referee is None else referee_columns.steps(config)
     if replay.referee is not None:
         sections["referee"] = quantized.encode("referee", replay.referee, referee_steps)
+    sensed_steps = [] if replay.sensed is None else sensed_poses.steps(config)
+    if replay.sensed is not None:
+        sections["sensed"] = quantized.encode("sensed", replay.sensed.columns(), sensed_steps)
     header = {
         "package": replay.package,
         "physics": replay.physics,
@@ -80,13 +90,15 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
         "options": replay.options,
         "controllers": dict(replay.controllers),
         "names": list(replay.names),
+        **_conditions(replay),
         "config": config.to_json(),
-        "columns": _columns(config, has_referee=replay.referee is not None),
+        "columns": _columns(config, sections),
         "steps": {
             "rows": row_steps,
             "commands": command_steps,
             "terms": term_steps,
             "referee": referee_steps,
+            "sensed": sensed_steps,
         },
         "frames": len(replay),
         "observers": list(replay.observers),
@@ -98,13 +110,24 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
     return container.pack(header, sections | snapshot_arrays.written(kept))
 
 
-def _columns(config: SimConfig, *, has_referee: bool) -> dict[str, list[str]]:
-    """Names of the stored columns; none of a referee where there is none."""
+def _conditions(replay: Recorded) -> dict[str, Any]:
+    """Senses and varied numbers of the match, where it has them."""
+    conditions: dict[str, Any] = {}
+    if replay.sensing is not None:
+        conditions["sensing"] = sensing_text.to_text(replay.sensing)
+    if replay.randomization:
+        conditions["randomization"] = randomization.written(replay.randomization)
+    return conditions
+
+
+def _columns(config: SimConfig, sections: Container[str]) -> dict[str, list[str]]:
+    """Names of the stored columns; none of a referee or of senses where there are none."""
     return {
         "ball": list(quantized.BALL_STORED),
         "robot": list(quantized.ROBOT_STORED),
         "command": list(config.command_columns),
-        "referee": list(referee_columns.names(config)) if has_referee else [],
+        "referee": list(referee_columns.names(config)) if "referee" in sections else [],
+        "sensed": list(sensed_poses.names(config)) if "sensed" in sections else [],
     }
 
 
@@ -125,8 +148,7 @@ def from_bytes(content: bytes) -> Recorded:
     """
     header, sections = container.unpack(content)
     config = header_values.config(get(header, "config", str))
-    has_referee = "referee" in sections
-    if header.get("columns") != _columns(config, has_referee=has_referee):
+    if header.get("columns") != _columns(config, sections):
         raise ReplayError("columns: expected those of this package, got others")
     frames = get(header, "frames", int)
     episodes = header_values.episodes(get(header, "episodes", list), frames)
@@ -148,13 +170,16 @@ def from_bytes(content: bytes) -> Recorded:
         options=header_values.options(header.get("options")),
         controllers=header_values.controllers(get(header, "controllers", dict)),
         names=header_values.team_names(header.get("names")),
+        sensing=header_values.sensing(header.get("sensing")),
+        randomization=header_values.randomization(header.get("randomization", {}), config),
         config=config,
         rows=rows,
         commands=commands.reshape(frames, *shape).astype(np.float32),
         observers=observers,
         terms=_terms(steps.get("terms"), sections, frames, len(observers)),
         markers=marker_sets.read(header, frames),
-        referee=_referee(sections, frames, steps, config) if has_referee else None,
+        referee=_referee(sections, frames, steps, config),
+        sensed=_sensed(sections, frames, steps, config),
         episodes=episodes,
         events=tuple(header_values.event(entry, frames, robots) for entry in events),
         snapshots=snapshots,
@@ -177,12 +202,26 @@ def _section(
 
 def _referee(
     sections: Mapping[str, bytes], frames: int, steps: Mapping[str, object], config: SimConfig
-) -> Doubles:
-    """State of the referee (frames, columns)."""
+) -> Doubles | None:
+    """State of the referee (frames, columns), if there is one."""
+    if "referee" not in sections:
+        return None
     columns = len(referee_columns.names(config))
     values = _section(sections, "referee", frames, steps.get("referee"), columns)
     referee_columns.check(values)
     return values
+
+
+def _sensed(
+    sections: Mapping[str, bytes], frames: int, steps: Mapping[str, object], config: SimConfig
+) -> SensedPoses | None:
+    """Poses as the robots knew them, if they had senses."""
+    if "sensed" not in sections:
+        return None
+    columns = len(sensed_poses.names(config))
+    return SensedPoses.of_columns(
+        _section(sections, "sensed", frames, steps.get("sensed"), columns)
+    )
 
 
 def _terms(

@@ -7,7 +7,9 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any, Final, TypeVar
 
-from rsoccer._core import SimConfig
+from rsoccer import sensing_text
+from rsoccer._core import Sensing, SimConfig
+from rsoccer.randomization import Randomization
 from rsoccer.replay.container import ReplayError
 from rsoccer.replay.events import KINDS, Event
 from rsoccer.replay.quantized import MAX_STEP
@@ -197,6 +199,46 @@ def options(value: object) -> dict[str, Any] | None:
     """
     if value is not None and not isinstance(value, dict):
         raise ReplayError(f"options: expected an object or null, got {type(value).__name__}")
+    return value
+
+
+def sensing(value: object) -> Sensing | str | None:
+    """Return senses.
+
+    Args:
+        value: JSON of a `Sensing` or "module:name", or None.
+
+    Raises:
+        ReplayError: another value.
+    """
+    if value is None:
+        return None
+    if not isinstance(value, str):
+        raise ReplayError(f"sensing: expected a text, got {type(value).__name__}")
+    try:
+        return sensing_text.from_text(value)
+    except ValueError as error:
+        raise ReplayError(str(error)) from None
+
+
+def randomization(value: object, config: SimConfig) -> dict[str, Any]:
+    """Return distributions by name.
+
+    Args:
+        value: distributions by name.
+        config: the models whose numbers they vary.
+
+    Raises:
+        ReplayError: another value.
+    """
+    if not isinstance(value, dict):
+        raise ReplayError(f"randomization: expected an object, got {type(value).__name__}")
+    try:
+        Randomization.of(value, config, None)
+    except (TypeError, ValueError) as error:
+        raise ReplayError(str(error)) from None
+    except OverflowError as error:
+        raise ReplayError(f"randomization: {error}") from None
     return value
 
 

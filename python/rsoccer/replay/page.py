@@ -15,9 +15,11 @@ from functools import cache
 from importlib import resources
 from typing import Any, Final
 
+from rsoccer import randomization, sensing_text
 from rsoccer._core import RobotModel, SimConfig
 from rsoccer.render import palette
 from rsoccer.render.ball import GROWTH, MAX_GROWTH, SHADOW_OFFSET
+from rsoccer.render.ghosts import FILL, LIGHTNESS, OPACITY
 from rsoccer.render.pitch import arena_bounds, pitch_shapes
 from rsoccer.render.robot import robot_outlines
 from rsoccer.render.scoreboard import GOAL_PAUSE
@@ -26,7 +28,7 @@ from rsoccer.replay import file_format
 from rsoccer.replay.match_page import match
 from rsoccer.replay.recorded import Recorded
 
-SCRIPTS: Final = ("reader.js", "field.js", "charts.js", "player.js")
+SCRIPTS: Final = ("reader.js", "ghosts.js", "field.js", "charts.js", "player.js")
 """Scripts of the page, in their order."""
 MATCH_SCRIPTS: Final = ("match.js", "match_floor.js")
 """Further scripts of the page of a match with a referee."""
@@ -37,6 +39,7 @@ _COLORS: Final = (
     *("SHADOW", "TIRE", "HIGHLIGHT", "HALO", "TRAIL", "DRIBBLER", "DRIBBLER_LIT"),
     *("CAPTION_BAND", "PENDING", "DONE", "YELLOW_CARD", "RED_CARD"),
 )
+_GHOSTS: Final = {"blue": palette.BLUE, "yellow": palette.YELLOW, "ball": palette.ORANGE}
 _PART: Final = re.compile(r"\{\{(\w+)\}\}")
 _DIGITS: Final = 5  # of coordinates, hundredths of a millimeter
 
@@ -61,7 +64,7 @@ def to_html(replay: Recorded) -> str:
         "colors": "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS),
         "style": _web("style.css") + ("" if more is None else _web("match.css")),
         "script": "\n".join(map(_web, scripts)),
-        "scene": _json(scene(replay.config)),
+        "scene": _json(scene(replay.config) | {"conditions": _conditions(replay)}),
         "match": _json(more),
         "replay": content,
     }
@@ -111,10 +114,28 @@ def scene(config: SimConfig) -> dict[str, Any]:
             "maxGrowth": MAX_GROWTH,
             "shadowOffset": SHADOW_OFFSET,
         },
+        "ghosts": {
+            "tints": {
+                name: _css(palette.mix(color, palette.WHITE, LIGHTNESS))
+                for name, color in _GHOSTS.items()
+            },
+            "opacity": OPACITY,
+            "fill": FILL,
+        },
         "timeStep": config.time_step,
         "goalPause": GOAL_PAUSE,
         "colors": {_name(color): _css(color) for color in _COLORS},
     }
+
+
+def _conditions(replay: Recorded) -> list[str]:
+    """Senses and varied numbers of the match in words, where it has them."""
+    conditions = []
+    if replay.sensing is not None:
+        conditions.append(f"sensing {sensing_text.describe(replay.sensing)}")
+    if replay.randomization:
+        conditions.append(randomization.describe(replay.randomization))
+    return conditions
 
 
 def _json(value: object) -> str:

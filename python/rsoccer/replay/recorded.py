@@ -10,14 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rsoccer._core import SimConfig
+from rsoccer._core import Sensing, SimConfig
 from rsoccer.arrays import Array, Doubles, Floats, Mask
 from rsoccer.frame import Frame, robot_names
 from rsoccer.markers import Marker
+from rsoccer.randomization import Ranges
 from rsoccer.render.announcer import Announcer
 from rsoccer.render.referee_state import RefereeState
 from rsoccer.render.words import Words
 from rsoccer.replay.events import Event
+from rsoccer.replay.sensed_poses import SensedPoses
 from rsoccer.view import SIDES
 
 
@@ -50,6 +52,11 @@ class Recorded:
     """name or file of each robot's policy by robot; "LEARN" for a learner; None if unknown"""
     names: tuple[str, str]
     """names of blue and of yellow on the score board"""
+    sensing: Sensing | str | None
+    """senses of the robots: a `Sensing`, or the text "module:name" of a sensor model; None without
+    senses, and for a model that is an object"""
+    randomization: Ranges
+    """distributions of numbers that each episode drew, by name; empty for none"""
     config: SimConfig
     """configuration of the simulator"""
     rows: Floats
@@ -65,6 +72,8 @@ class Recorded:
     referee: Doubles | None
     """(f, column) state of the referee, columns of `rsoccer.render.referee_state`; None without
     one"""
+    sensed: SensedPoses | None
+    """(f, ...) poses of ball and robots as the robots knew them; None without senses"""
     episodes: tuple[Episode, ...]
     """episodes in the order of play; their frames are all frames"""
     events: tuple[Event, ...]

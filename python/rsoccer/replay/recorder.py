@@ -6,10 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rsoccer import checks
+from rsoccer import checks, sensing_text
 from rsoccer._core import build_info
 from rsoccer.arrays import Array, Doubles, Floats
 from rsoccer.controllers import Controllers, resolve
+from rsoccer.frame import Frame
 from rsoccer.markers import Marker
 from rsoccer.matches import Matches, Outcome
 from rsoccer.matches.policy_match import policy_match
@@ -20,6 +21,7 @@ from rsoccer.replay.events import Event, ball_events, game_events
 from rsoccer.replay.recorded import Episode
 from rsoccer.replay.replay import Replay
 from rsoccer.replay.resume import described_controllers
+from rsoccer.replay.sensed_poses import SensedPoses
 from rsoccer.sources import SensingSource, SimulatorSource, closed_after
 from rsoccer.task import Task
 
@@ -95,6 +97,7 @@ class Recorder:
         self._terms: list[Mapping[str, Floats]] = []
         self._markers: list[tuple[Marker, ...]] = []
         self._referee: list[Doubles] = []
+        self._sensed: list[Floats] = []
         self._events: list[Event] = []
         self._episodes: list[Episode] = []
         self._snapshots: dict[int, Mapping[str, Array]] = {}
@@ -166,6 +169,8 @@ class Recorder:
             options=options_of(task),
             controllers=self._controllers,
             names=self._names,
+            sensing=sensing_text.recordable(self.matches.sensing),
+            randomization=self.matches.randomization,
             config=task.config,
             rows=np.stack(self._rows),
             commands=np.stack(self._commands),
@@ -173,6 +178,7 @@ class Recorder:
             terms=terms,
             markers=tuple(self._markers),
             referee=np.stack(self._referee) if self._referee else None,
+            sensed=self._sensed_poses(),
             episodes=(*self._episodes, *last),
             events=tuple(self._events),
             snapshots=dict(self._snapshots),
@@ -196,9 +202,19 @@ class Recorder:
         referee = referee_row(matches.task, play, self.world)
         if referee is not None:
             self._referee.append(referee)
+        if play.senses is not None:
+            self._sensed.append(play.sensed.rows[self.world].copy())
         if self._interval is not None and self.seconds >= self._next_snapshot - 1e-9:
             self._snapshots[len(self._rows) - 1] = matches.state_dict()
             self._next_snapshot = self.seconds + self._interval
+
+    def _sensed_poses(self) -> SensedPoses | None:
+        """Poses as the robots knew them, in all frames."""
+        if not self._sensed:
+            return None
+        config = self.matches.task.config
+        frame = Frame(np.stack(self._sensed), config.n_blue, config.n_yellow)
+        return SensedPoses.of_frame(frame)
 
     def _close(self, end: str, metrics: dict[str, float]) -> None:
         """End the current episode, if there is one."""

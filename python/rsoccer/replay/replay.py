@@ -133,8 +133,9 @@ class Replay(Recorded):
             task: the task; by default made from its name and options.
             controllers: controllers of the robots; by default those of the recording.
             simulator: moves the robots, as for `Matches`; the one that the match was recorded with.
-            sensing: what robots know of the true state, as for `Matches`; as it was recorded with.
-            randomization: numbers that each episode draws, as it was recorded with.
+            sensing: what robots know of the true state, as for `Matches`; by default that of the
+                recording. The module of a text "module:name" is imported.
+            randomization: numbers that each episode draws; by default those of the recording.
 
         Returns:
             Matches of one world at that frame. `autoreset` is "disabled".

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Final
 
 from rsoccer import registry
-from rsoccer._core import build_info
+from rsoccer._core import Sensing, build_info
 from rsoccer.controllers import Controller, Controllers
 from rsoccer.matches import Matches
 from rsoccer.policies.base import Policy
@@ -43,15 +43,15 @@ def resume(
         task: the task; None to make it from the replay.
         controllers: controllers; None for those of the replay.
         simulator: moves the robots, as for `Matches`.
-        sensing: what robots know of the true state, as for `Matches`.
-        randomization: numbers that each episode draws, as for `Matches`.
+        sensing: what robots know of the true state, as for `Matches`; None for that of the replay.
+        randomization: numbers that each episode draws; None for those of the replay.
 
     Returns:
         Matches of one world at that frame.
 
     Raises:
-        ReplayError: no snapshot at that frame, another version of the physics, or a task or
-            controllers that do not fit or have to be given.
+        ReplayError: no snapshot at that frame, another version of the physics, or a task,
+            controllers or senses that do not fit or have to be given.
     """
     if frame not in replay.snapshots:
         held = sorted(replay.snapshots) or "none"
@@ -72,8 +72,8 @@ def resume(
             controllers=given,
             autoreset="disabled",
             simulator=simulator,
-            sensing=sensing,
-            randomization=randomization,
+            sensing=_sensing(replay) if sensing is None else sensing,
+            randomization=replay.randomization if randomization is None else randomization,
         )
         with closed_on_error(matches, simulator):
             matches.load_state_dict(replay.snapshots[frame])
@@ -89,6 +89,13 @@ def _task(replay: Recorded) -> Task:
     if replay.options is None:
         raise ReplayError(f"task: expected {replay.task} as an argument: its options are not kept")
     return registry.make_task(replay.task, **replay.options)
+
+
+def _sensing(replay: Recorded) -> Sensing | str | None:
+    """The senses of a replay."""
+    if replay.sensed is not None and replay.sensing is None:
+        raise ReplayError("sensing: expected the sensor model as an argument: it has no name")
+    return replay.sensing
 
 
 def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Final
 
-from rsoccer.policies import policy_file
+from rsoccer.policies import policy_file, training_conditions
 from rsoccer.policies.network import MODES, Network
 from rsoccer.policies.policy_file import Score
 from rsoccer.task import Task
@@ -76,3 +76,18 @@ def list_scores(path: Path) -> list[Score]:
         ValueError: the file is not a policy file, or its scores are not as documented.
     """
     return policy_file.read_scores(policy_file.read_file(path)[1])
+
+
+def describe_training(path: Path) -> str:
+    """Return the senses and the varied numbers of the training of a policy file, in a line.
+
+    Args:
+        path: the file.
+
+    Returns:
+        The line; empty if robots knew the true state and no numbers varied.
+
+    Raises:
+        ValueError: the file is not a policy file, or its metadata are not as documented.
+    """
+    return training_conditions.describe(policy_file.read_file(path)[1])

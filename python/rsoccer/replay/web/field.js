@@ -36,6 +36,7 @@ class Moment {
         absent: absent[0],
       });
     }
+    this.sensed = replay.sensedNumbers && sensedBodies(replay, this.frame, next, share);
   }
 
   bodyOfBall(replay, scene, next, share) {
@@ -120,6 +121,7 @@ class FieldView {
     this.scene = scene;
     this.camera = new Camera(scene);
     this.trails = true;
+    this.ghosts = true; // ball and robots where the robots believe them
     this.selected = -1;
     this.hovered = -1;
     this.floor = null; // marks of a referee
@@ -178,6 +180,7 @@ class FieldView {
     if (this.trails) this.drawTrails(time, moment);
     this.drawBallOnFloor(moment.ball);
     this.drawKicks(time, moment);
+    if (this.ghosts && moment.sensed) drawGhosts(this, moment);
     moment.robots.forEach((robot, index) => {
       if (!robot.absent) this.drawRobot(robot, index);
     });

@@ -180,8 +180,14 @@ class Player {
     setText($("name-yellow"), header.names[1] || teamName("yellow"));
     const duration = this.replay.clock(this.last, this.scene.timeStep);
     this.duration = clockText(duration);
-    const versions = `rSoccer ${header.package}, physics ${header.physics}`;
-    setText($("about"), `${header.task} \u00b7 ${this.duration.replace(/\.0$/, "")} of play \u00b7 ${versions}`);
+    const facts = [
+      header.task,
+      `${this.duration.replace(/\.0$/, "")} of play`,
+      ...this.scene.conditions,
+      `rSoccer ${header.package}, physics ${header.physics}`,
+    ];
+    setText($("about"), facts.join(" \u00b7 "));
+    for (const id of ["sensed", "sensed-key"]) $(id).hidden = !this.replay.sensedNumbers;
     $("timeline").setAttribute("aria-valuemax", String(this.last));
     for (const [index, name] of this.robots.entries()) {
       const option = document.createElement("option");
@@ -245,12 +251,22 @@ class Player {
       ["turning", `${fixed(value("v_theta"), 1)} rad/s`],
       ["ball", flags.join(", ") || "\u2013"],
     ];
+    if (replay.sensedNumbers) numbers.push(["sensed", `${this.sensedError(index, frame)} mm off`]);
     replay.commandColumns.forEach((name, column) => {
       const digits = UNITS[name] === "m/s" ? 2 : 1;
       const text = fixed(replay.command(index, column, frame), digits);
       numbers.push([`\u2192 ${COMMAND_NAMES[name] ?? name}`, `${text} ${UNITS[name] ?? ""}`.trim()]);
     });
     return numbers;
+  }
+
+  /** Distance of a robot from where the robots believe it, mm. */
+  sensedError(index, frame) {
+    const { replay } = this;
+    const [x, y] = ["x", "y"].map(
+      (axis) => replay.robot(index, axis, frame) - replay.sensed(`${axis}_${index}`, frame)
+    );
+    return Math.round(1000 * Math.hypot(x, y));
   }
 
   rewardOf(index, frame) {
@@ -385,6 +401,12 @@ class Player {
     this.dirty = true;
   }
 
+  toggleGhosts() {
+    this.view.ghosts = !this.view.ghosts;
+    $("sensed").setAttribute("aria-pressed", String(this.view.ghosts));
+    this.dirty = true;
+  }
+
   toggleTheme() {
     const root = document.documentElement;
     const system = window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
@@ -405,6 +427,7 @@ class Player {
       faster: () => this.changeSpeed(1),
       zoom: () => this.zoom(),
       trails: () => this.toggleTrails(),
+      sensed: () => this.toggleGhosts(),
       theme: () => this.toggleTheme(),
       help: () => $("keys").showModal(),
     };
@@ -487,6 +510,7 @@ class Player {
       p: () => this.jump(-1),
       z: () => this.zoom(),
       t: () => this.toggleTrails(),
+      s: () => this.toggleGhosts(),
       d: () => this.toggleTheme(),
       "?": () => $("keys").showModal(),
     };

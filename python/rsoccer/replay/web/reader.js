@@ -1,7 +1,7 @@
 // Reader of replay files; the format is described in docs/replays.md.
 
 const MAGIC = [0x89, 0x52, 0x53, 0x52, 0x0d, 0x0a, 0x1a, 0x0a];
-const VERSION = 3;
+const VERSION = 4;
 const START = 56; // bytes before the header
 
 /** Return the bytes of a text in base64. */
@@ -40,7 +40,7 @@ function decodeColumns(bytes, frames, steps) {
 
 /** A replay: header and columns, with access by frame. */
 class Replay {
-  constructor(header, rows, commands, terms, referee) {
+  constructor(header, rows, commands, terms, referee, sensed) {
     const { ball, robot, command } = header.columns;
     this.header = header;
     this.frames = header.frames;
@@ -49,6 +49,8 @@ class Replay {
     this.terms = terms; // by name, [observer * frames + frame]
     this.refereeNumbers = referee;
     this.refereeColumns = indexByName(header.columns.referee);
+    this.sensedNumbers = sensed; // null if robots knew the true state
+    this.sensedColumns = indexByName(header.columns.sensed);
     this.termNames = Object.keys(terms);
     this.ballColumns = indexByName(ball);
     this.robotColumns = indexByName(robot);
@@ -88,6 +90,11 @@ class Replay {
     return this.refereeNumbers[this.refereeColumns[name] * this.frames + frame];
   }
 
+  /** A number of what the robots knew, in matches in which they had senses. */
+  sensed(name, frame) {
+    return this.sensedNumbers[this.sensedColumns[name] * this.frames + frame];
+  }
+
   /** Seconds of play at a frame; initial states take no time. */
   clock(frame, timeStep) {
     return (frame - this.episodeOf[frame]) * timeStep;
@@ -125,6 +132,8 @@ async function readReplay(bytes) {
     start += packed;
   }
   const { frames, steps } = header;
+  const optional = (name) =>
+    steps[name].length ? decodeColumns(sections[name], frames, steps[name]) : null;
   const terms = {};
   for (const [name, step] of Object.entries(steps.terms)) {
     const termSteps = new Array(header.observers.length).fill(step);
@@ -135,6 +144,7 @@ async function readReplay(bytes) {
     decodeColumns(sections.rows, frames, steps.rows),
     decodeColumns(sections.commands, frames, steps.commands),
     terms,
-    steps.referee.length ? decodeColumns(sections.referee, frames, steps.referee) : null
+    optional("referee"),
+    optional("sensed")
   );
 }

@@ -13,6 +13,7 @@ import torch
 
 from rsoccer.history import ObservationStack
 from rsoccer.matches import Matches
+from rsoccer.policies import training_conditions
 from rsoccer.policies.network import Network
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
@@ -180,7 +181,7 @@ class Trainer:
     def network(self) -> Network:
         """Return the current policy in NumPy."""
         args, (mean, std) = self.args, self.collector.obs_rms.as_float32()
-        return self.model.export(
+        network = self.model.export(
             self.task,
             mean,
             std,
@@ -189,6 +190,9 @@ class Trainer:
             args.task,
             args.task_options,
         )
+        matches = self.collector.matches
+        network.metadata |= training_conditions.written(matches.sensing, matches.randomization)
+        return network
 
 
 def _check_batch(args: Args, learners: int) -> None:
