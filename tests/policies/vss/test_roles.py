@@ -68,6 +68,19 @@ def test_a_robot_behind_the_ball_attacks_rather_than_one_in_front_of_it() -> Non
     assert assigned(VssSelfPlay(n_yellow=0), frame)[0, :, 0].tolist() == [KEEPER, SUPPORT, ATTACKER]
 
 
+def test_a_loyal_keeper_stays_the_keeper_of_its_team() -> None:
+    task = VssSelfPlay(n_yellow=0)
+    frame = Frame.empty(1, 3, 0)
+    frame.blue.position[:] = [[-0.6, 0.3], [-0.6, 0.1], [0.0, 0.0]]
+    viewpoint = Viewpoint(3, 0, range(3))
+    view = viewpoint.new_view(1)
+    viewpoint.fill(frame, view)
+    for hysteresis, expected in ((0.1, False), (0.5, True)):
+        roles = np.array([[[KEEPER, ATTACKER, SUPPORT]]], np.int8).repeat(3, axis=1)
+        assign_roles(FieldGeometry(task.config), view, roles, np.float32(hysteresis))
+        assert (roles[0, 0, 0] == KEEPER) is np.bool_(expected)
+
+
 def test_roles_do_not_flicker_between_two_robots_equally_near() -> None:
     task = VssSelfPlay(n_yellow=0)
     frame = Frame.empty(1, 3, 0)

@@ -7,12 +7,14 @@ from rsoccer import Matches, policies
 from rsoccer.controllers import Controllers
 from rsoccer.evaluate import Evaluation, Results, evaluate
 from rsoccer.frame import Frame
+from rsoccer.game import Command
 from rsoccer.policies.base import PolicyInput
 from rsoccer.policies.vss.roles import KEEPER
 from rsoccer.policies.vss.scripted import Scripted
 from rsoccer.rng import WorldRng
-from rsoccer.tasks import SslSelfPlay, VssMulti, VssSelfPlay, VssSingle
+from rsoccer.tasks import SslSelfPlay, VssMatch, VssMulti, VssSelfPlay, VssSingle
 from rsoccer.view import SIDES
+from tests.games import begin_play, set_game
 from tests.helpers import Crowd, bounds, same
 from tests.test_view import rotated
 
@@ -167,6 +169,70 @@ def test_it_drives_in_every_task_with_differential_drive(task: VssSelfPlay) -> N
     actions = matches.play.actions[:, task.n_blue - 1]
     assert np.isfinite(actions).all()
     assert np.abs(actions).max() > 0.0
+
+
+# -- Under a referee -------------------------------------------------------------------------
+
+
+def referee_matches(task: VssMatch, worlds: int, steps: int, policy: str) -> Matches:
+    """Matches under a referee that were played for some steps."""
+    matches = Matches(task, worlds, 3, controllers={"all": policy}, autoreset="disabled")
+    matches.reset()
+    for _ in range(steps):
+        matches.step(no_actions(worlds))
+    return matches
+
+
+@pytest.mark.parametrize(
+    ("size", "field", "policy"),
+    [
+        (3, "vss_3v3", "scripted"),
+        (3, "vss_3v3", "scripted:0.5"),
+        (5, "vss_5v5", "scripted"),
+    ],
+)
+def test_it_commits_hardly_a_foul(size: int, field: str, policy: str) -> None:
+    """Less than one a minute of both teams; without respect for the rules it is up to ten."""
+    task = VssMatch(n_blue=size, n_yellow=size, field=field)
+    matches = referee_matches(task, 16, 700, policy)
+    minutes = task.metrics(matches.play)["in_play"].sum() / 60.0
+    offenses = sum(float(count.sum()) for count in task.offenses(matches.play).values())
+    assert minutes > 2.0
+    assert offenses / minutes < 1.0
+    assert matches.play.game.score.sum() > 0
+
+
+def test_it_stands_while_play_is_stopped() -> None:
+    matches = Matches(VssMatch(), 4, 3, controllers={"all": "scripted"}, autoreset="disabled")
+    matches.reset()
+    stopped, played = 0, 0
+    for _ in range(600):
+        may_touch = matches.play.game.may_touch.copy()
+        matches.step(no_actions(4))
+        assert not matches.play.actions[~may_touch].any()
+        moves = matches.play.actions.any(axis=2)
+        stopped, played = stopped + (~may_touch).sum(), played + (moves & may_touch).sum()
+    assert stopped > 1000 < played
+
+
+@pytest.mark.parametrize("command", [Command.GOAL_KICK_BLUE, Command.PREPARE_PENALTY_BLUE])
+def test_it_takes_its_kicks(command: Command) -> None:
+    """Away from the own goal, or into that of the others."""
+    matches = Matches(VssMatch(), controllers={"blue": "scripted", "yellow": "zero"})
+    matches.reset()
+    begin_play(matches)
+    x = -0.6 if command == Command.GOAL_KICK_BLUE else 0.375
+    y = 0.35 if command == Command.GOAL_KICK_BLUE else 0.0
+    set_game(matches, command=command, next_command=Command.NORMAL_START, kick=command)
+    set_game(matches, in_play=False, designated_position_x=x, designated_position_y=y)
+    farthest = x
+    for _ in range(400):
+        matches.step(no_actions(1))
+        if matches.play.game.command[0] == Command.NORMAL_START:
+            farthest = max(farthest, float(matches.frame.ball.position[0, 0]))
+    assert farthest > x + 0.25
+    assert matches.play.game.score[0, 1] == 0
+    assert not any(count.any() for count in VssMatch().offenses(matches.play).values())
 
 
 # -- Skill ------------------------------------------------------------------------------------

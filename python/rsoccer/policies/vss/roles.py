@@ -43,13 +43,16 @@ def support_position(index: int, ball: XY) -> XY:
     )
 
 
-def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
+def assign_roles(
+    field: FieldGeometry, view: View, roles: Array, keeper_hysteresis: np.float32 = HYSTERESIS
+) -> None:
     """Assign the roles of each robot's team by the shortest paths, one role after the other.
 
     Args:
         field: geometry of the field.
         view: view of the robots.
         roles: (n, robots, team) last roles of ego and its teammates; updated in place.
+        keeper_hysteresis: m by which another robot must be nearer to become the keeper.
     """
     team = slice(0, 1 + view.n_teammates)
     x, y = view.robots.position[:, :, team, 0], view.robots.position[:, :, team, 1]
@@ -63,7 +66,8 @@ def assign_roles(field: FieldGeometry, view: View, roles: Array) -> None:
         paths.append((SUPPORT + index, path))
     assigned = np.full_like(roles, NONE)
     for role, path in paths:
-        bonus = np.where(roles == role, HYSTERESIS, np.float32(0.0))
+        hysteresis = keeper_hysteresis if role == KEEPER else HYSTERESIS
+        bonus = np.where(roles == role, hysteresis, np.float32(0.0))
         cost = path + TIE_BREAK[0] * x + TIE_BREAK[1] * y - bonus
         free = present & (assigned == NONE) & (several | (role != KEEPER))
         nearest = np.where(free, cost, np.float32(np.inf)).argmin(axis=2)[..., None]

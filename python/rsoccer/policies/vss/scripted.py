@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Array, Floats
 from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
 from rsoccer.policies.vss.drive_control import (
     DriveController,
@@ -12,12 +12,17 @@ from rsoccer.policies.vss.drive_control import (
     require_differential_drive,
 )
 from rsoccer.policies.vss.field_geometry import FieldGeometry
-from rsoccer.policies.vss.roles import NONE, assign_roles
+from rsoccer.policies.vss.goal_areas import GoalAreas
+from rsoccer.policies.vss.roles import ATTACKER, HYSTERESIS, NONE, assign_roles
 from rsoccer.policies.vss.tactics import role_targets
+from rsoccer.policies.vss.waiting import may_play, wait
 from rsoccer.rng import WorldRng
 from rsoccer.task import Task
+from rsoccer.view import View
 
 MIN_SPEED: Final = 0.03  # wheel speed, 1 is full speed, at skill 0: about as strong as `ou`
+KEEPER_LOYALTY: Final = np.float32(0.5)  # `HYSTERESIS` of a keeper under a referee: only it may be
+# in the goal area, so that another one has to wait until it has left
 MAX_DELAY: Final = 0.275  # s added between two decisions at skill 0
 
 
@@ -26,6 +31,9 @@ class Scripted(Policy):
 
     The roles follow the game. A robot counts teammates of other policies as if they played the
     roles that fit them.
+
+    Under a referee it stands while play is stopped, and keeps to the rules of the goal areas: the
+    keeper alone is in the own one, and plays the ball there; one attacker is in that of the others.
     """
 
     observes: Observes = "view"
@@ -45,8 +53,10 @@ class Scripted(Policy):
             raise ValueError(f"scripted: expected a skill from 0 to 1, got {skill}")
         super().__init__(task)
         self._field = FieldGeometry(task.config)
+        self._areas = GoalAreas(task.config)
         self._controller = DriveController(task.config.robot)
         sizes = {"blue": task.n_blue, "yellow": task.n_yellow}
+        self._n_blue = task.n_blue
         self._team_size = max(sizes[side] for side in task.sides)
         self._max_wheel_speed = np.float32(MIN_SPEED + (1.0 - MIN_SPEED) * skill)
         self._delay_steps = round((1.0 - skill) * MAX_DELAY / task.config.time_step)
@@ -70,14 +80,26 @@ class Scripted(Policy):
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
         """Return the normalized wheel speeds, (n, robots, 2)."""
-        view = inputs.required_view("scripted")
-        assign_roles(self._field, view, memory["roles"])
-        ego_roles = memory["roles"][:, :, 0]
-        new_targets = np.stack(role_targets(self._field, view, ego_roles), axis=-1)
+        view, match = inputs.required_view("scripted"), inputs.match
+        is_judged = match is not None and "referee" in match.game
+        loyalty = KEEPER_LOYALTY if is_judged else HYSTERESIS
+        assign_roles(self._field, view, memory["roles"], loyalty)
+        ego_roles = memory["roles"][:, :, 0].copy()
+        new_targets = np.stack(self._targets(view, ego_roles, is_judged), axis=-1)
         targets, delay = memory["targets"], memory["delay"]
         decides = delay == 0
         targets[decides] = new_targets[decides]
         delay[:] = np.where(decides, self._delay_steps, delay - 1)
         target = DriveTarget(*(targets[..., i] for i in range(targets.shape[-1])))
         slow_steps = memory["slow_steps"]
-        return self._controller.drive(view.ego, target, self._max_wheel_speed, slow_steps, rng)
+        actions = self._controller.drive(view.ego, target, self._max_wheel_speed, slow_steps, rng)
+        if match is not None and is_judged:
+            wait(~may_play(match, ego_roles, self._n_blue), memory, actions)
+        return actions
+
+    def _targets(self, view: View, roles: Array, is_judged: bool) -> DriveTarget:
+        """Motion targets by roles; under a referee they keep to the rules of the areas."""
+        if not is_judged:
+            return role_targets(self._field, view, roles)
+        played = np.where(self._areas.clears(view, roles), ATTACKER, roles)
+        return self._areas.keep_out(view, roles, role_targets(self._field, view, played))
