@@ -21,7 +21,7 @@ def seen(
     velocity: tuple[float, float] = (0.0, 0.0),
     ball_velocity: tuple[float, float] = (0.0, 0.0),
 ) -> View:
-    """What blue sees: its robots at some places, the first one with a velocity; none of yellow."""
+    """View of blue: its robots at some places, the first one with a velocity; none of yellow."""
     frame = Frame.empty(1, len(places), 0)
     frame.ball.position[0] = ball
     frame.ball.velocity[0] = ball_velocity
@@ -126,7 +126,7 @@ def test_a_robot_inside_leaves_by_the_nearest_line() -> None:
 
 
 def clears(areas: GoalAreas, ball: tuple[float, float], speed: float = 0.0) -> list[bool]:
-    """Which of a keeper and an attacker play a ball that rolls along x."""
+    """Mask of a keeper and an attacker that play a ball that rolls along x."""
     view = seen((-0.7, 0.0), CENTER, ball=ball, ball_velocity=(speed, 0.0))
     found = areas.clears(view, np.array([[KEEPER, ATTACKER]]))
     return [bool(robot) for robot in found[0]]

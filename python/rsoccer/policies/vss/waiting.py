@@ -1,4 +1,4 @@
-"""Which VSSS robots play under a referee, and which wait."""
+"""Robots of VSSS that play under a referee, and those that wait."""
 
 import numpy as np
 
