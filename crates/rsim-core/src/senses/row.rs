@@ -1,6 +1,8 @@
 //! Rows of what robots know, in the columns of state rows.
 
-use crate::columns::{BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::blocks::robot;
+use crate::columns::{ABSENT_COLUMN, BALL_COLUMNS, ROBOT_COLUMNS};
+use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::senses::reports::Reports;
 use crate::senses::tracker::Tracker;
@@ -19,6 +21,13 @@ pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &m
     ball[..motion.len()].copy_from_slice(&motion);
     ball[motion.len()] = no_touch;
     for (index, columns) in robots.chunks_exact_mut(ROBOT_COLUMNS.len()).enumerate() {
+        if state.is_absent(index) {
+            let Motion { position, heading, .. } = state.bodies.motion(robot(index));
+            columns.fill(0.0);
+            columns[..4].copy_from_slice(&[position.x, position.y, heading.x, heading.y]);
+            columns[ABSENT_COLUMN] = 1.0;
+            continue;
+        }
         let robot = &tracker.robots[index];
         let (position, heading) = (robot.track.position, robot.heading.heading);
         let (mut velocity, mut turn) = (robot.track.velocity, robot.heading.angular_velocity);
@@ -40,7 +49,7 @@ pub(super) fn write(tracker: &Tracker, reports: &Reports, state: &State, out: &m
             0.0,
             0.0,
             0.0,
-            bit(state.absent),
+            0.0,
         ]);
     }
 }

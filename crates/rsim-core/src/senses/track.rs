@@ -146,9 +146,9 @@ const MISREAD: f32 = 0.643;
 const BELIEVED: u8 = 4;
 
 impl HeadingTrack {
-    /// A robot that has been watched for some time.
+    /// A robot that has been watched for some time. `heading` may have any length.
     pub(super) fn new(heading: Vector, angular_velocity: f32) -> Self {
-        Self { heading, angular_velocity, count: LONG, refused: 0 }
+        Self { heading: unit(heading), angular_velocity, count: LONG, refused: 0 }
     }
 
     pub(super) fn predict(&mut self, time: f32) {
@@ -170,7 +170,7 @@ impl HeadingTrack {
         let difference = sin * (1.0 + sin * sin * (1.0 / 6.0 + sin * sin * (3.0 / 40.0)));
         let gain = filter.gain(self.count);
         if difference * difference > gain.gate {
-            self.heading = detected;
+            self.heading = unit(detected);
             self.angular_velocity += difference * (PUSH_PART * rate);
             self.count = 1;
             return;
@@ -179,6 +179,12 @@ impl HeadingTrack {
         self.angular_velocity += difference * (gain.beta * rate);
         self.count = (self.count + 1).min(LONG);
     }
+}
+
+/// A heading of length 1. One that already has it keeps its bits.
+pub(super) fn unit(heading: Vector) -> Vector {
+    let is_unit = (heading.length_squared() - 1.0).abs() < 1e-6;
+    if is_unit { heading } else { heading.normalize() }
 }
 
 /// A heading turned by `angle`, rad. Cosine and sine are series, to a ten-thousandth up to half a radian; the

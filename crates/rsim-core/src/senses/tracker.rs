@@ -6,7 +6,7 @@ use crate::geometry::motion::Motion;
 use crate::math::{Vec3, Vector};
 use crate::models::sensing::Sensing;
 use crate::senses::detections::{DetectedBall, DetectedRobot, Detections};
-use crate::senses::track::{Filter, HeadingTrack, PositionTrack};
+use crate::senses::track::{Filter, HeadingTrack, PositionTrack, unit};
 
 /// Standard deviation of a detection that the filters count with at least, m and rad.
 const MIN_DEVIATION: f32 = 0.000_3;
@@ -141,12 +141,6 @@ impl Tracker {
             robot.heading.angular_velocity = motion.angular_velocity;
         }
     }
-}
-
-/// A heading of length 1. One that already has it keeps its bits.
-fn unit(heading: Vector) -> Vector {
-    let is_unit = (heading.length_squared() - 1.0).abs() < 1e-6;
-    if is_unit { heading } else { heading.normalize() }
 }
 
 impl Ball {

@@ -182,6 +182,24 @@ fn absent_robots_are_not_seen_and_known_to_be_absent() {
     scene.set_robot_column(1, "absent", 1.0);
     let (mut batch, mut rows) = scene.batch(1, 1);
     let known = step(&mut batch, &scene, &mut rows, 0);
-    let absent = rsim_core::columns::row_size(1) + ROBOT_COLUMNS.len() - 1;
-    assert_eq!(known[absent].to_bits(), 1.0_f32.to_bits());
+    let absent = rsim_core::columns::row_size(1)..rsim_core::columns::row_size(2);
+    assert_eq!(known[absent.clone()], rows[absent], "it rests where absent robots do");
+}
+
+#[test]
+fn headings_have_length_1() {
+    for (scene, preset) in scenes().into_iter().zip([Sensing::VSSS, all()]) {
+        let (mut batch, mut rows) = begin(&scene, preset, 10);
+        let mut turned = 0.0_f32;
+        for nth in 0..200 {
+            let known = step(&mut batch, &scene, &mut rows, nth);
+            for row in known.chunks_exact(scene.config.row_size()) {
+                for robot in scenes::robots(row) {
+                    assert!((robot[2].hypot(robot[3]) - 1.0).abs() < 1e-3, "{robot:?}");
+                    turned = turned.max(robot[6].abs());
+                }
+            }
+        }
+        assert!(turned > 5.0, "{turned}");
+    }
 }
