@@ -110,8 +110,8 @@ def changed(key: str, value: object) -> bytes:
         ("randomization", {"robot.mass": "heavy"}, r"randomization\['robot.mass'\]: expected"),
         ("randomization", {"robot.color": 1.0}, "randomization: expected one of .*'robot.color'"),
         ("randomization", {"robot.mass": 10**400}, "randomization"),
-        ("history", 0, "history: expected 1 to 1000, got 0"),
-        ("history", True, "history: expected 1 to 1000, got True"),
+        ("history", 0, "history: expected 1 to 100000, got 0"),
+        ("history", True, "history: expected 1 to 100000, got True"),
     ],
 )
 def test_wrong_conditions_are_refused_by_name(key: str, value: object, message: str) -> None:
