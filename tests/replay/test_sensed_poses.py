@@ -44,9 +44,8 @@ def test_poses_come_back_within_half_a_step(recorded: Callable[[], Replay]) -> N
     for name in ("ball", "robots"):
         off = np.abs(getattr(read, name) - getattr(written, name)).max()
         assert 0.0 < off <= 0.501 * POSITION_STEP
-    length = np.linalg.norm(
-        written.headings, axis=-1, keepdims=True
-    )  # a tracker's is not exactly 1
+    # The length of a tracked heading is only about 1.
+    length = np.linalg.norm(written.headings, axis=-1, keepdims=True)
     assert np.abs(read.headings - written.headings / length).max() <= 0.501 * HEADING_STEP
     assert Replay.from_bytes(content).to_bytes() == content
 
