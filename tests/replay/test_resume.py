@@ -131,6 +131,25 @@ def test_a_resumed_match_has_the_senses_and_the_varied_numbers_of_the_recording(
             assert same(matches.play.sensed.robots.position[0], recorded.sensed.robots[later])
 
 
+def test_resumed_learners_have_the_history_of_the_recording() -> None:
+    matches = Matches("VSS-v0", autoreset="disabled", sensing="vsss", history=3)
+    recorder = Recorder(matches, snapshot_interval=0.1)
+    matches.reset()
+    recorder.begin()
+    rng = np.random.default_rng(0)
+    actions = rng.uniform(-1.0, 1.0, (10, 1, 1, 2)).astype(np.float32)
+    shown = []
+    for action in actions:
+        outcome = matches.step(action)
+        recorder.add(outcome)
+        shown.append(outcome.observations)
+    read = Replay.from_bytes(recorder.replay().to_bytes())
+    assert read.history == 3
+    resumed = read.resume(4)
+    for action, observations in zip(actions[4:], shown[4:], strict=True):
+        assert same(resumed.step(action).observations, observations)
+
+
 def test_a_resumed_match_has_the_sensor_model_that_the_recording_names() -> None:
     teams: dict[str, Controller] = {"blue": "chase", "yellow": "ou"}
     text = "tests.simulators:Blind"

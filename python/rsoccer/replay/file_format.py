@@ -8,6 +8,7 @@ Keys of the header:
 | `task`, `options`, `controllers`, `names` | as the fields of `Replay` |
 | `sensing` | JSON of `Sensing.to_json`, or "module:name" of a model; absent if none is named |
 | `randomization` | distributions of numbers by name, as `Matches` takes them; absent if none |
+| `history` | observations in each observation of the learners; absent if 1 |
 | `config` | the configuration, JSON of `SimConfig.to_json` |
 | `columns` | names of the stored columns: `ball`, `robot`, `command`, `referee`, `sensed` |
 | `steps` | steps of the columns of `rows`, `commands`, `referee`, `sensed`; of each reward term |
@@ -111,12 +112,14 @@ def to_bytes(replay: Recorded, snapshots: bool = True) -> bytes:
 
 
 def _conditions(replay: Recorded) -> dict[str, Any]:
-    """Senses and varied numbers of the match, where it has them."""
+    """Senses, varied numbers and history of the match, where it has them."""
     conditions: dict[str, Any] = {}
     if replay.sensing is not None:
         conditions["sensing"] = sensing_text.to_text(replay.sensing)
     if replay.randomization:
         conditions["randomization"] = randomization.written(replay.randomization)
+    if replay.history > 1:
+        conditions["history"] = replay.history
     return conditions
 
 
@@ -172,6 +175,7 @@ def from_bytes(content: bytes) -> Recorded:
         names=header_values.team_names(header.get("names")),
         sensing=header_values.sensing(header.get("sensing")),
         randomization=header_values.randomization(header.get("randomization", {}), config),
+        history=header_values.history(header.get("history", 1)),
         config=config,
         rows=rows,
         commands=commands.reshape(frames, *shape).astype(np.float32),

@@ -19,6 +19,8 @@ from rsoccer.view import SIDES
 ENDS: Final = ("terminated", "truncated", "")
 MIN_FIELD, MAX_FIELD = 0.1, 1000.0
 """Smallest length and width of a field that can be drawn, and largest size in it, meters."""
+MAX_HISTORY: Final = 100_000
+"""Longest history, some 40 minutes: a longer one could fill the memory before it is refused."""
 MIN_TIME_STEP: Final = 1e-4
 """Shortest control step that can be played, seconds: a pause of a second is 10,000 images."""
 
@@ -239,6 +241,20 @@ def randomization(value: object, config: SimConfig) -> dict[str, Any]:
         raise ReplayError(str(error)) from None
     except OverflowError as error:
         raise ReplayError(f"randomization: {error}") from None
+    return value
+
+
+def history(value: object) -> int:
+    """Return the number of observations in an observation of the learners.
+
+    Args:
+        value: a whole number, at least 1.
+
+    Raises:
+        ReplayError: another value.
+    """
+    if type(value) is not int or not 1 <= value <= MAX_HISTORY:
+        raise ReplayError(f"history: expected 1 to {MAX_HISTORY}, got {value!s:.80}")
     return value
 
 

@@ -171,6 +171,7 @@ class Recorder:
             names=self._names,
             sensing=sensing_text.recordable(self.matches.sensing),
             randomization=self.matches.randomization,
+            history=self.matches.history,
             config=task.config,
             rows=np.stack(self._rows),
             commands=np.stack(self._commands),

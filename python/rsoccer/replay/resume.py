@@ -74,6 +74,7 @@ def resume(
             simulator=simulator,
             sensing=_sensing(replay) if sensing is None else sensing,
             randomization=replay.randomization if randomization is None else randomization,
+            history=replay.history,
         )
         with closed_on_error(matches, simulator):
             matches.load_state_dict(replay.snapshots[frame])
