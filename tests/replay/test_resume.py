@@ -150,21 +150,21 @@ def test_resumed_learners_have_the_history_of_the_recording() -> None:
         assert same(resumed.step(action).observations, observations)
 
 
-def test_a_resumed_match_has_the_sensor_model_that_the_recording_names() -> None:
+def test_a_sensor_model_has_to_be_given_and_no_module_that_a_file_names_is_imported() -> None:
     teams: dict[str, Controller] = {"blue": "chase", "yellow": "ou"}
     text = "tests.simulators:Blind"
     replay = record_replay(
         "VSSSelfPlay-v0", teams, seconds=0.5, snapshot_interval=0.25, sensing=text
     )
-    resumed = Replay.from_bytes(replay.to_bytes()).resume(10)
+    resumed = Replay.from_bytes(replay.to_bytes()).resume(10, sensing=text)
     for _ in range(5):
         resumed.step(zeros(resumed))
     assert same(resumed.frame.rows[0], replay.rows[15])
     assert resumed.sensing == text
-    unnamed = replace(replay, sensing=None)
-    with pytest.raises(ReplayError, match=r"sensing: expected the sensor model as an argument"):
-        unnamed.resume(10)
-    assert unnamed.resume(10, sensing=text).play.senses is not None
+    with pytest.raises(ReplayError, match=r"sensing: expected .*: it was 'tests.simulators:Blind'"):
+        replay.resume(10)
+    with pytest.raises(ReplayError, match=r"sensing: expected .*: it has no name"):
+        replace(replay, sensing=None).resume(10)
 
 
 def test_default_options_are_not_written() -> None:

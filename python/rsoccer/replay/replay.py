@@ -134,7 +134,7 @@ class Replay(Recorded):
             controllers: controllers of the robots; by default those of the recording.
             simulator: moves the robots, as for `Matches`; the one that the match was recorded with.
             sensing: what robots know of the true state, as for `Matches`; by default that of the
-                recording. The module of a text "module:name" is imported.
+                recording. A sensor model of one's own has to be given.
             randomization: numbers that each episode draws; by default those of the recording.
 
         Returns:

@@ -92,11 +92,14 @@ def _task(replay: Recorded) -> Task:
     return registry.make_task(replay.task, **replay.options)
 
 
-def _sensing(replay: Recorded) -> Sensing | str | None:
-    """The senses of a replay."""
-    if replay.sensed is not None and replay.sensing is None:
-        raise ReplayError("sensing: expected the sensor model as an argument: it has no name")
-    return replay.sensing
+def _sensing(replay: Recorded) -> Sensing | None:
+    """The senses of a replay. A file must not decide which module is imported."""
+    if isinstance(replay.sensing, Sensing):
+        return replay.sensing
+    if replay.sensed is not None:
+        named = "has no name" if replay.sensing is None else f"was {replay.sensing!r}"
+        raise ReplayError(f"sensing: expected the sensor model as an argument: it {named}")
+    return None
 
 
 def _named(controllers: Mapping[str, str | None]) -> dict[str, Controller]:
