@@ -1,9 +1,10 @@
 """Speed of whole matches under a referee: `python -m benches.whole_matches`.
 
 Two tables: the share of the referee in a step, and how many times faster than real time matches of
-ten minutes are played to their end. All times are of the processor, on one thread, so that other
-programs on the machine count little; a share is that of one run. `--store` renews the tables in
-`benches/results/whole_matches.md`, which `make docs` puts into `docs/speed.md`.
+ten minutes are played, until each world has played one to its end. All times are of the processor,
+on one thread, so that other programs on the machine count less; a share is that of one run.
+`--store` renews the tables in `benches/results/whole_matches.md`, which `make docs` puts into
+`docs/speed.md`.
 """
 
 import argparse
@@ -20,9 +21,12 @@ import rsoccer
 from benches.interfaces import held_actions, random_actions
 from benches.markdown import table
 from benches.result_files import RESULTS, format_number
+from rsoccer import SimConfig, Simulator
+from rsoccer._core import Threads
 from rsoccer.play import Play
 from rsoccer.rules import Restart
 from rsoccer.rules.referee import RefereeRule
+from rsoccer.train.clock import Clock, TimedSimulator
 
 STORED: Final = RESULTS / "whole_matches.md"
 SIDES: Final = {"random": rsoccer.LEARN, "scripted": "scripted"}
@@ -44,9 +48,7 @@ class Teams:
 
 VSSS: Final = Teams("VSSS 3 v 3", "VSSMatch-v0")
 SSL: Final = Teams("SSL 6 v 6", "SSLMatch-v0")
-SSL_A: Final = Teams(
-    "SSL 11 v 11", "SSLMatch-v0", {"division": "A", "n_blue": 11, "n_yellow": 11}
-)
+SSL_A: Final = Teams("SSL 11 v 11", "SSLMatch-v0", {"division": "A", "n_blue": 11, "n_yellow": 11})
 
 
 @dataclass
@@ -68,15 +70,25 @@ class JudgeClock:
         return timed_judge
 
 
-def stepper(
-    teams: Teams, sides: str, worlds: int, half_seconds: float, autoreset: str
-) -> tuple[rsoccer.Matches, Callable[[], Any]]:
-    """Return matches that have begun, and the function that steps them."""
+def begin(
+    teams: Teams, sides: str, worlds: int, half_seconds: float, clock: Clock
+) -> tuple[rsoccer.Matches, Callable[[], None]]:
+    """Return matches that have begun, and a function that steps them.
+
+    Args:
+        teams: League and size of the teams.
+        sides: Name in `SIDES`.
+        worlds: Number of matches at once. Where one ends, another begins.
+        half_seconds: Playing time of a half, s.
+        clock: Gets the time of the physics.
+    """
+
+    def simulator(config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:
+        return TimedSimulator(Simulator(config, worlds, threads), clock)
+
     task = rsoccer.make_task(teams.task, half_seconds=half_seconds, **teams.options)
     controllers = {"all": SIDES[sides]}
-    matches = rsoccer.Matches(
-        task, worlds, seed=0, threads=1, controllers=controllers, autoreset=autoreset
-    )
+    matches = rsoccer.Matches(task, worlds, 0, 1, controllers=controllers, simulator=simulator)
     matches.reset()
     actions = random_actions((worlds, len(matches.agents), task.action_size))
     return matches, held_actions(actions, matches.step)
@@ -91,7 +103,7 @@ def referee_share(teams: Teams, sides: str, worlds: int, seconds: float) -> tupl
         worlds: Number of worlds.
         seconds: Processor time of the measurement, s.
     """
-    _, step = stepper(teams, sides, worlds, HALF_SECONDS, "same_step")
+    _, step = begin(teams, sides, worlds, HALF_SECONDS, Clock())
     for _ in range(WARM_UP if seconds > 0.0 else 1):
         step()
     clock, steps, spent = JudgeClock(), 0, 0.0
@@ -104,8 +116,10 @@ def referee_share(teams: Teams, sides: str, worlds: int, seconds: float) -> tupl
     return clock.seconds / spent, clock.seconds / (steps * worlds)
 
 
-def times_real_time(teams: Teams, sides: str, worlds: int, half_seconds: float) -> float:
-    """Return the time of all matches, played to their end, per processor time.
+def times_real_time(
+    teams: Teams, sides: str, worlds: int, half_seconds: float
+) -> tuple[float, float]:
+    """Return the time of play of all worlds per processor time, and the same of the physics alone.
 
     Args:
         teams: League and size of the teams.
@@ -113,12 +127,18 @@ def times_real_time(teams: Teams, sides: str, worlds: int, half_seconds: float) 
         worlds: Number of matches at once.
         half_seconds: Playing time of a half, s.
     """
-    matches, step = stepper(teams, sides, worlds, half_seconds, "disabled")
+    clock = Clock()
+    matches, step = begin(teams, sides, worlds, half_seconds, clock)
+    ended, steps = np.zeros(worlds, np.bool_), 0
+    clock.take()
     start = time.process_time()
-    while not matches.done.all():
+    while not ended.all():
         step()
-    spent = time.process_time() - start
-    return float(matches.play.steps.sum()) * matches.task.config.time_step / spent
+        steps += 1
+        ended |= matches.play.steps == 0  # another match has begun
+    played = steps * worlds * matches.task.config.time_step
+    times = played / (time.process_time() - start)
+    return times, times / clock.take()[1]["physics"]
 
 
 def share_row(teams: Teams, sides: str, batch: int, seconds: float) -> tuple[str, ...]:
@@ -143,12 +163,21 @@ def tables(batch: int, seconds: float, half_seconds: float) -> str:
     per_world = f"us per world-step, {batch} worlds"
     header = ("referee", "sides", f"share, {batch} worlds", per_world, "us per step, 1 world")
     played = [
-        (teams.name, sides, format_number(times_real_time(teams, sides, batch, half_seconds)))
+        (
+            teams.name,
+            sides,
+            *map(format_number, times_real_time(teams, sides, batch, half_seconds)),
+        )
         for teams in (VSSS, SSL)
         for sides in SIDES
     ]
     minutes = format_number(2.0 * half_seconds / 60.0, 2)
-    matches = (f"matches of {minutes} minutes, {batch} at once", "sides", "times real time")
+    matches = (
+        f"matches of {minutes} minutes, {batch} at once",
+        "sides",
+        "times real time",
+        "physics alone",
+    )
     return f"{table(header, rows)}\n\n{table(matches, played)}\n"
 
 
