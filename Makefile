@@ -135,6 +135,7 @@ coverage: $(VENV)/built ## measure the line coverage of Python and Rust (some mi
 bench: $(VENV)/built ## measure the speed of this machine (some minutes; no other load)
 	$(CARGO) bench --locked --package rsim-bench --bench step
 	$(BIN)/python -m benches.throughput
+	$(BIN)/python -m benches.whole_matches --store
 
 BEFORE ?= main
 compare: $(VENV)/built ## compare the speed of a step with that of an earlier commit, BEFORE=main

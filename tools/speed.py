@@ -11,6 +11,7 @@ from benches.process_cost import BUILD_TIME, PROCESS_MEMORY
 from benches.result_files import RESULTS, Figure, Machine, format_number, format_ratio, load
 from benches.scenarios import DEFAULT_ENGINE, ENGINES
 from benches.thread_scaling import TIMED
+from benches.whole_matches import STORED as WHOLE_MATCHES
 from tools.paths import ROOT
 
 SPEED = "speed"
@@ -63,6 +64,11 @@ def summary() -> str:
 def instructions() -> str:
     """Return the table of instructions per tick; empty if they were not counted."""
     return STORED.read_text() if STORED.exists() else ""
+
+
+def whole_matches() -> str:
+    """Return the tables of whole matches under a referee; empty if they were not measured."""
+    return WHOLE_MATCHES.read_text() if WHOLE_MATCHES.exists() else ""
 
 
 def feature() -> str:

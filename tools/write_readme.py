@@ -25,7 +25,7 @@ from tools import referee_tables, senses_tables
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
-from tools.speed import feature, instructions, speed, summary
+from tools.speed import feature, instructions, speed, summary, whole_matches
 
 README = ROOT / "README.md"
 WRITTEN = (
@@ -239,6 +239,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "speed_summary": summary,
     "tasks": tasks,
     "vsss_rules": referee_tables.vsss_rules,
+    "whole_matches": whole_matches,
 }
 
 

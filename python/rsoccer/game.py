@@ -361,14 +361,15 @@ class Events(NamedArrays):
         Raises:
             RuntimeError: a world without a free slot.
         """
-        numbers = rows.astype(np.intp)
-        worlds = numbers[:, 0]
+        worlds, *values = rows[:, :4].T.astype(np.intp)
         first = np.searchsorted(worlds, worlds)  # of the same world
-        nth = np.arange(len(rows)) - first
-        for turn in range(int(nth.max()) + 1):
-            chosen = nth == turn
-            world, kind, team, robot = numbers[chosen, :4].T
-            self.add(world, kind, team, robot, rows[chosen, 4:])
+        slots = self.count[worlds] + np.arange(len(rows)) - first
+        if slots.max() >= self.SLOTS:
+            raise RuntimeError(f"events: expected at most {self.SLOTS} in a step of a world")
+        for array, numbers in zip((self.kind, self.team, self.robot), values, strict=True):
+            array[worlds, slots] = numbers
+        self.position[worlds, slots] = rows[:, 4:]
+        self.count += np.bincount(worlds, minlength=len(self.count))
 
     def forget(self, worlds: NDArray[np.intp] | slice = slice(None)) -> None:
         """Remove the events of some worlds.
@@ -404,10 +405,11 @@ class Events(NamedArrays):
             (n, 2) of blue and of yellow.
         """
         counts = np.zeros((len(self.count), 2), np.int64)
-        if np.count_nonzero(self.count):
-            matching = self.kind == kind
+        most = int(self.count.max())
+        if most:
+            matching = self.kind[:, :most] == kind
             for team in (BLUE, YELLOW):
-                counts[:, team] = (matching & (self.team == team)).sum(axis=1)
+                counts[:, team] = (matching & (self.team[:, :most] == team)).sum(axis=1)
         return counts
 
     def of_world(self, world: int) -> list[Event]:

@@ -210,9 +210,11 @@ class Match(Soccer):
             "yellow_cards": game.yellow_cards,
             "red_cards": game.red_cards,
         }
-        for name, values in parts.items():
-            for team, team_name in enumerate(TEAMS):
-                named[f"{team_name}_{name}"] = values[:, team].astype(np.float32)
+        table = np.empty((len(parts), len(TEAMS), len(in_play)), np.float32)
+        for row, (name, values) in zip(table, parts.items(), strict=True):
+            row[:] = values.T
+            for team_name, of_team in zip(TEAMS, row, strict=True):
+                named[f"{team_name}_{name}"] = of_team
         named["in_play"] = in_play * np.float32(self.config.time_step)
         return named
 
