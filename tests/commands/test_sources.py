@@ -79,7 +79,7 @@ def test_a_recorded_match_shows_what_the_simulator_did(command: str, tmp_path: P
             "simulator: the module 'tests.simulators' has no 'no'",
         ),
         ("simulator", "tests.simulators:NOTHING", "simulator: expected a simulator, a function"),
-        ("sensing", "tests.simulators:NOTHING", "sensing: expected a rsoccer.senses.SensorModel"),
+        ("sensing", "tests.simulators:NOTHING", "sensing: expected a rsoccer.Sensing"),
     ],
 )
 def test_a_text_that_names_neither_is_reported_in_a_line(
@@ -96,7 +96,7 @@ def test_a_text_that_names_neither_is_reported_in_a_line(
 def test_train_reports_senses_that_are_none_in_a_line(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["train", "--sensing", "tests.simulators:NOTHING", "--out", "never"]
     assert cli.main(words) == cli.WRONG_INPUT
-    assert capsys.readouterr().err.startswith("rsoccer: sensing: expected a rsoccer.senses.Sensor")
+    assert capsys.readouterr().err.startswith("rsoccer: sensing: expected a rsoccer.Sensing")
 
 
 @pytest.mark.parametrize("option", ["simulator", "sensing"])

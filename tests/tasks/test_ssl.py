@@ -155,7 +155,7 @@ def test_steering_refuses_wrong_arrays() -> None:
     assert steering.commands(actions, rows).shape == (3, 2, 6)
     with pytest.raises(ValueError, match=r"actions must have shape \(3, 2, 5\), got \(3, 2, 4\)"):
         steering.commands(actions[..., :4], rows)
-    with pytest.raises(ValueError, match=r"rows must have shape \(3, 38\), got \(2, 38\)"):
+    with pytest.raises(ValueError, match=r"rows must have shape \(3, 41\), got \(2, 41\)"):
         steering.commands(actions, rows[:2])
     with pytest.raises(TypeError, match="actions must be an array of float32, got float64"):
         steering.commands(actions.astype(np.float64), rows)

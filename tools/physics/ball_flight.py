@@ -5,7 +5,7 @@ from math import radians, sin, sqrt
 
 import numpy as np
 
-from rsoccer._core import CROSSINGS, Field
+from rsoccer._core import BALL_COLUMNS, CROSSINGS, Field
 from rsoccer.arrays import Array
 from rsoccer.vectors import norm
 from tools.physics.check import EXACT, Checks, Criterion, absolute, percent
@@ -18,6 +18,7 @@ LONG = Field("ssl_b", length=60.0)
 CHIP = 5.5  # m/s, at 45 degrees
 DIAMETER = 0.043
 BAR_BOTTOM, BAR_TOP = 0.16, 0.18
+HEIGHT = BALL_COLUMNS.index("crossed_z")
 
 WALL_HEIGHT = "wall height 50 mm"
 PARABOLA = "parabola, 9.81 m/s²"
@@ -158,7 +159,7 @@ def _at_the_bar() -> Checks:
         if criterion is NO_GOALS:
             yield NO_GOALS("ball's lowest point at 0.185 to 0.5 m", 0, goals)
             over = (ball.crossed == CROSSINGS.index("goal_line_right")).argmax(axis=0)
-            crossed = ball.data[over, range(len(heights)), -1]
+            crossed = ball.data[over, range(len(heights)), HEIGHT]
             for expected, got in zip(heights, crossed, strict=True):
                 yield OVER_BAR(f"{expected:.3f} m", expected, got)
         else:
