@@ -108,7 +108,7 @@ def soak(scene: Scene, sides: str, worlds: int, half_seconds: float, seed: int =
         scene: league and sizes.
         sides: one of `SIDES`.
         worlds: number of matches.
-        half_seconds: playing time of a half, s; extra time has half of it.
+        half_seconds: playing time of a half, s; extra time has half of it, the shoot-out few kicks.
         seed: seed of the first match.
 
     Raises:
@@ -118,8 +118,11 @@ def soak(scene: Scene, sides: str, worlds: int, half_seconds: float, seed: int =
         scene.task,
         half_seconds=half_seconds,
         knockout=True,
-        # Extra time without a shoot-out, which can last for hours between robots that never score.
-        referee={"extra_half_seconds": half_seconds / 2, "shootout_kicks": 0},
+        referee={
+            "extra_half_seconds": half_seconds / 2,
+            "shootout_kicks": 1,
+            "max_shootout_kicks": 2,  # robots that never score would kick for long
+        },
         **scene.options,
     )
     if not isinstance(task, Match):
