@@ -41,7 +41,7 @@ ROUNDING: Final = 1e-3
 
 
 class AuditError(AssertionError):
-    """What does not add up, in which world and step."""
+    """Something does not add up; the message names worlds and steps."""
 
 
 class MatchAudit:
