@@ -41,7 +41,7 @@ ROUNDING: Final = 1e-3
 
 
 class AuditError(AssertionError):
-    """What does not add up, in which world and step."""
+    """Something does not add up; the message names worlds and steps."""
 
 
 class MatchAudit:
@@ -182,8 +182,9 @@ class MatchAudit:
         self._anchor[happened] = ball[happened]
         self._idle = np.where(happened | ~self._active, 0, self._idle + 1)
         seconds = self._idle * self._task.config.time_step
-        # A team may take all its time to place the ball.
+        # A team may take all its time to place the ball; those who are in its way prolong it.
         placed = np.isin(play.game.command, PLACEMENTS)
-        limit = np.where(placed, self._task.referee_config.placement_seconds, IDLE_SECONDS)
+        placement_seconds = play.game.wait_steps * self._task.config.time_step
+        limit = np.where(placed, placement_seconds, IDLE_SECONDS)
         self._check(seconds <= limit, "nothing happens")
         self.longest_idle = max(self.longest_idle, float(seconds[~placed].max(initial=0.0)))

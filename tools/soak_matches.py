@@ -16,12 +16,14 @@ import numpy as np
 
 import rsoccer
 from benches.markdown import table
+from benches.result_files import RESULTS
 from rsoccer.arrays import Floats
 from rsoccer.matches import Matches
 from rsoccer.tasks.match import Match
 from rsoccer.testing.pressure import Pressing
 from tools.match_audit import AuditError, MatchAudit
 
+STORED: Final = RESULTS / "soak_matches.md"
 SIDES: Final = ("random", "crowd", "scripted")
 HELD: Final = 10
 """Steps for which random actions are held."""
@@ -56,7 +58,7 @@ SCENES: Final = (
 
 @dataclass(frozen=True)
 class Soaked:
-    """What was played and found in a scene."""
+    """Amount of play in a scene, and findings."""
 
     matches: int
     seconds: float
@@ -108,7 +110,7 @@ def soak(scene: Scene, sides: str, worlds: int, half_seconds: float, seed: int =
         scene: league and sizes.
         sides: one of `SIDES`.
         worlds: number of matches.
-        half_seconds: playing time of a half, s; extra time has half of it.
+        half_seconds: playing time of a half, s; extra time has half of it, the shoot-out few kicks.
         seed: seed of the first match.
 
     Raises:
@@ -118,8 +120,11 @@ def soak(scene: Scene, sides: str, worlds: int, half_seconds: float, seed: int =
         scene.task,
         half_seconds=half_seconds,
         knockout=True,
-        # Extra time without a shoot-out, which can last for hours between robots that never score.
-        referee={"extra_half_seconds": half_seconds / 2, "shootout_kicks": 0},
+        referee={
+            "extra_half_seconds": half_seconds / 2,
+            "shootout_kicks": 1,
+            "max_shootout_kicks": 2,  # robots that never score would kick for long
+        },
         **scene.options,
     )
     if not isinstance(task, Match):
@@ -187,6 +192,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--only", default="", help="scenes with this text in their name")
     parser.add_argument("--sides", nargs="+", choices=SIDES, default=SIDES)
     parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
+    parser.add_argument("--store", action="store_true", help=f"write {STORED.name}")
     options = parser.parse_args(arguments)
     rows, faults = [], 0
     for scene in SCENES:
@@ -202,8 +208,16 @@ def main(arguments: list[str] | None = None) -> int:
             taken = time.process_time() - start
             sys.stderr.write(f"{taken:.0f} s: {' | '.join(rows[-1])}\n")
     header = ("scene", "sides", "matches", "hours", "idle (s)", "resumed", "kinds", "goals")
-    sys.stdout.write(f"{table(header, rows)}\n")
+    text = f"{table(header, rows)}\n"
+    sys.stdout.write(text)
+    if options.store:
+        STORED.write_text(text)
     return faults
+
+
+def results() -> str:
+    """Return the table of the last run that was stored; empty without one."""
+    return STORED.read_text() if STORED.exists() else ""
 
 
 def _cells(found: Soaked) -> tuple[str, ...]:

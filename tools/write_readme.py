@@ -21,7 +21,7 @@ from rsoccer import policies
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.tasks import legacy_names
-from tools import referee_tables, senses_tables
+from tools import referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
 from tools.site import task_docs
@@ -233,6 +233,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "trained_table": trained_table,
     "senses_numbers": senses_tables.numbers,
     "senses_randomization": senses_tables.randomization,
+    "soak_matches": soak_matches.results,
     "ssl_rules": referee_tables.ssl_rules,
     "speed": speed,
     "speed_feature": feature,

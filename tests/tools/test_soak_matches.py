@@ -1,6 +1,7 @@
 """The soak test of whole matches, in small, and that it finds faults."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -135,7 +136,7 @@ def test_other_bits_are_found() -> None:
 
 
 def test_the_table_has_a_row_for_each_scene_and_side(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def found(scene: object, sides: str, *_: object) -> Soaked:
         if sides == "crowd":
@@ -143,8 +144,11 @@ def test_the_table_has_a_row_for_each_scene_and_side(
         return Soaked(100, 36.0, 8.0, 3, 5, 7)
 
     monkeypatch.setattr(soak_matches, "soak", found)
-    assert soak_matches.main(["--only", "SSL 11"]) == 2
+    monkeypatch.setattr(soak_matches, "STORED", tmp_path / "soak_matches.md")
+    assert soak_matches.results() == ""
+    assert soak_matches.main(["--only", "SSL 11", "--store"]) == 2
     text = capsys.readouterr().out
+    assert soak_matches.results() == text
     assert text.count("FAULT: the clock is wrong") == 2
     assert "| SSL 11 v 11, A, robots | scripted | 100 | 0.01 | 8.0 | 3 | 5 | 7 |" in text
     assert len(SIDES) * len(SCENES) == 30
