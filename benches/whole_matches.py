@@ -23,13 +23,15 @@ from benches.markdown import table
 from benches.result_files import RESULTS, format_number
 from rsoccer import SimConfig, Simulator
 from rsoccer._core import Threads
+from rsoccer.controllers import Controllers
 from rsoccer.play import Play
 from rsoccer.rules import Restart
 from rsoccer.rules.referee import RefereeRule
+from rsoccer.task import Learn
 from rsoccer.train.clock import Clock, TimedSimulator
 
 STORED: Final = RESULTS / "whole_matches.md"
-SIDES: Final = {"random": rsoccer.LEARN, "scripted": "scripted"}
+SIDES: Final[dict[str, str | Learn]] = {"random": rsoccer.LEARN, "scripted": "scripted"}
 """Policies of all robots by the names of the tables; random actions are those of learners."""
 WARM_UP: Final = 200
 """Steps before a measurement, so that matches are in progress."""
@@ -87,7 +89,7 @@ def begin(
         return TimedSimulator(Simulator(config, worlds, threads), clock)
 
     task = rsoccer.make_task(teams.task, half_seconds=half_seconds, **teams.options)
-    controllers = {"all": SIDES[sides]}
+    controllers: Controllers = {"all": SIDES[sides]}
     matches = rsoccer.Matches(task, worlds, 0, 1, controllers=controllers, simulator=simulator)
     matches.reset()
     actions = random_actions((worlds, len(matches.agents), task.action_size))

@@ -83,7 +83,8 @@ class MatchAudit:
         Raises:
             AuditError: something does not add up.
         """
-        self._check(np.isfinite(self._matches.frame.rows).all(axis=1), "a number is not finite")
+        finite = np.isfinite(self._matches.frame.rows)
+        self._check(np.asarray(finite.all(axis=1)), "a number is not finite")
         self._count_events()
         self._check_clock()
         self._check_statistics()
@@ -138,7 +139,8 @@ class MatchAudit:
         rules, score = self._task.referee_config, self._matches.play.game.score
         lead = np.abs(score[:, BLUE] - score[:, YELLOW]) >= rules.early_end_lead
         early: Mask = (score.max(axis=1) >= rules.early_end_goals) & lead
-        return early & (rules.early_end_goals > 0.0)
+        early &= rules.early_end_goals > 0.0
+        return early
 
     def _check_statistics(self) -> None:
         """All numbers of the match are those of its events and steps."""

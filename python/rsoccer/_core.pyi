@@ -1584,7 +1584,8 @@ class EgoFeatures:
             viewpoint: The observers, each with 1 + n_teammates + n_opponents slots.
             rows: State rows (n, row), float32.
             actions: Last actions (n, robots, action), float32.
-            out: Output (n, observers, features + action), float32.
+            out: Output (n, observers, features + action), float32, or with more columns, which stay
+                as they are.
             bounds: Bounds (features + action,), float32, each 0 or above: values are clipped to
                 [-bounds, bounds]. None clips nothing.
             threads: Threads that share the work; None for the caller's alone.

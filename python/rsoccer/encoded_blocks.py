@@ -15,7 +15,7 @@ from rsoccer.play import Play
 
 Encode = Callable[[Play, Floats, Floats | None], None]
 """Writes the flat blocks of a state (n, observers, columns) into an array, clipped to bounds
-(columns,), or not clipped for None."""
+(columns,), or not clipped for None. More columns of the array stay as they are."""
 
 
 _NONE: Final[Mapping[str, Floats]] = MappingProxyType({})
@@ -104,7 +104,11 @@ class EncodedBlocks(UserDict[str, Floats]):
         added = [block.reshape(*out.shape[:2], -1) for block in self._added.values()]
         if out.shape[-1] != self._size + sum(block.shape[-1] for block in added):
             return False
-        np.concatenate([self._flat(), *added], axis=-1, out=out, casting="same_kind")
+        self._encode(self._play, out, None)
+        first = self._size
+        for block in added:
+            out[..., first : first + block.shape[-1]] = block
+            first += block.shape[-1]
         clip_in_place(out, bounds)
         return True
 

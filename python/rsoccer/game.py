@@ -366,8 +366,8 @@ class Events(NamedArrays):
         slots = self.count[worlds] + np.arange(len(rows)) - first
         if slots.max() >= self.SLOTS:
             raise RuntimeError(f"events: expected at most {self.SLOTS} in a step of a world")
-        for array, numbers in zip((self.kind, self.team, self.robot), values, strict=True):
-            array[worlds, slots] = numbers
+        for name, numbers in zip(("kind", "team", "robot"), values, strict=True):
+            self[name][worlds, slots] = numbers
         self.position[worlds, slots] = rows[:, 4:]
         self.count += np.bincount(worlds, minlength=len(self.count))
 

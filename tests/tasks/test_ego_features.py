@@ -128,6 +128,15 @@ def test_the_last_action_follows_the_features() -> None:
     assert np.array_equal(encoded(rows, actions)[:, :, -2:], actions[:, [0, 2, 3, 5]])
 
 
+def test_columns_behind_the_features_stay_as_they_are() -> None:
+    rows, actions = states(3)
+    out = np.full((3, 4, SIZE + 2), 7.0, np.float32)
+    encoder().encode(VIEWPOINT, rows, actions, out, np.full(SIZE, 0.25, np.float32))
+    assert (out[..., SIZE:] == 7.0).all()
+    bounds = np.full(SIZE, 0.25, np.float32)
+    assert np.array_equal(out[..., :SIZE], encoded(rows, actions, bounds=bounds))
+
+
 def test_bounds_clip_features_and_actions() -> None:
     rows, actions = states(20)
     free, bounds = encoded(rows, actions), np.full(SIZE, 0.25, np.float32)

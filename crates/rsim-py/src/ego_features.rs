@@ -79,8 +79,10 @@ impl EgoFeatures {
             readable("actions", actions, &[n, robots, action_size])?;
         let (size, row_size) = (self.features.size(), viewpoint.row_size());
         let width = size + action_size;
+        let [_, _, columns] = sizes("out", out)?;
+        let columns = columns.max(width);
         let mut out: PyReadwriteArray<'_, f32, Ix3> =
-            writeable("out", out, &[n, observers.len(), width])?;
+            writeable("out", out, &[n, observers.len(), columns])?;
         let bounds: Option<PyReadonlyArray<'_, f32, Ix1>> =
             bounds.map(|bounds| readable("bounds", bounds, &[width])).transpose()?;
         let bounds = bounds.as_ref().map(values);
@@ -89,7 +91,8 @@ impl EgoFeatures {
         let encode = |world: usize, out: &mut [f32]| {
             let row = &rows[world * row_size..][..row_size];
             let actions = &actions[world * robots * action_size..][..robots * action_size];
-            for (observer, out) in observers.iter().zip(out.chunks_exact_mut(width)) {
+            for (observer, out) in observers.iter().zip(out.chunks_exact_mut(columns)) {
+                let out = &mut out[..width];
                 let (features, action) = out.split_at_mut(size);
                 self.features.encode(observer, row, features);
                 match observer.robot() {
@@ -104,7 +107,7 @@ impl EgoFeatures {
             }
         };
         let out = out.as_slice_mut()?;
-        write_rows(py, threads, out, observers.len() * width, ALONE, encode);
+        write_rows(py, threads, out, observers.len() * columns, ALONE, encode);
         Ok(())
     }
 
