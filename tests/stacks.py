@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from rsoccer import Matches
 from rsoccer.arrays import Floats
 
 
@@ -35,3 +36,23 @@ class HandStack:
         newest = observations[: -self.history - 1 : -1]
         past = actions[: -self.history : -1]
         return np.concatenate([*newest, *past], axis=-1)
+
+
+TASK, WORLDS, HISTORY, LIMIT, STEPS = "VSSMulti-v0", 2, 3, 5, 12
+
+
+def expected_stacks(actions: Floats) -> list[tuple[Floats, Floats]]:
+    """Observations after a reset with seed 4 and after each step, and those before new episodes."""
+    plain = Matches(TASK, WORLDS, max_steps=LIMIT)
+    hand = HandStack(HISTORY, plain.action_size)  # all matches end at the time limit
+    hand.begin(plain.reset(seed=4))
+    stacks = [(hand.value, hand.value)]
+    for each in actions:
+        outcome = plain.step(each)
+        hand.step(each, outcome.final_observations)
+        final = hand.value
+        if outcome.ended.any():
+            assert outcome.ended.all()
+            hand.begin(outcome.observations)
+        stacks.append((hand.value, final))
+    return stacks

@@ -1,33 +1,11 @@
 """Stacked observations in the environments for trainer libraries."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
-from rsoccer import Matches
 from rsoccer.arrays import Floats
 from tests.helpers import same
-from tests.stacks import HandStack
-
-TASK, WORLDS, HISTORY, LIMIT, STEPS = "VSSMulti-v0", 2, 3, 5, 12
-
-
-def expected_stacks(actions: Floats) -> list[tuple[Floats, Floats]]:
-    """Observations after a reset with seed 4 and after each step, and those before new episodes."""
-    plain = Matches(TASK, WORLDS, max_steps=LIMIT)
-    hand = HandStack(HISTORY, plain.action_size)  # all matches end at the time limit
-    hand.begin(plain.reset(seed=4))
-    stacks = [(hand.value, hand.value)]
-    for each in actions:
-        outcome = plain.step(each)
-        hand.step(each, outcome.final_observations)
-        final = hand.value
-        if outcome.ended.any():
-            assert outcome.ended.all()
-            hand.begin(outcome.observations)
-        stacks.append((hand.value, final))
-    return stacks
+from tests.stacks import HISTORY, LIMIT, STEPS, TASK, WORLDS, expected_stacks
 
 
 @pytest.fixture
@@ -72,18 +50,3 @@ def test_torchrl(actions: Floats) -> None:
         data["blue", "action"] = torch.from_numpy(each)
         before, data = env.step_and_maybe_reset(data)
         assert same(before["next", "blue", "observation"].numpy(), final)
-
-
-def test_rllib(actions: Floats) -> None:
-    pytest.importorskip("torch")
-    pytest.importorskip("ray.rllib")
-    from rsoccer.rllib import SoccerMultiAgentEnv
-
-    config: dict[str, Any] = {"task": TASK, "history": HISTORY, "max_steps": LIMIT}
-    env = SoccerMultiAgentEnv(config)
-    observations, _ = env.reset(seed=4)
-    names, stacks = env.possible_agents, expected_stacks(actions)
-    for step in range(LIMIT):
-        assert env.observation_space.contains(observations)
-        observations, *_ = env.step(dict(zip(names, actions[step, 0], strict=True)))
-        assert same(np.stack([observations[name] for name in names]), stacks[step + 1][1][0])
