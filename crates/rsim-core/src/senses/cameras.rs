@@ -73,7 +73,7 @@ fn parts(size: f32, count: f32, overlap: f32) -> Vec<Part> {
 }
 
 /// Tolerance of times, s: far below a tick, and far above the rounding of an hour.
-const ROUNDING: f64 = 1e-7;
+pub(super) const ROUNDING: f64 = 1e-7;
 
 /// The bodies at the instant of an exposure.
 struct Exposed<'a> {

@@ -10,6 +10,7 @@ use crate::body_parameters::BodyParameters;
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
 use crate::models::sensing::Sensing;
+use crate::senses::cameras::ROUNDING;
 use crate::senses::random::{Draws, Purpose};
 use crate::state::State;
 
@@ -113,7 +114,7 @@ impl Reports {
 
     /// Takes in the reports that have arrived at `now`, s.
     pub(super) fn receive(&mut self, now: f64) {
-        while self.under_way.front().is_some_and(|report| report.due <= now + 1e-7) {
+        while self.under_way.front().is_some_and(|report| report.due <= now + ROUNDING) {
             let Some(report) = self.under_way.pop_front() else { return };
             self.cut = self.cut & report.lost | report.cut & !report.lost;
             for (index, motion) in report.motions.iter().enumerate() {

@@ -152,7 +152,9 @@ impl Batch {
     }
 
     /// Begins the senses of the worlds of the mask, which have just been placed. `keys` has one number for
-    /// each of these worlds, and `numbers` one row if given (see [`World::begin_senses`]).
+    /// each of these worlds, which makes its errors its own. `numbers` has one row for each, if given: numbers in
+    /// place of the configuration's, in the order of [`Sensing::numbers`](crate::Sensing::numbers). Without senses in the configuration
+    /// nothing happens.
     ///
     /// # Errors
     /// [`ConfigError`] for the first world with a number out of its range; then no world has changed.

@@ -92,7 +92,7 @@ impl World {
         };
         let shared = Arc::new(Shared { setup, placement, pristine: pristine.clone() });
         let mut world = Self { shared, state: pristine, senses: None, contact_free_enabled: true };
-        world.begin_senses(0, None)?;
+        world.set_senses(0, config.sensing.clone());
         Ok(world)
     }
 

@@ -2,7 +2,6 @@
 
 use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
-use crate::error::ConfigError;
 use crate::models::sensing::Sensing;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
@@ -10,20 +9,7 @@ use crate::tick::Tick;
 use crate::world::{WorkingMemory, World};
 
 impl World {
-    /// Begins the senses of a match that has just been placed. `key` makes their errors the match's own;
-    /// `numbers` replace those of the configuration, in the order of [`Sensing::numbers`]. Without senses in
-    /// the configuration nothing happens.
-    ///
-    /// # Errors
-    /// As [`Sensing::validate`]; then nothing has changed.
-    pub fn begin_senses(&mut self, key: u64, numbers: Option<&[f32]>) -> Result<(), ConfigError> {
-        let Some(sensing) = &self.config().sensing else { return Ok(()) };
-        let own = numbers.map(|numbers| sensing.with_values(numbers)).transpose()?;
-        let sensing = own.unwrap_or_else(|| sensing.clone());
-        self.set_senses(key, Some(sensing));
-        Ok(())
-    }
-
+    /// Begins senses anew. `key` makes their errors the match's own.
     pub(super) fn set_senses(&mut self, key: u64, sensing: Option<Sensing>) {
         self.senses = sensing.map(|sensing| Box::new(Senses::new(sensing, key, self.watched())));
     }
