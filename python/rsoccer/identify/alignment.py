@@ -34,8 +34,7 @@ def noise_of(log: Log) -> Noise:
     """
     tracks = [track for track in log.poses.values() if len(track) > 3]
     positions = [track_noise(track) for track in tracks]
-    turns = [_wrapped(np.diff(track.headings)) for track in tracks]
-    headings = [_deviation(np.diff(turn, n=2)) for turn in turns]
+    headings = [heading_noise(track) for track in tracks]
     return Noise(
         max(_LEAST[0], min(positions, default=0.0)), max(_LEAST[1], min(headings, default=0.0))
     )
@@ -48,6 +47,16 @@ def track_noise(track: Track) -> float:
         track: its poses; 0 for fewer than four.
     """
     return _deviation(np.diff(track.positions, n=3, axis=0)) if len(track) > 3 else 0.0
+
+
+def heading_noise(track: Track) -> float:
+    """Return the noise of the headings of a robot, rad.
+
+    Args:
+        track: its poses; 0 for fewer than four.
+    """
+    turns = _wrapped(np.diff(track.headings))
+    return _deviation(np.diff(turns, n=2)) if len(track) > 3 else 0.0
 
 
 def _deviation(third: Doubles) -> float:

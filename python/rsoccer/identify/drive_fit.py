@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer._core import RobotModel
 from rsoccer.arrays import Doubles, Mask
 from rsoccer.identify.alignment import Noise, misfits, noise_of
 from rsoccer.identify.drives import LATENCY, Drive, drive_of
@@ -14,14 +15,14 @@ from rsoccer.identify.least_squares import Residuals, Solution, interval, solve
 from rsoccer.identify.log import Log
 from rsoccer.identify.results import Estimate
 from rsoccer.identify.simulation import TICK, Paths, simulate
-from rsoccer.identify.windows import MAX_LATENCY, Windows, cut
-from rsoccer._core import RobotModel
+from rsoccer.identify.windows import LENGTH, MAX_LATENCY, Windows, cut
 
 _LATENCIES: Final = np.arange(0.0, MAX_LATENCY, 0.01)  # s, tried before the fit
 _FACTORS: Final = (0.4, 0.6, 0.8, 1.0, 1.3, 1.8)  # on accelerations, tried before the fit
 _TYPICAL_LATENCY: Final = 0.08  # s
 _HEAVY: Final = 1.0  # kg: robots that the ball does not push
 _ALONG: Final = 0.8  # least part of the commanded speed along an axis, in windows of that axis
+_REACH: Final = 0.08  # s beyond a latency, within which it is fitted
 _BEYOND: Final = 1.05  # of a top speed, which commands exceed where it shows
 _BEYOND_TIME: Final = 0.2  # s
 
@@ -50,10 +51,10 @@ class DriveFit:
     def run(self) -> None:
         """Fit all parameters, and find those that the log identifies."""
         values = self._searched(self.drive.start(self._observed()))
+        self._cut(values[LATENCY])
         self.solution = self._solved(self.windows, self.drive.encoded(values))
         # Velocities at the starts of windows depend on the latency.
-        latency = float(self.solution.parameters[0])
-        self.windows = cut(self.log, latency, self.heavy)
+        self._cut(float(self.solution.parameters[0]))
         self.solution = self._solved(self.windows, self.solution.parameters)
         tops = np.array([name in self.drive.tops() for name in self.drive.names])
         self._fix(tops & ~self._exceeded())
@@ -62,6 +63,11 @@ class DriveFit:
             # A gain explains a robot that is slow at one level of speed alone, too.
             self._fix(tops & self.free)
         self.free = self._identified(self.solution)
+
+    @property
+    def seconds(self) -> float:
+        """Length of all windows, s."""
+        return len(self.windows) * LENGTH
 
     def estimates(self, rng: np.random.Generator) -> list[Estimate]:
         """Return all parameters that are reported, identified or not.
@@ -122,6 +128,11 @@ class DriveFit:
         values = self.drive.values(self.solution.parameters)
         names = zip(self.drive.names, self.free, strict=True)
         return {name: values[name] for name, identified in names if identified}
+
+    def _cut(self, latency: float) -> None:
+        """Cut the log anew into windows for a latency."""
+        reach = min(max(latency, 0.0) + _REACH, MAX_LATENCY)
+        self.windows = cut(self.log, latency, self.heavy, reach)
 
     def _observed(self) -> dict[str, float]:
         """Greatest speeds that last for some frames."""

@@ -23,6 +23,9 @@ DRAWS: Final = 2000
 _OUTLIER: Final = 3.0  # standard deviations beyond which residuals count by their magnitude
 _ROUNDS: Final = 30  # steps at most
 _ENOUGH: Final = 1e-4  # relative change of the loss that ends the steps
+_FREE: Final = 1e-6  # damping that does not shorten steps
+_FAR: Final = 100.0  # steps of slopes that a parameter changes by at once
+_ALL: Final = 500.0  # steps that it changes by in all
 _PART: Final = 0.95  # of an interval
 
 
@@ -101,10 +104,11 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
         steps: (p,) changes of parameters over which slopes are measured.
         free: (p,) parameters that may change.
     """
-    parameters, damping = start.copy(), 1e-3
+    parameters, damping = start.copy(), 1e-4
     now = residuals(parameters)
     scale = _scale(now)
     index = np.flatnonzero(free)
+    first, width = start[index], steps[index]
     for _ in range(_ROUNDS):
         jacobian = _jacobian(residuals, parameters, now, steps, index, both_sides=False)
         before = _loss(now, scale)
@@ -114,16 +118,19 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
         while damping < 1e8:
             damped = curvature + damping * np.diag(np.diag(curvature) + 1e-9)
             trial = parameters.copy()
-            trial[index] -= np.linalg.solve(damped, slope)
+            change = np.clip(np.linalg.solve(damped, slope), -_FAR * width, _FAR * width)
+            trial[index] = np.clip(trial[index] - change, first - _ALL * width, first + _ALL * width)
             there = residuals(trial)
             if np.isfinite(there).all() and _loss(there, scale) < before:
                 break
             damping *= 8.0
         else:
             break
-        parameters, now, damping = trial, there, max(damping / 10.0, 1e-7)
-        if before - _loss(now, scale) < _ENOUGH * before:
+        parameters, now = trial, there
+        # A damped step may be short where two numbers explain the same.
+        if damping <= _FREE and before - _loss(now, scale) < _ENOUGH * before:
             break
+        damping = max(damping / 30.0, _FREE / 10.0)
         scale = _scale(now)
     jacobian = _jacobian(residuals, parameters, now, steps, index)
     weights = _weights(now, scale)[..., None]

@@ -86,7 +86,8 @@ class _Recorder:
         self.simulator = Simulator(config)
         self.state = Frame.empty(1, 1, 0)
         self.seen = Frame.empty(1, 1, 0)
-        self.state.ball.position[0] = (0.0, 0.4 * config.field.width)
+        corner = 0.4 * config.field.length, 0.4 * config.field.width  # out of the robot's way
+        self.state.ball.position[0] = corner
         self.simulator.place(np.ones(1, np.bool_), self.state.rows, self.state.rows)
         self.simulator.begin_senses(np.ones(1, np.bool_), np.array([seed], np.uint64))
 

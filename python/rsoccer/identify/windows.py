@@ -16,7 +16,7 @@ LENGTH: Final = 1.0
 """Length of a window, s."""
 MAX_LATENCY: Final = 0.4
 """Greatest latency that can be identified, s."""
-_WARM_UP: Final = 0.8  # s before a window, in which an error of the first velocity fades
+_WARM_UP: Final = 0.6  # s before a window, in which an error of the first velocity fades
 _NEAR: Final = 0.06  # s around a time whose poses give the velocity
 _FEW: Final = 10  # least number of poses in a window
 _GAP: Final = 0.25  # s without poses
@@ -71,16 +71,17 @@ class _Window:
     headings: Doubles
 
 
-def cut(log: Log, latency: float, heavy: bool) -> Windows:
+def cut(log: Log, latency: float, heavy: bool, reach: float = MAX_LATENCY) -> Windows:
     """Cut the poses of all robots that have commands into windows.
 
-    Windows in which a robot was carried, unseen, or so near another that they may push each other,
+    Windows in which a robot had no command, was carried, unseen, or so near another that they may push each other,
     are left out.
 
     Args:
         log: the log.
         latency: a guess of the time from commands to poses, s, for the velocities at the start.
         heavy: whether robots are too heavy for the ball to push them.
+        reach: greatest latency that the windows' commands begin early enough for, s.
 
     Raises:
         ValueError: no such windows.
@@ -89,7 +90,7 @@ def cut(log: Log, latency: float, heavy: bool) -> Windows:
         window
         for robot, commands in log.commands.items()
         if robot in log.poses
-        for window in _windows(log, robot, commands, latency, heavy)
+        for window in _windows(log, robot, commands, (latency, reach), heavy)
     ]
     if not found:
         raise ValueError(
@@ -116,9 +117,10 @@ def cut(log: Log, latency: float, heavy: bool) -> Windows:
 
 
 def _windows(
-    log: Log, robot: str, commands: Commands, latency: float, heavy: bool
+    log: Log, robot: str, commands: Commands, latencies: tuple[float, float], heavy: bool
 ) -> Iterator[_Window]:
-    """Windows of one robot."""
+    """Windows of one robot; latencies are a guess, and the greatest."""
+    latency, reach = latencies
     track = log.poses[robot]
     others = [pose for name, pose in log.poses.items() if name != robot]
     light = [] if heavy else [log.ball]
@@ -127,7 +129,7 @@ def _windows(
     for begin in np.arange(track.times[0], track.times[-1] - 0.5 * LENGTH, LENGTH):
         part = slice(*np.searchsorted(track.times, [begin, begin + LENGTH]))
         times, positions = track.times[part], track.positions[part]
-        start = begin - MAX_LATENCY - _WARM_UP
+        start = begin - reach - _WARM_UP
         whole = slice(*np.searchsorted(track.times, [start, begin + LENGTH]))
         if len(times) < _FEW or _is_broken(track.times[whole], track.positions[whole]):
             continue
@@ -135,8 +137,8 @@ def _windows(
             continue
         start = _anchored(commands, start, begin + LENGTH)
         velocity = _velocity(track, start + latency)
-        if velocity is not None:
-            held = _held(commands, start)
+        held = _held(commands, start, reach)
+        if velocity is not None and held.any():  # a robot at rest shows nothing
             ticks = (times - start) / TICK
             yield _Window(held, velocity, ticks, positions, track.headings[part])
 
@@ -172,9 +174,9 @@ def _anchored(commands: Commands, start: float, end: float) -> float:
     return start - (start - float(commands.times[greatest])) % TICK
 
 
-def _held(commands: Commands, start: float) -> Doubles:
+def _held(commands: Commands, start: float, reach: float) -> Doubles:
     """Commands that hold in the ticks from a start; none before the first."""
-    ticks = round((_WARM_UP + MAX_LATENCY + LENGTH) / TICK) + 2
+    ticks = round((_WARM_UP + reach + LENGTH) / TICK) + 2
     middles = start + (np.arange(ticks) + 0.5) * TICK
     index = np.searchsorted(commands.times, middles, side="right") - 1
     held: Doubles = commands.wheels[np.maximum(index, 0)] * (index >= 0)[:, None]
