@@ -5,7 +5,8 @@
 """
 
 from rsoccer.identify.identification import Identified, identify
-from rsoccer.identify.log import Log, read_log
+from rsoccer.identify.log import Log
+from rsoccer.identify.log_files import read_log, write_log
 from rsoccer.identify.program import Program, program
 from rsoccer.identify.recorder import record
 from rsoccer.identify.report import report
@@ -21,4 +22,5 @@ __all__ = [
     "read_log",
     "record",
     "report",
+    "write_log",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Final
 
@@ -61,7 +62,7 @@ def heading_noise(track: Track) -> float:
 
 def _deviation(third: Doubles) -> float:
     """Noise by third differences, which smooth motion leaves small."""
-    return 1.4826 * float(np.median(np.abs(third))) / _THIRD**0.5
+    return 1.4826 * float(np.median(np.abs(third))) / math.sqrt(_THIRD)
 
 
 def misfits(paths: Paths, windows: Windows, latency: float, noise: Noise) -> Doubles:

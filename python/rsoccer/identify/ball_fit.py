@@ -10,7 +10,7 @@ import numpy as np
 from rsoccer._core import BallModel
 from rsoccer.arrays import Doubles, Mask
 from rsoccer.identify.ball_runs import Run
-from rsoccer.identify.least_squares import Solution, interval, solve
+from rsoccer.identify.least_squares import Solution, solve
 from rsoccer.identify.results import Estimate
 from rsoccer.identify.rolling import slid_and_rolled
 
@@ -35,7 +35,9 @@ class _Shared:
 _SHARED: Final = (
     _Shared("sliding_deceleration", "m/s²", 0.01, 0.15, True, "kicks, in full view"),
     _Shared("slide_to_roll_ratio", "1", 0.003, 0.04, False, "kicks from rest, in full view"),
-    _Shared("rolling_deceleration", "m/s²", 0.01, 0.12, True, "balls that roll for a meter or more"),
+    _Shared(
+        "rolling_deceleration", "m/s²", 0.01, 0.12, True, "balls that roll for a meter or more"
+    ),
     _Shared("rolling_drag", "1/s", 0.002, 0.02, False, "balls that roll fast and slowly"),
 )
 _SLIDING: Final = 0
@@ -69,18 +71,24 @@ class BallFit:
         if not self.runs:
             return
         self._begin(start)
-        free = np.ones(len(_SHARED), np.bool_)
-        free[_DRAG] = False
+        free = np.array([True, True, True, False])
         self.solution = self._solved(start, free)
-        with_drag = self._solved(self.solution.parameters, np.ones(len(_SHARED), np.bool_))
-        identified = self._identified(with_drag, np.ones(len(_SHARED), np.bool_))
+        if not self._identified(self.solution, free)[_SLIDING]:
+            # Sliding as slow as rolling would explain the same.
+            free[: _SLIDING + 2] = False
+            self._begin(start)
+            self.solution = self._solved(start, free)
+        dragged = free.copy()
+        dragged[_DRAG] = True
+        with_drag = self._solved(self.solution.parameters, dragged)
+        identified = self._identified(with_drag, dragged)
         drag, error = with_drag.parameters[_DRAG], with_drag.errors(identified)[_DRAG]
         # Without a drag that stands out, one deceleration describes the floor better.
         if identified[_DRAG] and drag > 2.0 * error:
-            self.solution, free = with_drag, np.ones(len(_SHARED), np.bool_)
-        else:
-            self._begin(start)
-            self.solution = self._solved(self.solution.parameters, free)
+            self.solution, self.free = with_drag, identified
+            return
+        self._begin(self.solution.parameters)
+        self.solution = self._solved(self.solution.parameters, free)
         self.free = self._identified(self.solution, free)
 
     def estimates(self, rng: np.random.Generator) -> list[Estimate]:
@@ -90,13 +98,12 @@ class BallFit:
             rng: random numbers of the intervals.
         """
         found = []
-        draws = self.solution.draws(self.free, rng) if self.free.any() else None
+        ends = self.solution.intervals(self.free, rng) if self.free.any() else None
         for index, each in enumerate(_SHARED):
-            if draws is None or not self.free[index]:
+            if ends is None or not self.free[index]:
                 found.append(Estimate.missing(each.name, each.unit, each.excited_by))
                 continue
-            low, high = interval(draws[:, index])
-            numbers = np.array([low, self.solution.parameters[index], high])
+            numbers = np.array([ends[0][index], self.solution.parameters[index], ends[1][index]])
             numbers = np.exp(numbers) if each.is_limit else numbers
             found.append(Estimate(each.name, each.unit, *numbers.tolist()))
         return found
@@ -169,7 +176,10 @@ class BallFit:
         for _ in range(_INNER):
             now = self._misfit(floor, run, own)
             slopes = np.column_stack(
-                [(self._misfit(floor, run, own + step) - now) / step.sum() for step in np.diag(_STEPS)]
+                [
+                    (self._misfit(floor, run, own + step) - now) / step.sum()
+                    for step in np.diag(_STEPS)
+                ]
             )
             weights = 1.0 / np.maximum(1.0, np.abs(now) / 3.0)
             curvature = slopes.T @ (slopes * weights[:, None])

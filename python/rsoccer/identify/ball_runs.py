@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -50,7 +51,7 @@ def runs(log: Log, noise: float) -> list[Run]:
     ends = [0, *pieces.tolist(), len(ball)]
     found = [
         run
-        for first, last in zip(ends[:-1], ends[1:], strict=True)
+        for first, last in pairwise(ends)
         if last - first >= _FEW
         for run in _of_piece(log, ball, slice(first, last), noise)
     ]

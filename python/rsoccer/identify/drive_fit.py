@@ -11,7 +11,7 @@ from rsoccer._core import RobotModel
 from rsoccer.arrays import Doubles, Mask
 from rsoccer.identify.alignment import Noise, misfits, noise_of
 from rsoccer.identify.drives import LATENCY, Drive, drive_of
-from rsoccer.identify.least_squares import Residuals, Solution, interval, solve
+from rsoccer.identify.least_squares import Residuals, Solution, solve
 from rsoccer.identify.log import Log
 from rsoccer.identify.results import Estimate
 from rsoccer.identify.simulation import TICK, Paths, simulate
@@ -75,19 +75,15 @@ class DriveFit:
         Args:
             rng: random numbers of the intervals.
         """
-        draws = self.solution.draws(self.free, rng)
+        low, high = self.solution.intervals(self.free, rng)
         found = []
         for number, each in enumerate(self.drive.parameters):
-            if not each.is_shown:
-                continue
-            identified = bool(self.free[number])
-            if identified:
-                ends = interval(draws[:, number])
-                low, value, high = ends[0], self.solution.parameters[number], ends[1]
-                numbers = [float(np.exp(x)) if each.is_limit else float(x) for x in (low, value, high)]
-                found.append(Estimate(each.name, each.unit, *numbers))
-            else:
+            if not self.free[number] and each.is_shown:
                 found.append(Estimate.missing(each.name, each.unit, each.excited_by))
+            elif each.is_shown:
+                ends = np.array([low[number], self.solution.parameters[number], high[number]])
+                numbers = np.exp(ends) if each.is_limit else ends
+                found.append(Estimate(each.name, each.unit, *numbers.tolist()))
         return found
 
     def by_axis(self, rng: np.random.Generator) -> list[Estimate]:
@@ -113,14 +109,13 @@ class DriveFit:
             residuals = self._residuals(windows)
             solution = solve(residuals, self.solution.parameters, self.steps, chosen)
             free = self._identified(solution) & chosen
-            draws = np.exp(solution.draws(free, rng))
+            ends = np.exp([*solution.intervals(free, rng), solution.parameters])
             for name, index in zip(names, np.flatnonzero(chosen), strict=True):
                 if not free[index]:
                     found.append(Estimate.missing(name, "m/s²", f"steps {title}"))
                     continue
-                low, high = interval(draws[:, index])
-                value = float(np.exp(solution.parameters[index]))
-                found.append(Estimate(name, "m/s²", float(low), value, float(high)))
+                low, high, value = ends[:, index].tolist()
+                found.append(Estimate(name, "m/s²", low, value, high))
         return found
 
     def values(self) -> dict[str, float]:
@@ -168,7 +163,7 @@ class DriveFit:
         return best
 
     def _exceeded(self) -> Mask:
-        """Parameters that commands exceed by some percent for some time: the top speeds that show."""
+        """All parameters but top speeds that commands hardly exceed."""
         values = self.drive.values(self.solution.parameters)
         found = np.ones(len(self.free), np.bool_)
         demanded = self.drive.demanded(values, self.windows.commands)

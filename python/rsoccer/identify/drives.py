@@ -247,7 +247,8 @@ class WheelDrive(Drive):
     def obeyed(self, values: Mapping[str, float], commands: Doubles) -> Doubles:
         """Return commands of unequal wheels; see `Drive.obeyed`."""
         half = values["wheel_difference"] / 2.0
-        return commands * np.array([1.0 - half, 1.0 + half])
+        unequal: Doubles = commands * np.array([1.0 - half, 1.0 + half])
+        return unequal
 
     def tops(self) -> tuple[str, ...]:
         """Return the maximum wheel speed; see `Drive.tops`."""

@@ -169,7 +169,9 @@ def _identified(
     """The result of estimates."""
     drive, floor, kicks, cameras = (tuple(part) for part in parts)
     of_robot = {} if fit is None else fit.drive.numbers(fit.values())
-    of_robot |= {each.name: each.value for each in kicks if each.name == _KICK and each.is_identified}
+    of_robot |= {
+        each.name: each.value for each in kicks if each.name == _KICK and each.is_identified
+    }
     of_ball, of_senses = _values(floor), _values(cameras)
     models = {
         "robot": as_json(base, of_robot),
@@ -199,7 +201,9 @@ def _model(name: str, source: Any, kind: Any, preset: str) -> Any:  # noqa: ANN4
     if isinstance(source, kind):
         return source
     if source is not None and not isinstance(source, str):
-        raise TypeError(f"{name}: expected a {kind.__name__} or the name of a preset, got {source!r}")
+        raise TypeError(
+            f"{name}: expected a {kind.__name__} or the name of a preset, got {source!r}"
+        )
     try:
         return kind(preset if source is None else source)
     except ValueError as error:

@@ -9,13 +9,12 @@ from typing import Final
 import numpy as np
 
 from rsoccer.identify.ball_fit import BallFit
+from rsoccer.identify.least_squares import student
 from rsoccer.identify.log import Log
 from rsoccer.identify.results import Estimate
 
 _SOON: Final = 1.0  # s after a command in which its kick happens: kickers charge
 _LIMITED: Final = 0.92  # of the gain of slow kicks, below which fast ones are limited
-_QUANTILES: Final = (12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23)
-"""Student's t at 97.5% for 1, 2, ... degrees of freedom (tables of statistics)."""
 
 
 def kick_estimates(log: Log, ball: BallFit) -> list[Estimate]:
@@ -30,9 +29,7 @@ def kick_estimates(log: Log, ball: BallFit) -> list[Estimate]:
     speeds = np.array([kick[1] for kick in kicks])
     gains = speeds / commanded
     slow = gains[commanded <= np.median(commanded)] if len(gains) else gains
-    limited = (
-        gains < _LIMITED * float(np.median(slow)) if len(gains) else np.zeros(0, np.bool_)
-    )
+    limited = gains < _LIMITED * float(np.median(slow)) if len(gains) else np.zeros(0, np.bool_)
     return [
         _mean("kick_gain", "1", gains[~limited], "kicks from rest at several commanded speeds"),
         _mean("max_kick_speed", "m/s", speeds[limited], "kicks beyond the greatest speed"),
@@ -63,6 +60,5 @@ def _mean(name: str, unit: str, numbers: Sequence[float], excited_by: str) -> Es
     if count < 2:
         return Estimate.missing(name, unit, f"two {excited_by}, or more")
     mean, deviation = float(np.mean(numbers)), float(np.std(numbers, ddof=1))
-    quantile = _QUANTILES[count - 2] if count - 2 < len(_QUANTILES) else 2.0
-    half = quantile * deviation / math.sqrt(count)
+    half = float(student(count - 1)) * deviation / math.sqrt(count)
     return Estimate(name, unit, mean - half, mean, mean + half)

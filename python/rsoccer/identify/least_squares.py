@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Doubles, Mask
@@ -27,6 +26,11 @@ _FREE: Final = 1e-6  # damping that does not shorten steps
 _FAR: Final = 100.0  # steps of slopes that a parameter changes by at once
 _ALL: Final = 500.0  # steps that it changes by in all
 _PART: Final = 0.95  # of an interval
+_FEWEST: Final = 2.0  # degrees of freedom of a number that one block tells alone
+_FREEDOM: Final = np.array([1, 2, 3, 4, 5, 6, 8, 10, 15, 30, np.inf])
+_QUANTILES: Final = np.array(
+    [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.306, 2.228, 2.131, 2.042, 1.960]
+)
 
 
 @dataclass(frozen=True)
@@ -59,40 +63,53 @@ class Solution:
             found[free] = self.scale * np.sqrt(np.maximum(np.diag(inverse), 0.0)) / size
         return found
 
-    def draws(self, free: Mask, rng: np.random.Generator) -> Doubles:
-        """Return parameters of random weights of the blocks, each by one Gauss-Newton step.
+    def intervals(self, free: Mask, rng: np.random.Generator) -> tuple[Doubles, Doubles]:
+        """Return the ends of intervals of 95%: a bootstrap over the blocks, widened where few tell.
+
+        They are at least as wide as the scatter of the residuals alone makes them.
 
         Args:
-            free: (p,) parameters that are estimated; the others stay.
+            free: (p,) parameters that are estimated; the others have no width.
             rng: random numbers.
 
         Returns:
-            (`DRAWS`, p) parameters.
+            (p,) low and high ends.
         """
+        moved = self._draws(free, rng)
+        low, high = np.quantile(moved, [(1.0 - _PART) / 2.0, (1.0 + _PART) / 2.0], axis=0)
+        size = np.diagonal(self.curvatures, axis1=1, axis2=2)
+        telling = size.sum(axis=0) ** 2 / np.maximum((size**2).sum(axis=0), 1e-300)
+        wider = student(np.maximum(telling - 1.0, _FEWEST)) / student(np.inf)
+        least = np.where(free, student(np.inf) * self.errors(free), 0.0)
+        low = self.parameters + np.minimum(low * wider, -least)
+        return low, self.parameters + np.maximum(high * wider, least)
+
+    def _draws(self, free: Mask, rng: np.random.Generator) -> Doubles:
+        """(`DRAWS`, p) changes by random weights of the blocks, each by one Gauss-Newton step."""
         blocks = len(self.slopes)
         # Weights of the Bayesian bootstrap leave no block out, so no limit loses its only window.
         weights = rng.exponential(size=(DRAWS, blocks))
         index = np.flatnonzero(free)
-        curvatures = np.tensordot(weights, self.curvatures[:, index][:, :, index], 1)
+        own = self.curvatures[:, index][:, :, index]
+        curvatures = np.tensordot(weights, own, 1)
         slopes = weights @ (self.slopes - self.slopes.mean(axis=0))[:, index]
-        size = np.sqrt(np.diag(self.curvatures[:, index][:, :, index].sum(axis=0))) + 1e-300
+        size = np.sqrt(np.diag(own.sum(axis=0))) + 1e-300
         scaled = curvatures / np.outer(size, size) + 1e-12 * np.eye(len(index))
-        change = np.linalg.solve(scaled, (slopes / size)[..., None])[..., 0] / size
-        drawn = np.tile(self.parameters, (DRAWS, 1))
-        # Residuals of parameters that were fitted scatter less than their errors do.
-        wider = np.sqrt(blocks / max(blocks - 1.0, 1.0))
-        drawn[:, index] -= wider * change
-        return drawn
+        moved = np.zeros((DRAWS, len(free)))
+        moved[:, index] = -np.linalg.solve(scaled, (slopes / size)[..., None])[..., 0] / size
+        return moved
 
 
-def interval(draws: Doubles) -> tuple[Doubles, Doubles]:
-    """Return the ends of the central 95% of draws.
+def student(freedom: Doubles | float) -> Doubles:
+    """Return Student's t at 97.5%.
 
     Args:
-        draws: (n, ...) draws.
+        freedom: degrees of freedom, 1 or more.
     """
-    low, high = np.quantile(draws, [(1 - _PART) / 2, (1 + _PART) / 2], axis=0)
-    return low, high
+    # Nearly linear in the inverse of the degrees of freedom, between those of tables.
+    inverse = 1.0 / np.asarray(freedom, np.float64)
+    quantiles: Doubles = np.interp(inverse, 1.0 / _FREEDOM[::-1], _QUANTILES[::-1])
+    return quantiles
 
 
 def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> Solution:
@@ -119,7 +136,9 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
             damped = curvature + damping * np.diag(np.diag(curvature) + 1e-9)
             trial = parameters.copy()
             change = np.clip(np.linalg.solve(damped, slope), -_FAR * width, _FAR * width)
-            trial[index] = np.clip(trial[index] - change, first - _ALL * width, first + _ALL * width)
+            trial[index] = np.clip(
+                trial[index] - change, first - _ALL * width, first + _ALL * width
+            )
             there = residuals(trial)
             if np.isfinite(there).all() and _loss(there, scale) < before:
                 break
@@ -135,7 +154,7 @@ def solve(residuals: Residuals, start: Doubles, steps: Doubles, free: Mask) -> S
     jacobian = _jacobian(residuals, parameters, now, steps, index)
     weights = _weights(now, scale)[..., None]
     curvatures = np.zeros((len(now), len(start), len(start)))
-    curvatures[np.ix_(range(len(now)), index, index)] = np.einsum(
+    curvatures[np.ix_(np.arange(len(now)), index, index)] = np.einsum(
         "bmi,bmj->bij", jacobian * weights, jacobian
     )
     slopes = np.zeros((len(now), len(start)))

@@ -19,11 +19,9 @@ robot's commands, and those of a body's poses, increase.
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -38,8 +36,10 @@ DRIVES: Final = {"omni": ("v_x", "v_y", "v_theta"), "differential": ("left", "ri
 """Columns of a command for the wheels, by kind of drive."""
 KICK: Final = "kick_v_x"
 """Column of a commanded kick."""
-_KEYS: Final = ("time", "robot")
-_NUMBERS: Final = (*POSE, "captured", *(name for names in DRIVES.values() for name in names), KICK)
+KEYS: Final = ("time", "robot")
+"""Columns of every row."""
+NUMBERS: Final = (*POSE, "captured", *(name for names in DRIVES.values() for name in names), KICK)
+"""Columns of which a row has some."""
 
 
 @dataclass(frozen=True)
@@ -98,67 +98,27 @@ class Log:
                 no finite number; times that do not increase; commands of two kinds of drive; no
                 poses.
         """
-        return _Reader().read([("row", number, row) for number, row in enumerate(rows, 1)])
+        return Reader().read([("row", number, row) for number, row in enumerate(rows, 1)])
 
 
-def read_log(*paths: str | Path) -> Log:
-    """Read the log in one CSV file or several, such as that of the radio and that of the cameras.
-
-    Args:
-        *paths: the files, each with a first line that names its columns.
-
-    Raises:
-        FileNotFoundError: no such file.
-        ValueError: no file, a file that is no text, columns that are missing or unknown, or a row
-            that `Log.of_rows` refuses.
-    """
-    if not paths:
-        raise ValueError("log: expected one file or more, got none")
-    rows: list[tuple[str, int, Mapping[str, object]]] = []
-    for path in map(Path, paths):
-        try:
-            text = path.read_text(encoding="utf-8-sig")
-        except FileNotFoundError:
-            raise FileNotFoundError(f"log: the file {path} does not exist") from None
-        except (OSError, UnicodeDecodeError) as error:
-            raise ValueError(f"log: cannot read {path}: {error}") from error
-        reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
-        _check_columns(str(path), [name.strip() for name in reader.fieldnames or ()])
-        for row in reader:
-            if None in row:
-                raise ValueError(f"{path}, line {reader.line_num}: more cells than columns")
-            named = {name.strip(): cell for name, cell in row.items()}
-            rows.append((f"{path}, line", reader.line_num, named))
-    return _Reader().read(rows)
-
-
-def _check_columns(path: str, names: Sequence[str]) -> None:
-    """Refuse a file without the columns of a log."""
-    if missing := [name for name in _KEYS if name not in names]:
-        raise ValueError(f"{path}: no column {', '.join(missing)}; its columns are {list(names)}")
-    if unknown := [name for name in names if name not in (*_KEYS, *_NUMBERS)]:
-        expected = ", ".join((*_KEYS, *_NUMBERS))
-        raise ValueError(f"{path}: unknown columns {unknown}; expected some of {expected}")
-    groups = {"pose": POSE[:2], **{f"command of {kind}": names for kind, names in DRIVES.items()}}
-    found = [kind for kind, group in groups.items() if set(group) <= set(names)]
-    for kind, group in groups.items():
-        if 0 < len(set(group) & set(names)) < len(group):
-            absent = [name for name in group if name not in names]
-            raise ValueError(f"{path}: a {kind} needs the columns {list(group)}, no {absent}")
-    if not found:
-        raise ValueError(f"{path}: neither poses (x, y, theta) nor commands ({list(DRIVES)})")
-
-
-class _Reader:
+class Reader:
     """Sorts rows into commands and poses."""
 
     def __init__(self) -> None:
+        """Begin without any rows."""
         self.commands: dict[str, list[list[float]]] = {}
         self.poses: dict[str, list[list[float]]] = {}
         self.drive: str | None = None
 
     def read(self, rows: Sequence[tuple[str, int, Mapping[str, object]]]) -> Log:
-        """Return the log of rows, each with the words that name its place."""
+        """Return the log of rows.
+
+        Args:
+            rows: words and number that name the place of each row, and the row.
+
+        Raises:
+            ValueError: see `Log.of_rows`.
+        """
         for words, number, row in rows:
             self._add(f"{words} {number}", row)
         if not self.poses:
@@ -170,7 +130,7 @@ class _Reader:
 
     def _add(self, place: str, row: Mapping[str, object]) -> None:
         """Take in a row."""
-        numbers = {name: _number(place, name, row.get(name)) for name in ("time", *_NUMBERS)}
+        numbers = {name: _number(place, name, row.get(name)) for name in ("time", *NUMBERS)}
         time, robot = numbers["time"], str(row.get("robot") or "").strip()
         if time is None or not robot:
             raise ValueError(f"{place}: expected a time and the name of a robot or 'ball'")

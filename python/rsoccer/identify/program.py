@@ -21,6 +21,7 @@ KICKS: Final = (1.5, 3.0, 6.0)
 """Commanded speeds of kicks, m/s."""
 ROLLS: Final = (0.5, 1.0, 1.6)
 """Speeds with which a person rolls the ball to a robot without a kicker, m/s."""
+_BEYOND: Final = 1.15  # of top speeds, which show if they are exceeded
 _CRUISE: Final = 0.35  # s at a commanded speed
 _COAST: Final = 0.25  # s at rest
 _MAX_ANGULAR_VELOCITY: Final = 20.0  # rad/s: faster turns are hard to film
@@ -70,7 +71,7 @@ class Program:
         """
         period = 1.0 / positive_number("rate", rate)
         times = np.arange(int(self.seconds / period)) * period
-        wheels, kicks = self.at(times)
+        wheels, kicks = self.at(times.astype(np.float64))
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         has_kicks = bool(self.kicks.any())
@@ -95,10 +96,10 @@ def program(
 
     Args:
         robot: the robot's model or the name of its preset; its limits set the lengths of steps.
-        speed: greatest commanded speed, m/s; None for the model's top speed. A top speed shows only
-            if more is commanded.
-        angular_velocity: greatest commanded angular velocity, rad/s; None for the model's, at most
-            20.
+        speed: greatest commanded speed, m/s; None for 1.15 of the model's top speed, which shows
+            only if more is commanded.
+        angular_velocity: greatest commanded angular velocity, rad/s; None for 1.15 of the model's,
+            at most 20.
         pause: time to bring the ball before each kick or roll, s.
 
     Raises:
@@ -110,9 +111,11 @@ def program(
     if not isinstance(model, RobotModel):
         raise TypeError(f"robot: expected a RobotModel or the name of a preset, got {robot!r}")
     check_drive(model)
-    fastest = positive_number("speed", model.top_speed if speed is None else speed)
-    turn = min(model.top_angular_velocity, _MAX_ANGULAR_VELOCITY)
-    turn = positive_number("angular_velocity", turn if angular_velocity is None else angular_velocity)
+    fastest = positive_number("speed", _BEYOND * model.top_speed if speed is None else speed)
+    turn = min(_BEYOND * model.top_angular_velocity, _MAX_ANGULAR_VELOCITY)
+    turn = positive_number(
+        "angular_velocity", turn if angular_velocity is None else angular_velocity
+    )
     pieces = _Pieces(len(DRIVES[model.drive]))
     steps = _omni_steps if model.drive == "omni" else _wheel_steps
     pieces.add(_COAST)
@@ -190,7 +193,9 @@ class _Pieces:
         self.rows: list[tuple[float, Sequence[float], float]] = []
         self.seconds = 0.0
 
-    def add(self, seconds: float, command: Sequence[float] | None = None, kick: float = 0.0) -> None:
+    def add(
+        self, seconds: float, command: Sequence[float] | None = None, kick: float = 0.0
+    ) -> None:
         """Command something for some time."""
         self.rows.append((self.seconds, self.rest if command is None else command, kick))
         self.seconds += seconds

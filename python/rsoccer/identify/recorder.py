@@ -94,7 +94,7 @@ class _Recorder:
     def rows(self, excitation: Program, gains: Doubles) -> list[Mapping[str, object]]:
         """Return the rows of the log."""
         steps = round(excitation.seconds / self.step)
-        wheels, kicks = excitation.at(np.arange(steps) * self.step)
+        wheels, kicks = excitation.at(self.step * np.arange(steps, dtype=np.float64))
         columns = DRIVES[excitation.drive]
         rows: list[Mapping[str, object]] = []
         balls = list(excitation.balls)

@@ -40,9 +40,11 @@ def _missing(each: Estimate) -> tuple[str, str]:
 
 
 def _digits(ends: Sequence[float]) -> int:
-    """Decimals that show the width of an interval, in two digits."""
+    """Decimals that show the width of an interval in two digits, of a number in six at most."""
+    most = 5 - math.floor(math.log10(max(map(abs, ends)) or 1.0))
     width = ends[1] - ends[0]
-    return 4 if width <= 0.0 else min(max(1 - math.floor(math.log10(width)), 0), 6)
+    shown = 1 - math.floor(math.log10(width)) if width > 0.0 else 3
+    return max(min(shown, most, 6), 0)
 
 
 def _explained(misfit: float, seconds: float) -> str:

@@ -24,9 +24,7 @@ def rolled(deceleration: float, drag: float, speed: float, times: Doubles) -> Do
     return distance
 
 
-def slid_and_rolled(
-    floor: Doubles, speed: float, rolling_speed: float, times: Doubles
-) -> Doubles:
+def slid_and_rolled(floor: Doubles, speed: float, rolling_speed: float, times: Doubles) -> Doubles:
     """Return the distance (m) of a ball that slides down to a speed, and then rolls.
 
     Args:
@@ -40,4 +38,5 @@ def slid_and_rolled(
     slid = np.minimum(times, end)
     first = speed * slid - sliding * slid**2 / 2.0
     begin = min(rolling_speed, speed)
-    return first + rolled(rolling, drag, begin, np.maximum(times - end, 0.0))
+    distance: Doubles = first + rolled(rolling, drag, begin, np.maximum(times - end, 0.0))
+    return distance

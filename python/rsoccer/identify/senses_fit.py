@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
 from rsoccer.identify.alignment import heading_noise, track_noise
+from rsoccer.identify.least_squares import student
 from rsoccer.identify.log import Log, Track
 from rsoccer.identify.results import Estimate
 
 _PARTS: Final = 12  # parts of a track whose numbers differ by chance
 _LEAST: Final = 40  # poses of a track that is cut into parts
-_QUANTILE: Final = 2.2  # Student's t at 97.5% for 11 degrees of freedom
 
 
 def camera_estimates(log: Log) -> list[Estimate]:
@@ -22,7 +23,7 @@ def camera_estimates(log: Log) -> list[Estimate]:
     Args:
         log: the log; detections, and not estimates of a tracker, whose noise is smoothed.
     """
-    robot = max(log.poses.values(), key=len, default=log.ball)
+    robot = max(log.poses.values(), key=len, default=_part(log.ball, 0, 0))
     longest = max(robot, log.ball, key=len)
     return [
         _of_parts("frame_rate", "Hz", longest, _frame_rate),
@@ -52,8 +53,10 @@ def delay_estimates(log: Log, latency: Estimate) -> list[Estimate]:
         return [Estimate("delay", "s", latency.low, latency.value, latency.high), missing]
     medians = [float(np.median(part)) for part in np.array_split(late, _PARTS) if len(part)]
     vision = _with_half("delay", "s", float(np.median(late)), medians)
-    rest = [max(x - vision.value, 0.0) for x in (latency.low, latency.value, latency.high)]
-    return [vision, Estimate("command_delay", "s", *rest)]
+    low, rest, high = (
+        max(x - vision.value, 0.0) for x in (latency.low, latency.value, latency.high)
+    )
+    return [vision, Estimate("command_delay", "s", low, rest, high)]
 
 
 def _frame_rate(track: Track) -> float:
@@ -65,13 +68,14 @@ def _of_parts(name: str, unit: str, track: Track, number: Callable[[Track], floa
     if len(track) < _LEAST:
         return Estimate.missing(name, unit, f"{_LEAST} poses or more")
     ends = np.linspace(0, len(track), _PARTS + 1).astype(np.intp).tolist()
-    found = [number(_part(track, *pair)) for pair in zip(ends[:-1], ends[1:], strict=True)]
+    found = [number(_part(track, *pair)) for pair in pairwise(ends)]
     return _with_half(name, unit, number(track), found)
 
 
 def _with_half(name: str, unit: str, value: float, parts: list[float]) -> Estimate:
     """A number with an interval by the scatter of those of parts."""
-    half = _QUANTILE * float(np.std(parts, ddof=1)) / len(parts) ** 0.5 if len(parts) > 1 else 0.0
+    deviation = float(np.std(parts, ddof=1)) if len(parts) > 1 else 0.0
+    half = float(student(len(parts) - 1)) * deviation / len(parts) ** 0.5 if deviation else 0.0
     return Estimate(name, unit, max(value - half, 0.0), value, value + half)
 
 

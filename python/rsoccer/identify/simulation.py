@@ -62,7 +62,7 @@ def simulate(model: RobotModel, commands: Doubles, velocities: Doubles) -> Paths
         velocities: (w, 3) velocity forward and to the left (m/s) and angular velocity (rad/s) at
             the start.
     """
-    ticks, windows, columns = commands.shape
+    windows, columns = commands.shape[1:]
     field = Field("ssl_a", length=_SIZE, width=_SIZE)
     ball = BallModel("ssl_tigers")
     config = SimConfig(field, 1, 0, robot=model, ball=ball, time_step=TICK, tick=TICK)

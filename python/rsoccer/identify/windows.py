@@ -44,7 +44,7 @@ class Windows:
 
     def __len__(self) -> int:
         """Return the number of windows."""
-        return self.times.shape[1]
+        return int(self.times.shape[1])
 
     def take(self, chosen: Mask) -> Windows:
         """Return some of the windows.
@@ -74,8 +74,8 @@ class _Window:
 def cut(log: Log, latency: float, heavy: bool, reach: float = MAX_LATENCY) -> Windows:
     """Cut the poses of all robots that have commands into windows.
 
-    Windows in which a robot had no command, was carried, unseen, or so near another that they may push each other,
-    are left out.
+    Windows in which a robot had no command, was carried, unseen, or so near another that they may
+    push each other, are left out.
 
     Args:
         log: the log.
