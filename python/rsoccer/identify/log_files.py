@@ -106,7 +106,7 @@ def _written_track(name: str, track: Track) -> Iterator[dict[str, str]]:
         row = {
             "time": repr(time),
             "robot": name,
-            **dict(zip(pose, map(repr, numbers), strict=True)),
+            **dict(zip(pose, (f"{number:.8g}" for number in numbers), strict=True)),
         }
         captured = float(track.captured[index])
         yield row if math.isnan(captured) else row | {"captured": repr(captured)}
