@@ -23,7 +23,7 @@ def test_identify_prints_numbers_and_writes_models(
     assert RobotModel(str(model)).name == "vss_440rpm"
     content = json.loads(model.read_text())
     assert 0.04 < content["sensing"]["delay"] < 0.08
-    options = ["--task-options", f"robot={model}", f"ball={model}", "--sensing", str(model)]
+    options = ["--task-options", f"robot={model}", "--sensing", str(model)]
     words = ["evaluate", "chase", "--task", "VSS-v0", "--matches", "2", *options]
     assert cli.main(words) == 0
     assert "chase" in capsys.readouterr().out

@@ -7,7 +7,7 @@ from rsoccer.arrays import Doubles
 from rsoccer.identify.least_squares import Residuals, solve, student
 
 TRUTH = np.array([1.5, -0.7])
-STEPS = np.array([1e-3, 1e-3])
+STEPS = np.array([0.01, 0.01])
 BOTH = np.ones(2, np.bool_)
 
 

@@ -35,7 +35,8 @@ def test_logs_have_the_noise_and_the_rate_of_the_cameras() -> None:
     rest = track.positions[track.times < 0.2]
     assert len(rest) > 8
     assert 0.0005 < rest.std(axis=0).mean() < 0.003
-    assert np.diff(track.times) == pytest.approx(0.015)
+    frames = np.diff(track.times)[1:]
+    assert np.quantile(frames, [0.0, 0.9]) == pytest.approx(0.015)
 
 
 def test_missing_detections_are_missing() -> None:

@@ -17,6 +17,7 @@ from rsoccer.identify.rolling import slid_and_rolled
 _LEAST_NOISE: Final = 0.0003  # m: noise that residuals count with at least
 _SHARES: Final = (1.1, 0.9, 0.8, 0.7, 0.6)  # first rolling speed by the first speed, tried
 _INNER: Final = 8  # Gauss-Newton steps of the numbers of each run
+_CLEAR: Final = 3.0  # standard errors by which a drag stands out from 0
 _STEPS: Final = np.array([1e-4, 1e-3, 1e-3])  # m, m/s, m/s: slopes of these numbers
 
 
@@ -41,6 +42,7 @@ _SHARED: Final = (
     _Shared("rolling_drag", "1/s", 0.002, 0.02, False, "balls that roll fast and slowly"),
 )
 _SLIDING: Final = 0
+_ROLLING: Final = 2
 _DRAG: Final = 3
 
 
@@ -60,8 +62,12 @@ class BallFit:
         # Of each run: distance (m) and speed (m/s) at its first pose, and its first rolling speed.
         self.own = np.zeros((len(runs), 3))
         self.free = np.zeros(len(_SHARED), np.bool_)
+        # Whether balls that were not kicked from rest may slide at first.
+        self.slides = True
         most = max((len(run.times) for run in runs), default=0)
-        self.seen = np.array([np.arange(most) < len(run.times) for run in runs]).reshape(-1, most)
+        self.seen = np.array([np.arange(most) < len(run.times) for run in runs]).reshape(
+            len(runs), most
+        )
 
     def run(self) -> None:
         """Fit all numbers, and find those that the runs identify."""
@@ -76,6 +82,7 @@ class BallFit:
         if not self._identified(self.solution, free)[_SLIDING]:
             # Sliding as slow as rolling would explain the same.
             free[: _SLIDING + 2] = False
+            self.slides = False
             self._begin(start)
             self.solution = self._solved(start, free)
         dragged = free.copy()
@@ -84,7 +91,7 @@ class BallFit:
         identified = self._identified(with_drag, dragged)
         drag, error = with_drag.parameters[_DRAG], with_drag.errors(identified)[_DRAG]
         # Without a drag that stands out, one deceleration describes the floor better.
-        if identified[_DRAG] and drag > 2.0 * error:
+        if identified[_ROLLING] and identified[_DRAG] and drag > _CLEAR * error:
             self.solution, self.free = with_drag, identified
             return
         self._begin(self.solution.parameters)
@@ -204,6 +211,8 @@ class BallFit:
         sliding, ratio, rolling, drag = floor.tolist()
         if np.isfinite(run.rest):
             rolls = ratio * float(_kick_speed(sliding, distance, speed, run.rest))
+        elif not self.slides:
+            rolls = np.inf
         law = np.array([sliding, rolling, drag])
         predicted = distance + slid_and_rolled(law, speed, rolls, run.times)
         misfit: Doubles = (run.distances - predicted) / self.noise
