@@ -1,8 +1,8 @@
 """Accuracy of `rsoccer identify`: `python -m benches.identify --logs 20`.
 
-Robots with random latency, gains and limits follow the program of `rsoccer.identify`, seen by cameras
-with the noise of rc2021, which also lose commands. Prints for each number its errors, half the width
-of its intervals, and how many intervals hold the truth.
+Robots with random latency, gains and limits follow the program of `rsoccer.identify`, seen by
+cameras with the noise of rc2021, which also lose commands. Prints for each number its errors, half
+the width of its intervals, and how many intervals hold the truth.
 """
 
 import argparse

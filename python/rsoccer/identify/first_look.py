@@ -18,7 +18,6 @@ _LATE: Final = 0.08  # s: latency that is left between two clocks after they wer
 _EARLY: Final = 0.05  # s by which poses seem earlier than commands, from rough velocities
 _STEADY: Final = 0.35  # s that a command has held before a robot drives as it says
 _CARRIED: Final = 0.98  # share of the time that robots drive
-_LEVER: Final = 0.1  # m: turning counts as the speed at this distance
 _GAINS: Final = (0.12, 5.0)  # beyond them units are mixed up
 _CLEAR: Final = 0.5  # correlation of commanded and seen speeds that is more than chance
 _HINTS: Final = {
@@ -47,22 +46,38 @@ def lag(log: Log, model: RobotModel) -> float:
     robot = _longest(log)
     commands, track = log.commands[robot], log.poses[robot]
     sent_times = np.arange(commands.times[0], commands.times[-1] + 1.0, _GRID)
-    sent = _speed(_commanded(_held(commands, sent_times), model))
+    sent = _speeds(_commanded(_held(commands, sent_times), model))
     middles, velocities = _driven(track)
     seen_times = np.arange(middles[0], middles[-1], _GRID)
-    seen = np.interp(seen_times, middles, _speed(velocities))
-    sent, seen = sent - sent.mean(), seen - seen.mean()
+    seen = np.column_stack([np.interp(seen_times, middles, x) for x in _speeds(velocities).T])
     size = 1 << int(np.ceil(np.log2(len(sent) + len(seen))))
-    product = np.fft.irfft(np.fft.rfft(seen, size) * np.conj(np.fft.rfft(sent, size)), size)
-    best = int(product.argmax())
-    norm = float(np.linalg.norm(sent) * np.linalg.norm(seen))
-    if norm == 0.0 or product[best] < _CLEAR * norm:
+    # Driving and turning count by themselves: one of them may be in another unit.
+    likeness = _correlation(_scaled(sent), _scaled(seen), size)
+    best = int(likeness.argmax())
+    if likeness[best] < _CLEAR:
         raise ValueError(
             f"log: {robot} does not move as its commands say at any latency: expected velocities "
             "in the robot's own frame, or the speeds of its wheels, of the robot with that name"
         )
     steps = best if best < size // 2 else best - size
     return float(seen_times[0] - sent_times[0]) + steps * _GRID
+
+
+def _scaled(speeds: Doubles) -> Doubles:
+    """Speeds around their means, with a norm of 1; those that never change as 0."""
+    centered = speeds - speeds.mean(axis=0)
+    norms = np.linalg.norm(centered, axis=0)
+    scaled: Doubles = centered / np.where(norms > 1e-9, norms, np.inf)
+    return scaled
+
+
+def _correlation(sent: Doubles, seen: Doubles, size: int) -> Doubles:
+    """Mean correlation of the columns that change in both, by the lag of the second."""
+    both = sent.any(axis=0) & seen.any(axis=0)
+    first, second = (np.fft.rfft(each[:, both], size, axis=0) for each in (sent, seen))
+    product = np.fft.irfft(second * np.conj(first), size, axis=0)
+    mean: Doubles = product.sum(axis=1) / max(int(sent.any(axis=0).sum()), 1)
+    return mean
 
 
 def with_one_clock(log: Log, model: RobotModel, clocks: int) -> Log:
@@ -159,10 +174,10 @@ def _commanded(wheels: Doubles, model: RobotModel) -> Doubles:
     return np.column_stack([(left + right) / 2.0, np.zeros(len(left)), turn])
 
 
-def _speed(velocities: Doubles) -> Doubles:
-    """Speeds to which turning adds."""
-    speed: Doubles = np.hypot(velocities[:, 0], velocities[:, 1])
-    return speed + _LEVER * np.abs(velocities[:, 2])
+def _speeds(velocities: Doubles) -> Doubles:
+    """Speeds of driving (m/s) and turning (rad/s)."""
+    driving: Doubles = np.hypot(velocities[:, 0], velocities[:, 1])
+    return np.column_stack([driving, np.abs(velocities[:, 2])])
 
 
 def _driven(track: Track) -> tuple[Doubles, Doubles]:
@@ -176,8 +191,8 @@ def _driven(track: Track) -> tuple[Doubles, Doubles]:
     left = cos * moved[:, 1] - sin * moved[:, 0]
     turn = (headings[last] - headings[first]) / seconds
     velocities = np.column_stack([forward, left, turn])
-    speeds = _speed(velocities)
-    whole = seconds < 1.0
+    speeds = _speeds(velocities)
     # A robot that is carried seems fast for as long as it is compared with where it was.
-    whole &= speeds <= 1.5 * float(np.quantile(speeds, _CARRIED))
+    whole = (speeds <= 1.5 * np.quantile(speeds, _CARRIED, axis=0) + 1e-6).all(axis=1)
+    whole &= seconds < 1.0
     return times[middle][whole], velocities[whole]

@@ -129,7 +129,7 @@ class _Recorder:
         self.simulator.restart(np.ones(1, np.bool_), self.state.rows, self.state.rows)
 
     def _seen(self, time: float) -> list[Mapping[str, object]]:
-        """What arrived since the last step; a body that no frame showed has its last pose."""
+        """Poses that arrived since the last step; a body that no frame showed has its last one."""
         before = self.seen.rows.copy()
         self.simulator.sense(self.seen.rows)
         old = Frame(before, 1, 0)
