@@ -93,11 +93,11 @@ def _vss(rng: np.random.Generator) -> tuple[RobotModel, list[float], dict[str, f
     """A robot of VSSS, its gains, and its numbers."""
     base = RobotModel("vss_440rpm")
     grip = float(rng.uniform(0.5, 1.0)) * base.longitudinal_grip
-    left, right = rng.uniform(0.85, 1.05, 2).tolist()
-    mean = (left + right) / 2.0
+    mean, difference = float(rng.uniform(0.85, 1.05)), float(rng.uniform(-0.04, 0.04))
+    left, right = mean * (1.0 - difference / 2.0), mean * (1.0 + difference / 2.0)
     truth = {
         "wheel_radius": base.wheel_radius * mean,
-        "wheel_difference": (right - left) / mean,
+        "wheel_difference": difference,
         "track_width": base.track_width,
         "longitudinal_grip": grip,
     }

@@ -50,7 +50,9 @@ def delay_estimates(log: Log, latency: Estimate) -> list[Estimate]:
     if not latency.is_identified:
         return [Estimate.missing("delay", "s", latency.hint.removeprefix("needs ")), missing]
     if not len(late):
-        return [Estimate("delay", "s", latency.low, latency.value, latency.high), missing]
+        # Without any latency, noise may leave it a little below 0.
+        low, value, high = (max(x, 0.0) for x in (latency.low, latency.value, latency.high))
+        return [Estimate("delay", "s", low, value, high), missing]
     medians = [float(np.median(part)) for part in np.array_split(late, _PARTS) if len(part)]
     vision = _with_half("delay", "s", float(np.median(late)), medians)
     low, rest, high = (
