@@ -34,6 +34,7 @@ GROUPS: Final = (
             "rsoccer.sources",
             "rsoccer.lineup",
             "rsoccer.envs.parallel",
+            "rsoccer.envs.aec",
             "rsoccer.envs.single",
             "rsoccer.envs.vector",
             "rsoccer.envs.robots_vector",
