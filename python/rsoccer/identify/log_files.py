@@ -17,6 +17,9 @@ def read_log(*paths: str | Path) -> Log:
     Args:
         *paths: the files, each with a first line that names its columns.
 
+    Returns:
+        The log.
+
     Raises:
         FileNotFoundError: no such file.
         ValueError: no file, a file that is no text, columns that are missing or unknown, or a row

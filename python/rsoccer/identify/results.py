@@ -31,5 +31,5 @@ class Estimate:
 
     @property
     def is_identified(self) -> bool:
-        """Whether the log identifies it."""
+        """True if the log identifies it."""
         return not self.hint

@@ -61,6 +61,9 @@ def simulate(model: RobotModel, commands: Doubles, velocities: Doubles) -> Paths
         commands: (ticks, w, columns) commands of the wheels that hold in each tick.
         velocities: (w, 3) velocity forward and to the left (m/s) and angular velocity (rad/s) at
             the start.
+
+    Returns:
+        The paths.
     """
     windows, columns = commands.shape[1:]
     field = Field("ssl_a", length=_SIZE, width=_SIZE)

@@ -83,6 +83,9 @@ def cut(log: Log, latency: float, heavy: bool, reach: float = MAX_LATENCY) -> Wi
         heavy: whether robots are too heavy for the ball to push them.
         reach: greatest latency that the windows' commands begin early enough for, s.
 
+    Returns:
+        The windows.
+
     Raises:
         ValueError: no such windows.
     """
