@@ -71,7 +71,7 @@ def test_a_file_may_hold_several_models(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="missing field"):
         Field(file)
     path.write_text('{"robot": {"preset": "ssl_generic", "mass": -1}}')
-    with pytest.raises(ValueError, match="robot: .*mass"):
+    with pytest.raises(ValueError, match=r"robot: .*mass"):
         RobotModel(file)
 
 
