@@ -16,6 +16,9 @@ import rsoccer
 from benches.markdown import table
 from rsoccer import Sensing, files
 
+STORED: Final = Path(__file__).parent / "results" / "forecast.json"
+"""Results that the documentation shows."""
+
 TASKS: Final = (
     "SSLGoToBall-v0",
     "VSS-v0",
@@ -62,17 +65,17 @@ def score(task: str, sensing: Sensing | None, policy: str, matches: int) -> dict
 
 
 def report(results: Mapping[str, Mapping[str, Mapping[str, float | None]]]) -> str:
-    """Return results as a Markdown table.
+    """Return results as a Markdown table, with a row for each condition.
 
     Args:
         results: score and interval by task and condition.
     """
-    names = [name for name in conditions() if any(name in row for row in results.values())]
     rows = [
-        (task, *(_cell(row[name]) if name in row else "" for name in names))
-        for task, row in results.items()
+        (name, *(_cell(row[name]) if name in row else "-" for row in results.values()))
+        for name in conditions()
+        if any(name in row for row in results.values())
     ]
-    return table(("task", *names), rows)
+    return table(("condition", *(f"`{task}`" for task in results)), rows)
 
 
 def _cell(result: Mapping[str, float | None]) -> str:
