@@ -11,6 +11,7 @@ import json
 import sys
 import time
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Final
@@ -183,13 +184,20 @@ def main(arguments: Sequence[str] | None = None) -> Path:
     parser.add_argument("--matches", type=int, default=64, help="matches of a pairing")
     parser.add_argument("--half-seconds", type=float, default=300.0, help="time of a half, s")
     parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
+    parser.add_argument("--processes", type=int, default=1, help="pairings measured at once")
     parser.add_argument("--out", type=Path, default=FILE, help="result file")
     options = parser.parse_args(arguments)
     chosen = [options.only] if options.only else list(GROUPS)
     rows = []
-    for pairing in (pairing for group in chosen for pairing in GROUPS[group]):
-        rows.append(measure(pairing, options.matches, options.half_seconds, options.seed))
-        sys.stderr.write(f"{report(rows[-1:]).splitlines()[-1]}\n")
+    with ProcessPoolExecutor(options.processes) as processes:
+        begun = [
+            processes.submit(measure, pairing, options.matches, options.half_seconds, options.seed)
+            for group in chosen
+            for pairing in GROUPS[group]
+        ]
+        for measured in begun:
+            rows.append(measured.result())
+            sys.stderr.write(f"{report(rows[-1:]).splitlines()[-1]}\n")
     sys.stdout.write(f"{report(rows)}\n")
     result = {
         "machine": asdict(this_machine()),
