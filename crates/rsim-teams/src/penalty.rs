@@ -117,24 +117,54 @@ mod tests {
     const PENALTY: Phase =
         Phase { mode: Mode::Kick, restart: Restart::Penalty, ours: true, kicks_next: false };
 
-    /// A kicker with the ball in its mouth.
-    fn order(x: f32, in_play: bool) -> Order {
-        let mut scene = Scene::new(1, 0);
+    /// A kicker with the ball in its mouth, and a keeper.
+    fn scene(x: f32, keeper: [f32; 2]) -> Scene {
+        let mut scene = Scene::new(1, 1);
         scene.ball([x, 0.0], [0.0, 0.0]);
         scene.robot(0, [x - 0.093, 0.0]);
         scene.set(0, "infrared", 1.0);
-        let mut memory = TeamMemory::new(1);
+        scene.robot(1, keeper);
+        scene
+    }
+
+    fn order(scene: &Scene, memory: &mut TeamMemory, in_play: bool) -> Order {
         scene.situation(PENALTY, |s| {
             let s = Situation { in_play, command_time: 3.0, path: s.path.clone(), ..*s };
-            kick(&s, &mut memory, &s.view.own[0])
+            kick(&s, memory, &s.view.own[0])
         })
     }
 
     #[test]
-    fn the_first_kick_is_one_that_the_kicker_follows_and_the_last_a_shot() {
-        let first = order(-1.5, false);
+    fn the_first_kick_is_one_that_the_kicker_follows() {
+        let first = order(&scene(-1.5, [4.4, 0.0]), &mut TeamMemory::new(1), false);
         assert!((1.0..4.0).contains(&first.kick[0]), "{first:?}");
-        let last = order(2.4, true);
-        assert!(last.kick[0] > 5.0, "{last:?}");
+    }
+
+    #[test]
+    fn the_shot_goes_into_the_corner_away_from_the_keeper() {
+        for aside in [-0.2, 0.2] {
+            let mut memory = TeamMemory::new(1);
+            let mut scene = scene(2.4, [4.0, aside]);
+            let turning = order(&scene, &mut memory, true);
+            assert!(turning.kick[0] <= 0.0, "it faces the keeper: {turning:?}");
+            let ahead = turning.facing.unit_or(Vector::default());
+            let y = 2.1 * ahead.y / ahead.x;
+            assert!(y * aside < 0.0 && (0.35..0.48).contains(&y.abs()), "{aside}: {y}");
+            scene.robot(0, [2.4 - 0.093 * ahead.x, -0.093 * ahead.y]);
+            scene.set(0, "infrared", 1.0);
+            scene.set(0, "cos", ahead.x);
+            scene.set(0, "sin", ahead.y);
+            let shot = order(&scene, &mut memory, true);
+            assert!(shot.kick[0] > 5.0, "{shot:?}");
+        }
+    }
+
+    #[test]
+    fn a_kicker_keeps_to_its_corner_while_the_keeper_moves_a_little() {
+        let mut memory = TeamMemory::new(1);
+        let mut side = |y: f32| order(&scene(2.4, [4.0, y]), &mut memory, true).facing.y;
+        assert!(side(0.2) < 0.0);
+        assert!(side(-0.01) < 0.0, "it turns there already");
+        assert!(side(-0.2) > 0.0, "this corner is free now");
     }
 }
