@@ -30,7 +30,7 @@ const GOOD_SHOT: f32 = 0.5;
 /// Time after which it shoots from anywhere, s; it has 10.
 const PATIENCE: f32 = 7.0;
 /// Place of a corner, as a share of half the width of the goal: at best, and for a kicker that aims badly.
-const CORNER: [f32; 2] = [0.92, 0.35];
+const CORNER: [f32; 2] = [0.92, 0.7];
 /// Standard deviations of the kick's direction that a corner leaves to the post.
 const CORNER_ROOM: f32 = 2.0;
 /// Margin by which the other corner has to be better until the kicker turns to it, m.

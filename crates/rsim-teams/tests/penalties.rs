@@ -37,6 +37,7 @@ fn kicks([blue, yellow]: [f32; 2], robots: usize) -> Kicks {
             let seconds = arena.counts.steps as f32 * arena.config.time_step;
             assert!(seconds < PATIENCE, "no end of kick {seed}: {:?}", arena.counts.events);
         }
+        if arena.counts.offenses != [0, 0] || arena.counts.of("UNSPORTING_BEHAVIOR_MINOR") > 0 { println!("{seed} {:?}", arena.counts.events); }
         all.goals += arena.counts.of("GOAL");
         all.offenses += arena.counts.offenses.iter().sum::<u32>();
         all.offenses += arena.counts.of("UNSPORTING_BEHAVIOR_MINOR");
