@@ -53,7 +53,7 @@ LAYERS = [
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate", "recording"},
     {"envs.aec", "envs.vector"},
     {"__init__"},
-    {"sb3", "testing", "torchrl"},
+    {"identify", "sb3", "testing", "torchrl"},
     {"replay"},
     {"train.setting_types", "train.clock", "train.prefixes"},
     {"train.network", "train.opponents", "train.rollout.settings", "train.run.settings"},

@@ -161,6 +161,19 @@ GROUPS: Final = (
         ),
     ),
     Group(
+        "Identification",
+        (
+            "rsoccer.identify",
+            "rsoccer.identify.identification",
+            "rsoccer.identify.log",
+            "rsoccer.identify.log_files",
+            "rsoccer.identify.program",
+            "rsoccer.identify.recorder",
+            "rsoccer.identify.report",
+            "rsoccer.identify.results",
+        ),
+    ),
+    Group(
         "Pictures and videos",
         (
             "rsoccer.render.image",
@@ -230,6 +243,7 @@ PRIVATE: Final = (
     "rsoccer.files",
     "rsoccer.human",
     "rsoccer.human.*",
+    "rsoccer.identify.*",
     "rsoccer.ids",
     "rsoccer.new_play",
     "rsoccer.rules.touches",
