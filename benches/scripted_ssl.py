@@ -10,10 +10,13 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from itertools import starmap
+from multiprocessing import get_context
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -151,6 +154,34 @@ def _play(task: Task, pairing: Pairing, worlds: int, seed: int) -> dict[str, Dou
     return found
 
 
+def _measured(jobs: Sequence[tuple[Pairing, int, float, int]], processes: int) -> Iterator[Row]:
+    """Rows of the arguments of `measure`, in their order, from some processes."""
+    if processes == 1:
+        yield from starmap(measure, jobs)
+        return
+    with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
+        yield from pool.map(measure, *zip(*jobs, strict=True))
+
+
+def results() -> str:
+    """Return the rows of the last run as a table below a line about them; empty without one."""
+    if not FILE.exists():
+        return ""
+    kept = json.loads(FILE.read_text())
+    half = kept["half_seconds"]
+    intro = f"Whole matches of `{TASK}` with two halves of {half:g} s; both teams together."
+    return f"{intro}\n\n{report([_row(**row) for row in kept['rows']])}\n"
+
+
+def _row(pairing: dict[str, Any], **values: Any) -> Row:  # noqa: ANN401  (numbers of a file)
+    """A row of the result file."""
+    of_file = {
+        name: Interval(**value) if isinstance(value, dict) else value
+        for name, value in values.items()
+    }
+    return Row(Pairing(**pairing), **of_file)
+
+
 def report(rows: Sequence[Row]) -> str:
     """Return rows as a Markdown table."""
     matches = ("Robots", "Skill", "Against", "Matches", "Won", "Drawn")
@@ -183,13 +214,16 @@ def main(arguments: Sequence[str] | None = None) -> Path:
     parser.add_argument("--matches", type=int, default=64, help="matches of a pairing")
     parser.add_argument("--half-seconds", type=float, default=300.0, help="time of a half, s")
     parser.add_argument("--seed", type=int, default=0, help="seed of the first match")
+    parser.add_argument("--processes", type=int, default=1, help="pairings measured at once")
     parser.add_argument("--out", type=Path, default=FILE, help="result file")
     options = parser.parse_args(arguments)
     chosen = [options.only] if options.only else list(GROUPS)
+    settings = (options.matches, options.half_seconds, options.seed)
+    jobs = [(pairing, *settings) for group in chosen for pairing in GROUPS[group]]
     rows = []
-    for pairing in (pairing for group in chosen for pairing in GROUPS[group]):
-        rows.append(measure(pairing, options.matches, options.half_seconds, options.seed))
-        sys.stderr.write(f"{report(rows[-1:]).splitlines()[-1]}\n")
+    for row in _measured(jobs, options.processes):
+        rows.append(row)
+        sys.stderr.write(f"{report([row]).splitlines()[-1]}\n")
     sys.stdout.write(f"{report(rows)}\n")
     result = {
         "machine": asdict(this_machine()),

@@ -15,6 +15,7 @@ import gymnasium
 import pettingzoo
 
 import rsoccer
+from benches import scripted_ssl
 from benches.learning.reporting import report as learning
 from benches.markdown import filled, table
 from rsoccer import policies
@@ -232,6 +233,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "policy_table": policy_table,
     "trained_table": trained_table,
     "senses_forecasts": senses_tables.forecasts,
+    "scripted_ssl": scripted_ssl.results,
     "senses_numbers": senses_tables.numbers,
     "senses_randomization": senses_tables.randomization,
     "soak_matches": soak_matches.results,

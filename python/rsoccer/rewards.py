@@ -46,14 +46,15 @@ def events_of_team(play: Play, kinds: Collection[int]) -> Floats:
         (n, observers).
     """
     events = play.events
+    if not np.count_nonzero(events.count):  # in most steps
+        return np.zeros((len(play.frame), len(play.observers)), np.float32)
     counts = np.zeros((len(play.frame), 2), np.float32)
     most = int(events.count.max())
-    if most:  # not in most steps
-        matching = (events.kind[:, :most, None] == list(kinds)).any(axis=2)
-        teams = events.team[:, :most]
-        for team in (BLUE, YELLOW):
-            of_team = (teams == team) | (teams == NOBODY)
-            counts[:, team] = (matching & of_team).sum(axis=1)
+    matching = (events.kind[:, :most, None] == list(kinds)).any(axis=2)
+    teams = events.team[:, :most]
+    for team in (BLUE, YELLOW):
+        of_team = (teams == team) | (teams == NOBODY)
+        counts[:, team] = (matching & of_team).sum(axis=1)
     return counts[:, play.viewpoint.teams]
 
 

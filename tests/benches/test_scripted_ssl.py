@@ -1,5 +1,6 @@
 """The benchmark of the scripted SSL side: it plays matches to their ends and counts in them."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -27,4 +28,23 @@ def test_the_result_file_has_the_rows(
         ["--matches", "1", "--half-seconds", "1", "--out", str(tmp_path / "rows.json")]
     )
     assert '"robots": 1' in path.read_text()
-    assert capsys.readouterr().out.startswith("| Robots | Skill |")
+    printed = capsys.readouterr().out
+    assert printed.startswith("| Robots | Skill |")
+    monkeypatch.setattr(scripted_ssl, "FILE", path)
+    assert scripted_ssl.results().endswith(f"both teams together.\n\n{printed}")
+    monkeypatch.setattr(scripted_ssl, "FILE", tmp_path / "none.json")
+    assert scripted_ssl.results() == ""
+
+
+def test_processes_do_not_change_the_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pairings = (Pairing(1.0, 0.0, robots=1), Pairing(0.0, 0.0, robots=1))
+    monkeypatch.setattr(scripted_ssl, "GROUPS", {"sizes": pairings})
+    quick = ["--matches", "1", "--half-seconds", "1", "--out"]
+
+    def rows(name: str, *options: str) -> list[dict[str, object]]:
+        path = scripted_ssl.main([*quick, str(tmp_path / name), *options])
+        found = json.loads(path.read_text())["rows"]
+        assert [row["pairing"]["blue"] for row in found] == [1.0, 0.0]
+        return [{name: row[name] for name in row if name != "speed"} for row in found]
+
+    assert rows("one.json") == rows("two.json", "--processes", "2")

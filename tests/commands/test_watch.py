@@ -35,6 +35,16 @@ def test_watch_keeps_the_tasks_own_opponents(filmed: list[Any]) -> None:
     assert set(controllers.values()) == {"scripted", "ou"}
 
 
+def test_whole_matches_are_watched_between_sides_that_obey_the_referee(filmed: list[Any]) -> None:
+    for task in ("SSLMatch-v0", "VSSMatch-v0"):
+        assert cli.main(["watch", task, "--video", "never.mp4"]) == 0
+        assert cli.main(["watch", task, "--opponents", "zero", "--video", "never.mp4"]) == 0
+        (name, default, names), (_, changed, _) = filmed[-2:]
+        assert (name, names) == (task, ("SCRIPTED", "SCRIPTED"))
+        assert set(default.values()) == {"scripted"}
+        assert set(changed.values()) == {"scripted", "zero"}
+
+
 def test_watch_opens_a_window() -> None:
     pytest.importorskip("pygame")
     arguments = ["watch", "chase", "--opponents", "zero", "--seconds", "0.5", "--speed", "10"]

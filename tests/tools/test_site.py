@@ -1,6 +1,7 @@
 """The pages of the documentation site, without Sphinx: what they say and what they cover."""
 
 import inspect
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -130,6 +131,21 @@ def test_solutions_are_of_this_physics() -> None:
 def test_a_solution_is_measured_again_alike() -> None:
     kept = solved.load()["tasks"]["SSLPassEndurance-v1"]
     assert solved.measured("SSLPassEndurance-v1", "passer") == kept
+
+
+def test_some_tasks_are_measured_and_the_results_of_others_stay(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    before = solved.load()
+    monkeypatch.setattr(solved, "FILE", tmp_path / "solved.json")
+    solved.FILE.write_text(json.dumps(before))
+    monkeypatch.setattr(solved, "measured", lambda *names: {"measured": names})
+    solved.main(["--only", "VSS-v0"])
+    tasks = solved.load()["tasks"]
+    assert tasks.pop("VSS-v0") == {"measured": ["VSS-v0", "scripted"]}
+    assert tasks == {name: kept for name, kept in before["tasks"].items() if name != "VSS-v0"}
+    solved.main([])
+    assert all(list(kept) == ["measured"] for kept in solved.load()["tasks"].values())
 
 
 def test_every_public_name_has_its_place_in_the_reference() -> None:

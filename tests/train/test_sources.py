@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rsoccer import Sensing
+from rsoccer import Matches, Sensing, SimConfig, Simulator
+from rsoccer._core import Threads
 from rsoccer.policies.network import Network
 from rsoccer.replay import Replay
 from rsoccer.train import Args, train
@@ -104,3 +105,22 @@ def test_a_timed_simulator_can_do_what_the_simulator_can() -> None:
     assert frozen.calls == ["step"]
     assert clock.seconds["physics"] > 0.0
     assert not hasattr(timed, "snapshot")
+
+
+@pytest.mark.parametrize(("made", "expected"), [(Simulator, 0), (still, 1)])
+def test_rows_are_checked_of_a_timed_simulator_that_does_not_check_them_itself(
+    made: Any,  # noqa: ANN401  (a class or a function)
+    expected: int,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    checked: list[str] = []
+    monkeypatch.setattr("rsoccer.checks.rows", lambda source, _: checked.append(source))
+
+    def timed(config: SimConfig, worlds: int, threads: Threads) -> TimedSimulator:
+        return TimedSimulator(made(config, worlds, threads), Clock())
+
+    matches = Matches("VSSSelfPlay-v0", 2, simulator=timed)
+    matches.reset()
+    checked.clear()
+    matches.step(np.zeros((2, len(matches.agents), 2), np.float32))
+    assert checked == ["TimedSimulator.step"] * expected

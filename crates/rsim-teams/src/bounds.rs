@@ -14,6 +14,8 @@ const BALL_DISTANCE: f32 = 0.5;
 const AREA_DISTANCE: f32 = 0.2;
 /// Distance behind the ball of robots that take no part in a penalty kick, m.
 const PENALTY_DISTANCE: f32 = 1.0;
+/// Room to that distance, m: robots of both teams that stand there push each other.
+const PENALTY_ROOM: f32 = 0.3;
 /// Room to the limits of the rules, m.
 const ROOM: f32 = 0.04;
 /// Room to the distance from the ball, m: in the step of a kick the ball moves up to 0.16.
@@ -112,7 +114,7 @@ impl Bounds {
     }
 
     fn keep_to_penalty(&mut self, phase: Phase, part: Part, place: Vector, radius: f32) {
-        let behind = PENALTY_DISTANCE + radius + ROOM;
+        let behind = PENALTY_DISTANCE + radius + PENALTY_ROOM;
         if phase.ours {
             let is_kicker = part == Part::Taker;
             self.x[1] = place.x - if is_kicker { 0.0 } else { behind };

@@ -16,8 +16,8 @@ const POST_ROOM: f32 = 0.15;
 /// Distance of the keeper from the middle of the goal, as a share of half its width.
 const OFF_LINE: f32 = 0.9;
 /// Distance from the goal of a keeper that a kicker comes to, as a share of the ball's, and at most, m.
-const OUT_SHARE: f32 = 0.6;
-const MAX_OUT: f32 = 1.6;
+const OUT_SHARE: f32 = 0.7;
+const MAX_OUT: f32 = 1.8;
 /// Distance from the goal line, m, so that it stays clear of the posts.
 const LINE_ROOM: f32 = 0.1;
 /// Time until the ball is there in which the keeper hurries, s.

@@ -30,7 +30,19 @@ pub(crate) fn release(
     kick: &Kick,
     order: &mut Order,
 ) {
-    let Some(command) = aligned(s, robot, kick) else { return };
+    release_within(s, memory, robot, kick, max_sine(kick), order);
+}
+
+/// Kicks if the ball would go where the kick is to go, up to the sine of an angle.
+pub(crate) fn release_within(
+    s: &Situation,
+    memory: &mut TeamMemory,
+    robot: &Player,
+    kick: &Kick,
+    sine: f32,
+    order: &mut Order,
+) {
+    let Some(command) = aligned(s, robot, kick, sine) else { return };
     order.kick = command;
     if robot.has_ball {
         expect(memory, kick);
@@ -45,7 +57,7 @@ pub(crate) fn expect(memory: &mut TeamMemory, kick: &Kick) {
 }
 
 /// Command of a kick, if the ball would leave in the direction of the kick.
-fn aligned(s: &Situation, robot: &Player, kick: &Kick) -> Option<[f32; 2]> {
+fn aligned(s: &Situation, robot: &Player, kick: &Kick, sine: f32) -> Option<[f32; 2]> {
     let ball = s.ball();
     let direction = (kick.at - ball).unit_or(robot.heading);
     let arm = ball - robot.position;
@@ -55,7 +67,7 @@ fn aligned(s: &Situation, robot: &Player, kick: &Kick) -> Option<[f32; 2]> {
     let result = mouth_velocity + robot.heading * command[0];
     let result = result.unit_or(robot.heading);
     let is_aligned = result.dot(direction) > 0.0
-        && result.cross(direction).abs() < max_sine(kick)
+        && result.cross(direction).abs() < sine
         && robot.angular_velocity.abs() < MAX_KICK_TURNING;
     is_aligned.then_some(command)
 }
@@ -112,7 +124,10 @@ mod tests {
         scene.ball([0.093, 0.0], [0.0, 0.0]);
         scene.robot(0, [0.0, 0.0]);
         let command_to = |scene: &Scene, at| {
-            scene.situation(PLAY, |s| aligned(s, &s.view.own[0], &flat(at, 6.0)))
+            scene.situation(PLAY, |s| {
+                let kick = flat(at, 6.0);
+                aligned(s, &s.view.own[0], &kick, max_sine(&kick))
+            })
         };
         assert!(command_to(&scene, Vector::new(4.5, 0.0)).is_some());
         assert!(command_to(&scene, Vector::new(4.5, 0.4)).is_none());

@@ -1,10 +1,11 @@
-//! The team's penalty kick: the kicker drives the ball ahead of it, and shoots from near.
+//! The team's penalty kick: the kicker drives the ball ahead of it, and shoots from near into a corner.
 
 use rsim_referee::Vector;
 
-use crate::aim::{self, Kick};
+use crate::aim::{self, Kick, MAX_BALL_SPEED};
 use crate::approach;
 use crate::kicking;
+use crate::lanes::{Lane, chance, margin};
 use crate::memory::TeamMemory;
 use crate::order::Order;
 use crate::plane::Plane;
@@ -14,20 +15,32 @@ use crate::rolling;
 use crate::situation::Situation;
 use crate::view::Player;
 
-/// Way of the ball ahead of the kicker, m.
-const WAY: f32 = 3.2;
+/// Distance from the goal line at which the kicker takes the ball to shoot, m.
+const SHOOTING_DISTANCE: f32 = 2.9;
+/// Shortest way of the ball ahead of the kicker, m.
+const MIN_WAY: f32 = 0.8;
 /// Speed of the ball after that way, m/s.
 const ARRIVAL_SPEED: f32 = 0.8;
 /// Speed of a ball that is followed, m/s.
 const ROLLING: f32 = 0.5;
 /// Distance behind it, m.
 const FOLLOWING_DISTANCE: f32 = 0.35;
-/// Distance from the goal line at which the kicker shoots at the latest, m.
-const SHOOTING_DISTANCE: f32 = 3.55;
 /// Likelihood of a goal from which it shoots at once.
 const GOOD_SHOT: f32 = 0.5;
 /// Time after which it shoots from anywhere, s; it has 10.
 const PATIENCE: f32 = 7.0;
+/// Place of a corner, as a share of half the width of the goal: at best, and for a kicker that aims badly.
+const CORNER: [f32; 2] = [0.92, 0.7];
+/// Standard deviations of the kick's direction that a corner leaves to the post.
+const CORNER_ROOM: f32 = 2.0;
+/// Margin by which the other corner has to be better until the kicker turns to it, m.
+const LOYALTY: f32 = 0.1;
+/// Margin up to which two corners are alike, m.
+const TIE: f32 = 0.01;
+/// Sine of the error of direction within which it shoots.
+const SHOT_SINE: f32 = 0.01;
+/// Purpose of the random number that chooses between corners.
+const CORNER_DRAW: u32 = 2;
 
 /// Order of the kicker.
 pub(crate) fn kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
@@ -45,20 +58,54 @@ pub(crate) fn kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Or
     if !possession::controls(s, robot) {
         return approach::take(s, robot, s.own.of(robot.index).unwrap_or_default(), goal);
     }
-    let shot = aim::shot(s, ball);
+    let shot = corner(s, memory, robot);
     let shoots = is_near || shot.value > GOOD_SHOT || s.command_time > PATIENCE;
     let chosen = if shoots { shot } else { ahead(s) };
     let kick = aim::with_error(s, chosen, ball, robot.index);
     let mut order = possession::turn(s, robot, kick.at - ball);
-    kicking::release(s, memory, robot, &kick, &mut order);
+    kicking::release_within(s, memory, robot, &kick, SHOT_SINE, &mut order);
     order
 }
 
 /// The kick that the kicker follows.
 fn ahead(s: &Situation) -> Kick {
-    let goal = (s.pitch.their_goal() - s.ball()).unit_or(Vector::new(1.0, 0.0));
-    let speed = rolling::kick_speed(WAY, ARRIVAL_SPEED, &s.config.ball);
-    Kick { at: s.ball() + goal * WAY, speed, chip: false, receiver: None, value: 0.0 }
+    let way = s.pitch.their_goal() - s.ball();
+    let length = (way.length() - SHOOTING_DISTANCE).max(MIN_WAY);
+    let at = s.ball() + way.unit_or(Vector::new(1.0, 0.0)) * length;
+    let speed = rolling::kick_speed(length, ARRIVAL_SPEED, &s.config.ball);
+    Kick { at, speed, chip: false, receiver: None, value: 0.0 }
+}
+
+/// The shot into the corner that the keeper reaches last. The kicker keeps to a corner, since it turns while the
+/// keeper moves.
+fn corner(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Kick {
+    let ball = s.ball();
+    let goal = s.pitch.their_goal();
+    let half = s.pitch.lines.half_goal_width - s.config.ball.radius;
+    let error = CORNER_ROOM * s.skill.aim_error * (goal.x - ball.x) / half;
+    let share = (1.0 - error).clamp(CORNER[1], CORNER[0]);
+    let places = [share * half, -share * half].map(|y| Vector::new(goal.x, y));
+    let margins = places.map(|end| {
+        let lane = Lane { start: ball, end, speed: MAX_BALL_SPEED, flies: 0.0 };
+        margin(&lane, &s.view.others, s.body())
+    });
+    let is_known = memory.aimer == Some(robot.index);
+    // A keeper in the middle leaves both corners alike: then the seed decides.
+    let (side, lead) = if is_known {
+        (memory.aim.y, LOYALTY)
+    } else {
+        (s.random.uniform(robot.index, CORNER_DRAW), TIE)
+    };
+    let lead = lead.copysign(side);
+    let nth = usize::from(margins[0] + lead < margins[1]);
+    (memory.aimer, memory.aim) = (Some(robot.index), places[nth]);
+    Kick {
+        at: places[nth],
+        speed: MAX_BALL_SPEED,
+        chip: false,
+        receiver: None,
+        value: chance(margins[nth]),
+    }
 }
 
 #[cfg(test)]
@@ -70,24 +117,54 @@ mod tests {
     const PENALTY: Phase =
         Phase { mode: Mode::Kick, restart: Restart::Penalty, ours: true, kicks_next: false };
 
-    /// A kicker with the ball in its mouth.
-    fn order(x: f32, in_play: bool) -> Order {
-        let mut scene = Scene::new(1, 0);
+    /// A kicker with the ball in its mouth, and a keeper.
+    fn scene(x: f32, keeper: [f32; 2]) -> Scene {
+        let mut scene = Scene::new(1, 1);
         scene.ball([x, 0.0], [0.0, 0.0]);
         scene.robot(0, [x - 0.093, 0.0]);
         scene.set(0, "infrared", 1.0);
-        let mut memory = TeamMemory::new(1);
+        scene.robot(1, keeper);
+        scene
+    }
+
+    fn order(scene: &Scene, memory: &mut TeamMemory, in_play: bool) -> Order {
         scene.situation(PENALTY, |s| {
             let s = Situation { in_play, command_time: 3.0, path: s.path.clone(), ..*s };
-            kick(&s, &mut memory, &s.view.own[0])
+            kick(&s, memory, &s.view.own[0])
         })
     }
 
     #[test]
-    fn the_first_kick_is_one_that_the_kicker_follows_and_the_last_a_shot() {
-        let first = order(-1.5, false);
+    fn the_first_kick_is_one_that_the_kicker_follows() {
+        let first = order(&scene(-1.5, [4.4, 0.0]), &mut TeamMemory::new(1), false);
         assert!((1.0..4.0).contains(&first.kick[0]), "{first:?}");
-        let last = order(2.4, true);
-        assert!(last.kick[0] > 5.0, "{last:?}");
+    }
+
+    #[test]
+    fn the_shot_goes_into_the_corner_away_from_the_keeper() {
+        for aside in [-0.2, 0.2] {
+            let mut memory = TeamMemory::new(1);
+            let mut scene = scene(2.4, [4.0, aside]);
+            let turning = order(&scene, &mut memory, true);
+            assert!(turning.kick[0] <= 0.0, "it faces the keeper: {turning:?}");
+            let ahead = turning.facing.unit_or(Vector::default());
+            let y = 2.1 * ahead.y / ahead.x;
+            assert!(y * aside < 0.0 && (0.35..0.48).contains(&y.abs()), "{aside}: {y}");
+            scene.robot(0, [2.4 - 0.093 * ahead.x, -0.093 * ahead.y]);
+            scene.set(0, "infrared", 1.0);
+            scene.set(0, "cos", ahead.x);
+            scene.set(0, "sin", ahead.y);
+            let shot = order(&scene, &mut memory, true);
+            assert!(shot.kick[0] > 5.0, "{shot:?}");
+        }
+    }
+
+    #[test]
+    fn a_kicker_keeps_to_its_corner_while_the_keeper_moves_a_little() {
+        let mut memory = TeamMemory::new(1);
+        let mut side = |y: f32| order(&scene(2.4, [4.0, y]), &mut memory, true).facing.y;
+        assert!(side(0.2) < 0.0);
+        assert!(side(-0.01) < 0.0, "it turns there already");
+        assert!(side(-0.2) > 0.0, "this corner is free now");
     }
 }

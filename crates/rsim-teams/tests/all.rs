@@ -2,5 +2,6 @@
 
 mod arena;
 mod matches;
+mod penalties;
 mod restarts;
 mod saves;

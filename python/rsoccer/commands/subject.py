@@ -10,7 +10,7 @@ from tyro.conf import arg
 
 from rsoccer import policies, registry
 from rsoccer.commands.task_options import named_task
-from rsoccer.human.teams import SCRIPTS
+from rsoccer.human.teams import script_of
 from rsoccer.lineup import DEFAULT_TASK, task_for
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import SUFFIX
@@ -92,7 +92,7 @@ def _default_policy(task: Task) -> str:
     try:
         trained.load_best(task)
     except ValueError:
-        return SCRIPTS[task.config.robots[0].drive]
+        return script_of(task)
     return trained.BEST
 
 

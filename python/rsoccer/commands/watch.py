@@ -25,16 +25,19 @@ from rsoccer.commands.subject import (
 )
 from rsoccer.commands.task_options import TASK_OPTIONS
 from rsoccer.controllers import Controller
+from rsoccer.human.teams import script_of
 from rsoccer.lineup import lineup, opponents_of
 from rsoccer.render.video import VIDEO_SUFFIXES
 from rsoccer.replay.recorder import record_replay
 from rsoccer.replay.replay import SUFFIX, Replay
 from rsoccer.task import Task
+from rsoccer.tasks.match import Match
 
 if TYPE_CHECKING:
     from rsoccer.render.image import Image
 
 
+_OPPONENTS_HINT: Final = f"{DEFAULT_OPPONENT_HINT[:-1]}; scripted in whole matches)"
 _OF_MATCHES: Final = (
     *("policy", "opponents", "task", "task_options", "snapshots"),
     *("simulator", "sensing", "randomization"),
@@ -50,9 +53,9 @@ class Watch(Sources, Imports):
     """policy in the place of the learners, the task, or a replay to play"""
     policy: Annotated[str | None, POLICY] = None
     """policy in the place of the learners, after a task"""
-    opponents: Annotated[
-        str | None, arg(metavar="POLICY", help_behavior_hint=DEFAULT_OPPONENT_HINT)
-    ] = None
+    opponents: Annotated[str | None, arg(metavar="POLICY", help_behavior_hint=_OPPONENTS_HINT)] = (
+        None
+    )
     """policy of the yellow team, a name or path, against the policy in blue"""
     task: Annotated[str | None, arg(metavar="TASK", help_behavior_hint=DEFAULT_TASK_HINT)] = None
     """task to play"""
@@ -158,9 +161,12 @@ class Watch(Sources, Imports):
         """The task, the controllers, and the names of the teams."""
         check_policy_names([self.opponents])
         policy, task = policy_and_task(self.subject, self.policy, self.task, self.task_options)
-        opponents = opponents_of(task) if self.opponents is None else [self.opponents]
+        opponent = self.opponents
+        if opponent is None and isinstance(task, Match):
+            opponent = script_of(task)  # noise under a referee is not worth watching
+        opponents = opponents_of(task) if opponent is None else [opponent]
         names = (team_name(policy), " ".join(map(team_name, opponents)))
-        return task, lineup(task, policy, self.opponents), names
+        return task, lineup(task, policy, opponent), names
 
     def _show(self, title: str, images: Iterator[Image], fps: float) -> None:
         """Write images to the video file, or show them in a window."""

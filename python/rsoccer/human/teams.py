@@ -7,9 +7,21 @@ from typing import Final
 from rsoccer.controllers import Controller
 from rsoccer.frame import team_of
 from rsoccer.task import Learn, Task
+from rsoccer.tasks.match import Match
 
 SCRIPTS: Final = {"differential": "scripted", "omni": "strike"}
 """Scripts that play in the place of learners, by the drive of the robots."""
+MATCH_SCRIPT: Final = "scripted"
+"""Script of whole matches, which obeys the referee."""
+
+
+def script_of(task: Task) -> str:
+    """Return the name of the script that plays in the place of a task's learners.
+
+    Args:
+        task: the task that is played.
+    """
+    return MATCH_SCRIPT if isinstance(task, Match) else SCRIPTS[task.config.robots[0].drive]
 
 
 def team_controllers(
@@ -21,9 +33,9 @@ def team_controllers(
         task: the task that is played.
         robot: name of the driven robot.
         policy: policy of the learners in its team, itself included while the person drives
-            another one; by default one of `SCRIPTS`.
-        opponent: policy of the other team; by default the task's own, and one of `SCRIPTS` for
-            its learners.
+            another one; by default that of `script_of`.
+        opponent: policy of the other team; by default the task's own, and that of `script_of`
+            for its learners.
 
     Returns:
         Policies by robot name.
@@ -36,7 +48,7 @@ def team_controllers(
     others = [name for name in task.robots if team_of(name) != team_of(robot)]
     if opponent is not None and not others:
         raise ValueError(f"opponent: {task.name} has one team only, so it has no opponent")
-    script = SCRIPTS[task.config.robots[0].drive]
+    script = script_of(task)
     defaults: dict[str, Controller] = {
         name: script if isinstance(default, Learn) else default
         for name, default in task.default_controllers().items()

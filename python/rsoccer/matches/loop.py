@@ -192,7 +192,9 @@ class Matches:
         self._consistency = Consistency()
         config = self.task.config.with_sensing(simulated(self._sensing))
         self._simulator = make_simulator(simulator, config, worlds, self._threads)
-        self._is_own_simulator = isinstance(self._simulator, Simulator)
+        self._is_own_simulator = isinstance(
+            getattr(self._simulator, "__wrapped__", self._simulator), Simulator
+        )
         try:
             self._starts = Starts(self._simulator)
             self.play.senses = self._new_senses(self.play.frame, root.split("senses"))

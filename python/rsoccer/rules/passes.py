@@ -105,5 +105,6 @@ class Passes(Rule):
 
 def _squared(vectors: Floats) -> Floats:
     """(n,) squared lengths of vectors (n, 2)."""
-    squared: Floats = (vectors * vectors).sum(axis=1)
+    x, y = vectors[:, 0], vectors[:, 1]
+    squared: Floats = x * x + y * y
     return squared

@@ -27,6 +27,9 @@ GAME_BLOCK: Final = "game"
 GAME_LIMIT: Final = 3.0
 """Bound of that block: times up to 30 s, in units of 10 s."""
 TEAMS: Final = ("blue", "yellow")
+_COUNTED: Final = "goals shots passes possession distance fouls yellow_cards red_cards"
+_TEAM_METRICS: Final = tuple(f"{team}_{name}" for name in _COUNTED.split() for team in TEAMS)
+"""Metrics that both teams have, in the order of `Match.metrics`."""
 
 
 @dataclass(frozen=True)
@@ -208,24 +211,24 @@ class Match(Soccer):
         """Compute the metrics of the class's documentation, each (n,)."""
         game = play.game
         in_play = game.in_play_steps
-        named = {"goal_score": rewards.goal_score(play)}
-        parts = {
-            "goals": game.score,
-            "shots": game.shots,
-            "passes": game.passes,
-            "possession": game.possession_steps / np.maximum(in_play, 1.0)[:, None],
-            "distance": game.distance,
-            "fouls": game.offenses.reshape(len(in_play), len(TEAMS), -1).sum(axis=2),
-            "yellow_cards": game.yellow_cards,
-            "red_cards": game.red_cards,
-        }
-        table = np.empty((len(parts), len(TEAMS), len(in_play)), np.float32)
-        for row, (name, values) in zip(table, parts.items(), strict=True):
+        of_teams = (
+            game.score,
+            game.shots,
+            game.passes,
+            game.possession_steps / np.maximum(in_play, 1.0)[:, None],
+            game.distance,
+            game.offenses.reshape(len(in_play), len(TEAMS), -1).sum(axis=2),
+            game.yellow_cards,
+            game.red_cards,
+        )
+        table = np.empty((len(of_teams), len(TEAMS), len(in_play)), np.float32)
+        for row, values in zip(table, of_teams, strict=True):
             row[:] = values.T
-            for team_name, of_team in zip(TEAMS, row, strict=True):
-                named[f"{team_name}_{name}"] = of_team
-        named["in_play"] = in_play * np.float32(self.config.time_step)
-        return named
+        return {
+            "goal_score": rewards.goal_score(play),
+            **dict(zip(_TEAM_METRICS, table.reshape(-1, len(in_play)), strict=True)),
+            "in_play": in_play * np.float32(self.config.time_step),
+        }
 
     def offenses(self, play: Play) -> dict[str, Array]:
         """Return the offenses since the match began, by kind.

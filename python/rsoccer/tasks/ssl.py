@@ -50,6 +50,7 @@ DISCRETE_ACTIONS_WITH_CHIP: Final = np.concatenate(
 """(13, 6) the same with flat kicks, and chip at rest."""
 
 
+_CHIP_COSINE, _CHIP_SINE = np.float32(math.cos(CHIP_ANGLE)), np.float32(math.sin(CHIP_ANGLE))
 _KICK, _CHIP_SWITCH = 3, 5  # indices in an action
 _KICK_ALONG, _KICK_UP = (COMMAND_COLUMNS["omni"].index(f"kick_v_{axis}") for axis in "xz")
 
@@ -167,9 +168,10 @@ class Ssl(Soccer):
         flat = np.ascontiguousarray(actions[..., :_CHIP_SWITCH])
         commands = self._steering.commands(flat, play.sensed.rows, play.threads)
         chips = actions[..., _CHIP_SWITCH] > 0.0
-        speed = np.maximum(actions[chips, _KICK], 0.0) * self.chip_scale
-        commands[chips, _KICK_ALONG] = speed * np.float32(math.cos(CHIP_ANGLE))
-        commands[chips, _KICK_UP] = speed * np.float32(math.sin(CHIP_ANGLE))
+        speed = np.maximum(actions[..., _KICK], 0.0) * self.chip_scale
+        along, up = speed * _CHIP_COSINE, speed * _CHIP_SINE
+        np.copyto(commands[..., _KICK_ALONG], along, where=chips)
+        np.copyto(commands[..., _KICK_UP], up, where=chips)
         return commands
 
     def is_off_field(self, positions: Floats) -> Mask:

@@ -78,6 +78,7 @@ class TimedSimulator:
             simulator: moves the robots.
             clock: measures the time of its methods.
         """
+        self.__wrapped__ = simulator
         for name in METHODS:
             if (method := getattr(simulator, name, None)) is not None:
                 setattr(self, name, _timed(method, clock))

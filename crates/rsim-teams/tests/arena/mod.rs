@@ -11,7 +11,7 @@ use rsim_referee::game::Game;
 use rsim_referee::pitch::Pitch;
 use rsim_referee::sight::Layout;
 use rsim_referee::statistics::{OFFENSES, Statistics};
-use rsim_referee::{Decisions, Lines, Referee, Team};
+use rsim_referee::{Decisions, Lines, Referee, Team, Vector};
 use rsim_teams::{BallNumbers, COMMAND_COLUMNS, RobotNumbers, ScriptedTeam, TeamConfig};
 
 /// Control steps after which a match is broken off, in case its last half never ends.
@@ -115,6 +115,11 @@ impl Arena {
             sides,
             memories,
         }
+    }
+
+    /// Place of a team's penalty kick, m.
+    pub(crate) fn penalty_mark(&self, team: Team) -> Vector {
+        lines(&self.config).penalty_mark(team)
     }
 
     /// Puts a robot at a place (m), at rest.

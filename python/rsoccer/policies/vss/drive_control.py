@@ -92,7 +92,9 @@ class DriveController:
         ahead, left = ahead * scale, left * scale
         # The larger the heading error, the slower the robot drives: it turns first.
         # Backwards is as good as forwards.
-        forward, turn = speed * ahead * np.abs(ahead), left * np.sign(ahead) * near * TURN_GAIN
+        # A target straight to the side is ahead, too: without a side the robot would never turn.
+        side = np.copysign(np.float32(1.0), ahead)
+        forward, turn = speed * ahead * np.abs(ahead), left * side * near * TURN_GAIN
         turns = target.turn != 0.0
         forward = np.where(turns, np.float32(0.0), forward)
         return forward, np.where(turns, target.turn, turn - ego.angular_velocity * self._damping)

@@ -5,7 +5,8 @@ from typing import Final
 import numpy as np
 
 from rsoccer.arrays import Array, Floats
-from rsoccer.policies.base import Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.base import MatchState, Memory, Observes, Policy, PolicyInput
+from rsoccer.policies.vss import penalty
 from rsoccer.policies.vss.drive_control import (
     DriveController,
     DriveTarget,
@@ -23,6 +24,7 @@ from rsoccer.view import View
 MIN_SPEED: Final = 0.03  # wheel speed, 1 is full speed, at skill 0: about as strong as `ou`
 KEEPER_LOYALTY: Final = np.float32(0.5)  # `HYSTERESIS` of a keeper under a referee: only it may be
 # in the goal area, so that another one has to wait until it has left
+TURN: Final = DriveTarget._fields.index("turn")
 MAX_DELAY: Final = 0.275  # s added between two decisions at skill 0
 
 
@@ -70,12 +72,14 @@ class Scripted(Policy):
         | `targets` | (n, robots, 4) | current `DriveTarget` |
         | `delay` | (n,) | control steps until the next decision |
         | `slow_steps` | (n, robots) | counters of `back_off` |
+        | `kick` | (n, robots) | stage of a penalty kick, with the sign of y of its corner |
         """
         return {
             "roles": np.full((*shape[:2], self._team_size), NONE, np.int8),
             "targets": np.zeros((*shape[:2], len(DriveTarget._fields)), np.float32),
             "delay": np.zeros(shape[0], np.int64),
             "slow_steps": np.zeros(shape[:2], np.int64),
+            "kick": np.full(shape[:2], penalty.NONE, np.int8),
         }
 
     def act(self, inputs: PolicyInput, rng: WorldRng, memory: Memory) -> Floats:
@@ -86,6 +90,8 @@ class Scripted(Policy):
         assign_roles(self._field, view, memory["roles"], loyalty)
         ego_roles = memory["roles"][:, :, 0].copy()
         new_targets = np.stack(self._targets(view, ego_roles, is_judged), axis=-1)
+        if match is not None and is_judged:
+            self._follow_penalty(match, view, ego_roles, memory["kick"], rng, new_targets)
         targets, delay = memory["targets"], memory["delay"]
         decides = delay == 0
         targets[decides] = new_targets[decides]
@@ -96,6 +102,27 @@ class Scripted(Policy):
         if match is not None and is_judged:
             wait(~may_play(match, ego_roles, self._n_blue), memory, actions)
         return actions
+
+    def _follow_penalty(
+        self,
+        match: MatchState,
+        view: View,
+        roles: Array,
+        stage: Array,
+        rng: WorldRng,
+        targets: Floats,
+    ) -> None:
+        """Replace targets (n, robots, 4) of the kicker and of the keeper at penalty kicks."""
+        kicking = penalty.kicks(match, roles, self._n_blue)
+        waiting = penalty.awaits(match, view, roles, self._n_blue)
+        if not (kicking | waiting).any():
+            stage[:] = penalty.NONE
+            return
+        penalty.choose_corner(self._field, view, kicking, stage, rng)
+        kick = np.stack(penalty.kick_target(self._field, view, stage), axis=-1)
+        targets[kicking] = kick[kicking]
+        turns = penalty.waiting_turn(view)
+        targets[waiting, TURN] = turns[waiting]
 
     def _targets(self, view: View, roles: Array, is_judged: bool) -> DriveTarget:
         """Motion targets by roles; under a referee they keep to the rules of the areas."""
