@@ -10,7 +10,8 @@
 //!
 //! The crate also computes the features that tasks need for every robot in every step: a
 //! [`Viewpoint`] turns rows into the view of each robot, [`EgoFeatures`] scale a view for a network,
-//! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands.
+//! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands. [`streams`] are random numbers
+//! of many worlds.
 #![forbid(unsafe_code)]
 
 mod ball;
@@ -28,6 +29,7 @@ mod models;
 pub mod scenes;
 mod senses;
 mod state;
+pub mod streams;
 mod threads;
 mod tick;
 mod world;
