@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use numpy::{Element, Ix1, PyArray2, PyArrayMethods, PyReadonlyArray, ndarray::Array2};
+use numpy::{Element, Ix1, PyArray2, PyReadonlyArray, ndarray::Array2};
 use pyo3::prelude::*;
 use rsim_core::streams::{unit, units, words};
 

@@ -27,12 +27,7 @@ struct BlockReach {
 
 impl BlockReach {
     fn of(center: VectorLanes, radius: Lanes, speed: Lanes) -> Self {
-        Self {
-            x: Cycle::of(center.x),
-            y: Cycle::of(center.y),
-            radius: Cycle::of(radius),
-            speed,
-        }
+        Self { x: Cycle::of(center.x), y: Cycle::of(center.y), radius: Cycle::of(radius), speed }
     }
 
     fn center(&self, lane: usize) -> Vector {
