@@ -1,6 +1,9 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
+from rsoccer import _core
 from rsoccer.rng import WorldRng
 from tests.helpers import same
 
@@ -111,3 +114,27 @@ def test_a_foreign_state_is_refused(state: np.ndarray) -> None:
 
 def test_seeds_wrap_around() -> None:
     assert WorldRng.seeded(2**64 - 1, 2).state[1] == WorldRng.seeded(0, 1).state[0]
+
+
+def test_numbers_are_those_of_array_operations_on_the_words() -> None:
+    words = WorldRng.seeded(3, 50)._words(4)
+    unit = (words >> np.uint64(40)).astype(np.float32) * np.float32(2.0**-24)
+    expected = np.float32(-2.5) + np.float32(3.7) * unit
+    assert same(WorldRng.seeded(3, 50).uniform(-2.5, 1.2, (4,)), expected)
+    low = ((words >> np.uint64(8)) & np.uint64(0xFFFFFF)).astype(np.float32)
+    angle = np.float32(2.0 * np.pi) * (low * np.float32(2.0**-24))
+    radius = np.sqrt(np.float32(-2.0) * np.log(unit + np.float32(2.0**-24)))
+    expected = np.concatenate([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    assert same(WorldRng.seeded(3, 50).normal((8,)), expected)
+    assert same(WorldRng.seeded(3, 50).normal((7,)), expected[:, :7])
+
+
+@pytest.mark.parametrize("states", [[1, 2], np.zeros(2, np.int64), np.zeros((2, 2), np.uint64)])
+def test_foreign_states_are_refused_by_the_core(states: Any) -> None:  # noqa: ANN401  (bad input)
+    for draw in (
+        lambda: _core.random_words(states, 1),
+        lambda: _core.uniform(states, 1, 0.0, 1.0),
+        lambda: _core.normal_inputs(states, 1),
+    ):
+        with pytest.raises((TypeError, ValueError), match="states must"):
+            draw()

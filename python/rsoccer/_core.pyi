@@ -52,11 +52,14 @@ __all__ = [
     "clip_in_place",
     "mean_action_magnitude",
     "nearest_to_ball",
+    "normal_inputs",
     "normalized",
     "pooled_moments",
+    "random_words",
     "referee_preset",
     "referee_rules",
     "referee_values",
+    "uniform",
 ]
 
 COMMANDS: dict[str, int]
@@ -2026,4 +2029,56 @@ def referee_values() -> list[list[str]]:
 
     Returns:
         For each value its name, its unit (empty for a choice), and its meaning.
+    """
+
+def random_words(states: NDArray[np.uint64], count: int) -> NDArray[np.uint64]:
+    """Return the next words of random streams (SplitMix64), which do not advance.
+
+    Args:
+        states: State of each stream (n,), uint64.
+        count: Number of words of each stream.
+
+    Returns:
+        Words (n, count), uint64, a new array.
+
+    Raises:
+        TypeError: `states` is not an array of uint64.
+        ValueError: `states` has another number of axes.
+    """
+
+def uniform(
+    states: NDArray[np.uint64], count: int, low: float, width: float
+) -> NDArray[np.float32]:
+    """Return uniform numbers of random streams, which do not advance.
+
+    Args:
+        states: State of each stream (n,), uint64.
+        count: Number of numbers of each stream, each of one word.
+        low: Lower bound, included.
+        width: Upper bound, excluded except by rounding, minus the lower one.
+
+    Returns:
+        Numbers (n, count), float32 with 24 random bits each, a new array.
+
+    Raises:
+        TypeError: `states` is not an array of uint64.
+        ValueError: `states` has another number of axes.
+    """
+
+def normal_inputs(
+    states: NDArray[np.uint64], count: int
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return inputs of the Box-Muller transform of random streams, which do not advance.
+
+    Args:
+        states: State of each stream (n,), uint64.
+        count: Number of words of each stream, of which each gives two normal numbers.
+
+    Returns:
+        Numbers (n, count) above 0 and up to 1 for the logarithm, and angles (n, count) from 0 to
+        below 2 pi, rad, both float32 and new arrays.
+
+    Raises:
+        TypeError: `states` is not an array of uint64.
+        ValueError: `states` has another number of axes.
     """

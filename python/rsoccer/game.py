@@ -215,6 +215,9 @@ class NamedArrays(Mapping[str, Array]):
     def __getattr__(self, name: str) -> Array:
         raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {list(self)}")
 
+    def __contains__(self, name: object) -> bool:
+        return name in self.__dict__  # `Mapping`'s own raises and catches an error
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.__dict__)
 

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from rsoccer import _core
 from rsoccer.arrays import Floats, Mask
 
 Words = NDArray[np.uint64]
@@ -22,8 +23,7 @@ Seeds = list[int | None]
 _WORD: Final = 2**64
 _GOLDEN: Final = 0x9E3779B97F4A7C15  # 2**64 / golden ratio, odd
 _STRIDE: Final = np.uint64(_GOLDEN)
-_UNIT: Final = np.float32(2.0**-24)  # float32 holds 24 bits exactly
-_TURN: Final = np.float32(2.0 * math.pi)
+_BOX_MULLER: Final = np.float32(-2.0)
 
 
 class WorldRng:
@@ -105,9 +105,9 @@ class WorldRng:
         Returns:
             (n, *shape) float32 with 24 random bits each.
         """
-        words = self._words(math.prod(shape))
-        unit = (words >> np.uint64(40)).astype(np.float32) * _UNIT
-        drawn = np.float32(low) + np.float32(high - low) * unit
+        count = math.prod(shape)
+        drawn = _core.uniform(self._state, count, low, high - low)
+        self._advance(count)
         return drawn.reshape(len(self), *shape)
 
     def normal(self, shape: tuple[int, ...] = ()) -> Floats:
@@ -121,13 +121,15 @@ class WorldRng:
             (n, *shape) float32.
         """
         count = math.prod(shape)
-        words = self._words((count + 1) // 2)
-        # Never 0, so the logarithm is finite.
-        high = ((words >> np.uint64(40)).astype(np.float32) + np.float32(1.0)) * _UNIT
-        low = ((words >> np.uint64(8)) & np.uint64(0xFFFFFF)).astype(np.float32) * _UNIT
-        radius = np.sqrt(np.float32(-2.0) * np.log(high))
-        angle = _TURN * low
-        drawn = np.concatenate([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+        pairs = (count + 1) // 2
+        radius, angle = _core.normal_inputs(self._state, pairs)
+        self._advance(pairs)
+        np.log(radius, out=radius)  # of numbers above 0
+        radius *= _BOX_MULLER
+        np.sqrt(radius, out=radius)
+        drawn = np.empty((len(self), 2 * pairs), np.float32)
+        np.multiply(radius, np.cos(angle), out=drawn[:, :pairs])
+        np.multiply(radius, np.sin(angle, out=angle), out=drawn[:, pairs:])
         return np.ascontiguousarray(drawn[:, :count]).reshape(len(self), *shape)
 
     def integers(self, high: int, shape: tuple[int, ...] = ()) -> NDArray[np.int64]:
@@ -167,10 +169,13 @@ class WorldRng:
 
     def _words(self, count: int) -> Words:
         """Draw (n, count) random words; each stream advances by `count`."""
-        steps = np.arange(1, count + 1, dtype=np.uint64) * _STRIDE
-        words = _mixed(self._state[:, None] + steps)
-        self._state = self._state + np.uint64(count * _GOLDEN % _WORD)
+        words = _core.random_words(self._state, count)
+        self._advance(count)
         return words
+
+    def _advance(self, count: int) -> None:
+        """Advance each stream by some words."""
+        self._state = self._state + np.uint64(count * _GOLDEN % _WORD)
 
 
 def next_streams(

@@ -123,6 +123,20 @@ impl Undisturbed {
     }
 }
 
+/// The maximum of the robots' speeds, m/s, and that of their accelerations, m/s².
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FastestRobot {
+    speed: f32,
+    acceleration: f32,
+}
+
+impl FastestRobot {
+    /// Bound of the speeds of robots within `time` (s) without contacts, m/s.
+    pub(crate) fn within(self, time: f32) -> f32 {
+        self.speed + self.acceleration * time
+    }
+}
+
 /// Sub-steps of a tick.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SubSteps {
@@ -251,8 +265,8 @@ impl Bodies {
         self.ball_mass * parameters.inverse(BALL).mass > 1.0 + f32::EPSILON
     }
 
-    /// Bound of the speeds of robots within `time` (s) without contacts, m/s.
-    pub(crate) fn fastest_robot(&self, time: f32) -> f32 {
+    /// The maximum of the robots' speeds, and that of their accelerations.
+    pub(crate) fn fastest_robot(&self) -> FastestRobot {
         let (mut speed, mut gain) = (Lanes::ZERO, Lanes::ZERO);
         for (index, BodyBlock { motion, acceleration, .. }) in self.blocks.iter().enumerate() {
             let speeds = motion.velocity.length_squared();
@@ -260,8 +274,11 @@ impl Bodies {
             speed = larger(speed, speeds);
             gain = larger(gain, acceleration.linear.length_squared());
         }
-        let most = |squares: Lanes| squares.as_array().iter().fold(0.0, |a: f32, b| a.max(*b));
-        most(speed).sqrt() + most(gain).sqrt() * time
+        let most = |squares: Lanes| {
+            let squares = squares.to_array().into_iter();
+            squares.fold(0.0, |most, square| if square > most { square } else { most })
+        };
+        FastestRobot { speed: most(speed).sqrt(), acceleration: most(gain).sqrt() }
     }
 
     /// Indices of the robots whose surrounding circle is nearer than `gap` (m) to that of the ball.

@@ -11,7 +11,7 @@
 //! The crate also computes the features that tasks need for every robot in every step: a
 //! [`Viewpoint`] turns rows into the view of each robot, [`EgoFeatures`] scale a view for a network,
 //! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands. A [`Forecaster`] runs the physics from what is
-//! known of the past to the time at which the next commands act.
+//! known of the past to the time at which the next commands act. [`streams`] are random numbers of many worlds.
 #![forbid(unsafe_code)]
 
 mod ball;
@@ -30,6 +30,7 @@ mod models;
 pub mod scenes;
 mod senses;
 mod state;
+pub mod streams;
 mod threads;
 mod tick;
 mod world;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Modules from the lowest layer to the highest: a folder or file of `src`. Modules of one layer do not
 /// use each other.
 const LAYERS: &[&[&str]] = &[
-    &["math", "columns"],
+    &["math", "columns", "streams"],
     &["blocks"],
     &["error"],
     &["models", "threads"],

@@ -17,6 +17,7 @@ mod scripted_team;
 mod shaping;
 mod simulator;
 mod steering;
+mod streams;
 mod threads;
 mod viewpoint;
 
@@ -47,6 +48,8 @@ mod _core {
     use crate::simulator::Simulator;
     #[pymodule_export]
     use crate::steering::Steering;
+    #[pymodule_export]
+    use crate::streams::{normal_inputs, random_words, uniform};
     #[pymodule_export]
     use crate::threads::Threads;
     #[pymodule_export]

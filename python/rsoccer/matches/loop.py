@@ -446,7 +446,7 @@ class Matches:
         play, all_actions = self.play, actions
         if self.assignment.groups:
             all_actions = np.empty_like(play.actions)
-            all_actions[:, self.assignment.learners] = actions
+            all_actions[:, self.assignment.written] = actions
         for group in self.assignment.groups:
             group.act(play, self._observations, all_actions)
         commands = self.task.get_commands(play, all_actions)

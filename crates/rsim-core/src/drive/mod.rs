@@ -236,12 +236,18 @@ impl DriveState {
         commands: &BlockCommands,
         motion: &MotionBlock,
     ) -> BlockAcceleration {
+        // Only omnidirectional robots have one.
+        let has_change = wheels.omni.is_some() || wheels.each_omni.is_some();
         let own = OwnMotion {
             velocity: motion.velocity.seen_from(motion.heading),
             angular_velocity: motion.angular_velocity,
             load: self.load.seen_from(motion.heading),
             angular_load: self.angular_load,
-            last_change: self.change.seen_from(motion.heading),
+            last_change: if has_change {
+                self.change.seen_from(motion.heading)
+            } else {
+                VectorLanes::ZERO
+            },
         };
         let BlockCommands(command) = commands;
         let mut effect = WheelEffect::NONE;
@@ -257,7 +263,9 @@ impl DriveState {
             effect = wheels.effect(&target, &own).where_else(*mask, &effect);
         }
         let velocity = effect.velocity.rotated_by(motion.heading);
-        self.change = effect.change.rotated_by(motion.heading);
+        if has_change {
+            self.change = effect.change.rotated_by(motion.heading);
+        }
         self.expected_velocity = motion.velocity + velocity;
         self.expected_angular_velocity = motion.angular_velocity + effect.angular_velocity;
         let per_second = Lanes::splat(wheels.ticks_per_second);

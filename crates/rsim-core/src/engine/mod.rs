@@ -16,7 +16,7 @@ mod shapes;
 
 use serde::{Deserialize, Serialize};
 
-use crate::bodies::{Bodies, SubSteps, Undisturbed};
+use crate::bodies::{Bodies, FastestRobot, SubSteps, Undisturbed};
 use crate::body_parameters::BodyParameters;
 use crate::geometry::arena::Wall;
 use crate::geometry::free_space::FreeSpace;
@@ -129,13 +129,14 @@ impl Engine {
     }
 
     /// Advances all bodies by a tick, or by the part of it that `rules` names, and writes its contacts
-    /// into `scratch`.
+    /// into `scratch`. `fastest` is that of the robots of `bodies`.
     pub(crate) fn step(
         &mut self,
         bodies: &mut Bodies,
         scratch: &mut Scratch,
         rules: &BallRules,
         free_space: &FreeSpace,
+        fastest: FastestRobot,
     ) -> Result<(), NonFinite> {
         let may_be_free = self.contact_free_enabled
             && self.is_contact_free
@@ -160,7 +161,7 @@ impl Engine {
                 is_free
             }
             Solver::Compact(solver) => {
-                let search = Search::before_compact(bodies, rules);
+                let search = Search::before_compact(fastest, rules);
                 near.find(bodies, rules, free_space, &search);
                 if near.pairs.is_empty() && self.contact_free_enabled {
                     bodies.move_freely(sub_steps);

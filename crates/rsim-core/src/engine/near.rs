@@ -1,8 +1,8 @@
 //! Pairs of bodies, or of a body and a wall, that can meet in a tick.
 
 use super::{BallPhase, BallRules};
-use crate::blocks::{BALL, LANES, Lanes, VectorLanes, place_of, robot, set_bits};
-use crate::bodies::{Bodies, BodyBlock, SubSteps};
+use crate::blocks::{BALL, LANES, Lanes, VectorLanes, lanes_of, place_of, robot, set_bits};
+use crate::bodies::{Bodies, BodyBlock, FastestRobot, SubSteps};
 use crate::body_parameters::BodyParameters;
 use crate::geometry::free_space::FreeSpace;
 use crate::geometry::motion_block::MotionBlock;
@@ -17,16 +17,49 @@ const MARGIN: f32 = 4e-4;
 /// Circles around all points that the bodies of a block can reach.
 #[derive(Debug, Clone, Copy)]
 struct BlockReach {
-    center: VectorLanes,
-    radius: Lanes,
+    /// Centers (m) and radii (m).
+    x: Cycle,
+    y: Cycle,
+    radius: Cycle,
     /// Maximum speeds, m/s.
     speed: Lanes,
 }
 
 impl BlockReach {
-    /// Radius (m) and maximum speed (m/s) of the body in `lane`.
-    fn get(&self, lane: usize) -> (f32, f32) {
-        (self.radius.as_array()[lane], self.speed.as_array()[lane])
+    fn of(center: VectorLanes, radius: Lanes, speed: Lanes) -> Self {
+        Self { x: Cycle::of(center.x), y: Cycle::of(center.y), radius: Cycle::of(radius), speed }
+    }
+
+    fn center(&self, lane: usize) -> Vector {
+        Vector::new(self.x.get(lane), self.y.get(lane))
+    }
+
+    /// Whether the circle in each lane meets that of `other` which is `shift` lanes further, one bit each.
+    fn meets(&self, other: &Self, shift: usize) -> u32 {
+        let x = self.x.shifted(0) - other.x.shifted(shift);
+        let y = self.y.shifted(0) - other.y.shifted(shift);
+        let both = self.radius.shifted(0) + other.radius.shifted(shift);
+        (x * x + y * y).simd_lt(both * both).to_bitmask()
+    }
+}
+
+/// The numbers of a block, twice in a row, from which the numbers of other lanes are read at once.
+#[derive(Debug, Clone, Copy)]
+struct Cycle([f32; 2 * LANES]);
+
+impl Cycle {
+    fn of(numbers: Lanes) -> Self {
+        let numbers = numbers.to_array();
+        Self(std::array::from_fn(|index| numbers[index % LANES]))
+    }
+
+    fn get(&self, lane: usize) -> f32 {
+        self.0[lane]
+    }
+
+    /// The numbers that lie `shift` lanes further, from 0 to 3.
+    fn shifted(&self, shift: usize) -> Lanes {
+        lanes_of(|lane| self.0[lane + shift])
     }
 }
 
@@ -115,22 +148,32 @@ impl Search {
     }
 
     /// Pairs for the compact solver, which sweeps the ball along its path.
-    pub(super) fn before_compact(bodies: &Bodies, rules: &BallRules) -> Self {
+    pub(super) fn before_compact(fastest: FastestRobot, rules: &BallRules) -> Self {
         Self {
             time: rules.time,
             between: 0.0,
-            speed: Some(bodies.fastest_robot(rules.time)),
+            speed: Some(fastest.within(rules.time)),
             ball_flies: rules.phase == BallPhase::Air,
         }
     }
 }
 
-/// Pairs that can meet, and the buffer of the search.
-#[derive(Default)]
+/// Pairs that can meet, and the buffers of the search.
 pub(super) struct NearPairs {
     reaches: Vec<BlockReach>,
+    /// For each body, those before it that it can meet, one bit each.
+    met: [u64; MAX_BODIES],
     pub(super) pairs: Vec<Pair>,
 }
+
+impl Default for NearPairs {
+    fn default() -> Self {
+        Self { reaches: Vec::new(), met: [0; MAX_BODIES], pairs: Vec::new() }
+    }
+}
+
+/// Maximum number of bodies: one bit each.
+const MAX_BODIES: usize = 64;
 
 impl NearPairs {
     /// Finds all pairs that can meet within the time of `search`.
@@ -145,19 +188,18 @@ impl NearPairs {
         self.pairs.clear();
         let at_walls = self.find_reaches(bodies, parameters, free_space, search);
         let first = if search.ball_flies { robot(0) } else { BALL };
-        for body in first..bodies.len() {
+        let near = (self.find_met() | at_walls) & bodies.all();
+        for body in set_bits(near >> first << first) {
             let (block, lane) = place_of(body);
-            let (radius, speed) = self.reaches[block].get(lane);
-            let center = self.reaches[block].center.get(lane);
-            let met = self.met_before(body, center, radius) >> first << first;
+            let reach = &self.reaches[block];
+            let (center, radius) = (reach.center(lane), reach.radius.get(lane));
+            let speed = reach.speed.as_array()[lane];
             let is_at_wall = at_walls >> body & 1 == 1;
-            if met == 0 && !is_at_wall {
-                continue;
-            }
+            let met = self.met[body] >> first << first;
             let solid = Solid::of(body, parameters);
             for other in set_bits(met) {
                 let (one, margin) = if other == BALL {
-                    let (_, ball_speed) = self.reaches[0].get(BALL);
+                    let ball_speed = self.reaches[0].speed.as_array()[BALL];
                     let margin = margin_of_ball(ball_speed + speed, parameters, search.between);
                     (solid.as_met_by_ball(parameters), margin)
                 } else {
@@ -210,21 +252,37 @@ impl NearPairs {
             }
             let radius = inertia.bounding_radius + speed * time + margin;
             at_walls |= free_space.left_by(motion.position, radius) << (block * LANES);
-            self.reaches.push(BlockReach { center: motion.position, radius, speed });
+            self.reaches.push(BlockReach::of(motion.position, radius, speed));
         }
         at_walls
     }
 
-    /// Bodies before `body` that it can meet if it reaches `radius` (m) around `center`, one bit each.
-    fn met_before(&self, body: usize, center: Vector, radius: f32) -> u64 {
-        let (center, radius) = (VectorLanes::splat(center), Lanes::splat(radius));
-        let mut met = 0;
-        for (block, reach) in self.reaches[..=body / LANES].iter().enumerate() {
-            let both = reach.radius + radius;
-            let near = (reach.center - center).length_squared().simd_lt(both * both);
-            met |= u64::from(near.to_bitmask()) << (block * LANES);
+    /// Finds the bodies that can meet each other, and returns those that can meet one before them, one bit each.
+    fn find_met(&mut self) -> u64 {
+        let Self { reaches, met, .. } = self;
+        met[..reaches.len() * LANES].fill(0);
+        let mut near = 0;
+        let mut add = |block: usize, other: usize, shift: usize, lanes: u32| {
+            for lane in set_bits(u64::from(lanes)) {
+                let one = block * LANES + lane;
+                let other = other * LANES + (lane + shift) % LANES;
+                let (earlier, later) = (one.min(other), one.max(other));
+                met[later] |= 1 << earlier;
+                near |= 1 << later;
+            }
+        };
+        for (block, reach) in reaches.iter().enumerate() {
+            // Two and three lanes on are the same pairs as two and one lanes back.
+            for shift in [1, 2] {
+                add(block, block, shift, reach.meets(reach, shift));
+            }
+            for (before, other) in reaches[..block].iter().enumerate() {
+                for shift in 0..LANES {
+                    add(block, before, shift, reach.meets(other, shift));
+                }
+            }
         }
-        met & ((1 << body) - 1)
+        near
     }
 
     /// Whether all pairs are separated by more than their margins.

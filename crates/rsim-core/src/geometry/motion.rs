@@ -27,14 +27,6 @@ impl Motion {
     pub(crate) fn rotation(&self) -> Rotation {
         rotation(self.heading)
     }
-
-    /// Whether all numbers are finite.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.position.is_finite()
-            && self.heading.is_finite()
-            && self.velocity.is_finite()
-            && self.angular_velocity.is_finite()
-    }
 }
 
 /// The rotation of a heading, given as cosine and sine.

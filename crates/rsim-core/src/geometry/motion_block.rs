@@ -45,6 +45,16 @@ impl MotionBlock {
         self.angular_velocity.as_mut_array()[lane] = motion.angular_velocity;
     }
 
+    /// Whether all numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { position, heading, velocity, angular_velocity } = *self;
+        let vectors = [position, heading, velocity].into_iter();
+        let numbers = vectors.flat_map(|vector| [vector.x, vector.y]).chain([angular_velocity]);
+        // A number minus itself is 0 only if it is finite.
+        let zero = numbers.fold(Lanes::ZERO, |sum, number| sum + (number - number));
+        zero.simd_eq(Lanes::ZERO).all()
+    }
+
     /// Moves the bodies by `count` steps of `time` (s), each with the given changes of velocity (m/s) and
     /// angular velocity (rad/s).
     pub(crate) fn advance(
@@ -70,8 +80,32 @@ impl MotionBlock {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::blocks::LANES;
     use crate::geometry::motion::rotated;
     use crate::math::Vector;
+
+    #[test]
+    fn a_block_is_finite_if_every_number_of_it_is() {
+        assert!(MotionBlock::AT_REST.is_finite());
+        for lane in 0..LANES {
+            for number in [f32::INFINITY, f32::NEG_INFINITY, f32::NAN] {
+                let numbers: [fn(&mut MotionBlock) -> &mut Lanes; 7] = [
+                    |block| &mut block.position.x,
+                    |block| &mut block.position.y,
+                    |block| &mut block.heading.x,
+                    |block| &mut block.heading.y,
+                    |block| &mut block.velocity.x,
+                    |block| &mut block.velocity.y,
+                    |block| &mut block.angular_velocity,
+                ];
+                for of in numbers {
+                    let mut block = MotionBlock::AT_REST;
+                    of(&mut block).as_mut_array()[lane] = number;
+                    assert!(!block.is_finite());
+                }
+            }
+        }
+    }
 
     #[test]
     fn a_body_of_a_block_moves_as_it_would_alone() {

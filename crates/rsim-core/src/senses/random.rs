@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use crate::streams::{STRIDE, mixed};
+
 /// Purpose of random numbers. The numbers of two purposes are independent.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Purpose {
@@ -20,16 +22,6 @@ pub(super) enum Purpose {
 /// The random numbers of one event: those of `SplitMix64` (Steele, Lea and Flood, OOPSLA 2014) from a start
 /// that the match's key, the purpose and the event's number determine.
 pub(super) struct Draws(u64);
-
-/// Odd number next to 2^64 by the golden ratio.
-const STRIDE: u64 = 0x9E37_79B9_7F4A_7C15;
-
-/// Mixes a word, so that every bit depends on every bit of the input.
-fn mixed(word: u64) -> u64 {
-    let word = (word ^ (word >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    word ^ (word >> 31)
-}
 
 impl Draws {
     /// The numbers of event `number` of a purpose, in the match with this key.

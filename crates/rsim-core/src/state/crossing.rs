@@ -26,6 +26,9 @@ impl Crossing {
             return;
         }
         let [half_length, half_width] = [field.half_length(), field.half_width()];
+        if after.x.abs() <= half_length && after.y.abs() <= half_width {
+            return; // in most ticks
+        }
         let ends = crossed(before.x, after.x, half_length).map(|(side, fraction)| {
             let at = before.lerp(after, fraction);
             let in_goal = at.y.abs() < field.goal_width / 2.0 && at.z < field.goal_height;

@@ -86,8 +86,8 @@ impl State {
 
     /// Checks that all numbers are finite: the engine notices only those that it integrates itself.
     pub(crate) fn check_finite(&self) -> Result<(), NonFinite> {
-        let finite = self.ball.is_finite()
-            && (0..self.bodies.len()).all(|body| self.bodies.motion(body).is_finite());
+        let blocks = &self.bodies.blocks;
+        let finite = self.ball.is_finite() && blocks.iter().all(|block| block.motion.is_finite());
         if finite { Ok(()) } else { Err(NonFinite) }
     }
 }

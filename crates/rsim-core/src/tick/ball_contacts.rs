@@ -29,12 +29,12 @@ pub(super) fn resolve(
     now: &mut GroundMotion,
     scratch: &Scratch,
 ) -> bool {
+    if scratch.contacts.ball.is_empty() {
+        return false;
+    }
     let mut contacts = [None; MAX_CONTACTS];
     let found = scratch.contacts.ball.iter().copied();
     contacts.iter_mut().zip(found).for_each(|(slot, contact)| *slot = Some(contact));
-    if contacts[0].is_none() {
-        return false;
-    }
     let model = &parameters.ball;
     let mut sphere = Sphere {
         velocity: now.velocity.extend(0.0),

@@ -11,6 +11,7 @@ mod squeeze;
 
 use crate::ball::rolling::GroundMotion;
 use crate::blocks::{BALL, LANES};
+use crate::bodies::FastestRobot;
 use crate::body_parameters::BodyParameters;
 use crate::engine::{BallPhase, BallRules, NonFinite, RobotContact, Scratch, SqueezedBall};
 use crate::geometry::motion::Motion;
@@ -31,6 +32,16 @@ pub(crate) struct Tick<'a> {
     pub(crate) commands: &'a StepCommands,
 }
 
+/// A part of a tick, or all of it.
+struct Part {
+    /// s.
+    length: f32,
+    /// Whether the ball can be squeezed in it.
+    may_squeeze: bool,
+    /// Of the robots when it begins.
+    fastest: FastestRobot,
+}
+
 /// Speed of the ball or of a surface around it, m/s, above which a squeeze is solved in parts of the
 /// tick. The ball slides along rotating outlines, which one linear prediction for a whole tick misses,
 /// and it may slip out within the tick: jammed for whole ticks, the ball between two SSL robots that
@@ -47,12 +58,19 @@ impl Tick<'_> {
         let length = self.setup.config.tick;
         handling::handle_ball(state, self.parameters, &self.commands.handling, length);
         self.drive_robots(state);
-        let before = state.bodies.motion(BALL).position.extend(state.ball.z);
-        let squeeze = self.squeeze(state, state.bodies.motion(BALL).velocity, length);
-        let is_fast = squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE);
-        let parts = if is_fast { SQUEEZE_PARTS } else { 1 };
-        for _ in 0..parts {
-            self.move_bodies(state, scratch, length / f32::from(parts), squeeze.is_some())?;
+        let ball = state.bodies.motion(BALL);
+        let before = ball.position.extend(state.ball.z);
+        let whole = Part { length, may_squeeze: true, fastest: state.bodies.fastest_robot() };
+        let squeeze = self.squeeze(state, ball.velocity, &whole);
+        let may_squeeze = squeeze.is_some();
+        if squeeze.is_some_and(|squeeze| squeeze.speed > FAST_SQUEEZE) {
+            for _ in 0..SQUEEZE_PARTS {
+                let length = length / f32::from(SQUEEZE_PARTS);
+                let fastest = state.bodies.fastest_robot();
+                self.move_bodies(state, scratch, &Part { length, may_squeeze, fastest })?;
+            }
+        } else {
+            self.move_bodies(state, scratch, &Part { may_squeeze, ..whole })?;
         }
         estimate_loads(state, &scratch.contacts.robots);
         let after = state.bodies.motion(BALL).position.extend(state.ball.z);
@@ -62,20 +80,18 @@ impl Tick<'_> {
         Ok(())
     }
 
-    /// Moves all bodies for `length` and resolves their contacts. `may_squeeze` says whether the ball
-    /// can be squeezed in it.
+    /// Moves all bodies for a part of the tick and resolves their contacts.
     fn move_bodies(
         &self,
         state: &mut State,
         scratch: &mut Scratch,
-        length: f32,
-        may_squeeze: bool,
+        part: &Part,
     ) -> Result<(), NonFinite> {
         let before = state.bodies.motion(BALL);
         if state.ball.is_down() {
-            self.roll(state, &before, scratch, length, may_squeeze)?;
+            self.roll(state, &before, scratch, part)?;
         } else {
-            self.fly(state, &before, scratch, length, may_squeeze)?;
+            self.fly(state, &before, scratch, part)?;
         }
         robot_contacts::resolve(
             state,
@@ -97,21 +113,21 @@ impl Tick<'_> {
         state: &mut State,
         before: &Motion,
         scratch: &mut Scratch,
-        length: f32,
-        may_squeeze: bool,
+        part: &Part,
     ) -> Result<(), NonFinite> {
+        let Part { length, may_squeeze, fastest } = *part;
         let ball = &self.parameters.ball;
         let start = GroundMotion { velocity: before.velocity, spin: state.ball.spin };
         let (displacement, end) = start.after(ball, length);
         let mean = displacement / length;
         state.bodies.set_velocity(BALL, mean);
-        let squeeze = if may_squeeze { self.squeeze(state, mean, length) } else { None };
+        let squeeze = if may_squeeze { self.squeeze(state, mean, part) } else { None };
         if let Some(squeeze) = &squeeze {
             state.bodies.set_velocity(BALL, squeeze.velocity);
         }
         let squeezed = squeeze.map(|squeeze| squeeze.solver);
         let rules = self.ball_rules(BallPhase::Floor, squeezed, length);
-        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space)?;
+        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space, fastest)?;
         let mut now = GroundMotion { velocity: state.bodies.motion(BALL).velocity, spin: end.spin };
         if squeezed.is_some_and(|squeezed| squeezed.jammed) {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
@@ -139,10 +155,10 @@ impl Tick<'_> {
         state: &mut State,
         before: &Motion,
         scratch: &mut Scratch,
-        length: f32,
-        may_squeeze: bool,
+        part: &Part,
     ) -> Result<(), NonFinite> {
-        let squeeze = if may_squeeze { self.squeeze(state, before.velocity, length) } else { None };
+        let Part { length, may_squeeze, fastest } = *part;
+        let squeeze = if may_squeeze { self.squeeze(state, before.velocity, part) } else { None };
         let squeeze = squeeze.filter(|squeeze| squeeze.solver.jammed);
         let phase = if let Some(squeeze) = &squeeze {
             state.bodies.set_velocity(BALL, squeeze.velocity);
@@ -151,7 +167,7 @@ impl Tick<'_> {
             BallPhase::Air
         };
         let rules = self.ball_rules(phase, squeeze.map(|squeeze| squeeze.solver), length);
-        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space)?;
+        state.engine.step(&mut state.bodies, scratch, &rules, &self.setup.free_space, fastest)?;
         if squeeze.is_some() {
             ball_contacts::record_touches(&mut state.touches, &scratch.contacts.ball);
         }
@@ -169,11 +185,12 @@ impl Tick<'_> {
         Ok(())
     }
 
-    /// The squeeze of a ball that moves with `velocity` within `time`, if any.
-    fn squeeze(&self, state: &State, velocity: Vector, time: f32) -> Option<Squeeze> {
+    /// The squeeze of a ball that moves with `velocity` within a part of the tick, if any.
+    fn squeeze(&self, state: &State, velocity: Vector, part: &Part) -> Option<Squeeze> {
         let height = state.ball.z + self.parameters.ball.radius;
         let free_space = &self.setup.free_space;
-        Squeeze::find(&state.bodies, self.parameters, free_space, velocity, height, time)
+        let Part { length, fastest, .. } = *part;
+        Squeeze::find(&state.bodies, self.parameters, free_space, velocity, height, length, fastest)
     }
 
     fn ball_rules(

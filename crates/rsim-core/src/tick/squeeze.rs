@@ -6,7 +6,7 @@
 //! the bodies that jam it, and, as long as it is jammed, a mass in the solver that passes pushes on.
 
 use crate::blocks::{BALL, robot};
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, FastestRobot};
 use crate::body_parameters::{BodyParameters, RobotParameters};
 use crate::engine::SqueezedBall;
 use crate::geometry::free_space::FreeSpace;
@@ -93,8 +93,11 @@ impl Squeeze {
         velocity: Vector,
         height: f32,
         tick: f32,
+        fastest: FastestRobot,
     ) -> Option<Self> {
-        let sides = Sides::find(bodies, parameters, free_space, height, tick)?;
+        // A body from one side may press the ball against one at rest on the other.
+        let reach = NEAR + (2.0 * fastest.within(0.0) + JAMMED_SLACK) * tick;
+        let sides = Sides::find(bodies, parameters, free_space, height, tick, reach)?;
         if sides.count < 2 {
             return None;
         }
@@ -114,17 +117,16 @@ impl Squeeze {
 }
 
 impl Sides {
-    /// The sides around a ball at `height`, if a robot is near it.
+    /// The sides around a ball at `height` within `reach` (m) of it, if a robot is.
     fn find(
         bodies: &Bodies,
         parameters: &BodyParameters,
         free_space: &FreeSpace,
         height: f32,
         tick: f32,
+        reach: f32,
     ) -> Option<Self> {
         let (center, radius) = (bodies.motion(BALL).position, parameters.ball.radius);
-        // A body from one side may press the ball against one at rest on the other.
-        let reach = NEAR + (2.0 * bodies.fastest_robot(0.0) + JAMMED_SLACK) * tick;
         let mut near = bodies.robots_near_ball(parameters, reach).peekable();
         near.peek()?; // in most ticks
         let mut sides = Self { all: [None; MAX_SIDES], count: 0 };

@@ -40,10 +40,8 @@ struct Friction {
 }
 
 /// The contact of two bodies, or of a body (`second`) with a wall.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Constraint {
-    /// Index of the pair.
-    pub(super) link: usize,
     first: usize,
     pub(super) second: usize,
     /// Unit vector from the first to the second.
@@ -74,7 +72,6 @@ impl Relative {
 impl Constraint {
     /// The constraint of `manifold` between two bodies, which starts from `impulses`.
     pub(super) fn new(
-        link: usize,
         [first, second]: [usize; 2],
         bodies: &[SolverBody],
         manifold: &Manifold,
@@ -114,7 +111,7 @@ impl Constraint {
         } else {
             Friction::default()
         };
-        Self { link, first, second, normal, friction, points, count, coupling }
+        Self { first, second, normal, friction, points, count, coupling }
     }
 
     pub(super) fn points(&self) -> &[ConstraintPoint] {

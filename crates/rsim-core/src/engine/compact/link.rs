@@ -34,6 +34,8 @@ pub(super) struct Link {
     /// Distances of the outlines' farthest points, m.
     radii: [f32; 2],
     friction: f32,
+    /// Whether it had a constraint in the last sub-step of this tick.
+    pub(super) is_constrained: bool,
     /// Of the last sub-step.
     pub(super) impulses: Impulses,
     /// Sum over the sub-steps of a tick.
@@ -81,8 +83,19 @@ impl Link {
         let friction = if is_ball { 0.0 } else { met_friction.midpoint(of(second)) };
         let radii = outlines.map(|outline| outline.bounding_radius());
         let (impulses, total) = (Impulses::default(), Total::default());
-        let key = key(pair);
-        Some(Self { key, first, second, with, outlines, radii, friction, impulses, total })
+        let (key, is_constrained) = (key(pair), false);
+        Some(Self {
+            key,
+            first,
+            second,
+            with,
+            outlines,
+            radii,
+            friction,
+            is_constrained,
+            impulses,
+            total,
+        })
     }
 
     /// Whether the constraint of the last sub-step still holds: the two press on each other and hardly
@@ -100,7 +113,6 @@ impl Link {
     /// The constraint of the pair in a sub-step, if the two can touch in it.
     pub(super) fn constraint(
         &self,
-        index: usize,
         links: &[Self],
         bodies: &[SolverBody],
         step: &SubStep,
@@ -111,7 +123,7 @@ impl Link {
         } else {
             self.manifold(pair.map(|body| &bodies[body]), step.window)
         }?;
-        Some(Constraint::new(index, pair, bodies, &manifold, self.friction, &self.impulses))
+        Some(Constraint::new(pair, bodies, &manifold, self.friction, &self.impulses))
     }
 
     /// Contact with the ball; of `links`, those of other boxes with it may have a joint with this one.

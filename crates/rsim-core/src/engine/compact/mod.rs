@@ -63,9 +63,10 @@ pub(super) struct CompactScratch {
     met: Vec<Met>,
     warm_starts: Vec<WarmStart>,
     links: Vec<Link>,
+    /// A place for the constraint of each link.
     constraints: Vec<Constraint>,
-    /// Constraints of the last sub-step.
-    previous: Vec<Constraint>,
+    /// Links that have a constraint in the sub-step.
+    constrained: Vec<usize>,
 }
 
 impl CompactSolver {
@@ -91,11 +92,13 @@ impl CompactSolver {
             relaxing: Pass::relaxing(time),
             squeezed: rules.squeezed.is_some(),
         };
+        if scratch.constraints.len() < scratch.links.len() {
+            scratch.constraints.resize(scratch.links.len(), Constraint::default());
+        }
         let mut meets = false;
-        scratch.constraints.clear();
         for _ in 0..count {
             scratch.advance(&step, min_passes);
-            meets |= !scratch.constraints.is_empty();
+            meets |= !scratch.constrained.is_empty();
         }
         bodies.move_freely(SubSteps { time, count });
         scratch.write(bodies);
@@ -152,28 +155,32 @@ impl CompactScratch {
 
     /// Advances the bodies that can meet others by a sub-step.
     fn advance(&mut self, step: &SubStep, min_passes: usize) {
-        let Self { bodies, met, links, constraints, previous, .. } = self;
+        let Self { bodies, met, links, constraints, constrained, .. } = self;
         let time = step.window.time;
         for Met { body, acceleration } in met.iter() {
             bodies[*body].accelerate(*acceleration, time);
         }
-        std::mem::swap(constraints, previous);
-        constraints.clear();
-        let mut previous = previous.iter().peekable();
-        for (index, link) in links.iter().enumerate() {
-            let last = previous.next_if(|constraint| constraint.link == index);
-            if let Some(steady) = last.filter(|_| link.is_steady(bodies)) {
-                constraints.push(*steady);
-            } else if let Some(constraint) = link.constraint(index, links, bodies, step) {
-                constraints.push(constraint);
+        constrained.clear();
+        for index in 0..links.len() {
+            let link = &links[index];
+            let is_steady = link.is_constrained && link.is_steady(bodies);
+            let found = if is_steady { None } else { link.constraint(links, bodies, step) };
+            let is_constrained = is_steady || found.is_some();
+            if let Some(found) = found {
+                constraints[index] = found;
             }
+            if is_constrained {
+                constrained.push(index);
+            }
+            links[index].is_constrained = is_constrained;
         }
-        for constraint in constraints.iter_mut() {
-            constraint.warm_start(bodies);
+        for index in constrained.iter() {
+            constraints[*index].warm_start(bodies);
         }
         for pass in 1..=MAX_PASSES {
             let mut change = 0.0_f32;
-            for constraint in constraints.iter_mut() {
+            for index in constrained.iter() {
+                let constraint = &mut constraints[*index];
                 let is_ball = constraint.second == BALL;
                 let push = if is_ball { &step.pushing_ball } else { &step.pushing };
                 change = change.max(constraint.solve(bodies, push));
@@ -182,20 +189,20 @@ impl CompactScratch {
                 break;
             }
         }
-        for constraint in constraints.iter_mut() {
-            constraint.close(bodies, time);
+        for index in constrained.iter() {
+            constraints[*index].close(bodies, time);
         }
         for Met { body, .. } in met.iter() {
             bodies[*body].advance(time);
         }
-        for constraint in constraints.iter_mut() {
-            constraint.solve(bodies, &step.relaxing);
+        for index in constrained.iter() {
+            constraints[*index].solve(bodies, &step.relaxing);
         }
         for link in links.iter_mut() {
             link.impulses = Impulses::default();
         }
-        for constraint in constraints.iter() {
-            links[constraint.link].keep(constraint);
+        for index in constrained.iter() {
+            links[*index].keep(&constraints[*index]);
         }
     }
 }
