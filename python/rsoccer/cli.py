@@ -14,6 +14,7 @@ INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
 EXTRAS = {
     "PIL": "render",
+    "google": "network",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "pygame": "render",

@@ -105,10 +105,8 @@ class WireLayout:
         """
         slot = self._slots.get((team, robot_id))
         if slot is None:
-            raise MessageError(
-                Code.UNKNOWN_ROBOT,
-                f"id: expected one of {list(self.ids[team])} for {TEAM_NAMES[team]}, got {robot_id}",
-            )
+            numbers = f"{list(self.ids[team])} for {TEAM_NAMES[team]}"
+            raise MessageError(Code.UNKNOWN_ROBOT, f"id: expected one of {numbers}, got {robot_id}")
         return slot
 
     def slots(self, team: int) -> range:

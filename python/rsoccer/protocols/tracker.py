@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
-from rsoccer.arrays import Mask
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE, YELLOW
-from rsoccer.protocols.errors import Code, MessageError, Problem
+from rsoccer.protocols.errors import Code, Problem
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.schemas import tracker_pb2
+from rsoccer.protocols.tracked import Tracked
 
 _COLORS: Final = {BLUE: tracker_pb2.TEAM_COLOR_BLUE, YELLOW: tracker_pb2.TEAM_COLOR_YELLOW}
 _TEAMS: Final = {color: team for team, color in _COLORS.items()}
-
-
-class Tracked(NamedTuple):
-    """A tracked frame as a state."""
-
-    frame: Frame
-    """Frame of one world: bodies that the message lacks are as they were given."""
-    timestamp: float
-    """Time of the state, Unix time, s."""
-    seen: Mask
-    """(robots,) robots that the message has."""
-    ball: bool
-    """Whether the message has the ball."""
-    problems: tuple[Problem, ...]
-    """Robots that are left out."""
 
 
 def to_packet(
@@ -102,49 +87,23 @@ def to_frame(
     Raises:
         ValueError: `last` is a frame of other teams.
     """
-    config = layout.config
-    if last is None:
-        frame = Frame.empty(1, config.n_blue, config.n_yellow)
-        frame.robots.absent[:] = 1.0
-    else:
-        layout.check_frame(last, 0)
-        frame = last.take(np.zeros(1, np.intp))
-    seen, problems = np.zeros(config.n_robots, np.bool_), []
+    tracked = Tracked.begin(layout, last, message.timestamp)
     for robot in message.robots:
-        try:
-            slot = _slot(layout, robot.robot_id)
-        except MessageError as error:
-            problems.append(Problem(error.code, str(error)))
+        team = _TEAMS.get(robot.robot_id.team_color)
+        if team is None:
+            color = tracker_pb2.TeamColor.Name(robot.robot_id.team_color)
+            text = f"team_color: expected blue or yellow, got {color}"
+            tracked.problems.append(Problem(Code.UNKNOWN_TEAM, text))
             continue
-        _put_robot(layout, frame, slot, robot)
-        seen[slot] = True
-    if message.balls:
-        _put_ball(layout, frame, message.balls[0])
-    return Tracked(frame, message.timestamp, seen, bool(message.balls), tuple(problems))
-
-
-def _slot(layout: WireLayout, identity: tracker_pb2.RobotId) -> int:
-    team = _TEAMS.get(identity.team_color)
-    if team is None:
-        raise MessageError(
-            Code.UNKNOWN_TEAM, f"team_color: expected blue or yellow, got {identity.team_color}"
+        tracked.put_robot(
+            layout,
+            (team, robot.robot_id.id),
+            (robot.pos.x, robot.pos.y, robot.orientation),
+            (robot.vel.x, robot.vel.y, robot.vel_angular),
         )
-    return layout.slot(team, identity.id)
-
-
-def _put_robot(
-    layout: WireLayout, frame: Frame, slot: int, robot: tracker_pb2.TrackedRobot
-) -> None:
-    robots = frame.robots
-    robots.data[0, slot] = 0.0
-    robots.position[0, slot] = layout.rotated(np.array([robot.pos.x, robot.pos.y]))
-    robots.heading[0, slot] = layout.heading_from_wire(robot.orientation)
-    robots.velocity[0, slot] = layout.rotated(np.array([robot.vel.x, robot.vel.y]))
-    robots.angular_velocity[0, slot] = robot.vel_angular
-
-
-def _put_ball(layout: WireLayout, frame: Frame, ball: tracker_pb2.TrackedBall) -> None:
-    frame.ball.position[0] = layout.rotated(np.array([ball.pos.x, ball.pos.y]))
-    frame.ball.height[0] = max(0.0, ball.pos.z)
-    frame.ball.velocity[0] = layout.rotated(np.array([ball.vel.x, ball.vel.y]))
-    frame.ball.vertical_velocity[0] = ball.vel.z
+    if message.balls:
+        position, velocity = message.balls[0].pos, message.balls[0].vel
+        tracked.put_ball(
+            layout, (position.x, position.y, position.z), (velocity.x, velocity.y, velocity.z)
+        )
+    return tracked
