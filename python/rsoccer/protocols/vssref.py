@@ -122,7 +122,7 @@ def read_command(message: vssref_pb2.Command) -> VssStatus:
         MessageError: a command, a half or a quadrant that does not exist, or a kick of no team.
     """
     foul, color = int(message.foul), int(message.teamcolor)
-    command = _COMMANDS.get((foul, NOBODY)) or _COMMANDS.get((foul, _TEAMS.get(color, NOBODY)))
+    command = _COMMANDS.get((foul, NOBODY), _COMMANDS.get((foul, _TEAMS.get(color, NOBODY))))
     if command is None:
         raise MessageError(
             Code.UNSUPPORTED_COMMAND, f"foul: expected a known one of a team, got {foul}, {color}"
