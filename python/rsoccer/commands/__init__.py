@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from tyro.conf import subcommand
 
+from rsoccer.commands.convert import Convert
 from rsoccer.commands.evaluate import Evaluate
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
@@ -40,6 +41,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
+        | Annotated[Convert, subcommand("convert")]
     )
 
 

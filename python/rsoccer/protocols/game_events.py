@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
 from rsoccer.protocols.errors import Code, MessageError
@@ -19,28 +19,35 @@ _REASON: Final = "position at a penalty kick"
 """Reason of unsporting behavior that rSoccer's referee knows."""
 
 
-def to_game_event(
-    layout: WireLayout, event: Event, *, seconds: float, number: int
-) -> referee_pb2.GameEvent:
+class ToldEvent(NamedTuple):
+    """An event that packets tell again and again, so it has an identity."""
+
+    event: Event
+    """The event."""
+    identity: str
+    """Text unlike that of any other event of the match."""
+    seconds: float
+    """Time of the event, Unix time, s; 0 if unknown."""
+
+
+def to_game_event(layout: WireLayout, told: ToldEvent) -> referee_pb2.GameEvent:
     """Return the message of an event.
 
     Args:
         layout: the match.
-        event: the event.
-        seconds: time of the event, Unix time, s.
-        number: number of the event in the match, which its identity is made of.
+        told: the event.
 
     Raises:
         MessageError: an event that the game controller does not have, such as a pass, or one
             without the team that it needs.
     """
-    name = event.kind.name
+    event, name = told.event, told.event.kind.name
     if name not in referee_pb2.GameEvent.Type.keys() or event.kind is EventKind.NONE:  # noqa: SIM118
         raise MessageError(Code.UNSUPPORTED_EVENT, f"event: expected one of the SSL, got {name}")
     message = referee_pb2.GameEvent(
-        id=f"rsoccer-{number}",
+        id=told.identity,
         type=referee_pb2.GameEvent.Type.Value(name),
-        created_timestamp=max(0, round(seconds * MICROSECONDS)),
+        created_timestamp=max(0, round(told.seconds * MICROSECONDS)),
     )
     content = getattr(message, name.lower())
     content.SetInParent()
@@ -74,7 +81,7 @@ def _put_robot(layout: WireLayout, event: Event, content: Any) -> None:  # noqa:
         setattr(content, "bot_blue" if team == BLUE else "bot_yellow", number)
 
 
-def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> Event:
+def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> ToldEvent:
     """Return the event of a message.
 
     Args:
@@ -83,7 +90,7 @@ def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> Event
 
     Returns:
         The event: `NOBODY` for a team or a robot that the message lacks, and the center for a
-        place that it lacks.
+        place that it lacks. Without an identity in the message, it is the message itself.
 
     Raises:
         MessageError: an event that rSoccer does not have, or a robot that does not play.
@@ -104,7 +111,11 @@ def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> Event
             position = (value.x * layout.sign, value.y * layout.sign)
     if content is not None:
         robot = _robot(layout, content, team)
-    return Event(EventKind[name], team, robot, position)
+    return ToldEvent(
+        Event(EventKind[name], team, robot, position),
+        message.id or message.SerializeToString(deterministic=True).hex(),
+        message.created_timestamp / MICROSECONDS,
+    )
 
 
 def _robot(layout: WireLayout, content: Any, team: int) -> int:  # noqa: ANN401  (any event)

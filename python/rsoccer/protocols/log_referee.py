@@ -10,10 +10,8 @@ import numpy as np
 from rsoccer.arrays import Doubles
 from rsoccer.frame import robot_names
 from rsoccer.game import BLUE, NOBODY, YELLOW, Command, Event, EventKind
-from rsoccer.protocols.errors import MessageError
-from rsoccer.protocols.game_events import read_game_event
 from rsoccer.protocols.layout import TEAM_NAMES, TEAMS, WireLayout
-from rsoccer.protocols.referee import RefereeStatus, read_packet
+from rsoccer.protocols.referee import RUNNING, RefereeStatus, read_packet
 from rsoccer.protocols.schemas import referee_pb2
 from rsoccer.render.referee_state import COLUMNS
 from rsoccer.replay import events
@@ -21,7 +19,6 @@ from rsoccer.replay import events
 BALL_DISTANCE: Final = 0.5
 """Distance that robots keep from the ball in a stop and before a kick of the opponents, m (SSL
 rules 4300196, "Stop")."""
-_RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 _KICKS: Final = tuple(
     command for command in Command if command.name.startswith(("PREPARE", "DIRECT"))
 )
@@ -44,7 +41,7 @@ class LogReferee:
         self._status: RefereeStatus | None = None
         self._kick: Command | None = None
         self._since = 0
-        self._told: set[object] = set()
+        self._told: set[str] = set()
         self._new: list[Event] = []
 
     def add(self, message: referee_pb2.Packet) -> None:
@@ -65,21 +62,10 @@ class LogReferee:
         for team in TEAMS if before is not None else ():
             if status.teams[team].score > before.teams[team].score:
                 self._new.append(Event(EventKind.GOAL, team, NOBODY, (0.0, 0.0)))
-        for event in message.game_events:
-            self._add_event(event)
-
-    def _add_event(self, message: referee_pb2.GameEvent) -> None:
-        """Add an event that was not told before; goals follow from the score."""
-        identity = message.id or message.SerializeToString(deterministic=True)
-        if identity in self._told:
-            return
-        self._told.add(identity)
-        try:
-            event = read_game_event(self.layout, message)
-        except MessageError:
-            return
-        if event.kind is not EventKind.GOAL:
-            self._new.append(event)
+        for told in status.events:
+            if told.identity not in self._told and told.event.kind is not EventKind.GOAL:
+                self._new.append(told.event)  # goals follow from the score
+            self._told.add(told.identity)
 
     def frame(self, index: int) -> tuple[Doubles | None, list[events.Event]]:
         """Return the row of a frame, and the events since the frame before it.
@@ -107,7 +93,7 @@ class LogReferee:
             "kick": NOBODY if self._kick is None else self._kick,
             "command_steps": self._since,
             "stage": status.stage,
-            "in_play": float(status.command in _RUNNING),
+            "in_play": float(status.command in RUNNING),
             "designated_position_x": x,
             "designated_position_y": y,
             "seconds_left": max(0.0, status.seconds_left or 0.0),
@@ -126,7 +112,7 @@ class LogReferee:
         side = f"_{TEAM_NAMES[team].upper()}"
         kicks = ("DIRECT_FREE", "BALL_PLACEMENT")
         own = command.name.endswith(side) and command.name.startswith(kicks)
-        return own or command in _RUNNING
+        return own or command in RUNNING
 
 
 def no_referee(layout: WireLayout) -> Doubles:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 from rsoccer.game import BLUE, YELLOW, Command, Event, Stage
 from rsoccer.protocols.errors import Code, MessageError, Problem
-from rsoccer.protocols.game_events import read_game_event, to_game_event
+from rsoccer.protocols.game_events import ToldEvent, read_game_event, to_game_event
 from rsoccer.protocols.layout import MICROSECONDS, MILLIMETERS, WireLayout
 from rsoccer.protocols.schemas import referee_pb2
 
 NAMES: Final = ("Blue", "Yellow")
 """Names of the teams where none are given."""
+RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
+"""Commands under which play goes on."""
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
 _MAX_TIME: Final = 2**63 - 1
 _READ_AS: Final = {
@@ -78,7 +81,7 @@ class RefereeStatus:
     seconds_left: float | None = None
     action_seconds_left: float | None = None
     designated_position: tuple[float, float] | None = None
-    events: tuple[Event, ...] = ()
+    events: tuple[ToldEvent, ...] = ()
 
 
 class Stamp(NamedTuple):
@@ -117,6 +120,33 @@ class Stamper:
             self._counter = (self._counter + 1) % 2**32
             self._command, self._since = command, timestamp
         return Stamp(timestamp, self._counter, self._since)
+
+
+class EventLog:
+    """Events since play stopped, as packets tell them."""
+
+    def __init__(self) -> None:
+        """Begin before the first event."""
+        self._told: list[ToldEvent] = []
+        self._count = 0
+
+    def add(
+        self, command: Command, events: Iterable[Event], seconds: float
+    ) -> tuple[ToldEvent, ...]:
+        """Add the events of a step and return those that a packet tells.
+
+        Args:
+            command: command of the referee after the step. While play goes on, a packet tells the
+                events of its own step alone.
+            events: events of the step.
+            seconds: time of the step, Unix time, s.
+        """
+        if command in RUNNING:
+            self._told.clear()
+        for event in events:
+            self._count += 1
+            self._told.append(ToldEvent(event, f"rsoccer-{self._count}", seconds))
+        return tuple(self._told)
 
 
 def to_packet(
@@ -168,13 +198,11 @@ def to_packet(
         message.designated_position.y = MILLIMETERS * y * layout.sign
     if status_message:
         message.status_message = status_message
-    for number, event in enumerate(status.events):
-        identity = stamp.command_counter * 100 + number
+    for told in status.events:
         try:
-            told = to_game_event(layout, event, seconds=stamp.command_timestamp, number=identity)
+            message.game_events.append(to_game_event(layout, told))
         except MessageError:
             continue  # a pass is no event of the game controller
-        message.game_events.append(told)
     return message
 
 

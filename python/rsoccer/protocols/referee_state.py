@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
-from rsoccer.game import BLUE, YELLOW, Command, Event, Game, Stage
+from rsoccer.game import BLUE, YELLOW, Command, Game, Stage
+from rsoccer.protocols.game_events import ToldEvent
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.referee import NAMES, RefereeStatus, TeamStatus
 
@@ -33,7 +34,7 @@ def status_of_game(
     *,
     names: tuple[str, str] = NAMES,
     goalkeepers: tuple[int, int] = (0, 0),
-    events: Sequence[Event] = (),
+    events: Sequence[ToldEvent] = (),
 ) -> RefereeStatus:
     """Return what the referee of a running match tells.
 
@@ -113,7 +114,7 @@ def _action_seconds_left(
 
 
 def status_of_recorded(
-    state: RefereeState, *, names: tuple[str, str] = NAMES, events: Sequence[Event] = ()
+    state: RefereeState, *, names: tuple[str, str] = NAMES, events: Sequence[ToldEvent] = ()
 ) -> RefereeStatus:
     """Return what the referee of a recorded match told, as far as replays have it.
 

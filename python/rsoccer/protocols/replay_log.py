@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from rsoccer import checks
-from rsoccer.game import NOBODY, Command, Event, EventKind
+from rsoccer.game import NOBODY, Event, EventKind
 from rsoccer.protocols import referee, tracker, vision
 from rsoccer.protocols.cameras import Camera
 from rsoccer.protocols.errors import MessageError
@@ -22,7 +22,6 @@ GEOMETRY_SECONDS: Final = 1.0
 """Time between packets with the geometry, s."""
 UUID: Final = "rSoccer-replay"
 """Identity of the sender of tracked frames and of the referee's packets."""
-_RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 _KINDS: Final = {
     event_name(kind): kind for kind in EventKind if kind not in (EventKind.NONE, EventKind.PASS)
 }
@@ -74,7 +73,7 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
     frame, step = replay.frame, replay.config.time_step
     states, told, stamper = replay.referee_states, _events(replay), referee.Stamper()
     every, camera = max(1, round(GEOMETRY_SECONDS / step)), Camera()
-    events: list[Event] = []
+    events = referee.EventLog()
     for i in range(len(replay)):
         seconds = start + i * step
         time = round(seconds * NANOSECONDS)
@@ -93,10 +92,8 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
         yield LogEntry(time, LogKind.TRACKER, tracked.SerializeToString())
         if states is None:
             continue
-        if states[i].command in _RUNNING:
-            events.clear()
-        events += told.get(i, ())
-        status = status_of_recorded(states[i], names=replay.names, events=events)
+        since_stop = events.add(states[i].command, told.get(i, ()), seconds)
+        status = status_of_recorded(states[i], names=replay.names, events=since_stop)
         try:
             packet = referee.to_packet(
                 layout, status, stamper.stamp(status.command, seconds), source_identifier=UUID
