@@ -1,4 +1,4 @@
-"""Entry point of the command `rsoccer list | train | evaluate | tournament | watch | play | convert`.
+"""Entry point of the command `rsoccer list | train | evaluate | tournament | watch | play | ...`.
 
 Errors are reported as one line.
 """
@@ -23,6 +23,7 @@ EXTRAS = {
     "torch": "train",
     "tqdm": "train",
     "tyro": "cli",
+    "websockets": "network",
 }
 """The extra of this package that installs each optional module."""
 

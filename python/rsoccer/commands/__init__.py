@@ -14,6 +14,7 @@ from rsoccer.commands.evaluate import Evaluate
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
+from rsoccer.commands.serve import Serve
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
@@ -42,6 +43,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
         | Annotated[Convert, subcommand("convert")]
+        | Annotated[Serve, subcommand("serve")]
     )
 
 

@@ -8,6 +8,7 @@ use crate::bodies::BodyBlock;
 use crate::error::{ConfigError, SnapshotError, StepError};
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
+use crate::senses::detections::CameraFrame;
 use crate::state::State;
 use crate::threads::Threads;
 use crate::world::World;
@@ -149,6 +150,14 @@ impl Batch {
                 self.worlds[world].write_sensed_row(row);
             }
         });
+    }
+
+    /// The frames of a world's cameras that arrived in its last control step; none without senses.
+    ///
+    /// # Panics
+    /// There is no such world.
+    pub fn camera_frames(&self, world: usize) -> Vec<CameraFrame> {
+        self.worlds[world].camera_frames()
     }
 
     /// Begins the senses of the worlds of the mask, which have just been placed. `keys` has one number for
