@@ -6,11 +6,12 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.arrays import Mask
 from rsoccer.bridge.session import Session
 from rsoccer.game import BLUE, NOBODY, YELLOW, Command, Game
 from rsoccer.protocols import referee, vssref
-from rsoccer.protocols.layout import TEAMS
+from rsoccer.protocols.layout import TEAM_NAMES, TEAMS
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import referee_pb2, vssref_pb2
 
@@ -74,6 +75,7 @@ class ExternalReferee:
         for team in TEAMS:
             told_team = status.teams[team]
             game.score[0, team] = told_team.score
+            _set(game, f"score_{TEAM_NAMES[team]}", told_team.score)
             game.yellow_cards[0, team] = told_team.yellow_cards
             game.red_cards[0, team] = told_team.red_cards
         if status.seconds_left is not None:
@@ -104,4 +106,4 @@ class ExternalReferee:
 
 
 def _set(game: Game, name: str, value: float) -> None:
-    getattr(game, name)[0] = value
+    game.referee[0, GAME_COLUMNS.index(name)] = value

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.session import Session
 from rsoccer.game import Command, Stage
 from rsoccer.protocols import referee, vssref
@@ -15,6 +16,11 @@ PERIOD: Final = 0.025
 """Simulated time between packets of the game controller, s; its own are sent at 39.5 Hz."""
 VSS_PERIOD: Final = 0.5
 """Simulated time between packets of VSSReferee that repeat its command, s."""
+_WATCHED: Final = [
+    GAME_COLUMNS.index(name)
+    for name in ("command", "stage", "next_command", "score_blue", "score_yellow")
+]
+"""Columns whose change is told at once."""
 SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
 
@@ -31,21 +37,19 @@ class GameController:
         self._session = session
         self._stamper, self._events = referee.Stamper(), referee.EventLog()
         self._next = 0.0
-        self._last: tuple[int, ...] | None = None
+        self._last: list[float] | None = None
 
     def packets(self) -> list[bytes]:
         """Return the packets that are due after a tick: none or one."""
         session, arena = self._session, self._session.arena
-        game, seconds = arena.play.game, arena.seconds
-        happened = arena.play.events.of_world(0)
-        state = (
-            *(int(game.command[0]), int(game.stage[0]), int(game.next_command[0])),
-            *game.score[0].tolist(),
-        )
-        command, wire_time = Command(state[0]), session.epoch + seconds
-        told = self._events.add(command, happened, wire_time)
-        if state == self._last and not happened and seconds < self._next:
+        play, seconds = arena.play, arena.seconds
+        has_events = bool(play.events.count[0])
+        state = play.game.referee[0, _WATCHED].tolist()
+        if state == self._last and not has_events and seconds < self._next:
             return []
+        game, happened = play.game, play.events.of_world(0)
+        command, wire_time = Command(int(state[0])), session.epoch + seconds
+        told = self._events.add(command, happened, wire_time)
         self._last, self._next = state, seconds + PERIOD - 1e-9
         status = status_of_game(
             session.layout, game, 0, arena.rule.rules, names=_names(session), events=told

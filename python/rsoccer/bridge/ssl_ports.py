@@ -7,14 +7,16 @@ from typing import Final
 import numpy as np
 
 from rsoccer.bridge.arena import CameraFrame
+from rsoccer.bridge.control_reader import ControlReader
 from rsoccer.bridge.officials import GameController
 from rsoccer.bridge.refusals import Reason, Refusal, to_response, to_team_response
 from rsoccer.bridge.session import Datagram, Session, remote_control_refused, taken
 from rsoccer.bridge.settings import SSL_PORTS
 from rsoccer.bridge.team import Address, Team
+from rsoccer.bridge.tracker_packets import TrackerPackets
 from rsoccer.bridge.vision_packets import VisionPackets
 from rsoccer.game import BLUE, YELLOW
-from rsoccer.protocols import grsim, tracker
+from rsoccer.protocols import grsim
 from rsoccer.protocols.answers import to_robot_control_response
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.parsing import parse
@@ -24,8 +26,6 @@ from rsoccer.protocols.simulator_control import ControlResult, read_command
 
 GEOMETRY_SECONDS: Final = 1.0
 """Simulated time between packets with the geometry, s."""
-UUID: Final = "rSoccer-serve"
-"""Identity of the sender of tracked frames."""
 _TEAM_PORTS: Final = {"blue": BLUE, "yellow": YELLOW}
 
 
@@ -52,10 +52,17 @@ class SslPorts:
         """
         self._status = status_ports
         self._session = session
-        self._vision = VisionPackets(session.layout, session.arena.sensing, session.epoch)
+        self._prepare()
         self._officials = GameController(session)
         self._geometry_due = 0.0
         self.vision_port: int | None = None
+
+    def _prepare(self) -> None:
+        """Prepare packets for the robots as they are."""
+        session = self._session
+        self._vision = VisionPackets(session.layout, session.arena.sensing, session.epoch)
+        self._tracker = TrackerPackets(session.layout, session.epoch)
+        self._reader = ControlReader(session.layout)
 
     # -- What is sent ----------------------------------------------------------------------------
 
@@ -71,16 +78,10 @@ class SslPorts:
         if geometry:
             self._geometry_due = seconds + GEOMETRY_SECONDS - 1e-9
         packets = self._vision.of(frame, seconds, geometry=geometry)
-        tracked = tracker.to_packet(
-            session.layout,
-            arena.sense(),
-            frame_number=frame.number,
-            timestamp=session.epoch + frame.seconds,
-            uuid=UUID,
-        )
+        tracked = self._tracker.of(arena.sense(), frame.number, frame.seconds)
         return [
-            *(Datagram("vision", packet.SerializeToString()) for packet in packets),
-            Datagram("tracker", tracked.SerializeToString()),
+            *(Datagram("vision", packet) for packet in packets),
+            Datagram("tracker", tracked),
         ]
 
     def officials(self) -> list[Datagram]:
@@ -128,10 +129,14 @@ class SslPorts:
     def _team(self, team: Team, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to a team's port, and return the answer."""
         session, arena = self._session, self._session.arena
+        seconds = arena.seconds
+        common = self._reader.read(data, team.index, team.previous(seconds))
+        if common is not None and team.accept(address, now):
+            team.hold(*common, seconds)
+            return self._reader.answer(arena.sense(), team.index, common[1])
         message = parse(simulation_pb2.RobotControl, data)
         if not team.accept(address, now):
             return to_team_response([taken(team)])
-        seconds = arena.seconds
         read = read_robot_control(
             session.layout, message, team.index, arena.frame, 0, team.previous(seconds)
         )
@@ -169,9 +174,7 @@ class SslPorts:
                 reasons.append(Reason(Refusal.BLOCKED, f"robot_specs: {error}"))
             else:
                 session.refresh_layout()
-                self._vision = VisionPackets(
-                    session.layout, session.arena.sensing, session.epoch
-                )
+                self._prepare()
         if result.vision_port is not None:
             self.vision_port = result.vision_port
         return reasons

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from typing import Final
+
 import numpy as np
 
 from rsoccer.arrays import Doubles, Floats, Mask
 from rsoccer.protocols.layout import WireLayout
 
+_TOLERANCE: Final = 2.5e-3
+"""Half a tick: times are sums of ticks, s."""
 Address = tuple[str, int]
 """Host and port of a client."""
 
@@ -48,6 +53,7 @@ class Team:
         self._command_timeout, self._client_timeout = command_timeout, client_timeout
         self._heard = 0.0
         self._commanded: Doubles = np.full(config.n_robots, -np.inf)
+        self._next_stop = math.inf  # simulated time, s
 
     def accept(self, address: Address, now: float) -> bool:
         """Return whether a client may drive the team; it does from now on if so.
@@ -86,6 +92,7 @@ class Team:
         self.address, self.answered = None, False
         self.commands[:] = 0.0
         self._commanded[:] = -np.inf
+        self._next_stop = math.inf
 
     def hold(self, commands: Floats, given: Mask, seconds: float) -> None:
         """Take over the commands of a message.
@@ -98,6 +105,7 @@ class Team:
         team = slice(self.slots.start, self.slots.stop)
         self.commands[team] = commands[team]
         self._commanded[team][given[team]] = seconds
+        self._next_stop = min(self._next_stop, seconds + self._command_timeout + _TOLERANCE)
         self.answered = True
 
     def previous(self, seconds: float) -> Floats:
@@ -129,6 +137,11 @@ class Team:
             commands[never] = stand_in[never]
 
     def _stop_silent(self, seconds: float) -> None:
-        # Half a tick of tolerance: times are sums of ticks.
-        silent = seconds - self._commanded > self._command_timeout + 2.5e-3
+        if seconds <= self._next_stop:
+            return
+        silent = self._commanded + self._command_timeout + _TOLERANCE < seconds
         self.commands[silent] = 0.0
+        moving = self._commanded[~silent]
+        self._next_stop = (
+            float(moving.min()) + self._command_timeout + _TOLERANCE if len(moving) else math.inf
+        )

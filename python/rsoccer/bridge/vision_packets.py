@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from rsoccer._core import Sensing, SimConfig
-from rsoccer.arrays import Floats
+from rsoccer.arrays import Doubles
 from rsoccer.bridge.arena import CameraFrame
+from rsoccer.bridge.message_rows import MessageRows, field_of
 from rsoccer.game import BLUE
 from rsoccer.protocols.cameras import Camera
 from rsoccer.protocols.geometry import to_geometry
 from rsoccer.protocols.layout import MILLIMETERS, WireLayout
 from rsoccer.protocols.schemas import vision_pb2
-from rsoccer.protocols.tracked import Triple
 
 CAMERA_HEIGHT: Final = 4.0
 """Height of cameras that the senses do not place, m."""
+_DETECTION: Final = vision_pb2.Packet.DETECTION_FIELD_NUMBER
 
 
 def cameras_of(config: SimConfig, sensing: Sensing) -> list[Camera]:
@@ -64,14 +66,32 @@ class VisionPackets:
         self.cameras = cameras_of(layout.config, sensing)
         self._epoch = epoch
         self._radius = layout.config.ball.radius
-        self._robots = [
-            (*layout.identity(slot), model.height)
-            for slot, model in enumerate(layout.config.robots)
-        ]
+        self._heights: Doubles = np.array([model.height for model in layout.config.robots])
+        self._rows = MessageRows(layout.config.n_robots, 5, self._template)
+        wrapper = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)  # type: ignore[arg-type]
+        self._wrapper = wrapper.SerializeToString()
+        wrapper.geometry.CopyFrom(to_geometry(layout, self.cameras))
+        self._with_geometry = wrapper.SerializeToString()
 
-    def of(
-        self, frame: CameraFrame, sent: float, *, geometry: bool = False
-    ) -> list[vision_pb2.Packet]:
+    def _template(self, slot: int, numbers: Sequence[float]) -> vision_pb2.DetectionFrame:
+        """The message of a robot with numbers x, y, angle and pixels."""
+        team, number = self.layout.identity(slot)
+        frame = vision_pb2.DetectionFrame()
+        group = frame.robots_blue if team == BLUE else frame.robots_yellow
+        x, y, angle, pixel_x, pixel_y = numbers
+        group.add(
+            confidence=1.0,
+            robot_id=number,
+            x=x,
+            y=y,
+            orientation=angle,
+            pixel_x=pixel_x,
+            pixel_y=pixel_y,
+            height=MILLIMETERS * float(self._heights[slot]),
+        )
+        return frame
+
+    def of(self, frame: CameraFrame, sent: float, *, geometry: bool = False) -> list[bytes]:
         """Return the packets of a frame, one for each camera.
 
         Args:
@@ -79,80 +99,53 @@ class VisionPackets:
             sent: simulated time of sending, s.
             geometry: whether the first packet has the geometry.
         """
-        packets = []
-        for camera in self.cameras:
-            packet = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)  # type: ignore[arg-type]
-            detection = packet.detection
-            detection.frame_number = frame.number % 2**32
-            detection.camera_id = camera.camera_id
-            detection.t_capture = detection.t_capture_camera = self._epoch + frame.seconds
-            detection.t_sent = self._epoch + sent
-            packets.append(packet)
-        for index, x, y, z in self._on_wire(frame.balls[:, :4]):
-            place = int(index)
-            self._add_ball(packets[place].detection, self.cameras[place], (x, y, z))
-        for index, slot, x, y, angle in self._poses(frame):
-            place = int(index)
-            detection, camera = packets[place].detection, self.cameras[place]
-            self._add_robot(detection, camera, int(slot), (x, y, angle))
-        if geometry:
-            packets[0].geometry.CopyFrom(to_geometry(self.layout, self.cameras))
-        return packets
-
-    def _on_wire(self, balls: Floats) -> list[list[float]]:
-        """Camera, x, y and z in the axes of the wire, m."""
-        turned = balls.astype(np.float64)
-        turned[:, 1:3] *= self.layout.sign
-        rows: list[list[float]] = turned.tolist()
-        return rows
-
-    def _poses(self, frame: CameraFrame) -> list[list[float]]:
-        """Camera, slot, x, y (m) and direction (rad) in the axes of the wire."""
         robots = frame.robots.astype(np.float64)
         robots[:, 2:] *= self.layout.sign
-        robots[:, 4] = np.arctan2(robots[:, 5], robots[:, 4])
-        rows: list[list[float]] = robots[:, :5].tolist()
-        return rows
+        packets = []
+        for index, camera in enumerate(self.cameras):
+            detection = vision_pb2.DetectionFrame(
+                frame_number=frame.number % 2**32,
+                camera_id=camera.camera_id,
+                t_capture=self._epoch + frame.seconds,
+                t_capture_camera=self._epoch + frame.seconds,
+                t_sent=self._epoch + sent,
+            )
+            for which, x, y, z in frame.balls.tolist():
+                if which == index:
+                    self._add_ball(detection, camera, (x, y, z))
+            seen = robots[robots[:, 0] == index]
+            content = detection.SerializeToString() + self._robots(camera, seen)
+            wrapper = self._with_geometry if geometry and index == 0 else self._wrapper
+            packets.append(field_of(_DETECTION, content) + wrapper)
+        return packets
 
     def _add_ball(
-        self, detection: vision_pb2.DetectionFrame, camera: Camera, ball: Triple
+        self,
+        detection: vision_pb2.DetectionFrame,
+        camera: Camera,
+        ball: tuple[float, float, float],
     ) -> None:
-        x, y, z = ball
-        pixel_x, pixel_y = _pixel(camera, x, y, z + self._radius)
+        x, y, z = ball[0] * self.layout.sign, ball[1] * self.layout.sign, ball[2]
+        top = z + self._radius
+        scale = camera.focal_length / max(camera.position[2] - top, 1e-3)
         detection.balls.add(
             confidence=1.0,
-            area=camera.area(self._radius, z + self._radius),
+            area=camera.area(self._radius, top),
             x=MILLIMETERS * x,
             y=MILLIMETERS * y,
             z=MILLIMETERS * z,
-            pixel_x=pixel_x,
-            pixel_y=pixel_y,
+            pixel_x=camera.image_size[0] / 2 + (x - camera.position[0]) * scale,
+            pixel_y=camera.image_size[1] / 2 - (y - camera.position[1]) * scale,
         )
 
-    def _add_robot(
-        self, detection: vision_pb2.DetectionFrame, camera: Camera, slot: int, pose: Triple
-    ) -> None:
-        x, y, angle = pose
-        team, number, height = self._robots[slot]
-        pixel_x, pixel_y = _pixel(camera, x, y, height)
-        group = detection.robots_blue if team == BLUE else detection.robots_yellow
-        group.add(
-            confidence=1.0,
-            robot_id=number,
-            x=MILLIMETERS * x,
-            y=MILLIMETERS * y,
-            orientation=angle,
-            pixel_x=pixel_x,
-            pixel_y=pixel_y,
-            height=MILLIMETERS * height,
-        )
-
-
-def _pixel(camera: Camera, x: float, y: float, z: float) -> tuple[float, float]:
-    """Place in the image, as `Camera.pixels` has it for arrays."""
-    scale = camera.focal_length / min(z - camera.position[2], -1e-3)
-    width, height = camera.image_size
-    return (
-        width / 2 - (x - camera.position[0]) * scale,
-        height / 2 + (y - camera.position[1]) * scale,
-    )
+    def _robots(self, camera: Camera, seen: Doubles) -> bytes:
+        """Messages of robots: camera, slot, x, y (m), cosine and sine."""
+        if not len(seen):
+            return b""
+        slots = seen[:, 1].astype(np.intp)
+        numbers = np.empty((len(seen), 5))
+        numbers[:, :2] = MILLIMETERS * seen[:, 2:4]
+        numbers[:, 2] = np.arctan2(seen[:, 5], seen[:, 4])
+        points = np.concatenate([seen[:, 2:4], self._heights[slots, None]], axis=1)
+        numbers[:, 3:] = camera.pixels(points)
+        return self._rows.write(slots, numbers)

@@ -1,0 +1,138 @@
+"""Fast reading of common messages to a team's port, and fast answers.
+
+Messages that command known robots with local velocities are most of all. `read` takes these, with
+a check of all numbers at once, and leaves every other one, and all errors, to
+`rsoccer.protocols.robot_control`. Both give the same commands; a test compares them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from google.protobuf.message import DecodeError
+
+from rsoccer.arrays import Floats, Mask
+from rsoccer.frame import Frame
+from rsoccer.protocols.commands import FULL_DRIBBLER_RPM, MAX_KICK_ANGLE
+from rsoccer.protocols.layout import TEAMS, WireLayout
+from rsoccer.protocols.parsing import MAX_MAGNITUDE
+from rsoccer.protocols.schemas import simulation_pb2
+
+_COLUMNS = ("v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler")
+_MAX_ANSWERS = 4096
+
+
+class ControlReader:
+    """Reads messages to the teams' ports of a match."""
+
+    def __init__(self, layout: WireLayout) -> None:
+        """Prepare what does not change.
+
+        Args:
+            layout: the match.
+        """
+        config = layout.config
+        self._layout = layout
+        self._is_usable = config.command_columns == _COLUMNS and all(
+            model.drive == "omni" and model.command_columns == _COLUMNS for model in config.robots
+        )
+        self._slots = [
+            {layout.identity(slot)[1]: slot for slot in layout.slots(team)} for team in TEAMS
+        ]
+        self._robots = config.n_robots
+        self._answers: dict[tuple[int, bytes, bytes], bytes] = {}
+
+    def read(self, data: bytes, team: int, previous: Floats) -> tuple[Floats, Mask] | None:
+        """Return commands and robots of a message; None if it is not a common one.
+
+        Args:
+            data: the bytes.
+            team: `BLUE` or `YELLOW`.
+            previous: (robots, command) commands that hold where the message has no field.
+
+        Returns:
+            (robots, command) commands, and (robots,) robots that the message has.
+        """
+        if not self._is_usable:
+            return None
+        message = simulation_pb2.RobotControl()
+        try:
+            message.ParseFromString(data)
+        except (DecodeError, RecursionError, UnicodeDecodeError, ValueError):
+            return None
+        if not message.IsInitialized():
+            return None
+        slots, numbers, known = [], [], self._slots[team]
+        for command in message.robot_commands:
+            slot = known.get(command.id)
+            values = None if slot is None else _values(command, previous[slot])
+            if slot is None or values is None:
+                return None
+            slots.append(slot)
+            numbers.append(values)
+        if len(set(slots)) != len(slots):
+            return None
+        commands = previous.copy()
+        commands[:, 3:5] = 0.0
+        given = np.zeros(self._robots, np.bool_)
+        if slots:
+            rows = np.array(numbers)
+            if not (np.abs(rows) < MAX_MAGNITUDE).all():  # refuses NaN too
+                return None
+            commands[slots] = rows
+            given[slots] = True
+        return commands, given
+
+    def answer(self, frame: Frame, team: int, given: Mask) -> bytes:
+        """Return the answer to a message without errors.
+
+        Args:
+            frame: what robots report, frame of one world.
+            team: `BLUE` or `YELLOW`.
+            given: (robots,) robots to tell about; if none, all of the team on the field.
+        """
+        told = given if given.any() else frame.robots.absent[0] == 0
+        contact = frame.robots.infrared[0] > 0
+        key = team, told.tobytes(), contact.tobytes()
+        answer = self._answers.get(key)
+        if answer is None:
+            message = simulation_pb2.RobotControlResponse()
+            for slot in self._layout.slots(team):
+                if told[slot]:
+                    message.feedback.add(
+                        id=self._layout.identity(slot)[1],
+                        dribbler_ball_contact=bool(contact[slot]),
+                    )
+            answer = message.SerializeToString()
+            if len(self._answers) >= _MAX_ANSWERS:
+                self._answers.clear()
+            self._answers[key] = answer
+        return answer
+
+
+def _values(command: simulation_pb2.RobotCommand, previous: Floats) -> list[float] | None:
+    """Columns of a command; None if it is not a common one."""
+    values: list[float] = [*previous[:3].tolist(), 0.0, 0.0, float(previous[5])]
+    if command.HasField("move_command"):
+        move = command.move_command
+        if move.WhichOneof("command") != "local_velocity":
+            return None
+        local = move.local_velocity
+        values[:3] = local.forward, local.left, local.angular
+    speed = command.kick_speed
+    if speed:
+        angle = command.kick_angle
+        # Of a message whose numbers are not finite, nothing is used: `not` refuses NaN too.
+        if not (0.0 < speed < MAX_MAGNITUDE and 0.0 <= angle <= MAX_KICK_ANGLE):
+            return None
+        values[3] = speed * math.cos(math.radians(angle)) if angle else speed
+        values[4] = speed * math.sin(math.radians(angle)) if angle else 0.0
+    elif command.HasField("kick_angle") and not abs(command.kick_angle) < MAX_MAGNITUDE:
+        return None
+    if command.HasField("dribbler_speed"):
+        share = command.dribbler_speed / FULL_DRIBBLER_RPM
+        if not 0.0 <= share < MAX_MAGNITUDE / FULL_DRIBBLER_RPM:
+            return None
+        values[5] = min(share, 1.0)
+    return values
