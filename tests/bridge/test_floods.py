@@ -27,7 +27,7 @@ def mutated(rng: random.Random, data: bytes) -> bytes:
         elif rng.random() < 0.5:
             del content[rng.randrange(len(content) + 1) :]
         else:
-            content += content
+            content *= 2
     return bytes(content[:2000])
 
 
