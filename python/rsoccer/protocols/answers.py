@@ -100,3 +100,14 @@ def read_feedback(
         told[slot] = feedback.HasField("dribbler_ball_contact")
         contact[slot] = feedback.dribbler_ball_contact
     return told, contact
+
+
+def read_errors(
+    message: simulation_pb2.Response | simulation_pb2.RobotControlResponse,
+) -> list[tuple[str, str]]:
+    """Return codes and texts of the errors in an answer; codes are the sender's own.
+
+    Args:
+        message: the answer, from `rsoccer.protocols.parsing.parse`.
+    """
+    return [(error.code, error.message) for error in message.errors]

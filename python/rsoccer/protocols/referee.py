@@ -285,6 +285,19 @@ def read_packet(
     return status, problems
 
 
+def read_stamp(message: referee_pb2.Packet) -> Stamp:
+    """Return the times of a packet and the number of its command.
+
+    Args:
+        message: the packet, from `rsoccer.protocols.parsing.parse`.
+    """
+    return Stamp(
+        message.packet_timestamp / MICROSECONDS,
+        message.command_counter,
+        message.command_timestamp / MICROSECONDS,
+    )
+
+
 def _command(code: int, problems: list[Problem]) -> Command:
     if code in _READ_AS:
         name = referee_pb2.Command.Name(code)  # type: ignore[arg-type]
