@@ -6,10 +6,9 @@ an error with a code. It is sent if messages that the package writes have it.
 
 from __future__ import annotations
 
-import copy
 import random
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 from typing import Any, Final, NamedTuple
@@ -22,11 +21,10 @@ from benches.markdown import table
 from rsoccer import Field, RobotModel
 from rsoccer.frame import Frame
 from rsoccer.protocols.errors import MessageError
-from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.parsing import is_repeated
 from rsoccer.protocols.placing import Placement
-from tools.protocols.reasons import reason
 from tools.protocols.readers import READERS, UNREAD, Reader, bases, written
+from tools.protocols.reasons import reason
 from tools.protocols.samples import FLOATS, WHOLE, value
 
 READ, SENT, CONSTANT, NO = "yes", "yes", "constant", "no"
@@ -117,7 +115,8 @@ def _read() -> dict[Key, str]:
                 if key in used or tried[key] > _MAX_TRIED:
                     continue
                 for _ in range(_TRIES):
-                    changed = copy.deepcopy(base)
+                    changed = type(base)()
+                    changed.CopyFrom(base)
                     _change(changed, path, rng)
                     after = _result(reader, changed)
                     told = _told(path[-1][0], before, after)
@@ -130,48 +129,49 @@ def _read() -> dict[Key, str]:
     return errors | dict.fromkeys(used, READ)
 
 
-_Result = tuple[object, frozenset[str]]
+_Result = tuple[object, Counter[str]]
 
 
-def _told(field: FieldDescriptor, before: _Result, after: _Result) -> frozenset[str]:
+def _told(field: FieldDescriptor, before: _Result, after: _Result) -> set[str]:
     """Errors that tell of a field: they come or go with its value, or go with the whole field."""
     if field.message_type is None and not is_repeated(field):
-        return after[1] ^ before[1]
-    return before[1] - after[1] if before[0] == after[0] else frozenset()
+        return {*(after[1] - before[1]), *(before[1] - after[1])}
+    return {*(before[1] - after[1])} if before[0] == after[0] else set()
 
 
-def _result(reader: Reader, message: Message) -> tuple[object, frozenset[str]]:
+def _result(reader: Reader, message: Message) -> _Result:
     """What a message means, and codes of errors."""
     try:
         result, problems = reader.read(message)
     except MessageError as error:
-        return None, frozenset({str(error.code)})
-    return _plain(result), frozenset(str(problem[0]) for problem in problems)
+        return None, Counter([str(error.code)])
+    return _plain(result), Counter(str(problem[0]) for problem in problems)
 
 
-def _plain(result: object) -> object:
+def _plain(result: Any) -> object:  # noqa: ANN401  (any result)
     """A result in values that can be compared; without problems."""
-    if isinstance(result, np.ndarray):
-        return result.shape, result.tobytes()
-    if isinstance(result, Frame):
-        return result.rows.tobytes()
-    if isinstance(result, Field | RobotModel):
-        return result.to_json()
-    if isinstance(result, WireLayout):
-        return ""
-    if isinstance(result, Placement):
-        parts = (result.row, result.ball, result.robots, result.safely)
-        return tuple(_plain(part) for part in parts)
-    if is_dataclass(result):
-        names = [field.name for field in fields(result) if field.name != "problems"]
-        return tuple(_plain(getattr(result, each)) for each in names)
-    if isinstance(result, tuple) and hasattr(result, "_fields"):
-        return tuple(_plain(getattr(result, each)) for each in result._fields if each != "problems")
+    for kind, make in _PLAIN.items():
+        if isinstance(result, kind):
+            return make(result)
+    names = [field.name for field in fields(result)] if is_dataclass(result) else []
+    names = names or list(getattr(result, "_fields", ()))
+    if names:
+        return tuple(_plain(getattr(result, each)) for each in names if each != "problems")
     if isinstance(result, tuple | list):
         return tuple(map(_plain, result))
     if isinstance(result, dict):
-        return tuple((key, _plain(part)) for key, part in result.items())
+        return _plain(list(result.items()))
     return result
+
+
+_PLAIN: Final[dict[type, Callable[[Any], object]]] = {
+    np.ndarray: lambda array: (array.shape, array.tobytes()),
+    Frame: lambda frame: frame.rows.tobytes(),
+    Field: Field.to_json,
+    RobotModel: RobotModel.to_json,
+    Placement: lambda made: _plain((made.row, made.ball, made.robots, made.safely)),
+}
+"""From results of these types to values that can be compared."""
 
 
 Path = tuple[tuple[FieldDescriptor, int], ...]

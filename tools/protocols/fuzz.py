@@ -146,7 +146,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
     start = time.perf_counter()
-    with np.errstate(all="raise"):
+    with np.errstate(over="raise", invalid="raise", divide="raise"):
         outcomes = fuzz(args.packets, args.seed)
     print(f"{args.packets} packets in {time.perf_counter() - start:.0f} s")
     for outcome, count in outcomes.most_common():

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from google.protobuf.message import Message
-
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.layout import TEAMS
 from rsoccer.protocols.logs import read_log
+from rsoccer.protocols.protobuf import Message
 from rsoccer.protocols.schemas import referee_pb2, tracker_pb2, vision_pb2
 
 MIN_SHARE: Final = 0.01

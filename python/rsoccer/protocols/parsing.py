@@ -7,10 +7,8 @@ from collections.abc import Callable
 from functools import cache
 from typing import Final, TypeVar
 
-from google.protobuf.descriptor import Descriptor, FieldDescriptor
-from google.protobuf.message import DecodeError, Message
-
 from rsoccer.protocols.errors import Code, MessageError
+from rsoccer.protocols.protobuf import DecodeError, Descriptor, FieldDescriptor, Message
 
 MAX_SIZE: Final = 65507
 """Greatest length of a message in bytes: that of the content of a UDP datagram over IPv4."""
