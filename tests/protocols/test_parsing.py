@@ -10,6 +10,15 @@ from rsoccer.protocols.parsing import MAX_SIZE, check_finite, parse
 from rsoccer.protocols.schemas import fira_pb2, referee_pb2, simulation_pb2, tracker_pb2, vision_pb2
 
 
+def delimited(number: int, data: bytes) -> bytes:
+    """A field of bytes on the wire."""
+    return varint(number * 8 + 2) + varint(len(data)) + data
+
+
+def varint(value: int) -> bytes:
+    return bytes([value]) if value < 128 else bytes([value % 128 + 128]) + varint(value // 128)
+
+
 def refused(kind: type[Message], data: bytes, text: str) -> Code:
     with pytest.raises(MessageError, match=text) as error:
         parse(kind, data)
@@ -54,16 +63,11 @@ def test_times_may_be_large_but_finite() -> None:
 
 
 def test_events_that_contain_each_other_are_refused_beyond_a_depth() -> None:
-    inner = referee_pb2.GameEvent(id="x")
+    data = b""
     for _ in range(200):
-        outer = referee_pb2.GameEvent()
-        outer.multiple_fouls.by_team = referee_pb2.BLUE
-        outer.multiple_fouls.caused_game_events.add().MergeFrom(inner)
-        inner = outer
-    assert (
-        refused(referee_pb2.GameEvent, inner.SerializeToString(), "^message: expected")
-        is Code.UNREADABLE
-    )
+        data = b"\x08\x02" + delimited(2, data)  # MultipleFouls: its team and its cause
+        data = delimited(34, data)  # GameEvent.multiple_fouls
+    assert refused(referee_pb2.GameEvent, data, "^message: expected") is Code.UNREADABLE
 
 
 def test_messages_without_numbers_need_no_check() -> None:

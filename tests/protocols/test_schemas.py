@@ -81,7 +81,8 @@ def test_values_are_those_of_the_leagues() -> None:
         for part in path:
             found = getattr(found, part)
         own = sorted([str(number), value] for value, number in found.items())  # type: ignore[attr-defined]
-        assert own == sorted(values), name
+        # Names of values are not on the wire; the schemas shorten those of senders.
+        assert own == sorted([number, value.removeprefix("SSL_")] for number, value in values), name
 
 
 def test_no_text_of_the_leagues_is_in_the_schemas() -> None:
