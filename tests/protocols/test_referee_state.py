@@ -35,7 +35,7 @@ def test_numbers_of_a_match_are_told() -> None:
     game.fouls[1], game.red_cards[1], game.yellow_cards[1] = (4, 1), (1, 0), (3, 2)
     game.yellow_steps_left[1] = (400, 0, 800, 1200)
     game.placement_failures[1] = (5, -1)
-    game.stage[1], game.seconds_left[1] = 0, 123.5
+    game.seconds_left[1] = 123.5
     row = {name: i for i, name in enumerate(rsoccer._core.GAME_COLUMNS)}
     game.referee[1, row["stage"]] = Stage.NORMAL_FIRST_HALF
     game.referee[1, row["command"]] = Command.DIRECT_FREE_BLUE
