@@ -18,8 +18,8 @@ def test_feedback_survives_the_wire() -> None:
         made, frame, 1, YELLOW, problems=[Problem(Code.OUT_OF_RANGE, "text")]
     )
     sent = parse(simulation_pb2.RobotControlResponse, message.SerializeToString())
-    told, contact = answers.read_feedback(made, sent, YELLOW)
-    assert told.tolist() == [False, False, False, True, False, True, True]
+    reported, contact = answers.read_feedback(made, sent, YELLOW)
+    assert reported.tolist() == [False, False, False, True, False, True, True]
     assert contact.tolist() == [False, False, False, True, False, False, True]
     assert answers.read_errors(sent) == [("OUT_OF_RANGE", "text")]
     other, _ = answers.read_feedback(made, sent, BLUE)

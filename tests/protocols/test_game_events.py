@@ -4,7 +4,7 @@ import pytest
 
 from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
 from rsoccer.protocols.errors import Code, MessageError
-from rsoccer.protocols.game_events import ToldEvent, read_game_event, to_game_event
+from rsoccer.protocols.game_events import ReportedEvent, read_game_event, to_game_event
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import referee_pb2
 from tests.protocols.matches import SIDES, layout
@@ -20,8 +20,8 @@ PLACE_FIELDS = {"location", "end"}
 def test_every_event_survives_the_wire(kind: EventKind, positive: bool) -> None:
     made = layout(positive=positive)
     for team, robot in ((BLUE, 2), (YELLOW, 4)):
-        told = ToldEvent(Event(kind, team, robot, (0.5, -0.25)), "an id", 1.5)
-        message = to_game_event(made, told)
+        reported = ReportedEvent(Event(kind, team, robot, (0.5, -0.25)), "an id", 1.5)
+        message = to_game_event(made, reported)
         content = message.WhichOneof("event")
         assert content == kind.name.lower()
         assert referee_pb2.GameEvent.Type.Name(message.type) == kind.name
@@ -33,7 +33,7 @@ def test_every_event_survives_the_wire(kind: EventKind, positive: bool) -> None:
             robot if fields & ROBOT_FIELDS else NOBODY,
             (0.5, -0.25) if fields & PLACE_FIELDS else (0.0, 0.0),
         )
-        assert found == ToldEvent(expected, "an id", 1.5)
+        assert found == ReportedEvent(expected, "an id", 1.5)
 
 
 def test_the_kinds_cover_all_of_the_referee() -> None:
@@ -41,24 +41,24 @@ def test_the_kinds_cover_all_of_the_referee() -> None:
 
 
 def test_own_goals_name_the_team_of_the_robot() -> None:
-    told = ToldEvent(Event(EventKind.GOAL, BLUE, 4, (1.0, 0.0)), "a", 0.0)
-    message = to_game_event(layout(), told)
+    reported = ReportedEvent(Event(EventKind.GOAL, BLUE, 4, (1.0, 0.0)), "a", 0.0)
+    message = to_game_event(layout(), reported)
     assert message.goal.by_team == referee_pb2.BLUE
     assert (message.goal.kicking_team, message.goal.kicking_bot) == (referee_pb2.YELLOW, 3)
-    assert read_game_event(layout(), message).event == told.event
+    assert read_game_event(layout(), message).event == reported.event
 
 
 @pytest.mark.parametrize("kind", [EventKind.PASS, EventKind.NONE])
-def test_events_of_this_package_are_not_told(kind: EventKind) -> None:
+def test_events_of_this_package_are_not_reported(kind: EventKind) -> None:
     with pytest.raises(MessageError, match=r"^event: expected one of the SSL") as error:
-        to_game_event(layout(), ToldEvent(Event(kind, BLUE, 0, (0, 0)), "a", 0.0))
+        to_game_event(layout(), ReportedEvent(Event(kind, BLUE, 0, (0, 0)), "a", 0.0))
     assert error.value.code is Code.UNSUPPORTED_EVENT
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in WITHOUT_TEAM])
 def test_events_need_their_team(kind: EventKind) -> None:
     with pytest.raises(MessageError, match=r"^event: expected a team") as error:
-        to_game_event(layout(), ToldEvent(Event(kind, NOBODY, NOBODY, (0, 0)), "a", 0.0))
+        to_game_event(layout(), ReportedEvent(Event(kind, NOBODY, NOBODY, (0, 0)), "a", 0.0))
     assert error.value.code is Code.UNKNOWN_TEAM
 
 

@@ -99,8 +99,8 @@ def test_status_tells_of_beams_and_kicks() -> None:
     frame.robots.touched_ball[0, 2] = 1.0
     rows[0, 3:5], rows[2, 3:5] = (2.0, 0.0), (2.0, 1.5)
     message = grsim.to_status(layout(), frame, 0, BLUE, rows)
-    told = [(s.robot_id, s.infrared, s.flat_kick, s.chip_kick) for s in message.robots_status]
-    assert told == [(5, False, True, False), (0, True, False, False), (11, False, False, True)]
+    reported = [(s.robot_id, s.infrared, s.flat_kick, s.chip_kick) for s in message.robots_status]
+    assert reported == [(5, False, True, False), (0, True, False, False), (11, False, False, True)]
     sent = parse(grsim_pb2.StatusPacket, message.SerializeToString())
     assert grsim.read_status(layout(), sent, BLUE) == {0: False, 1: True, 2: False}
     assert grsim.read_status(layout(), sent, YELLOW) == {}

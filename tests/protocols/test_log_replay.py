@@ -118,8 +118,8 @@ def test_sides_change_at_half_time(tmp_path: Path) -> None:
         for i in range(8):
             made, time = layout(positive=i >= 4), i * 25_000_000
             status = RefereeStatus(Command.HALT, Stage.NORMAL_SECOND_HALF)
-            told = referee.to_packet(made, status, Stamp(0.0, 1, 0.0))
-            log.write(time, LogKind.REFEREE, told.SerializeToString())
+            reported = referee.to_packet(made, status, Stamp(0.0, 1, 0.0))
+            log.write(time, LogKind.REFEREE, reported.SerializeToString())
             seen = tracker.to_packet(made, frame, frame_number=i, timestamp=0.0, uuid="a")
             log.write(time, LogKind.TRACKER, seen.SerializeToString())
     found = log_to_replay(tmp_path / "a.log", field="ssl_b")
@@ -140,8 +140,8 @@ def test_robots_that_are_not_seen_are_absent_and_goals_follow_from_scores(tmp_pa
             log.write(i * 25_000_000, LogKind.TRACKER, seen.SerializeToString())
             blue = TeamStatus("x", score=int(i >= 30))
             status = RefereeStatus(Command.STOP, Stage.NORMAL_FIRST_HALF, (blue, TeamStatus("y")))
-            told = referee.to_packet(made, status, Stamp(0.0, 1, 0.0))
-            log.write(i * 25_000_000 + 1, LogKind.REFEREE, told.SerializeToString())
+            reported = referee.to_packet(made, status, Stamp(0.0, 1, 0.0))
+            log.write(i * 25_000_000 + 1, LogKind.REFEREE, reported.SerializeToString())
     found = log_to_replay(tmp_path / "a.log", field=Field("ssl_a"))
     absent = found.frame.robots.absent[:, 1]
     assert absent[:39].max() == 0.0

@@ -7,7 +7,7 @@ import pytest
 from rsoccer.game import BLUE, YELLOW, Command, Event, EventKind, Stage
 from rsoccer.protocols import referee
 from rsoccer.protocols.errors import Code, MessageError
-from rsoccer.protocols.game_events import ToldEvent
+from rsoccer.protocols.game_events import ReportedEvent
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.referee import EventLog, RefereeStatus, Stamp, Stamper, TeamStatus
 from rsoccer.protocols.schemas import referee_pb2
@@ -15,7 +15,7 @@ from tests.protocols.matches import SIDES, codes, layout
 
 BLUE_TEAM = TeamStatus("Blau", 3, 5, 4, 2, (60.5, 90.0), 1, 4, 2, may_place=True)
 YELLOW_TEAM = TeamStatus("Gelb", 1, 7, 0, 0, (), 0, 6, 5, may_place=False)
-GOAL = ToldEvent(Event(EventKind.GOAL, BLUE, 1, (4.5, 0.25)), "g1", 1.25)
+GOAL = ReportedEvent(Event(EventKind.GOAL, BLUE, 1, (4.5, 0.25)), "g1", 1.25)
 STATUS = RefereeStatus(
     command=Command.BALL_PLACEMENT_YELLOW,
     stage=Stage.NORMAL_SECOND_HALF,
@@ -60,7 +60,7 @@ def test_commands_of_vsss_are_refused(command: Command) -> None:
     assert error.value.code is Code.UNSUPPORTED_COMMAND
 
 
-def test_designated_positions_are_told_in_placements_alone() -> None:
+def test_designated_positions_are_reported_in_placements_alone() -> None:
     status = replace(STATUS, command=Command.STOP)
     assert not referee.to_packet(layout(), status, STAMP).HasField("designated_position")
 
@@ -90,8 +90,8 @@ def test_events_that_cannot_be_read_are_listed() -> None:
     assert status.events == ()
 
 
-def test_passes_are_not_told() -> None:
-    ball = ToldEvent(Event(EventKind.PASS, BLUE, 1, (0.0, 0.0)), "p", 0.0)
+def test_passes_are_not_reported() -> None:
+    ball = ReportedEvent(Event(EventKind.PASS, BLUE, 1, (0.0, 0.0)), "p", 0.0)
     packet = referee.to_packet(layout(), replace(STATUS, events=(ball, GOAL)), STAMP)
     assert [event.id for event in packet.game_events] == ["g1"]
 
@@ -111,11 +111,11 @@ def test_stamps_count_commands() -> None:
     assert stamper.stamp(Command.HALT, 4.0, again=True) == (4.0, 1, 4.0)
 
 
-def test_events_are_told_until_play_goes_on() -> None:
+def test_events_are_reported_until_play_goes_on() -> None:
     log, event = EventLog(), Event(EventKind.GOAL, YELLOW, 3, (0.0, 0.0))
-    assert [told.identity for told in log.add(Command.STOP, [event], 1.0)] == ["rsoccer-1"]
-    told = log.add(Command.STOP, [event], 2.0)
-    assert [(each.identity, each.seconds) for each in told] == [
+    assert [reported.identity for reported in log.add(Command.STOP, [event], 1.0)] == ["rsoccer-1"]
+    reported = log.add(Command.STOP, [event], 2.0)
+    assert [(each.identity, each.seconds) for each in reported] == [
         ("rsoccer-1", 1.0),
         ("rsoccer-2", 2.0),
     ]

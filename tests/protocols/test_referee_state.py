@@ -9,7 +9,7 @@ from rsoccer.protocols.referee_state import status_of_game, status_of_recorded
 from rsoccer.render.referee_state import referee_of, referee_state
 
 
-def test_a_running_match_is_told() -> None:
+def test_a_running_match_is_reported() -> None:
     matches = rsoccer.Matches("SSLMatch-v0", worlds=2)
     matches.reset(seed=0)
     rule = referee_of(matches.task)
@@ -25,7 +25,7 @@ def test_a_running_match_is_told() -> None:
     assert [team.max_robots for team in status.teams] == [6, 6]
 
 
-def test_numbers_of_a_match_are_told() -> None:
+def test_numbers_of_a_match_are_reported() -> None:
     matches = rsoccer.Matches("SSLMatch-v0", worlds=2)
     matches.reset(seed=0)
     rule = referee_of(matches.task)

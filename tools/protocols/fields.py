@@ -1,4 +1,4 @@
-"""Which fields of all messages the package honors: measured, field by field.
+"""Fields of all messages, and whether the package honors them: measured, field by field.
 
 A field is read if a change of its value changes what the package makes of the message, or leads to
 an error with a code. It is sent if messages that the package writes have it.
@@ -40,7 +40,7 @@ Key = tuple[str, str]
 
 
 class Row(NamedTuple):
-    """What happens to a field."""
+    """Use of a field."""
 
     protocol: str
     """Name of the protocol."""
@@ -53,7 +53,7 @@ class Row(NamedTuple):
     sent: str
     """"yes", "constant" or "no"."""
     reason: str
-    """Why it is neither read nor sent with a meaning; empty otherwise."""
+    """Reason why it is not read; empty if it is."""
 
 
 @cache
@@ -101,7 +101,7 @@ def _inner(kind: Descriptor, found: dict[str, Descriptor] | None = None) -> list
 
 
 def _read() -> dict[Key, str]:
-    """How each field is read."""
+    """Use of each field in messages that are read."""
     used: set[Key] = set()
     codes: dict[Key, set[str]] = {}
     tried: Counter[Key] = Counter()
@@ -119,9 +119,9 @@ def _read() -> dict[Key, str]:
                     changed.CopyFrom(base)
                     _change(changed, path, rng)
                     after = _result(reader, changed)
-                    told = _told(path[-1][0], before, after)
-                    if told:
-                        codes.setdefault(key, set()).update(told)
+                    reported = _reported(path[-1][0], before, after)
+                    if reported:
+                        codes.setdefault(key, set()).update(reported)
                     elif after[0] != before[0]:
                         used.add(key)
                         break
@@ -132,7 +132,7 @@ def _read() -> dict[Key, str]:
 _Result = tuple[object, Counter[str]]
 
 
-def _told(field: FieldDescriptor, before: _Result, after: _Result) -> set[str]:
+def _reported(field: FieldDescriptor, before: _Result, after: _Result) -> set[str]:
     """Errors that tell of a field: they come or go with its value, or go with the whole field."""
     if field.message_type is None and not is_repeated(field):
         return {*(after[1] - before[1]), *(before[1] - after[1])}
@@ -140,7 +140,7 @@ def _told(field: FieldDescriptor, before: _Result, after: _Result) -> set[str]:
 
 
 def _result(reader: Reader, message: Message) -> _Result:
-    """What a message means, and codes of errors."""
+    """Meaning of a message, and codes of errors."""
     try:
         result, problems = reader.read(message)
     except MessageError as error:
@@ -215,7 +215,7 @@ def _change(message: Message, path: Path, rng: random.Random) -> None:
 
 
 def _sent() -> dict[Key, str]:
-    """How each field is sent."""
+    """Use of each field in messages that are sent."""
     values: dict[Key, set[object]] = {}
     counts: dict[Key, int] = {}
     for message in written():

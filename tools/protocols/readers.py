@@ -26,7 +26,7 @@ from rsoccer.protocols import (
 )
 from rsoccer.protocols.cameras import Camera
 from rsoccer.protocols.errors import Code, Problem
-from rsoccer.protocols.game_events import ToldEvent
+from rsoccer.protocols.game_events import ReportedEvent
 from rsoccer.protocols.geometry import to_field
 from rsoccer.protocols.layout import WireLayout
 from rsoccer.protocols.robot_specs import to_robot_specs
@@ -253,7 +253,7 @@ def _tracker() -> Iterator[tracker_pb2.Packet]:
 def _referee() -> Iterator[referee_pb2.Packet]:
     side = WireLayout(SSL.config, blue_on_positive_half=True)
     events = [
-        ToldEvent(Event(kind, team, robot, (0.1 + team, 0.2)), f"{kind}-{team}", 1.0 + team)
+        ReportedEvent(Event(kind, team, robot, (0.1 + team, 0.2)), f"{kind}-{team}", 1.0 + team)
         for kind in EventKind
         for team, robot in ((BLUE, 2), (YELLOW, 9))
     ]

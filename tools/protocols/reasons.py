@@ -18,7 +18,7 @@ _KICKED: Final = "rSoccer does not estimate kicks"
 _DRAFT: Final = "a draft of the league, without a port; no simulator speaks it"
 
 REASONS: Final = {
-    "vision.Packet.source": "positions mean the same, whoever sends them",
+    "vision.Packet.source": "positions mean the same, whatever the sender",
     "vision.DetectionFrame.t_capture_camera": "`t_capture` is by the same clock as `t_sent`",
     "vision.DetectionBall.area": "places are enough to follow a ball",
     "vision.DetectionBall.pixel_": _PLACES,

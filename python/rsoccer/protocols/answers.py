@@ -91,15 +91,15 @@ def read_feedback(
         (robots,) robots that the answer has, and those whose dribbler has contact to the ball.
         Robots that the match does not have are left out.
     """
-    told, contact = np.zeros((2, layout.config.n_robots), np.bool_)
+    reported, contact = np.zeros((2, layout.config.n_robots), np.bool_)
     for feedback in message.feedback:
         try:
             slot = layout.slot(team, feedback.id)
         except MessageError:
             continue
-        told[slot] = feedback.HasField("dribbler_ball_contact")
+        reported[slot] = feedback.HasField("dribbler_ball_contact")
         contact[slot] = feedback.dribbler_ball_contact
-    return told, contact
+    return reported, contact
 
 
 def read_errors(

@@ -22,7 +22,7 @@ _COLORS: Final = {tracker_pb2.TEAM_COLOR_BLUE: BLUE, tracker_pb2.TEAM_COLOR_YELL
 
 @dataclass
 class Survey:
-    """What a log contains.
+    """Contents of a log.
 
     Attributes:
         first: time of the first state, Unix time, s.
