@@ -91,12 +91,23 @@ def read_feedback(
         (robots,) robots that the answer has, and those whose dribbler has contact to the ball.
         Robots that the match does not have are left out.
     """
-    told, contact = np.zeros((2, layout.config.n_robots), np.bool_)
+    reported, contact = np.zeros((2, layout.config.n_robots), np.bool_)
     for feedback in message.feedback:
         try:
             slot = layout.slot(team, feedback.id)
         except MessageError:
             continue
-        told[slot] = feedback.HasField("dribbler_ball_contact")
+        reported[slot] = feedback.HasField("dribbler_ball_contact")
         contact[slot] = feedback.dribbler_ball_contact
-    return told, contact
+    return reported, contact
+
+
+def read_errors(
+    message: simulation_pb2.Response | simulation_pb2.RobotControlResponse,
+) -> list[tuple[str, str]]:
+    """Return codes and texts of the errors in an answer; codes are the sender's own.
+
+    Args:
+        message: the answer, from `rsoccer.protocols.parsing.parse`.
+    """
+    return [(error.code, error.message) for error in message.errors]

@@ -221,7 +221,7 @@ class Collector:
 
 
 class Motion(NamedTuple):
-    """What a command asks of a robot, whatever its drive."""
+    """Demands of a command on a robot, whatever its drive."""
 
     velocity: tuple[float, float, float]
     """Forward and to the left, m/s; counterclockwise, rad/s."""

@@ -234,3 +234,12 @@ def read_environment(
         ball = message.frame.ball
         placed.put_ball(layout, (ball.x, ball.y, ball.z), (ball.vx, ball.vy, ball.vz))
     return placed
+
+
+def read_score(message: fira_pb2.Environment) -> tuple[int, int]:
+    """Return the goals of blue and of yellow in a packet of the simulator.
+
+    Args:
+        message: the packet, from `rsoccer.protocols.parsing.parse`. FIRASim itself counts none.
+    """
+    return message.goals_blue, message.goals_yellow

@@ -19,7 +19,7 @@ _REASON: Final = "position at a penalty kick"
 """Reason of unsporting behavior that rSoccer's referee knows."""
 
 
-class ToldEvent(NamedTuple):
+class ReportedEvent(NamedTuple):
     """An event that packets tell again and again, so it has an identity."""
 
     event: Event
@@ -30,24 +30,24 @@ class ToldEvent(NamedTuple):
     """Time of the event, Unix time, s; 0 if unknown."""
 
 
-def to_game_event(layout: WireLayout, told: ToldEvent) -> referee_pb2.GameEvent:
+def to_game_event(layout: WireLayout, reported: ReportedEvent) -> referee_pb2.GameEvent:
     """Return the message of an event.
 
     Args:
         layout: the match.
-        told: the event.
+        reported: the event.
 
     Raises:
         MessageError: an event that the game controller does not have, such as a pass, or one
             without the team that it needs.
     """
-    event, name = told.event, told.event.kind.name
+    event, name = reported.event, reported.event.kind.name
     if name not in referee_pb2.GameEvent.Type.keys() or event.kind is EventKind.NONE:  # noqa: SIM118
         raise MessageError(Code.UNSUPPORTED_EVENT, f"event: expected one of the SSL, got {name}")
     message = referee_pb2.GameEvent(
-        id=told.identity,
+        id=reported.identity,
         type=referee_pb2.GameEvent.Type.Value(name),
-        created_timestamp=max(0, round(told.seconds * MICROSECONDS)),
+        created_timestamp=max(0, round(reported.seconds * MICROSECONDS)),
     )
     content = getattr(message, name.lower())
     content.SetInParent()
@@ -81,7 +81,7 @@ def _put_robot(layout: WireLayout, event: Event, content: Any) -> None:  # noqa:
         setattr(content, "bot_blue" if team == BLUE else "bot_yellow", number)
 
 
-def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> ToldEvent:
+def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> ReportedEvent:
     """Return the event of a message.
 
     Args:
@@ -111,7 +111,7 @@ def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> ToldE
             position = (value.x * layout.sign, value.y * layout.sign)
     if content is not None:
         robot = _robot(layout, content, team)
-    return ToldEvent(
+    return ReportedEvent(
         Event(EventKind[name], team, robot, position),
         message.id or message.SerializeToString(deterministic=True).hex(),
         message.created_timestamp / MICROSECONDS,

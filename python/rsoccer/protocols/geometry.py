@@ -8,6 +8,7 @@ from typing import Final
 
 from rsoccer._core import BallModel, Field
 from rsoccer.protocols.cameras import Camera
+from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.layout import MILLIMETERS, WireLayout
 from rsoccer.protocols.schemas import vision_pb2
 
@@ -56,7 +57,7 @@ def to_field(message: vision_pb2.Geometry) -> Field:
         the walls of the goals, is the preset's.
 
     Raises:
-        ValueError: sizes that no field can have.
+        MessageError: sizes that no field can have.
     """
     size = message.field
     length = size.field_length / MILLIMETERS
@@ -82,7 +83,10 @@ def to_field(message: vision_pb2.Geometry) -> Field:
             numbers[number] = getattr(size, source)
     if size.HasField("goal_center_to_penalty_mark"):
         numbers["penalty_mark_distance"] = size.goal_center_to_penalty_mark
-    return Field(name, **{key: value / MILLIMETERS for key, value in numbers.items()})
+    try:
+        return Field(name, **{key: value / MILLIMETERS for key, value in numbers.items()})
+    except ValueError as error:
+        raise MessageError(Code.OUT_OF_RANGE, f"geometry: {error}") from None
 
 
 def _field_size(field: Field, ball: BallModel) -> vision_pb2.FieldSize:

@@ -20,7 +20,7 @@ from rsoccer.protocols.schemas import grsim_pb2
 MIN_KICK: Final = 1e-4
 """Speed up to which a kick is none, m/s (grSim fe2bd29)."""
 MIN_CHIP: Final = 1.0
-"""Upward speed from which a kick is told as a chip, m/s (grSim fe2bd29)."""
+"""Upward speed from which a kick is reported as a chip, m/s (grSim fe2bd29)."""
 _WHEELS: Final = ("wheel1", "wheel2", "wheel3", "wheel4")
 
 

@@ -33,7 +33,7 @@ MAX_ROBOT_ID: Final = 2**32 - 1
 
 @dataclass(frozen=True)
 class WireLayout:
-    """What messages need to know of a match besides its state.
+    """Knowledge of a match that messages need besides its state.
 
     Attributes:
         config: configuration of the simulator: field, ball, robots.

@@ -41,7 +41,7 @@ class LogReferee:
         self._status: RefereeStatus | None = None
         self._kick: Command | None = None
         self._since = 0
-        self._told: set[str] = set()
+        self._reported: set[str] = set()
         self._new: list[Event] = []
 
     def add(self, message: referee_pb2.Packet) -> None:
@@ -62,10 +62,13 @@ class LogReferee:
         for team in TEAMS if before is not None else ():
             if status.teams[team].score > before.teams[team].score:
                 self._new.append(Event(EventKind.GOAL, team, NOBODY, (0.0, 0.0)))
-        for told in status.events:
-            if told.identity not in self._told and told.event.kind is not EventKind.GOAL:
-                self._new.append(told.event)  # goals follow from the score
-            self._told.add(told.identity)
+        for reported in status.events:
+            if (
+                reported.identity not in self._reported
+                and reported.event.kind is not EventKind.GOAL
+            ):
+                self._new.append(reported.event)  # goals follow from the score
+            self._reported.add(reported.identity)
 
     def frame(self, index: int) -> tuple[Doubles | None, list[events.Event]]:
         """Return the row of a frame, and the events since the frame before it.

@@ -83,7 +83,7 @@ def _layout(survey: Survey, time_step: float, field: Field | str | None) -> Wire
     most = SimConfig(field, 0, 0).field.max_robots
     blue, yellow = survey.ids(0, most), survey.ids(1, most)
     config = SimConfig(field, len(blue), len(yellow), time_step=time_step)
-    return WireLayout(config, blue, yellow)
+    return WireLayout(config, blue, yellow, bool(survey.side))
 
 
 class _Frames:

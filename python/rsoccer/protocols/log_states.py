@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
-from google.protobuf.message import Message
 
 from rsoccer.arrays import Doubles, Floats
 from rsoccer.frame import Frame
 from rsoccer.protocols import tracker, vision
 from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.protobuf import Message
 from rsoccer.protocols.schemas import tracker_pb2, vision_pb2
 
 ABSENT_SECONDS: Final = 0.5

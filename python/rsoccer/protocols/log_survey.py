@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from google.protobuf.message import Message
-
 from rsoccer.game import BLUE, YELLOW
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.layout import TEAMS
 from rsoccer.protocols.logs import read_log
+from rsoccer.protocols.protobuf import Message
 from rsoccer.protocols.schemas import referee_pb2, tracker_pb2, vision_pb2
 
 MIN_SHARE: Final = 0.01
@@ -23,7 +22,7 @@ _COLORS: Final = {tracker_pb2.TEAM_COLOR_BLUE: BLUE, tracker_pb2.TEAM_COLOR_YELL
 
 @dataclass
 class Survey:
-    """What a log contains.
+    """Contents of a log.
 
     Attributes:
         first: time of the first state, Unix time, s.
@@ -33,6 +32,7 @@ class Survey:
         unreadable: packets that could not be read.
         geometry: first geometry; None if there is none.
         names: last names of blue and of yellow; empty if there are none.
+        side: first side of the referee's packets, whether blue's goal is at +x; None without one.
     """
 
     first: float | None = None
@@ -42,6 +42,7 @@ class Survey:
     unreadable: int = 0
     geometry: vision_pb2.Geometry | None = None
     names: tuple[str, str] = ("", "")
+    side: bool | None = None
     _tracked: Counter[tuple[str, int, int]] = field(default_factory=Counter)
     _detected: Counter[tuple[int, int]] = field(default_factory=Counter)
 
@@ -86,6 +87,8 @@ class Survey:
             self._add_vision(message, seconds)
         elif isinstance(message, referee_pb2.Packet):
             self.names = (message.blue.name, message.yellow.name)
+            if self.side is None and message.HasField("blue_team_on_positive_half"):
+                self.side = message.blue_team_on_positive_half
 
     def _add_vision(
         self, message: vision_pb2.Packet | vision_pb2.Packet2010, seconds: float

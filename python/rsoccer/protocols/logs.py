@@ -17,10 +17,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Final, NamedTuple
 
-from google.protobuf.message import Message
-
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.parsing import MAX_SIZE, parse
+from rsoccer.protocols.protobuf import Message
 from rsoccer.protocols.schemas import referee_pb2, tracker_pb2, vision_pb2
 
 MARK: Final = b"SSL_LOG_FILE"

@@ -7,10 +7,8 @@ from collections.abc import Callable
 from functools import cache
 from typing import Final, TypeVar
 
-from google.protobuf.descriptor import Descriptor, FieldDescriptor
-from google.protobuf.message import DecodeError, Message
-
 from rsoccer.protocols.errors import Code, MessageError
+from rsoccer.protocols.protobuf import DecodeError, Descriptor, FieldDescriptor, Message
 
 MAX_SIZE: Final = 65507
 """Greatest length of a message in bytes: that of the content of a UDP datagram over IPv4."""
@@ -97,7 +95,7 @@ def _check(message: Message) -> None:
     for field, value in message.ListFields():
         if field.type in _FLOATS:
             limit = math.inf if field.name in _TIMES else MAX_MAGNITUDE
-            for number in value if _repeated(field) else (value,):
+            for number in value if is_repeated(field) else (value,):
                 if not abs(number) < limit:  # refuses NaN too
                     name = f"{message.DESCRIPTOR.name}.{field.name}"
                     raise MessageError(
@@ -105,12 +103,16 @@ def _check(message: Message) -> None:
                         f"{name}: expected a finite number below {MAX_MAGNITUDE:g}, got {number}",
                     )
         elif field.message_type is not None and _checker(field.message_type) is not None:
-            for part in value if _repeated(field) else (value,):
+            for part in value if is_repeated(field) else (value,):
                 _check(part)
 
 
 @cache
-def _repeated(field: FieldDescriptor) -> bool:
-    """Whether a field has a list of values."""
+def is_repeated(field: FieldDescriptor) -> bool:
+    """Return whether a field has a list of values.
+
+    Args:
+        field: the field.
+    """
     repeated = getattr(field, "is_repeated", None)  # since protobuf 6.31; then `label` goes
     return bool(field.label == FieldDescriptor.LABEL_REPEATED if repeated is None else repeated)

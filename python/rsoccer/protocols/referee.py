@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 from rsoccer.game import BLUE, YELLOW, Command, Event, Stage
 from rsoccer.protocols.errors import Code, MessageError, Problem
-from rsoccer.protocols.game_events import ToldEvent, read_game_event, to_game_event
+from rsoccer.protocols.game_events import ReportedEvent, read_game_event, to_game_event
 from rsoccer.protocols.layout import MICROSECONDS, MILLIMETERS, WireLayout
 from rsoccer.protocols.schemas import referee_pb2
 
@@ -31,7 +31,7 @@ _READ_AS: Final = {
 
 @dataclass(frozen=True)
 class TeamStatus:
-    """What the referee tells of a team.
+    """State of a team by the referee.
 
     Attributes:
         name: name of the team.
@@ -81,11 +81,11 @@ class RefereeStatus:
     seconds_left: float | None = None
     action_seconds_left: float | None = None
     designated_position: tuple[float, float] | None = None
-    events: tuple[ToldEvent, ...] = ()
+    events: tuple[ReportedEvent, ...] = ()
 
 
 class Stamp(NamedTuple):
-    """What packets carry besides the state, for receivers that compare them."""
+    """Times and number of a packet, for receivers that compare packets."""
 
     timestamp: float
     """Time of sending, Unix time, s."""
@@ -127,26 +127,29 @@ class EventLog:
 
     def __init__(self) -> None:
         """Begin before the first event."""
-        self._told: list[ToldEvent] = []
+        self._reported: list[ReportedEvent] = []
         self._count = 0
 
     def add(
         self, command: Command, events: Iterable[Event], seconds: float
-    ) -> tuple[ToldEvent, ...]:
-        """Add the events of a step and return those that a packet tells.
+    ) -> tuple[ReportedEvent, ...]:
+        """Add the events of a step, and return all that a packet reports.
 
         Args:
             command: command of the referee after the step. While play goes on, a packet tells the
                 events of its own step alone.
             events: events of the step.
             seconds: time of the step, Unix time, s.
+
+        Returns:
+            The events since play stopped, in the order in which they happened.
         """
         if command in RUNNING:
-            self._told.clear()
+            self._reported.clear()
         for event in events:
             self._count += 1
-            self._told.append(ToldEvent(event, f"rsoccer-{self._count}", seconds))
-        return tuple(self._told)
+            self._reported.append(ReportedEvent(event, f"rsoccer-{self._count}", seconds))
+        return tuple(self._reported)
 
 
 def to_packet(
@@ -198,9 +201,9 @@ def to_packet(
         message.designated_position.y = MILLIMETERS * y * layout.sign
     if status_message:
         message.status_message = status_message
-    for told in status.events:
+    for reported in status.events:
         try:
-            message.game_events.append(to_game_event(layout, told))
+            message.game_events.append(to_game_event(layout, reported))
         except MessageError:
             continue  # a pass is no event of the game controller
     return message
@@ -260,9 +263,9 @@ def read_packet(
     if message.HasField("blue_team_on_positive_half"):
         layout = replace(layout, blue_on_positive_half=message.blue_team_on_positive_half)
     events = []
-    for told in message.game_events:
+    for reported in message.game_events:
         try:
-            events.append(read_game_event(layout, told))
+            events.append(read_game_event(layout, reported))
         except MessageError as error:
             problems.append(Problem(error.code, str(error)))
     position = None
@@ -283,6 +286,19 @@ def read_packet(
         events=tuple(events),
     )
     return status, problems
+
+
+def read_stamp(message: referee_pb2.Packet) -> Stamp:
+    """Return the times of a packet and the number of its command.
+
+    Args:
+        message: the packet, from `rsoccer.protocols.parsing.parse`.
+    """
+    return Stamp(
+        message.packet_timestamp / MICROSECONDS,
+        message.command_counter,
+        message.command_timestamp / MICROSECONDS,
+    )
 
 
 def _command(code: int, problems: list[Problem]) -> Command:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 from rsoccer.game import BLUE, YELLOW, Command, Game, Stage
-from rsoccer.protocols.game_events import ToldEvent
+from rsoccer.protocols.game_events import ReportedEvent
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.referee import NAMES, RefereeStatus, TeamStatus
 
@@ -34,7 +34,7 @@ def status_of_game(
     *,
     names: tuple[str, str] = NAMES,
     goalkeepers: tuple[int, int] = (0, 0),
-    events: Sequence[ToldEvent] = (),
+    events: Sequence[ReportedEvent] = (),
 ) -> RefereeStatus:
     """Return what the referee of a running match tells.
 
@@ -114,9 +114,9 @@ def _action_seconds_left(
 
 
 def status_of_recorded(
-    state: RefereeState, *, names: tuple[str, str] = NAMES, events: Sequence[ToldEvent] = ()
+    state: RefereeState, *, names: tuple[str, str] = NAMES, events: Sequence[ReportedEvent] = ()
 ) -> RefereeStatus:
-    """Return what the referee of a recorded match told, as far as replays have it.
+    """Return what the referee of a recorded match reported, as far as replays have it.
 
     Args:
         state: state of the referee in a frame of a replay.

@@ -71,7 +71,7 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
         start: time of the first frame, Unix time, s.
     """
     frame, step = replay.frame, replay.config.time_step
-    states, told, stamper = replay.referee_states, _events(replay), referee.Stamper()
+    states, reported, stamper = replay.referee_states, _events(replay), referee.Stamper()
     every, camera = max(1, round(GEOMETRY_SECONDS / step)), Camera()
     events = referee.EventLog()
     for i in range(len(replay)):
@@ -92,7 +92,7 @@ def log_entries(replay: Recorded, layout: WireLayout, start: float = 0.0) -> Ite
         yield LogEntry(time, LogKind.TRACKER, tracked.SerializeToString())
         if states is None:
             continue
-        since_stop = events.add(states[i].command, told.get(i, ()), seconds)
+        since_stop = events.add(states[i].command, reported.get(i, ()), seconds)
         status = status_of_recorded(states[i], names=replay.names, events=since_stop)
         try:
             packet = referee.to_packet(

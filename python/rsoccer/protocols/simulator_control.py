@@ -23,7 +23,7 @@ _MAX_SPEED: Final = 1e6
 
 @dataclass
 class ControlResult:
-    """What a message to the control port asks for.
+    """Demands of a message to the control port.
 
     Attributes:
         placement: the state with the bodies that are put somewhere.

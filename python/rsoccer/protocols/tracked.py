@@ -42,6 +42,9 @@ class Tracked:
             last: frame of one world; None for `Frame.empty`, with robots that are absent.
             timestamp: time of the state, s.
 
+        Returns:
+            A state in which nothing has been seen.
+
         Raises:
             ValueError: `last` is a frame of other teams.
         """

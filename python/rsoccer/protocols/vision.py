@@ -23,7 +23,7 @@ DEFAULT_CAMERA: Final = Camera()
 
 @dataclass(frozen=True)
 class Detections:
-    """What one camera saw, in SI units and the axes of the package.
+    """Sight of one camera, in SI units and the axes of the package.
 
     Attributes:
         frame_number: number of the image.

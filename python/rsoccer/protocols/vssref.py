@@ -52,7 +52,7 @@ _STAGES: Final = {
 
 
 class VssStatus(NamedTuple):
-    """What VSSReferee tells."""
+    """State of VSSReferee."""
 
     command: Command
     """Command of the referee; a start is `NORMAL_START`."""

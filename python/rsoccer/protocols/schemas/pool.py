@@ -9,12 +9,14 @@ and a program may load the leagues' own modules too.
 from types import ModuleType
 from typing import Any, Final
 
-try:
-    from google.protobuf import any_pb2, descriptor_pb2, descriptor_pool, message_factory
-    from google.protobuf.descriptor import FileDescriptor
-    from google.protobuf.internal.enum_type_wrapper import EnumTypeWrapper
-except ImportError as error:
-    raise ImportError("rsoccer.protocols needs protobuf: pip install 'rsoccer[network]'") from error
+from rsoccer.protocols.protobuf import (
+    EnumTypeWrapper,
+    FileDescriptor,
+    any_pb2,
+    descriptor_pb2,
+    descriptor_pool,
+    message_factory,
+)
 
 _POOL: Final = descriptor_pool.DescriptorPool()
 _POOL.AddSerializedFile(any_pb2.DESCRIPTOR.serialized_pb)  # the only file of protobuf's in use
