@@ -9,8 +9,10 @@ from rsoccer.bridge.server import Server
 from rsoccer.bridge.session import Datagram
 from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.team import Address
+from rsoccer.frame import RobotColumns
 from rsoccer.protocols.schemas import simulation_pb2
 
+Response = simulation_pb2.RobotControlResponse
 BLUE: Address = ("127.0.0.1", 5001)
 YELLOW: Address = ("127.0.0.1", 5002)
 OTHER: Address = ("127.0.0.1", 5003)
@@ -40,7 +42,7 @@ class Wall:
         """Send a message and return the answers."""
         return self.server.receive(port, data, address, self.now)
 
-    def team(self, data: bytes, port: str = "blue", address: Address = BLUE):
+    def team(self, data: bytes, port: str = "blue", address: Address = BLUE) -> Response:
         """Send a message to a team's port and return the answer."""
         (answer,) = self.send(port, data, address)
         assert (answer.port, answer.address) == (port, address)
@@ -62,7 +64,7 @@ class Wall:
         return sent
 
     @property
-    def robots(self):
+    def robots(self) -> RobotColumns:
         """True state of all robots."""
         return self.server.session.arena.frame.robots
 

@@ -91,9 +91,7 @@ def test_answers_are_those_of_the_protocol(which: list[int]) -> None:
     frame.robots.absent[0, 5] = 1.0
     given_robots = np.zeros(12, np.bool_)
     given_robots[which] = True
-    expected = to_robot_control_response(
-        LAYOUT, frame, 0, BLUE, given_robots if which else None
-    )
+    expected = to_robot_control_response(LAYOUT, frame, 0, BLUE, given_robots if which else None)
     for _ in range(2):
         data = READER.answer(frame, BLUE, given_robots)
         assert simulation_pb2.RobotControlResponse.FromString(data) == expected

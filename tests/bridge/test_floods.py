@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -54,19 +55,26 @@ def samples(league: str) -> list[bytes]:
     return [local_velocity(range(6)), command.SerializeToString(), packet.SerializeToString()]
 
 
+def packets_of(rng: random.Random, valid: list[bytes]) -> Iterator[bytes]:
+    """Yield random, mutated and valid packets."""
+    for nth in range(PACKETS):
+        source = rng.randrange(3)
+        if source == 0:
+            yield rng.randbytes(rng.randrange(60))
+        elif source == 1 or nth % 10:
+            yield mutated(rng, rng.choice(valid))
+        else:
+            yield rng.choice(valid)
+
+
 @pytest.mark.parametrize("league", ["ssl", "vsss"])
 def test_nothing_breaks(league: str) -> None:
-    rng = random.Random(league)
+    packets = packets_of(random.Random(league), samples(league))
     wall = Wall(league=league, options={"half_seconds": 5.0})
     if league == "ssl":
         wall.team(local_velocity(range(6)), "yellow", YELLOW)
-    valid = samples(league)
     answers = 0
-    for nth in range(PACKETS):
-        source = rng.randrange(3)
-        data = rng.randbytes(rng.randrange(60)) if source == 0 else mutated(rng, rng.choice(valid))
-        if source == 2 and nth % 10 == 0:
-            data = rng.choice(valid)
+    for nth, data in enumerate(packets):
         for port in wall.server.inputs:
             if port != "yellow":
                 answers += len(wall.send(port, data, OTHER))

@@ -115,9 +115,7 @@ def _assert_close(got: object, expected: object) -> None:
     assert names == [f.name for f, _ in expected.ListFields()]  # type: ignore[attr-defined]
     for field, value in got.ListFields():  # type: ignore[attr-defined]
         other = getattr(expected, field.name)
-        values, others = (
-            (list(value), list(other)) if _is_list(value) else ([value], [other])
-        )
+        values, others = (list(value), list(other)) if _is_list(value) else ([value], [other])
         assert len(values) == len(others), field.name
         for one, two in zip(values, others, strict=True):
             if hasattr(one, "ListFields"):

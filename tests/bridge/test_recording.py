@@ -28,9 +28,7 @@ def test_a_replay(tmp_path: Path) -> None:
     replay = Replay.load(tmp_path / "match.rsr")
     assert len(replay) == 41
     assert replay.seconds == pytest.approx(1.0)
-    np.testing.assert_allclose(
-        replay.frame.robots.position[-1], wall.robots.position[0], atol=1e-3
-    )
+    np.testing.assert_allclose(replay.frame.robots.position[-1], wall.robots.position[0], atol=1e-3)
     assert replay.commands[-1, 1, 0] == pytest.approx(1.0, abs=0.01)
     assert replay.names == ("BLUE", "zero")
     assert replay.sensed is not None

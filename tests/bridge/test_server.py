@@ -1,4 +1,4 @@
-"""A server in process: who drives whom, what is told, what is refused."""
+"""A server in process: who drives whom, what is sent, what is refused."""
 
 from __future__ import annotations
 
@@ -51,19 +51,19 @@ def test_all_ports_tell_the_same_match() -> None:
         "tracker": tracker_pb2.Packet,
         "referee": referee_pb2.Packet,
     }
-    told = {
+    reported = {
         port: [kind.FromString(each.data) for each in wall.sent if each.port == port]
         for port, kind in kinds.items()
     }
-    assert {frame.detection.camera_id for frame in told["vision"]} == {0, 1}
-    assert told["vision"][0].geometry.field.field_length == 9000
-    assert len(told["vision"][0].geometry.calib) == 2
-    tracked = told["tracker"][-1].tracked_frame
+    assert {frame.detection.camera_id for frame in reported["vision"]} == {0, 1}
+    assert reported["vision"][0].geometry.field.field_length == 9000
+    assert len(reported["vision"][0].geometry.calib) == 2
+    tracked = reported["tracker"][-1].tracked_frame
     assert len(tracked.robots) == 12
     blue = [robot for robot in tracked.robots if robot.robot_id.team_color == 2]
     assert min(robot.pos.x for robot in blue) > 0, "blue has the positive half"
-    assert told["referee"][-1].blue_team_on_positive_half
-    assert len(told["referee"]) >= 0.5 / 0.025
+    assert reported["referee"][-1].blue_team_on_positive_half
+    assert len(reported["referee"]) >= 0.5 / 0.025
 
 
 def test_robots_stop_without_commands_and_another_client_takes_over() -> None:
@@ -75,7 +75,7 @@ def test_robots_stop_without_commands_and_another_client_takes_over() -> None:
     wall.tick(39)
     assert wall.server.session.commands[0, 0] == 1.0, "not yet"
     wall.tick(3)
-    assert not wall.server.session.commands.any(), "the robot is told to stop"
+    assert not wall.server.session.commands.any(), "the robot is commanded to stop"
     answer = wall.team(local_velocity([0]), address=OTHER)
     assert [error.code for error in answer.errors] == ["TEAM_TAKEN"]
     assert str(BLUE[1]) in answer.errors[0].message
@@ -281,8 +281,8 @@ def test_the_same_messages_give_the_same_match() -> None:
         for _ in range(100):
             wall.team(local_velocity(range(6), 1.0, 0.2, 0.5))
             wall.tick(2)
-        told = b"".join(each.data for each in wall.sent)
-        return told, wall.server.session.arena.frame.rows.tobytes()
+        reported = b"".join(each.data for each in wall.sent)
+        return reported, wall.server.session.arena.frame.rows.tobytes()
 
     first = play()
     assert first == play()

@@ -31,7 +31,9 @@ def test_teams_drive_and_see() -> None:
     seen = [fira_pb2.Environment.FromString(e.data) for e in wall.sent if e.port == "vision"]
     assert len(seen[-1].frame.robots_yellow) == 3
     # As in FIRASim, blue has the positive half on the wire.
-    assert seen[-1].frame.robots_blue[1].x == pytest.approx(-wall.robots.position[0, 1, 0], abs=0.05)
+    assert seen[-1].frame.robots_blue[1].x == pytest.approx(
+        -wall.robots.position[0, 1, 0], abs=0.05
+    )
     assert seen[0].step < seen[-1].step
     wall.tick(60)
     assert not wall.server.session.commands.any(), "robots stop without commands"
@@ -67,13 +69,13 @@ def test_bodies_are_put_by_this_machine_alone() -> None:
 def test_the_referee_tells_and_a_team_places_its_robots() -> None:
     wall = Wall(league="vsss")
     wall.tick(20)
-    told = [vssref_pb2.Command.FromString(e.data) for e in wall.sent if e.port == "referee"]
-    assert [each.foul for each in told][:1] == [vssref_pb2.KICKOFF]
+    reported = [vssref_pb2.Command.FromString(e.data) for e in wall.sent if e.port == "referee"]
+    assert [each.foul for each in reported][:1] == [vssref_pb2.KICKOFF]
     placement = vssref_pb2.Placement()
     placement.world.teamColor = vssref_pb2.BLUE
     placement.world.robots.add(robot_id=1, x=0.5, y=0.5, orientation=90.0)
     wall.send("replacer", placement.SerializeToString())
     np.testing.assert_allclose(wall.robots.position[0, 1], [-0.5, -0.5], atol=1e-6)
     wall.tick(2000)
-    told = [vssref_pb2.Command.FromString(e.data) for e in wall.sent if e.port == "referee"]
-    assert vssref_pb2.GAME_ON in [each.foul for each in told]
+    reported = [vssref_pb2.Command.FromString(e.data) for e in wall.sent if e.port == "referee"]
+    assert vssref_pb2.GAME_ON in [each.foul for each in reported]

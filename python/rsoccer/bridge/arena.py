@@ -25,7 +25,7 @@ _MASK: Final = np.ones(1, np.bool_)
 
 
 class CameraFrame(NamedTuple):
-    """What all cameras saw at one instant, once it has arrived."""
+    """Detections of all cameras at one instant, once they have arrived."""
 
     number: int
     """Number of the frame."""

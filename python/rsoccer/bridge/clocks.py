@@ -8,7 +8,7 @@ from typing import Final
 from rsoccer.bridge.match_tasks import TICK
 
 MAX_LAG: Final = 0.25
-"""Time by which a simulation may lag behind its clock, s. What is beyond is skipped: after a machine
+"""Time by which a simulation may lag behind its clock, s. More is skipped: after a machine
 has slept, or a clock was set, the match goes on at its speed and does not race."""
 _ROUNDING: Final = 1e-9
 

@@ -54,14 +54,8 @@ class ControlReader:
         Returns:
             (robots, command) commands, and (robots,) robots that the message has.
         """
-        if not self._is_usable:
-            return None
-        message = simulation_pb2.RobotControl()
-        try:
-            message.ParseFromString(data)
-        except (DecodeError, RecursionError, UnicodeDecodeError, ValueError):
-            return None
-        if not message.IsInitialized():
+        message = _parsed(data) if self._is_usable else None
+        if message is None:
             return None
         slots, numbers, known = [], [], self._slots[team]
         for command in message.robot_commands:
@@ -92,14 +86,14 @@ class ControlReader:
             team: `BLUE` or `YELLOW`.
             given: (robots,) robots to tell about; if none, all of the team on the field.
         """
-        told = given if given.any() else frame.robots.absent[0] == 0
+        reported = given if given.any() else frame.robots.absent[0] == 0
         contact = frame.robots.infrared[0] > 0
-        key = team, told.tobytes(), contact.tobytes()
+        key = team, reported.tobytes(), contact.tobytes()
         answer = self._answers.get(key)
         if answer is None:
             message = simulation_pb2.RobotControlResponse()
             for slot in self._layout.slots(team):
-                if told[slot]:
+                if reported[slot]:
                     message.feedback.add(
                         id=self._layout.identity(slot)[1],
                         dribbler_ball_contact=bool(contact[slot]),
@@ -109,6 +103,16 @@ class ControlReader:
                 self._answers.clear()
             self._answers[key] = answer
         return answer
+
+
+def _parsed(data: bytes) -> simulation_pb2.RobotControl | None:
+    """The message in some bytes; None if they are none, or lack a field."""
+    message = simulation_pb2.RobotControl()
+    try:
+        message.ParseFromString(data)
+    except (DecodeError, RecursionError, UnicodeDecodeError, ValueError):
+        return None
+    return message if message.IsInitialized() else None
 
 
 def _values(command: simulation_pb2.RobotCommand, previous: Floats) -> list[float] | None:

@@ -61,10 +61,10 @@ class ExternalReferee:
         session = self._session
         game = session.arena.play.game
         if session.settings.league == "vsss":
-            told = vssref.read_command(parse(vssref_pb2.Command, data))
-            self._command(game, told.command)
-            if told.stage is not None:
-                _set(game, "stage", told.stage)
+            reported = vssref.read_command(parse(vssref_pb2.Command, data))
+            self._command(game, reported.command)
+            if reported.stage is not None:
+                _set(game, "stage", reported.stage)
             return
         status, problems = referee.read_packet(session.layout, parse(referee_pb2.Packet, data))
         session.counts["referee: parts refused"] += len(problems)
@@ -73,11 +73,11 @@ class ExternalReferee:
         following = NOBODY if status.next_command is None else status.next_command
         _set(game, "next_command", following)
         for team in TEAMS:
-            told_team = status.teams[team]
-            game.score[0, team] = told_team.score
-            _set(game, f"score_{TEAM_NAMES[team]}", told_team.score)
-            game.yellow_cards[0, team] = told_team.yellow_cards
-            game.red_cards[0, team] = told_team.red_cards
+            reported_team = status.teams[team]
+            game.score[0, team] = reported_team.score
+            _set(game, f"score_{TEAM_NAMES[team]}", reported_team.score)
+            game.yellow_cards[0, team] = reported_team.yellow_cards
+            game.red_cards[0, team] = reported_team.red_cards
         if status.seconds_left is not None:
             game.seconds_left[0] = status.seconds_left
         if status.designated_position is not None:

@@ -6,6 +6,7 @@ import base64
 import html
 import http
 import json
+import socket
 import threading
 from dataclasses import replace
 from functools import cache
@@ -68,13 +69,13 @@ class LivePage:
         self._changed = threading.Condition()
         self._frame, self._number, self._closed, self._viewers = "", 0, False, 0
         try:
-            # Set before a port is known, origins are checked by `_answer`.
-            self._web: WebServer = serve(
-                self._watch, LOOPBACK, port, process_request=self._answer, compression=None
-            )
+            made = socket.create_server((LOOPBACK, port))
         except OSError as error:
             raise OSError(f"page: {LOOPBACK}:{port}: {error.strerror or error}") from error
-        self.port: int = self._web.socket.getsockname()[1]
+        self.port: int = made.getsockname()[1]
+        self._web: WebServer = serve(
+            self._watch, sock=made, process_request=self._answer, compression=None
+        )
         self.url = f"http://{LOOPBACK}:{self.port}/"
         self._thread = threading.Thread(target=self._web.serve_forever, daemon=True)
         self._thread.start()
@@ -142,7 +143,8 @@ class LivePage:
         try:
             while True:
                 with self._changed:
-                    self._changed.wait_for(lambda: self._closed or self._number != seen, _WAIT)
+                    if self._number == seen and not self._closed:
+                        self._changed.wait(_WAIT)
                     if self._closed:
                         break
                     frame, fresh, seen = self._frame, self._number != seen, self._number
@@ -192,7 +194,7 @@ def frame_of(server: Server) -> dict[str, Any]:
 
 
 def _driver(server: Server, team: int) -> str:
-    """Who drives a team, in words."""
+    """Driver of a team, in words."""
     session = server.session
     address = session.teams[team].address
     if address is not None:
@@ -238,4 +240,3 @@ def _page(server: Server) -> str:
 def _web(name: str) -> str:
     """Text of a part of the page."""
     return (resources.files("rsoccer.bridge") / "web" / name).read_text(encoding="utf-8")
-

@@ -43,7 +43,7 @@ class MessageRows:
         if len({len(row) for row in rows}) > 1:
             raise ValueError(f"make: expected messages of one length, got {set(map(len, rows))}")
         self._templates = np.array([list(row) for row in rows], np.uint8)
-        places = []
+        places: list[int] = []
         for mark in marks:
             pattern = np.float32(mark).tobytes()
             found = {row.find(pattern) for row in rows}

@@ -1,4 +1,4 @@
-"""What the referee of a served match tells: packets of the game controller or of VSSReferee."""
+"""Packets of the referee of a served match: those of the game controller or of VSSReferee."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _WATCHED: Final = [
     GAME_COLUMNS.index(name)
     for name in ("command", "stage", "next_command", "score_blue", "score_yellow")
 ]
-"""Columns whose change is told at once."""
+"""Columns whose change is reported at once."""
 SOURCE: Final = "rSoccer-serve"
 """Identity of the sender."""
 
@@ -49,16 +49,14 @@ class GameController:
             return []
         game, happened = play.game, play.events.of_world(0)
         command, wire_time = Command(int(state[0])), session.epoch + seconds
-        told = self._events.add(command, happened, wire_time)
+        reported = self._events.add(command, happened, wire_time)
         self._last, self._next = state, seconds + PERIOD - 1e-9
         status = status_of_game(
-            session.layout, game, 0, arena.rule.rules, names=_names(session), events=told
+            session.layout, game, 0, arena.rule.rules, names=_names(session), events=reported
         )
         stamp = self._stamper.stamp(command, wire_time)
         try:
-            packet = referee.to_packet(
-                session.layout, status, stamp, source_identifier=SOURCE
-            )
+            packet = referee.to_packet(session.layout, status, stamp, source_identifier=SOURCE)
         except MessageError:
             session.counts["referee: untold"] += 1
             return []

@@ -116,9 +116,7 @@ class ReplayRecorder:
         if self._ticks % _EVERY == 0:
             self._keep()
             rows = np.stack(self._rows[-2:])
-            self._events += ball_events(
-                self._config, self._robots, index, rows, self._commands[-1]
-            )
+            self._events += ball_events(self._config, self._robots, index, rows, self._commands[-1])
 
     def _keep(self) -> None:
         """Add the current state."""

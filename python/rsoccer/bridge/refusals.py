@@ -40,7 +40,8 @@ def to_response(reasons: Iterable[tuple[str, str]]) -> bytes:
     response = simulation_pb2.Response()
     for code, message in reasons:
         response.errors.add(code=str(code), message=message)
-    return response.SerializeToString()
+    data: bytes = response.SerializeToString()
+    return data
 
 
 def to_team_response(reasons: Iterable[tuple[str, str]]) -> bytes:
@@ -52,4 +53,5 @@ def to_team_response(reasons: Iterable[tuple[str, str]]) -> bytes:
     response = simulation_pb2.RobotControlResponse()
     for code, message in reasons:
         response.errors.add(code=str(code), message=message)
-    return response.SerializeToString()
+    data: bytes = response.SerializeToString()
+    return data

@@ -145,11 +145,11 @@ class Server:
             return []
         sent: list[Datagram] = []
         for _ in range(MAX_TICKS):
-            told = self._tick(now)
-            sent += told
+            reported = self._tick(now)
+            sent += reported
             if self.session.arena.camera_frames:
                 self._waits = True
-                self._sent = [each for each in told if each.port != "referee"]
+                self._sent = [each for each in reported if each.port != "referee"]
                 self._sent_at = now
                 for team in self.session.teams:
                     team.answered = False

@@ -56,9 +56,7 @@ class Session:
             ValueError: an option of the match, or a policy that does not fit.
         """
         self.settings = settings
-        task = make_match(
-            settings.league, settings.division, settings.robots, **settings.options
-        )
+        task = make_match(settings.league, settings.division, settings.robots, **settings.options)
         self.stand_ins = StandIns(task, settings.blue, settings.yellow, settings.seed)
         self.arena = Arena(
             task,

@@ -11,7 +11,7 @@ from rsoccer._core import Sensing
 from rsoccer.bridge.match_tasks import LEAGUES
 
 REFEREES: Final = ("own", "external", "off")
-"""Who decides: the referee of the match tasks, one that is on the network, or nobody."""
+"""Choices of the referee: that of the match tasks, one on the network, or nobody."""
 MAX_SPEED: Final = 1000.0
 """Greatest speed of a clock, times real time; `speed=None` has no limit."""
 SSL_PORTS: Final = {

@@ -108,10 +108,8 @@ def sender(interface: str, ttl: int) -> socket.socket:
     made.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER)
     made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, ttl)
     made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_LOOP, 1)
-    if interface != "0.0.0.0":  # noqa: S104  (all interfaces)
-        made.setsockopt(
-            socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(interface)
-        )
+    if interface != "0.0.0.0":
+        made.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, socket.inet_aton(interface))
     return made
 
 
@@ -181,9 +179,7 @@ class SocketLoop:
                 self._sockets[name] = made
                 self.addresses[name] = made.getsockname()
                 self._selector.register(made, selectors.EVENT_READ, name)
-            self._sender = self._stack.enter_context(
-                sender(network.interface_address, network.ttl)
-            )
+            self._sender = self._stack.enter_context(sender(network.interface_address, network.ttl))
             on_error.pop_all()
 
     def _open(self, name: str) -> socket.socket:

@@ -72,7 +72,7 @@ class SslPorts:
         Args:
             frame: the frame.
         """
-        session, arena = self._session, self._session.arena
+        arena = self._session.arena
         seconds = arena.seconds
         geometry = seconds >= self._geometry_due
         if geometry:

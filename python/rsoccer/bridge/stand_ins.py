@@ -102,5 +102,3 @@ class StandIns:
     def commands(self) -> Floats:
         """(robots, command) commands of the last call of `act`."""
         return self._commands
-
-

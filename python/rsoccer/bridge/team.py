@@ -47,9 +47,7 @@ class Team:
         self.address: Address | None = None
         self.refused = 0
         self.answered = False
-        self.commands: Floats = np.zeros(
-            (config.n_robots, len(config.command_columns)), np.float32
-        )
+        self.commands: Floats = np.zeros((config.n_robots, len(config.command_columns)), np.float32)
         self._command_timeout, self._client_timeout = command_timeout, client_timeout
         self._heard = 0.0
         self._commanded: Doubles = np.full(config.n_robots, -np.inf)

@@ -74,9 +74,7 @@ class VsssPorts:
         message = parse(fira_pb2.Packet, data)
         if message.HasField("replace"):
             if session.may_control(address):
-                refused = session.place(
-                    fira.read_replacement(session.layout, message, arena.frame)
-                )
+                refused = session.place(fira.read_replacement(session.layout, message, arena.frame))
                 session.counts["command: parts refused"] += len(refused)
             else:
                 session.counts["command: remote control refused"] += 1

@@ -69,9 +69,9 @@ class Serve(Imports):
     """time after which a robot without a command stops, simulated seconds"""
     client_timeout: float = 1.0
     """time after which a silent client has left its team, seconds"""
-    record: Annotated[tuple[str, ...], arg(metavar="FILE", help_behavior_hint="(default: none)")] = (
-        ()
-    )
+    record: Annotated[
+        tuple[str, ...], arg(metavar="FILE", help_behavior_hint="(default: none)")
+    ] = ()
     """files to record to: a replay (.rsr) or a log of the SSL (.log, .log.gz)"""
     page: Annotated[int | None, arg(metavar="PORT", help_behavior_hint="(default: none)")] = None
     """port of a page on this machine that shows the match in a browser"""

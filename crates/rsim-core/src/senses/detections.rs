@@ -55,7 +55,7 @@ impl Detections {
     }
 }
 
-/// What cameras saw at one instant, as software of teams gets it from them.
+/// Detections of all cameras at one instant, as software of teams gets them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraFrame {
     /// Time of the exposure since the senses began, s.
