@@ -22,6 +22,14 @@ PATIENCE = 60.0
 """Longest wait for a frame, s: for machines that are busy."""
 
 
+def status_of(request: str | urllib.request.Request) -> int:
+    """Return the status of an answer that is an error."""
+    with pytest.raises(urllib.error.HTTPError) as refused:
+        urllib.request.urlopen(request, timeout=PATIENCE)
+    refused.value.close()
+    return refused.value.code
+
+
 @pytest.mark.parametrize("league", ["ssl", "vsss"])
 def test_frames_come_while_somebody_watches(league: str) -> None:
     wall = Wall(league=league, yellow="zero")
@@ -50,12 +58,8 @@ def test_frames_come_while_somebody_watches(league: str) -> None:
 def test_pages_of_others_get_nothing() -> None:
     with LivePage(Wall().server, 0) as page:
         stranger = urllib.request.Request(page.url, headers={"Host": "example.org"})
-        with pytest.raises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(stranger, timeout=PATIENCE)
-        assert refused.value.code == 403
-        with pytest.raises(urllib.error.HTTPError) as missing:
-            urllib.request.urlopen(f"{page.url}other", timeout=PATIENCE)
-        assert missing.value.code == 404
+        assert status_of(stranger) == 403
+        assert status_of(f"{page.url}other") == 404
         with pytest.raises(InvalidStatus, match="403"):
             connect(f"ws://127.0.0.1:{page.port}{FRAMES}", origin="http://example.org")
         with pytest.raises(OSError, match=f"page: 127.0.0.1:{page.port}"):

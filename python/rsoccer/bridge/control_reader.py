@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from google.protobuf.message import DecodeError
 
 from rsoccer.arrays import Floats, Mask
 from rsoccer.frame import Frame
 from rsoccer.protocols.commands import FULL_DRIBBLER_RPM, MAX_KICK_ANGLE
 from rsoccer.protocols.layout import TEAMS, WireLayout
 from rsoccer.protocols.parsing import MAX_MAGNITUDE
+from rsoccer.protocols.protobuf import DecodeError
 from rsoccer.protocols.schemas import simulation_pb2
 
 _COLUMNS = ("v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler")

@@ -12,10 +12,10 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
-from google.protobuf.message import Message
 from numpy.typing import NDArray
 
 from rsoccer.arrays import Array
+from rsoccer.protocols.protobuf import Message
 
 _SENTINEL: Final = 1.0e30
 """First of the numbers that mark the places of fields in a template."""
