@@ -57,26 +57,23 @@ class ControlReader:
         message = _parsed(data) if self._is_usable else None
         if message is None:
             return None
-        slots, numbers, known = [], [], self._slots[team]
+        rows: list[list[float]] = previous.tolist()
+        for row in rows:
+            row[3] = row[4] = 0.0  # a kick holds for one message
+        slots, known = [], self._slots[team]
         for command in message.robot_commands:
             slot = known.get(command.id)
-            values = None if slot is None else _values(command, previous[slot])
-            if slot is None or values is None:
+            if slot is None or not _put(command, rows[slot]):
                 return None
             slots.append(slot)
-            numbers.append(values)
         if len(set(slots)) != len(slots):
             return None
-        commands = previous.copy()
-        commands[:, 3:5] = 0.0
+        numbers = np.array(rows)
+        if not (np.abs(numbers) < MAX_MAGNITUDE).all():  # refuses NaN too
+            return None
         given = np.zeros(self._robots, np.bool_)
-        if slots:
-            rows = np.array(numbers)
-            if not (np.abs(rows) < MAX_MAGNITUDE).all():  # refuses NaN too
-                return None
-            commands[slots] = rows
-            given[slots] = True
-        return commands, given
+        given[slots] = True
+        return numbers.astype(np.float32), given
 
     def answer(self, frame: Frame, team: int, given: Mask) -> bytes:
         """Return the answer to a message without errors.
@@ -115,28 +112,24 @@ def _parsed(data: bytes) -> simulation_pb2.RobotControl | None:
     return message if message.IsInitialized() else None
 
 
-def _values(command: simulation_pb2.RobotCommand, previous: Floats) -> list[float] | None:
-    """Columns of a command; None if it is not a common one."""
-    values: list[float] = [*previous[:3].tolist(), 0.0, 0.0, float(previous[5])]
+def _put(command: simulation_pb2.RobotCommand, row: list[float]) -> bool:
+    """Put a command into its columns. Return whether it is a common one."""
     if command.HasField("move_command"):
         move = command.move_command
-        if move.WhichOneof("command") != "local_velocity":
-            return None
+        if not move.HasField("local_velocity"):
+            return False
         local = move.local_velocity
-        values[:3] = local.forward, local.left, local.angular
-    speed = command.kick_speed
-    if speed:
-        angle = command.kick_angle
+        row[:3] = local.forward, local.left, local.angular
+    if command.HasField("kick_speed") or command.HasField("kick_angle"):
+        speed, angle = command.kick_speed, command.kick_angle
         # Of a message whose numbers are not finite, nothing is used: `not` refuses NaN too.
-        if not (0.0 < speed < MAX_MAGNITUDE and 0.0 <= angle <= MAX_KICK_ANGLE):
-            return None
-        values[3] = speed * math.cos(math.radians(angle)) if angle else speed
-        values[4] = speed * math.sin(math.radians(angle)) if angle else 0.0
-    elif command.HasField("kick_angle") and not abs(command.kick_angle) < MAX_MAGNITUDE:
-        return None
+        if not (0.0 <= speed < MAX_MAGNITUDE and 0.0 <= angle <= MAX_KICK_ANGLE):
+            return False
+        row[3] = speed * math.cos(math.radians(angle)) if angle else speed
+        row[4] = speed * math.sin(math.radians(angle)) if angle else 0.0
     if command.HasField("dribbler_speed"):
         share = command.dribbler_speed / FULL_DRIBBLER_RPM
         if not 0.0 <= share < MAX_MAGNITUDE / FULL_DRIBBLER_RPM:
-            return None
-        values[5] = min(share, 1.0)
-    return values
+            return False
+        row[5] = min(share, 1.0)
+    return True

@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer._core import ROBOT_COLUMNS
 from rsoccer.bridge.message_rows import MessageRows, field_of
 from rsoccer.frame import Frame
 from rsoccer.game import BLUE
@@ -17,6 +18,7 @@ UUID: Final = "rSoccer-serve"
 """Identity of the sender."""
 SOURCE_NAME: Final = "rSoccer"
 """Name of the sender."""
+_ABSENT: Final = ROBOT_COLUMNS.index("absent")
 _FRAME: Final = tracker_pb2.Packet.TRACKED_FRAME_FIELD_NUMBER
 
 
@@ -63,19 +65,18 @@ class TrackerPackets:
             frame_number=number % 2**32, timestamp=self._epoch + seconds
         )
         message.capabilities.append(tracker_pb2.CAPABILITY_DETECT_FLYING_BALLS)
-        seen, ball = message.balls.add(visibility=1.0), frame.ball
-        x, y = ball.position[0].tolist()
-        v_x, v_y = ball.velocity[0].tolist()
-        seen.pos.x, seen.pos.y, seen.pos.z = sign * x, sign * y, float(ball.height[0])
-        seen.vel.x, seen.vel.y = sign * v_x, sign * v_y
-        seen.vel.z = float(ball.vertical_velocity[0])
-        robots = frame.robots
-        slots = np.flatnonzero(robots.absent[0] == 0)
+        seen = message.balls.add(visibility=1.0)
+        x, y, z, v_x, v_y, v_z = frame.ball.data[0, :6].tolist()
+        seen.pos.x, seen.pos.y, seen.pos.z = sign * x, sign * y, z
+        seen.vel.x, seen.vel.y, seen.vel.z = sign * v_x, sign * v_y, v_z
+        # Position, heading, velocity and angular velocity are the first columns of a robot.
+        robots = frame.robots.data[0]
+        slots = np.flatnonzero(robots[:, _ABSENT] == 0)
+        columns = robots[slots, :7].astype(np.float64)
+        columns[:, :6] *= sign
         numbers = np.empty((len(slots), 6))
-        numbers[:, :2] = sign * robots.position[0, slots]
-        headings = sign * robots.heading[0, slots].astype(np.float64)
-        numbers[:, 2] = np.arctan2(headings[:, 1], headings[:, 0])
-        numbers[:, 3:5] = sign * robots.velocity[0, slots]
-        numbers[:, 5] = robots.angular_velocity[0, slots]
+        numbers[:, :2] = columns[:, :2]
+        np.arctan2(columns[:, 3], columns[:, 2], out=numbers[:, 2])
+        numbers[:, 3:] = columns[:, 4:]
         content = message.SerializeToString() + self._rows.write(slots, numbers)
         return self._wrapper + field_of(_FRAME, content)

@@ -68,6 +68,14 @@ class VisionPackets:
         self._radius = layout.config.ball.radius
         self._heights: Doubles = np.array([model.height for model in layout.config.robots])
         self._rows = MessageRows(layout.config.n_robots, 5, self._template)
+        # A point appears at its place times a scale plus a middle, for each robot's height.
+        self._scales, self._middles = [], []
+        for camera in self.cameras:
+            x, y, z = camera.position
+            scale = camera.focal_length / np.maximum(z - self._heights, 1e-3)
+            middle = np.array(camera.image_size) / 2
+            self._scales.append(np.stack([scale, -scale], axis=-1))
+            self._middles.append(np.stack([middle[0] - x * scale, middle[1] + y * scale], axis=-1))
         wrapper = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)  # type: ignore[arg-type]
         self._wrapper = wrapper.SerializeToString()
         wrapper.geometry.CopyFrom(to_geometry(layout, self.cameras))
@@ -101,7 +109,7 @@ class VisionPackets:
         """
         robots = frame.robots.astype(np.float64)
         robots[:, 2:] *= self.layout.sign
-        packets = []
+        packets, alone = [], len(self.cameras) == 1
         for index, camera in enumerate(self.cameras):
             detection = vision_pb2.DetectionFrame(
                 frame_number=frame.number % 2**32,
@@ -113,8 +121,8 @@ class VisionPackets:
             for which, x, y, z in frame.balls.tolist():
                 if which == index:
                     self._add_ball(detection, camera, (x, y, z))
-            seen = robots[robots[:, 0] == index]
-            content = detection.SerializeToString() + self._robots(camera, seen)
+            seen = robots if alone else robots[robots[:, 0] == index]
+            content = detection.SerializeToString() + self._robots(index, seen)
             wrapper = self._with_geometry if geometry and index == 0 else self._wrapper
             packets.append(field_of(_DETECTION, content) + wrapper)
         return packets
@@ -138,14 +146,15 @@ class VisionPackets:
             pixel_y=camera.image_size[1] / 2 - (y - camera.position[1]) * scale,
         )
 
-    def _robots(self, camera: Camera, seen: Doubles) -> bytes:
-        """Messages of robots: camera, slot, x, y (m), cosine and sine."""
+    def _robots(self, index: int, seen: Doubles) -> bytes:
+        """Messages of the robots that a camera saw: camera, slot, x, y (m), cosine and sine."""
         if not len(seen):
             return b""
         slots = seen[:, 1].astype(np.intp)
+        scale, middle = self._scales[index], self._middles[index]
         numbers = np.empty((len(seen), 5))
-        numbers[:, :2] = MILLIMETERS * seen[:, 2:4]
-        numbers[:, 2] = np.arctan2(seen[:, 5], seen[:, 4])
-        points = np.concatenate([seen[:, 2:4], self._heights[slots, None]], axis=1)
-        numbers[:, 3:] = camera.pixels(points)
+        numbers[:, :2] = seen[:, 2:4]
+        numbers[:, 3:] = seen[:, 2:4] * scale[slots] + middle[slots]
+        numbers[:, :2] *= MILLIMETERS
+        np.arctan2(seen[:, 5], seen[:, 4], out=numbers[:, 2])
         return self._rows.write(slots, numbers)
