@@ -6,6 +6,7 @@ import base64
 import html
 import http
 import json
+import logging
 import socket
 import threading
 from dataclasses import replace
@@ -37,6 +38,10 @@ MAX_VIEWERS: Final = 8
 """Browsers that watch at once."""
 FRAMES: Final = "/frames"
 """Path of the websocket."""
+_LOGGER: Final = logging.getLogger(__name__)
+"""Silent by default: a browser that goes away is no error."""
+_LOGGER.addHandler(logging.NullHandler())
+_LOGGER.propagate = False
 _EVERY: Final = round(PERIOD / TICK)
 _SCRIPTS: Final = ("reader.js", "ghosts.js", "field.js")
 _DIGITS: Final = 4
@@ -74,7 +79,7 @@ class LivePage:
             raise OSError(f"page: {LOOPBACK}:{port}: {error.strerror or error}") from error
         self.port: int = made.getsockname()[1]
         self._web: WebServer = serve(
-            self._watch, sock=made, process_request=self._answer, compression=None
+            self._watch, sock=made, process_request=self._answer, compression=None, logger=_LOGGER
         )
         self.url = f"http://{LOOPBACK}:{self.port}/"
         self._thread = threading.Thread(target=self._web.serve_forever, daemon=True)
