@@ -51,7 +51,7 @@ LAYERS = [
     {"envs.viewer"},
     {"envs.robot_rows"},
     {"envs.parallel", "envs.robots_vector", "envs.single", "evaluate", "recording"},
-    {"envs.vector"},
+    {"envs.aec", "envs.vector"},
     {"__init__"},
     {"sb3", "testing", "torchrl"},
     {"replay"},

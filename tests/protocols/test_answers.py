@@ -43,5 +43,7 @@ def test_errors_carry_codes() -> None:
 
 def test_bytes_that_are_no_message_are_answered() -> None:
     error = MessageError(Code.UNREADABLE, "text")
-    for kind in (simulation_pb2.Response, simulation_pb2.RobotControlResponse):
-        assert answers.read_errors(answers.refusal(error, kind)) == [("UNREADABLE", "text")]
+    expected = [("UNREADABLE", "text")]
+    assert answers.read_errors(answers.refusal(error, simulation_pb2.Response)) == expected
+    other = answers.refusal(error, simulation_pb2.RobotControlResponse)
+    assert answers.read_errors(other) == expected

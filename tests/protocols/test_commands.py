@@ -1,6 +1,7 @@
 """Commands of robots, whatever the protocol."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -52,7 +53,7 @@ def test_equal_wheels_turn_counterclockwise() -> None:
 
 def test_robots_on_two_wheels_refuse_what_they_cannot_do() -> None:
     row = CommandRow(TWO, blank(TWO))
-    cases = [
+    cases: list[tuple[Callable[[], None], Code]] = [
         (lambda: row.drive(1.0, 0.1, 0.0), Code.UNSUPPORTED_MOVE),
         (lambda: row.turn_wheels([1.0] * 4), Code.UNSUPPORTED_MOVE),
         (lambda: row.kick(1.0, 0.0), Code.UNSUPPORTED_KICK),

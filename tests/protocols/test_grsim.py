@@ -20,7 +20,7 @@ def command(**fields: float) -> grsim_pb2.Packet:
         ("kickspeedx", "kickspeedz", "veltangent", "velnormal", "velangular"), 0.0
     )
     entry = {"id": 5, "spinner": False, "wheelsspeed": False, **values, **fields}
-    packet.commands.robot_commands.add(**entry)  # type: ignore[arg-type]
+    packet.commands.robot_commands.add(**entry)
     return packet
 
 

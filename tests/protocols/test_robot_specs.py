@@ -30,7 +30,9 @@ def test_angles_are_clockwise_from_the_front() -> None:
 
 @pytest.mark.parametrize("numbers", [{"mass": -1.0}, {"radius": 0.0}, {"center_to_dribbler": 0.5}])
 def test_impossible_robots_are_refused(numbers: dict[str, float]) -> None:
-    specs = simulation_pb2.RobotSpecs(id=IDENTITY, **numbers)
+    specs = simulation_pb2.RobotSpecs(id=IDENTITY)
+    for name, number in numbers.items():
+        setattr(specs, name, number)
     with pytest.raises(MessageError, match=r"^robot_specs: ") as error:
         to_robot_model(RobotModel("ssl_generic"), specs)
     assert error.value.code is Code.INVALID_SPEC

@@ -80,7 +80,7 @@ def test_values_are_those_of_the_leagues() -> None:
         found = MODULES[schema]
         for part in path:
             found = getattr(found, part)
-        own = sorted([str(number), value] for value, number in found.items())  # type: ignore[attr-defined]
+        own = sorted([str(number), value] for value, number in found.items())
         # Names of values are not on the wire; the schemas shorten those of senders.
         assert own == sorted([number, value.removeprefix("SSL_")] for number, value in values), name
 

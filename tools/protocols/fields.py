@@ -61,8 +61,10 @@ def rows() -> tuple[Row, ...]:
     """Return all fields of all messages."""
     read, sent = _read(), _sent()
     kinds: dict[str, tuple[str, Descriptor]] = {}
-    for protocol, kind in [*((each.protocol, each.kind) for each in READERS), *UNREAD]:
-        for inner in _inner(kind.DESCRIPTOR):
+    described: list[tuple[str, Any]] = [(each.protocol, each.kind.DESCRIPTOR) for each in READERS]
+    described += [(protocol, kind.DESCRIPTOR) for protocol, kind in UNREAD]
+    for protocol, packet in described:
+        for inner in _inner(packet):
             kinds.setdefault(inner.full_name, (protocol, inner))
     found = []
     for full_name, (protocol, kind) in kinds.items():
@@ -83,7 +85,12 @@ def name(row: Row) -> str:
     Args:
         row: the field.
     """
-    return _name((row.field.containing_type.full_name, row.field.name))
+    return _name(_key(row.field))
+
+
+def _key(field: FieldDescriptor) -> Key:
+    kind: Any = field.containing_type
+    return kind.full_name, field.name
 
 
 def _inner(kind: Descriptor, found: dict[str, Descriptor] | None = None) -> list[Descriptor]:
@@ -110,7 +117,7 @@ def _read() -> dict[Key, str]:
         for base in bases(reader.kind):
             before = _result(reader, base)
             for path in _paths(base):
-                key = (path[-1][0].containing_type.full_name, path[-1][0].name)
+                key = _key(path[-1][0])
                 tried[key] += 1
                 if key in used or tried[key] > _MAX_TRIED:
                     continue

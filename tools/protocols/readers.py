@@ -216,7 +216,7 @@ def _referee_bases(rng: random.Random) -> Iterator[referee_pb2.Packet]:
             content.SetInParent()
             fill(content, rng, depth=2)
             if name in referee_pb2.GameEvent.Type.keys():  # noqa: SIM118
-                event.type = referee_pb2.GameEvent.Type.Value(name)
+                event.type = getattr(referee_pb2.GameEvent, name)
             yield packet
 
 
@@ -305,7 +305,7 @@ def _simulation() -> Iterator[Message]:
     for seed, team in ((1, BLUE), (2, YELLOW)):
         yield robot_control.to_robot_control(SSL, _commands(SSL, seed), team)
         yield answers.to_robot_control_response(SSL, _state(SSL, seed), 0, team, problems=problems)
-        identity = simulation_pb2.RobotId(id=seed, team=2 if team == BLUE else 1)
+        identity = simulation_pb2.RobotId(id=seed, team="BLUE" if team == BLUE else "YELLOW")
         model = SSL.config.robots[0]
         specs = to_robot_specs(model, identity)
         yield simulation_pb2.Command(config=simulation_pb2.Config(robot_specs=[specs]))

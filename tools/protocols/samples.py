@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from typing import Any, Final
+from typing import Any, Final, cast
 
 from google.protobuf.descriptor import FieldDescriptor
 from google.protobuf.message import Message
@@ -14,6 +14,7 @@ MAX_DEPTH: Final = 5
 """Greatest depth of messages in messages: an event may be the cause of another one."""
 ROBOTS: Final = 6
 """Uniform numbers are below this."""
+_LABEL_REQUIRED: Final = 2
 WHOLE: Final = {
     FieldDescriptor.TYPE_INT32,
     FieldDescriptor.TYPE_INT64,
@@ -52,8 +53,9 @@ def fill(message: Message, rng: random.Random, share: float = 1.0, depth: int = 
         share: probability that an optional field is set.
         depth: number of messages around it.
     """
-    chosen = {group.name: rng.choice(group.fields).name for group in message.DESCRIPTOR.oneofs}
-    for field in message.DESCRIPTOR.fields:
+    kind: Any = message.DESCRIPTOR
+    chosen = {group.name: rng.choice(group.fields).name for group in kind.oneofs}
+    for field in kind.fields:
         group = field.containing_oneof
         if group is not None and group.name in chosen and chosen[group.name] != field.name:
             continue
@@ -71,7 +73,7 @@ def required(field: FieldDescriptor) -> bool:
         field: the field.
     """
     needed = getattr(field, "is_required", None)  # since protobuf 6.31; then `label` goes
-    return bool(field.label == FieldDescriptor.LABEL_REQUIRED if needed is None else needed)
+    return bool(cast(Any, field).label == _LABEL_REQUIRED if needed is None else needed)
 
 
 def _set(
@@ -105,7 +107,7 @@ def value(field: FieldDescriptor, rng: random.Random) -> Any:  # noqa: ANN401  (
     if field.type == FieldDescriptor.TYPE_BOOL:
         return rng.random() < 0.5
     if field.type == FieldDescriptor.TYPE_ENUM:
-        return rng.choice(field.enum_type.values).number
+        return rng.choice(cast(Any, field).enum_type.values).number
     if field.type == FieldDescriptor.TYPE_BYTES:
         return rng.randbytes(3)
     return "".join(rng.choice("abcxyz") for _ in range(4))

@@ -46,7 +46,7 @@ def to_game_event(layout: WireLayout, reported: ReportedEvent) -> referee_pb2.Ga
         raise MessageError(Code.UNSUPPORTED_EVENT, f"event: expected one of the SSL, got {name}")
     message = referee_pb2.GameEvent(
         id=reported.identity,
-        type=referee_pb2.GameEvent.Type.Value(name),
+        type=name,
         created_timestamp=max(0, round(reported.seconds * MICROSECONDS)),
     )
     content = getattr(message, name.lower())
@@ -121,7 +121,7 @@ def read_game_event(layout: WireLayout, message: referee_pb2.GameEvent) -> Repor
 def _robot(layout: WireLayout, content: Any, team: int) -> int:  # noqa: ANN401  (any event)
     """Index of the robot of an event in a state row."""
     given = {part.name: value for part, value in content.ListFields()}
-    team = _TEAMS.get(given.get("kicking_team"), team)
+    team = _TEAMS.get(given.get("kicking_team", referee_pb2.UNKNOWN), team)
     for name in _ROBOTS:
         if name in given and team != NOBODY:
             return layout.slot(team, given[name])

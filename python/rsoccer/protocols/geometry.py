@@ -35,7 +35,7 @@ def to_geometry(layout: WireLayout, cameras: Sequence[Camera] = ()) -> vision_pb
         message.field.max_robot_radius = MILLIMETERS * max(radii)
     for name, (x_1, y_1, x_2, y_2) in _lines(field):
         line = message.field.field_lines.add(name=name, thickness=MILLIMETERS * field.line_width)
-        line.type = vision_pb2.FieldShape.Value(name)
+        line.type = getattr(vision_pb2, name)
         line.p1.x, line.p1.y, line.p2.x, line.p2.y = (
             MILLIMETERS * value for value in (x_1, y_1, x_2, y_2)
         )
@@ -79,7 +79,7 @@ def to_field(message: vision_pb2.Geometry) -> Field:
         "line_width": "line_thickness",
     }
     for number, source in optional.items():
-        if size.HasField(source):  # type: ignore[arg-type]
+        if size.HasField(source):
             numbers[number] = getattr(size, source)
     if size.HasField("goal_center_to_penalty_mark"):
         numbers["penalty_mark_distance"] = size.goal_center_to_penalty_mark

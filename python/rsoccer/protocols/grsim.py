@@ -60,7 +60,7 @@ def _move(row: CommandRow, command: grsim_pb2.RobotCommand) -> None:
     if not command.wheelsspeed:
         row.drive(command.veltangent, command.velnormal, command.velangular)
         return
-    missing = [name for name in _WHEELS if not command.HasField(name)]  # type: ignore[arg-type]
+    missing = [name for name in _WHEELS if not command.HasField(name)]
     if missing:
         raise MessageError(
             Code.INCOMPLETE, f"wheelsspeed: expected speeds of four wheels, got no {missing}"
@@ -150,7 +150,7 @@ def read_replacement(
     if message.replacement.HasField("ball"):
         x, y, v_x, v_y = (
             getattr(message.replacement.ball, name)
-            if message.replacement.ball.HasField(name)  # type: ignore[arg-type]
+            if message.replacement.ball.HasField(name)
             else None
             for name in ("x", "y", "vx", "vy")
         )

@@ -59,8 +59,9 @@ class LogReferee:
             self._since = 0
             if status.command in _KICKS:
                 self._kick = status.command
-        for team in TEAMS if before is not None else ():
-            if status.teams[team].score > before.teams[team].score:
+        old = status if before is None else before
+        for team in TEAMS:
+            if status.teams[team].score > old.teams[team].score:
                 self._new.append(Event(EventKind.GOAL, team, NOBODY, (0.0, 0.0)))
         for reported in status.events:
             if (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import Final, TypeVar
+from typing import Any, Final, TypeVar, cast
 
 from rsoccer.protocols.errors import Code, MessageError
 from rsoccer.protocols.protobuf import DecodeError, Descriptor, FieldDescriptor, Message
@@ -14,6 +14,9 @@ MAX_SIZE: Final = 65507
 """Greatest length of a message in bytes: that of the content of a UDP datagram over IPv4."""
 MAX_MAGNITUDE: Final = 1e9
 """Greatest magnitude of a number: single precision can still square it."""
+
+LABEL_REPEATED: Final = 3
+"""Label of a field with a list of values."""
 
 _M = TypeVar("_M", bound=Message)
 _FLOATS: Final = (FieldDescriptor.TYPE_FLOAT, FieldDescriptor.TYPE_DOUBLE)
@@ -52,7 +55,7 @@ def parse(kind: type[_M], data: bytes) -> _M:
             Code.UNREADABLE, f"message: expected a {kind.DESCRIPTOR.full_name}: {error}"
         ) from None
     if not message.IsInitialized():
-        missing = ", ".join(message.FindInitializationErrors())
+        missing = ", ".join(cast(Any, message).FindInitializationErrors())
         raise MessageError(Code.UNREADABLE, f"message: expected the fields {missing:.200}")
     check_finite(message)
     return message
@@ -115,4 +118,4 @@ def is_repeated(field: FieldDescriptor) -> bool:
         field: the field.
     """
     repeated = getattr(field, "is_repeated", None)  # since protobuf 6.31; then `label` goes
-    return bool(field.label == FieldDescriptor.LABEL_REPEATED if repeated is None else repeated)
+    return bool(cast(Any, field).label == LABEL_REPEATED if repeated is None else repeated)

@@ -18,7 +18,7 @@ RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
 """Commands under which play goes on."""
 _PLACEMENTS: Final = (Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW)
 _MAX_TIME: Final = 2**63 - 1
-_READ_AS: Final = {
+_READ_AS: Final[dict[int, Command]] = {
     referee_pb2.INDIRECT_FREE_YELLOW: Command.DIRECT_FREE_YELLOW,
     referee_pb2.INDIRECT_FREE_BLUE: Command.DIRECT_FREE_BLUE,
     referee_pb2.TIMEOUT_YELLOW: Command.HALT,
@@ -303,7 +303,7 @@ def read_stamp(message: referee_pb2.Packet) -> Stamp:
 
 def _command(code: int, problems: list[Problem]) -> Command:
     if code in _READ_AS:
-        name = referee_pb2.Command.Name(code)  # type: ignore[arg-type]
+        name = referee_pb2.Command.Name(code)
         text = f"command: expected one that rSoccer has, got {name}; read as {_READ_AS[code].name}"
         problems.append(Problem(Code.UNSUPPORTED_COMMAND, text))
         return _READ_AS[code]

@@ -22,7 +22,7 @@ GEOMETRY_SECONDS: Final = 1.0
 """Time between packets with the geometry, s."""
 UUID: Final = "rSoccer-replay"
 """Identity of the sender of tracked frames and of the referee's packets."""
-_KINDS: Final = {
+_KINDS: Final[dict[str, EventKind]] = {
     event_name(kind): kind for kind in EventKind if kind not in (EventKind.NONE, EventKind.PASS)
 }
 """Kinds of events by their names in replays."""

@@ -93,7 +93,7 @@ def _teleport_ball(placement: Placement, ball: simulation_pb2.TeleportBall) -> N
         raise MessageError(Code.UNSUPPORTED_BY_FORCE, "by_force: expected false, got true")
 
     def given(name: str) -> float | None:
-        return getattr(ball, name) if ball.HasField(name) else None  # type: ignore[arg-type]
+        return getattr(ball, name) if ball.HasField(name) else None
 
     placement.put_ball(
         (given("x"), given("y"), given("z")),
