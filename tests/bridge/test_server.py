@@ -191,6 +191,23 @@ def test_a_packet_of_grsim_drives_a_team_and_its_status_comes_back() -> None:
     assert wall.server.session.commands[11, 0] == 1.0
 
 
+@pytest.mark.parametrize("side", [False, True])
+def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side: bool) -> None:
+    wall = Wall(blue_on_positive_half=side, command_timeout=10.0, referee="off")
+    message = simulation_pb2.RobotControl()
+    moved = message.robot_commands.add(id=2).move_command.global_velocity
+    moved.x, moved.y, moved.angular = 0.0, 0.5, 4.0
+    start = wall.robots.position[0, 2].copy()
+    assert not wall.team(message.SerializeToString()).errors
+    wall.tick(200)
+    way = (wall.robots.position[0, 2] - start) * (-1 if side else 1)
+    assert way[1] > 0.3
+    assert abs(way[0]) < 0.1 * way[1]
+    wall.team(local_velocity([2], 0.0))
+    wall.tick(100)
+    assert np.linalg.norm(wall.robots.velocity[0, 2]) < 0.02
+
+
 @pytest.mark.parametrize("delay", [0.0, 0.045, 0.1])
 def test_a_command_is_seen_after_the_configured_delay(delay: float) -> None:
     wall = Wall(sensing=Sensing(delay=delay, command_delay=0.02) if delay else Sensing(delay=1e-6))

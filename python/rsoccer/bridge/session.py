@@ -100,7 +100,8 @@ class Session:
             stand_ins.act(arena.play)
         for team in self.teams:
             has_policy = stand_ins.plays(team.index)
-            team.write(self._commands, seconds, stand_ins.commands if has_policy else None)
+            stand_in = stand_ins.commands if has_policy else None
+            team.write(self._commands, seconds, stand_in, arena.frame.robots.heading[0])
         arena.step(self._commands)
 
     @property

@@ -140,12 +140,29 @@ class SslPorts:
         read = read_robot_control(
             session.layout, message, team.index, arena.frame, 0, team.previous(seconds)
         )
-        team.hold(read.commands, read.given, seconds)
+        team.hold(read.commands, read.given, seconds, self._fixed(team, message))
         given = read.given if read.given.any() else None
         answer = to_robot_control_response(
             session.layout, arena.sense(), 0, team.index, given, read.problems
         )
         return answer.SerializeToString()
+
+    def _fixed(
+        self, team: Team, message: simulation_pb2.RobotControl
+    ) -> dict[int, tuple[float, float]]:
+        """Velocities along the field's axes, by index of the robot."""
+        layout, fixed = self._session.layout, {}
+        known = {layout.identity(slot)[1]: slot for slot in team.slots}
+        models = layout.config.robots
+        for command in reversed(message.robot_commands):  # of two of a robot the first counts
+            slot = known.get(command.id, -1)
+            if slot < 0 or models[slot].drive != "omni":
+                continue
+            fixed.pop(slot, None)
+            if command.move_command.HasField("global_velocity"):
+                velocity = command.move_command.global_velocity
+                fixed[slot] = (layout.sign * velocity.x, layout.sign * velocity.y)
+        return fixed
 
     def _control(self, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to the control port, and return the answer."""

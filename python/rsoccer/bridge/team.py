@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Final
 
 import numpy as np
@@ -52,6 +54,7 @@ class Team:
         self._heard = 0.0
         self._commanded: Doubles = np.full(config.n_robots, -np.inf)
         self._next_stop = math.inf  # simulated time, s
+        self._fixed: dict[int, tuple[float, float]] = {}
 
     def accept(self, address: Address, now: float) -> bool:
         """Return whether a client may drive the team; it does from now on if so.
@@ -91,17 +94,29 @@ class Team:
         self.commands[:] = 0.0
         self._commanded[:] = -np.inf
         self._next_stop = math.inf
+        self._fixed.clear()
 
-    def hold(self, commands: Floats, given: Mask, seconds: float) -> None:
+    def hold(
+        self,
+        commands: Floats,
+        given: Mask,
+        seconds: float,
+        fixed: Mapping[int, tuple[float, float]] = MappingProxyType({}),
+    ) -> None:
         """Take over the commands of a message.
 
         Args:
             commands: (robots, command) commands.
             given: (robots,) robots of the team that the message has.
             seconds: simulated time, s.
+            fixed: velocities along the field's x and y in the package, m/s, by index in a state
+                row, of robots that keep them while they turn.
         """
         team = slice(self.slots.start, self.slots.stop)
         self.commands[team] = commands[team]
+        for slot in np.flatnonzero(given).tolist():
+            self._fixed.pop(slot, None)
+        self._fixed.update(fixed)
         self._commanded[team][given[team]] = seconds
         self._next_stop = min(self._next_stop, seconds + self._command_timeout + _TOLERANCE)
         self.answered = True
@@ -115,7 +130,9 @@ class Team:
         self._stop_silent(seconds)
         return self.commands
 
-    def write(self, commands: Floats, seconds: float, stand_in: Floats | None) -> None:
+    def write(
+        self, commands: Floats, seconds: float, stand_in: Floats | None, headings: Floats
+    ) -> None:
         """Write the commands of the team's robots for the next tick.
 
         Args:
@@ -123,11 +140,15 @@ class Team:
             seconds: simulated time, s.
             stand_in: (robots, command) commands of a policy for robots that the client has never
                 commanded; None if they stand still.
+            headings: (robots, 2) cosines and sines of all robots' headings.
         """
         team = slice(self.slots.start, self.slots.stop)
         if self.address is None:
             commands[team] = 0.0 if stand_in is None else stand_in[team]
             return
+        for slot, (x, y) in self._fixed.items():
+            cos, sin = headings[slot].tolist()
+            self.commands[slot, :2] = cos * x + sin * y, cos * y - sin * x
         self._stop_silent(seconds)
         commands[team] = self.commands[team]
         if stand_in is not None:
@@ -139,6 +160,8 @@ class Team:
             return
         silent = self._commanded + self._command_timeout + _TOLERANCE < seconds
         self.commands[silent] = 0.0
+        for slot in np.flatnonzero(silent).tolist():
+            self._fixed.pop(slot, None)
         moving = self._commanded[~silent]
         self._next_stop = (
             float(moving.min()) + self._command_timeout + _TOLERANCE if len(moving) else math.inf
