@@ -58,7 +58,8 @@ def control(turn: float) -> bytes:
         command = message.robot_commands.add(id=number, dribbler_speed=0.0)
         local = command.move_command.local_velocity
         local.forward, local.left, local.angular = 0.5, 0.1, turn
-    return message.SerializeToString()
+    data: bytes = message.SerializeToString()
+    return data
 
 
 def play(port: int, vision: int, seconds: float, results: "multiprocessing.Queue[Timing]") -> None:

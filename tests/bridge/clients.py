@@ -27,7 +27,8 @@ def local_velocity(
     for number in robots:
         local = message.robot_commands.add(id=number).move_command.local_velocity
         local.forward, local.left, local.angular = forward, left, angular
-    return message.SerializeToString()
+    data: bytes = message.SerializeToString()
+    return data
 
 
 class Wall:
@@ -46,7 +47,8 @@ class Wall:
         """Send a message to a team's port and return the answer."""
         (answer,) = self.send(port, data, address)
         assert (answer.port, answer.address) == (port, address)
-        return simulation_pb2.RobotControlResponse.FromString(answer.data)
+        response: Response = simulation_pb2.RobotControlResponse.FromString(answer.data)
+        return response
 
     def control(self, message: simulation_pb2.Command, address: Address = OTHER) -> list[str]:
         """Send a message to the control port and return the codes of errors."""

@@ -15,6 +15,7 @@ pytest.importorskip("websockets")
 
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from rsoccer.bridge.live_page import FRAMES, LivePage
 
@@ -61,6 +62,6 @@ def test_pages_of_others_get_nothing() -> None:
         assert status_of(stranger) == 403
         assert status_of(f"{page.url}other") == 404
         with pytest.raises(InvalidStatus, match="403"):
-            connect(f"ws://127.0.0.1:{page.port}{FRAMES}", origin="http://example.org")
+            connect(f"ws://127.0.0.1:{page.port}{FRAMES}", origin=Origin("http://example.org"))
         with pytest.raises(OSError, match=f"page: 127.0.0.1:{page.port}"):
             LivePage(Wall().server, page.port)

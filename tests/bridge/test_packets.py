@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -82,9 +84,9 @@ def test_each_camera_tells_what_it_saw() -> None:
 
 
 def test_rows_are_of_one_length() -> None:
-    def make(slot: int, numbers: object) -> vision_pb2.DetectionFrame:
+    def make(slot: int, numbers: Sequence[float]) -> vision_pb2.DetectionFrame:
         frame = vision_pb2.DetectionFrame()
-        (x,) = numbers  # type: ignore[misc]
+        (x,) = numbers
         frame.robots_blue.add(robot_id=200 * slot, x=x)
         return frame
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -46,7 +47,7 @@ def test_a_client_drives_its_team_and_sees_it() -> None:
 def test_all_ports_tell_the_same_match() -> None:
     wall = Wall(sensing=Sensing("rc2021"), blue_on_positive_half=True)
     wall.tick(100)
-    kinds = {
+    kinds: dict[str, Any] = {
         "vision": vision_pb2.Packet,
         "tracker": tracker_pb2.Packet,
         "referee": referee_pb2.Packet,
@@ -310,7 +311,11 @@ def test_an_external_referee_is_obeyed() -> None:
     wall = Wall(referee="external")
     assert "referee" in wall.server.inputs
     packet = referee_pb2.Packet(
-        packet_timestamp=1, stage=1, command=9, command_counter=1, command_timestamp=1
+        packet_timestamp=1,
+        stage=referee_pb2.NORMAL_FIRST_HALF,
+        command=referee_pb2.DIRECT_FREE_BLUE,
+        command_counter=1,
+        command_timestamp=1,
     )
     for team in (packet.blue, packet.yellow):
         team.name, team.score, team.red_cards = "x", 2, 0

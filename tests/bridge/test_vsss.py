@@ -15,7 +15,8 @@ def wheels(team: int, left: float, right: float, robots: int = 3) -> bytes:
         packet.cmd.robot_commands.add(
             id=number, yellowteam=bool(team), wheel_left=left, wheel_right=right
         )
-    return packet.SerializeToString()
+    data: bytes = packet.SerializeToString()
+    return data
 
 
 def test_teams_drive_and_see() -> None:

@@ -145,13 +145,15 @@ class SslPorts:
         answer = to_robot_control_response(
             session.layout, arena.sense(), 0, team.index, given, read.problems
         )
-        return answer.SerializeToString()
+        reply: bytes = answer.SerializeToString()
+        return reply
 
     def _fixed(
         self, team: Team, message: simulation_pb2.RobotControl
     ) -> dict[int, tuple[float, float]]:
         """Velocities along the field's axes, by index of the robot."""
-        layout, fixed = self._session.layout, {}
+        layout = self._session.layout
+        fixed: dict[int, tuple[float, float]] = {}
         known = {layout.identity(slot)[1]: slot for slot in team.slots}
         models = layout.config.robots
         for command in reversed(message.robot_commands):  # of two of a robot the first counts

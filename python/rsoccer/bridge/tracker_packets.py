@@ -79,4 +79,5 @@ class TrackerPackets:
         np.arctan2(columns[:, 3], columns[:, 2], out=numbers[:, 2])
         numbers[:, 3:] = columns[:, 4:]
         content = message.SerializeToString() + self._rows.write(slots, numbers)
-        return self._wrapper + field_of(_FRAME, content)
+        packet: bytes = self._wrapper + field_of(_FRAME, content)
+        return packet

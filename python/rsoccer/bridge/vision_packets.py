@@ -76,7 +76,7 @@ class VisionPackets:
             middle = np.array(camera.image_size) / 2
             self._scales.append(np.stack([scale, -scale], axis=-1))
             self._middles.append(np.stack([middle[0] - x * scale, middle[1] + y * scale], axis=-1))
-        wrapper = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)  # type: ignore[arg-type]
+        wrapper = vision_pb2.Packet(source=vision_pb2.SOURCE_OTHER)
         self._wrapper = wrapper.SerializeToString()
         wrapper.geometry.CopyFrom(to_geometry(layout, self.cameras))
         self._with_geometry = wrapper.SerializeToString()
