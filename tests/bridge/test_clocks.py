@@ -26,7 +26,7 @@ def test_ticks_keep_pace_with_the_wall(speed: float) -> None:
     assert clock.skipped == 0.0
 
 
-def test_the_next_tick_is_told() -> None:
+def test_the_next_tick_is_known() -> None:
     clock = ScaledClock(2.0)
     run(clock, 10.0)
     due = clock.next_due(10.0)

@@ -56,7 +56,8 @@ class ExternalReferee:
             data: its bytes.
 
         Raises:
-            MessageError: the bytes are no packet of the league's referee.
+            ValueError: the bytes are no packet of the league's referee, a
+                `rsoccer.protocols.errors.MessageError`.
         """
         session = self._session
         game = session.arena.play.game

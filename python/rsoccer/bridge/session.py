@@ -118,7 +118,7 @@ class Session:
         return self.settings.allow_remote_control or is_loopback(address)
 
     def place(self, placement: Placement) -> list[Reason]:
-        """Put bodies where a message has them. Return what was refused.
+        """Return what is refused of a message that puts bodies; the rest is done.
 
         Args:
             placement: the state, and what of it moved.

@@ -93,7 +93,7 @@ class SslPorts:
     # -- What is received ------------------------------------------------------------------------
 
     def receive(self, port: str, data: bytes, address: Address, now: float) -> list[Datagram]:
-        """Obey a message, and return the answers.
+        """Return the answers to a message, which is obeyed.
 
         Args:
             port: name of the port.

@@ -56,7 +56,7 @@ class VsssPorts:
         return [Datagram("referee", data) for data in self._officials.packets()]
 
     def receive(self, port: str, data: bytes, address: Address, now: float) -> list[Datagram]:
-        """Obey a message; there are no answers.
+        """Return no answers to a message, which is obeyed: the protocols have none.
 
         Args:
             port: name of the port.
