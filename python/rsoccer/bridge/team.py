@@ -74,7 +74,7 @@ class Team:
         return True
 
     def expire(self, now: float) -> bool:
-        """Release the team if its client is silent. Return whether it was released.
+        """Return whether the team was released, which it is if its client is silent.
 
         Args:
             now: time on the wall, s.
