@@ -72,7 +72,7 @@ check-site: $(VENV)/site ## build the documentation site without the crates; war
 # The tests in which versions of dependencies can matter: interfaces, files, pictures, commands.
 BY_VERSION := tests/envs tests/matches tests/render tests/commands tests/compat tests/test_core.py \
 	tests/test_registry.py tests/test_rng.py tests/test_cli.py tests/test_files.py tests/test_tournament.py \
-	tests/policies/test_policy_file.py
+	tests/policies/test_policy_file.py tests/protocols
 
 # Each of these environments is made for its tests: under tests.no_skips a missing library fails.
 STRICT := -m pytest -p tests.no_skips

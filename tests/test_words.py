@@ -16,7 +16,7 @@ PAGES = (
     "Makefile",
     "pyproject.toml",
 )
-ENDINGS = (".py", ".pyi", ".rs", ".md", ".toml", ".sh", ".js", ".css", ".html")
+ENDINGS = (".py", ".pyi", ".proto", ".rs", ".md", ".toml", ".sh", ".js", ".css", ".html")
 
 REPLACED = {
     "foes?": "opponent",
@@ -60,6 +60,10 @@ OF_OTHERS = {
     "attacker_touched_ball_in_defense_area": "the game controller",
     "attacker_too_close_to_defense_area": "the game controller",
     "defender_in_defense_area": "the game controller",
+    "ATTACKER_TOUCHED_OPPONENT_IN_DEFENSE_AREA": "the game controller",
+    "attacker_touched_opponent_in_defense_area": "the game controller",
+    "penalty_area_depth": "SSL-Vision",
+    "penalty_area_width": "SSL-Vision",
 }
 """Phrases with a replaced word in a name that is not the project's, and whose name it is."""
 
@@ -84,6 +88,7 @@ BRITISH = {
 def sources() -> list[Path]:
     found = [path for folder in FOLDERS for path in (ROOT / folder).rglob("*")]
     kept = [path for path in found if path.suffix in ENDINGS and "__pycache__" not in path.parts]
+    kept = [path for path in kept if "_pb2" not in path.name]  # made from schemas, which are read
     return [path for path in [*kept, *(ROOT / page for page in PAGES)] if path != Path(__file__)]
 
 

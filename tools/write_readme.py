@@ -25,6 +25,7 @@ from rsoccer.tasks import legacy_names
 from tools import referee_tables, senses_tables, soak_matches
 from tools.library_speed import libraries
 from tools.paths import DOCS, ROOT
+from tools.protocols import codes, fields
 from tools.site import task_docs
 from tools.speed import feature, instructions, speed, summary, whole_matches
 
@@ -37,6 +38,7 @@ WRITTEN = (
     *learning.PAGES,
     DOCS / "libraries.md",
     DOCS / "policies.md",
+    DOCS / "protocols.md",
     DOCS / "referee.md",
     DOCS / "senses.md",
     DOCS / "speed.md",
@@ -231,6 +233,9 @@ PARTS: dict[str, Callable[[], str]] = {
     "referee_choices": referee_tables.choices,
     "referee_numbers": referee_tables.numbers,
     "policy_table": policy_table,
+    "protocol_codes": codes.table_of_codes,
+    "protocol_counts": fields.counts,
+    "protocol_fields": fields.field_tables,
     "trained_table": trained_table,
     "senses_forecasts": senses_tables.forecasts,
     "scripted_ssl": scripted_ssl.results,

@@ -1958,6 +1958,25 @@ class Simulator:
             TypeError: An array has another type.
         """
 
+    def camera_frames(
+        self, world: int = 0
+    ) -> list[tuple[float, NDArray[np.float32], NDArray[np.float32]]]:
+        """Return the frames of the cameras that arrived in the last control step of a world.
+
+        Args:
+            world: Index of the world.
+
+        Returns:
+            For each frame, in the order of arrival: time of the exposure since the senses began, s;
+            detected balls (k, 4), index of the camera, position x, y and height, m; detected robots
+            (m, 6), index of the camera, index in a state row, position x and y (m), and cosine and
+            sine of the heading. Nothing is left out and nothing added: a body may be missing, or be
+            seen by several cameras. Empty without `config.sensing`.
+
+        Raises:
+            ValueError: There is no such world.
+        """
+
     def begin_senses(
         self,
         worlds: NDArray[np.bool_],

@@ -1,4 +1,4 @@
-"""Entry point of `rsoccer list | train | evaluate | tournament | identify | watch | play`.
+"""Entry point of the command `rsoccer`, whose commands are in `rsoccer.commands`.
 
 Errors are reported as one line.
 """
@@ -14,6 +14,7 @@ INTERRUPTED = 130  # exit status after Ctrl-C, as shells report it: 128 + SIGINT
 
 EXTRAS = {
     "PIL": "render",
+    "google": "network",
     "imageio_ffmpeg": "render",
     "matplotlib": "train",
     "pygame": "render",
@@ -22,6 +23,7 @@ EXTRAS = {
     "torch": "train",
     "tqdm": "train",
     "tyro": "cli",
+    "websockets": "network",
 }
 """The extra of this package that installs each optional module."""
 

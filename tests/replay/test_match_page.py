@@ -54,8 +54,8 @@ def test_only_the_page_of_a_match_has_its_parts() -> None:
     assert match(vss()) is None
     other, of_match = to_html(vss()), to_html(vss_match())
     for name in (*page.MATCH_SCRIPTS, "match.css"):
-        assert page._web(name) in of_match
-        assert page._web(name) not in other
+        assert page.web_part(name) in of_match
+        assert page.web_part(name) not in other
     assert '<script type="application/json" id="match">null</script>' in other
 
 

@@ -82,11 +82,11 @@ def test_robots_of_several_models_have_outlines_of_their_own() -> None:
 def test_the_page_has_the_colors_of_the_pictures() -> None:
     red, green, blue, _ = palette.BLUE
     assert f"--blue: rgba({red},{green},{blue},1.0);" in to_html(vss())
-    used = set(re.findall(r"colors(?:\.(\w+)|\[\"([\w-]+)\"\])", page._web("field.js")))
+    used = set(re.findall(r"colors(?:\.(\w+)|\[\"([\w-]+)\"\])", page.web_part("field.js")))
     names = {first or second for first, second in used}
     assert {"orange", "dribbler-lit"} <= names <= set(scene(ssl().config)["colors"])
-    variables = set(re.findall(r"var\(--([\w-]+)\)", page._web("style.css")))
-    own = set(re.findall(r"--([\w-]+):", page._web("style.css")))
+    variables = set(re.findall(r"var\(--([\w-]+)\)", page.web_part("style.css")))
+    own = set(re.findall(r"--([\w-]+):", page.web_part("style.css")))
     assert variables <= own | set(scene(ssl().config)["colors"])
 
 
@@ -111,8 +111,8 @@ def test_a_page_is_an_html_file(tmp_path: Path) -> None:
 def test_every_part_of_the_page_is_used() -> None:
     html = to_html(vss())
     for name in page.SCRIPTS:
-        assert page._web(name) in html
-    identifiers = set(re.findall(r"\$\(\"([\w-]+)\"\)", page._web("player.js")))
+        assert page.web_part(name) in html
+    identifiers = set(re.findall(r"\$\(\"([\w-]+)\"\)", page.web_part("player.js")))
     assert len(identifiers) > 15
     for identifier in identifiers:
         assert f'id="{identifier}"' in html

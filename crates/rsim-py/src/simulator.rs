@@ -1,7 +1,7 @@
 //! Simulator: many matches in one Python object.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use rsim_core::columns::BALL_COLUMNS;
@@ -13,6 +13,9 @@ use crate::arrays::{
 use crate::config::{SimConfig, count, invalid};
 use crate::forecaster::Known;
 use crate::threads::ThreadsOrCount;
+
+/// Time of a frame, detected balls and detected robots.
+type CameraFrame<'py> = (f64, Bound<'py, PyArray2<f32>>, Bound<'py, PyArray2<f32>>);
 
 /// Many independent matches of one configuration.
 #[pyclass(module = "rsoccer._core")]
@@ -169,6 +172,23 @@ impl Simulator {
         let out = out.as_slice_mut()?;
         py.detach(|| self.0.sense_as(known.0, out, active.as_deref()));
         Ok(())
+    }
+
+    #[pyo3(signature = (world = 0))]
+    fn camera_frames<'py>(&self, py: Python<'py>, world: i64) -> PyResult<Vec<CameraFrame<'py>>> {
+        let worlds = self.0.worlds();
+        let Some(world) = usize::try_from(world).ok().filter(|&world| world < worlds) else {
+            let last = worlds - 1;
+            return Err(PyValueError::new_err(format!("world must be 0 to {last}, got {world}")));
+        };
+        let frames = self.0.camera_frames(world);
+        let to_arrays = |frame: rsim_core::CameraFrame| {
+            let balls = PyArray1::from_slice(py, frame.balls.as_flattened());
+            let robots = PyArray1::from_slice(py, frame.robots.as_flattened());
+            let balls = balls.reshape([frame.balls.len(), 4])?;
+            Ok((frame.time, balls, robots.reshape([frame.robots.len(), 6])?))
+        };
+        frames.into_iter().map(to_arrays).collect()
     }
 
     #[pyo3(signature = (worlds, keys, numbers = None))]

@@ -9,11 +9,13 @@ from typing import Annotated, Any
 
 from tyro.conf import subcommand
 
+from rsoccer.commands.convert import Convert
 from rsoccer.commands.evaluate import Evaluate
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
+from rsoccer.commands.serve import Serve
 from rsoccer.commands.tournament import Tournament
 from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
@@ -42,6 +44,8 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
+        | Annotated[Convert, subcommand("convert")]
+        | Annotated[Serve, subcommand("serve")]
     )
 
 

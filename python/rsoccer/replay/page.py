@@ -10,7 +10,7 @@ import base64
 import html
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib import resources
 from typing import Any, Final
@@ -61,14 +61,29 @@ def to_html(replay: Recorded) -> str:
     content = base64.b64encode(file_format.to_bytes(replay, snapshots=False)).decode()
     parts = {
         "title": html.escape(f"{replay.task}: {' - '.join(filter(None, replay.names))}"),
-        "colors": "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS),
-        "style": _web("style.css") + ("" if more is None else _web("match.css")),
-        "script": "\n".join(map(_web, scripts)),
-        "scene": _json(scene(replay.config) | {"conditions": _conditions(replay)}),
-        "match": _json(more),
+        "colors": color_variables(),
+        "style": web_part("style.css") + ("" if more is None else web_part("match.css")),
+        "script": "\n".join(map(web_part, scripts)),
+        "scene": to_json(scene(replay.config) | {"conditions": _conditions(replay)}),
+        "match": to_json(more),
         "replay": content,
     }
-    return _PART.sub(lambda match: parts[match[1]], _web("page.html"))
+    return fill(web_part("page.html"), parts)
+
+
+def fill(template: str, parts: Mapping[str, str]) -> str:
+    """Return a page with its parts.
+
+    Args:
+        template: the page, with names of parts in double braces.
+        parts: texts by name.
+    """
+    return _PART.sub(lambda match: parts[match[1]], template)
+
+
+def color_variables() -> str:
+    """Return the colors of the palette as variables of a style sheet."""
+    return "".join(f"--{_name(color)}: {_css(color)};" for color in _COLORS)
 
 
 def to_frame(replay: Recorded) -> str:
@@ -138,8 +153,12 @@ def _conditions(replay: Recorded) -> list[str]:
     return conditions
 
 
-def _json(value: object) -> str:
-    """JSON that can stand in a page."""
+def to_json(value: object) -> str:
+    """Return JSON that can stand in a page.
+
+    Args:
+        value: numbers, texts, lists and dicts of them.
+    """
     return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
 
 
@@ -198,6 +217,10 @@ def _name(color: str) -> str:
 
 
 @cache
-def _web(name: str) -> str:
-    """Text of a part of the page."""
+def web_part(name: str) -> str:
+    """Return the text of a part of the page.
+
+    Args:
+        name: name of a file in the folder `web`.
+    """
     return (resources.files("rsoccer.replay") / "web" / name).read_text(encoding="utf-8")

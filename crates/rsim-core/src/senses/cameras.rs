@@ -162,6 +162,7 @@ impl Cameras {
             frame.begin(time, due);
             for camera in &self.all {
                 camera.detect(&exposed, sensing, self.period, &mut draws, &mut frame);
+                frame.end_camera();
             }
             self.under_way.push_back(frame);
         }

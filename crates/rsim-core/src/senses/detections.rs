@@ -14,6 +14,10 @@ pub(super) struct Detections {
     pub(super) due: f64,
     pub(super) balls: Vec<DetectedBall>,
     pub(super) robots: Vec<DetectedRobot>,
+    /// Numbers of balls and of robots up to the end of each camera's. Left out of snapshots: only readers of
+    /// frames ask which camera saw what.
+    #[serde(skip)]
+    pub(super) ends: Vec<[usize; 2]>,
 }
 
 impl Detections {
@@ -22,7 +26,45 @@ impl Detections {
         (self.time, self.due) = (time, due);
         self.balls.clear();
         self.robots.clear();
+        self.ends.clear();
     }
+
+    /// Ends the detections of a camera.
+    pub(super) fn end_camera(&mut self) {
+        self.ends.push([self.balls.len(), self.robots.len()]);
+    }
+
+    /// The frame as readers outside the senses get it.
+    pub(super) fn to_camera_frame(&self) -> CameraFrame {
+        // The camera of a detection is the number of those that ended before it.
+        #[expect(clippy::cast_precision_loss, reason = "at most 64 cameras")]
+        let camera = |nth: usize, which: usize| {
+            self.ends.iter().filter(|ends| ends[which] <= nth).count() as f32
+        };
+        let balls = self.balls.iter().enumerate().map(|(nth, ball)| {
+            let (position, [z, _]) = (ball.position, ball.height);
+            [camera(nth, 0), position.x, position.y, z]
+        });
+        let robots = self.robots.iter().enumerate().map(|(nth, seen)| {
+            #[expect(clippy::cast_precision_loss, reason = "at most 22 robots")]
+            let robot = seen.robot as f32;
+            let Motion { position, heading, .. } = seen.motion;
+            [camera(nth, 1), robot, position.x, position.y, heading.x, heading.y]
+        });
+        CameraFrame { time: self.time, balls: balls.collect(), robots: robots.collect() }
+    }
+}
+
+/// Detections of all cameras at one instant, as software of teams gets them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CameraFrame {
+    /// Time of the exposure since the senses began, s.
+    pub time: f64,
+    /// For each detected ball the index of the camera, and position x, y and height, m.
+    pub balls: Vec<[f32; 4]>,
+    /// For each detected robot the index of the camera, its index in a state row, position x and y (m), and
+    /// cosine and sine of the heading, whose length is near 1.
+    pub robots: Vec<[f32; 6]>,
 }
 
 /// A ball as a camera sees it. It has its motion, which is used without a tracker.

@@ -6,7 +6,7 @@
 
 mod actuators;
 mod cameras;
-mod detections;
+pub(crate) mod detections;
 mod link;
 mod random;
 mod reports;
@@ -24,6 +24,7 @@ use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
 use crate::senses::cameras::Cameras;
+use crate::senses::detections::{CameraFrame, Detections};
 use crate::senses::link::Link;
 use crate::senses::random::{Draws, Purpose};
 use crate::senses::reports::Reports;
@@ -41,6 +42,9 @@ pub(crate) struct Senses {
     /// Number of looks at a state that was placed.
     looks: u64,
     cameras: Cameras,
+    /// Frames that arrived in the last control step. Nothing depends on them.
+    #[serde(skip)]
+    arrived: Vec<Detections>,
     tracker: Tracker,
     reports: Reports,
     link: Link,
@@ -66,6 +70,7 @@ impl Senses {
         let mut senses = Self {
             tracker: Tracker::new(robots, &sensing, cameras.period()),
             cameras,
+            arrived: Vec::new(),
             reports: Reports::new(robots, &sensing, &mut draws),
             link: Link::new(robots, columns),
             actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
@@ -143,10 +148,18 @@ impl Senses {
         let now = self.now(config);
         self.reports.send(now, (&self.sensing, self.key), state, parameters);
         self.reports.receive(now);
-        while let Some(frame) = self.cameras.arrived(now) {
-            self.tracker.take(&self.sensing, &frame, parameters.ball.radius);
+        for frame in self.arrived.drain(..) {
             self.cameras.recycle(frame);
         }
+        while let Some(frame) = self.cameras.arrived(now) {
+            self.tracker.take(&self.sensing, &frame, parameters.ball.radius);
+            self.arrived.push(frame);
+        }
+    }
+
+    /// The frames of the cameras that arrived in the last control step, in the order of their arrival.
+    pub(crate) fn camera_frames(&self) -> Vec<CameraFrame> {
+        self.arrived.iter().map(Detections::to_camera_frame).collect()
     }
 
     /// Writes the row of what robots know.

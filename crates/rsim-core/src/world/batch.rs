@@ -9,6 +9,7 @@ use crate::error::{ConfigError, SnapshotError, StepError};
 use crate::forecast::Knowledge;
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
+use crate::senses::detections::CameraFrame;
 use crate::state::State;
 use crate::threads::Threads;
 use crate::world::World;
@@ -160,6 +161,14 @@ impl Batch {
                 self.worlds[world].write_row_known_to(knowledge, row);
             }
         });
+    }
+
+    /// The frames of a world's cameras that arrived in its last control step; none without senses.
+    ///
+    /// # Panics
+    /// There is no such world.
+    pub fn camera_frames(&self, world: usize) -> Vec<CameraFrame> {
+        self.worlds[world].camera_frames()
     }
 
     /// Begins the senses of the worlds of the mask, which have just been placed. `keys` has one number for

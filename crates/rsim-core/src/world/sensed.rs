@@ -4,6 +4,7 @@ use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
 use crate::forecast::Knowledge;
 use crate::models::sensing::Sensing;
+use crate::senses::detections::CameraFrame;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
 use crate::tick::Tick;
@@ -34,6 +35,11 @@ impl World {
             None => self.write_row(out),
             Some(senses) => senses.write_row(&self.state, out),
         }
+    }
+
+    /// The frames of the cameras that arrived in the last control step; none without senses.
+    pub fn camera_frames(&self) -> Vec<CameraFrame> {
+        self.senses.as_ref().map_or_else(Vec::new, |senses| senses.camera_frames())
     }
 
     fn watched(&self) -> Watched<'_> {

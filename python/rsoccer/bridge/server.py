@@ -1,0 +1,178 @@
+"""The server without sockets: datagrams in, ticks, datagrams out.
+
+Everything is a function of what arrives, from whom and when, so tests need neither a network nor
+time.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final
+
+from rsoccer.bridge.external_referee import ExternalReferee
+from rsoccer.bridge.session import Datagram, Session
+from rsoccer.bridge.settings import Settings
+from rsoccer.bridge.ssl_ports import SslPorts
+from rsoccer.bridge.team import Address
+from rsoccer.bridge.vsss_ports import VsssPorts
+from rsoccer.protocols.errors import MessageError
+
+RESEND_SECONDS: Final = 0.1
+"""Time after which a simulation that waits for clients sends its last frame again, s: a datagram
+can be lost."""
+MAX_TICKS: Final = 50
+"""Ticks in one call, so that messages are read in between."""
+
+
+class Server:
+    """A match that teams' software plays.
+
+    Attributes:
+        session: the match and its clients.
+        ports: the ports of the league.
+        listeners: called after each tick with what is sent.
+    """
+
+    def __init__(self, settings: Settings | None = None, epoch: float = 0.0) -> None:
+        """Begin a match.
+
+        Args:
+            settings: the settings; None for the defaults.
+            epoch: Unix time of the simulated time 0, s.
+
+        Raises:
+            TypeError: an unknown option of the match.
+            ValueError: an option of the match, or a policy that does not fit.
+        """
+        settings = Settings() if settings is None else settings
+        self.session = Session(settings, epoch)
+        self.ports: SslPorts | VsssPorts
+        if settings.league == "ssl":
+            self.ports = SslPorts(self.session)
+        else:
+            self.ports = VsssPorts(self.session)
+        self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
+        self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
+        self._waits = False
+        self._sent: list[Datagram] = []
+        self._sent_at = -math.inf
+        self._has_had = [False, False]
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the ports that receive."""
+        return (*self.ports.inputs, *(("referee",) if self._referee else ()))
+
+    @property
+    def listening_groups(self) -> tuple[str, ...]:
+        """Names of the ports that receive what is sent to a group."""
+        return tuple(name for name in self.inputs if name in ("referee", "replacer"))
+
+    def receive(self, port: str, data: bytes, address: Address, now: float) -> list[Datagram]:
+        """Take in a datagram.
+
+        Args:
+            port: name of the port, one of `inputs`.
+            data: its bytes; any.
+            address: address of the sender.
+            now: time on the wall, s, on any clock that runs evenly.
+
+        Returns:
+            The answers.
+        """
+        counts = self.session.counts
+        counts[f"{port}: received"] += 1
+        try:
+            if port == "referee" and self._referee is not None:
+                self._referee.receive(data)
+                return []
+            return self.ports.receive(port, data, address, now)
+        except MessageError as error:
+            counts[f"{port}: unreadable"] += 1
+            return self.ports.refuse(port, error, address)
+
+    def advance(self, now: float) -> list[Datagram]:
+        """Play the ticks that are due.
+
+        Args:
+            now: time on the wall, s.
+
+        Returns:
+            What cameras, tracker and referee tell.
+        """
+        clock = self.session.clock
+        if clock is None:
+            return self._advance_with_clients(now)
+        sent = []
+        for _ in range(min(clock.due(now), MAX_TICKS)):
+            clock.step()
+            sent += self._tick(now)
+        return sent
+
+    def next_due(self, now: float) -> float:
+        """Return the time on the wall at which `advance` has something to do.
+
+        Args:
+            now: time on the wall, s.
+        """
+        clock = self.session.clock
+        if clock is not None:
+            return clock.next_due(now)
+        if not self._is_waiting(now):
+            return now
+        return self._sent_at + RESEND_SECONDS if self._sent else math.inf
+
+    def _tick(self, now: float) -> list[Datagram]:
+        session = self.session
+        session.tick(now)
+        sent: list[Datagram] = []
+        for frame in session.arena.camera_frames:
+            sent += self.ports.frames(frame)
+        sent += self.ports.officials()
+        for listener in self.listeners:
+            listener(self, sent)
+        return sent
+
+    # -- As fast as clients answer ---------------------------------------------------------------
+
+    def _advance_with_clients(self, now: float) -> list[Datagram]:
+        if self._is_waiting(now):
+            if self._sent and now - self._sent_at >= RESEND_SECONDS:
+                self._sent_at = now
+                self.session.counts["frames: sent again"] += 1
+                return list(self._sent)
+            return []
+        sent: list[Datagram] = []
+        for _ in range(MAX_TICKS):
+            reported = self._tick(now)
+            sent += reported
+            if self.session.arena.camera_frames:
+                self._waits = True
+                self._sent = [each for each in reported if each.port != "referee"]
+                self._sent_at = now
+                for team in self.session.teams:
+                    team.answered = False
+                break
+        return sent
+
+    def _is_waiting(self, now: float) -> bool:
+        """Whether a client has not answered the last frame, or has not come yet."""
+        session = self.session
+        for team in session.teams:
+            team.expire(now)
+            self._has_had[team.index] |= team.address is not None
+        if not self._waits:
+            return False
+        expected = [
+            team
+            for team in session.teams
+            if team.address is not None
+            or not (self._has_had[team.index] or session.stand_ins.plays(team.index))
+        ]
+        if expected:
+            self._waits = not all(team.answered for team in expected)
+        else:
+            # Policies play on by themselves; without them, nobody is there.
+            self._waits = not any(session.stand_ins.plays(team.index) for team in session.teams)
+        return self._waits

@@ -1,0 +1,174 @@
+"""A match that is served, with its clients: who drives which team, and what may be changed."""
+
+from __future__ import annotations
+
+import ipaddress
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+
+from rsoccer.arrays import Floats
+from rsoccer.bridge.arena import Arena
+from rsoccer.bridge.clocks import ScaledClock
+from rsoccer.bridge.match_tasks import make_match
+from rsoccer.bridge.refusals import Reason, Refusal
+from rsoccer.bridge.settings import Settings
+from rsoccer.bridge.stand_ins import StandIns
+from rsoccer.bridge.team import Address, Team
+from rsoccer.protocols.layout import TEAMS, WireLayout
+from rsoccer.protocols.placing import Placement
+
+
+class Datagram(NamedTuple):
+    """Bytes to send."""
+
+    port: str
+    """Name of the port whose socket sends them: replies come from where the message went."""
+    data: bytes
+    """The bytes."""
+    address: Address | None = None
+    """Receiver; None for the group of the port."""
+
+
+class Session:
+    """The state that all ports share.
+
+    Attributes:
+        settings: the settings.
+        arena: the match.
+        layout: sides and numbers on the wire.
+        teams: blue and yellow.
+        stand_ins: policies for robots without a client.
+        clock: the clock; None if the simulation goes on as fast as clients answer.
+        epoch: time of the start, Unix time, s.
+        counts: numbers of messages by what became of them, such as "blue: received".
+    """
+
+    def __init__(self, settings: Settings, epoch: float = 0.0) -> None:
+        """Begin a match.
+
+        Args:
+            settings: the settings.
+            epoch: time of the start, Unix time, s: that of the simulated time 0.
+
+        Raises:
+            ValueError: an option of the match, or a policy that does not fit.
+        """
+        self.settings = settings
+        task = make_match(settings.league, settings.division, settings.robots, **settings.options)
+        self.stand_ins = StandIns(task, settings.blue, settings.yellow, settings.seed)
+        self.arena = Arena(
+            task,
+            settings.sensing,
+            settings.seed,
+            has_referee=settings.referee == "own",
+            observers=self.stand_ins.observers,
+        )
+        side = settings.blue_on_positive_half
+        self._on_positive = settings.league == "vsss" if side is None else side
+        self.layout = self._new_layout()
+        self.teams = tuple(
+            Team(team, self.layout, settings.command_timeout, settings.client_timeout)
+            for team in TEAMS
+        )
+        self.clock = None if settings.speed is None else ScaledClock(settings.speed)
+        self.epoch = epoch
+        self.counts: Counter[str] = Counter()
+        config = self.arena.config
+        self._commands: Floats = np.zeros(
+            (config.n_robots, len(config.command_columns)), np.float32
+        )
+
+    def _new_layout(self) -> WireLayout:
+        return WireLayout(self.arena.config, blue_on_positive_half=self._on_positive)
+
+    def tick(self, now: float) -> None:
+        """Advance the match by one tick.
+
+        Args:
+            now: time on the wall, s.
+        """
+        arena, stand_ins = self.arena, self.stand_ins
+        seconds = arena.seconds
+        for team in self.teams:
+            if team.expire(now):
+                self.counts[f"{_name(team)}: left"] += 1
+        plays = [team for team in self.teams if stand_ins.plays(team.index)]
+        if plays and stand_ins.is_due(arena.ticks):
+            arena.sense()
+            stand_ins.act(arena.play)
+        for team in self.teams:
+            has_policy = stand_ins.plays(team.index)
+            stand_in = stand_ins.commands if has_policy else None
+            team.write(self._commands, seconds, stand_in, arena.frame.robots.heading[0])
+        arena.step(self._commands)
+
+    @property
+    def commands(self) -> Floats:
+        """(robots, command) commands of the last tick."""
+        return self._commands
+
+    def may_control(self, address: Address) -> bool:
+        """Return whether a client may control the simulator.
+
+        Args:
+            address: its address.
+        """
+        return self.settings.allow_remote_control or is_loopback(address)
+
+    def place(self, placement: Placement) -> list[Reason]:
+        """Return what is refused of a message that puts bodies; the rest is done.
+
+        Args:
+            placement: the state, and what of it moved.
+        """
+        reasons = [Reason(str(problem.code), problem.message) for problem in placement.problems]
+        try:
+            self.arena.place(placement)
+        except ValueError as error:
+            reasons.append(Reason(Refusal.BLOCKED, str(error)))
+        return reasons
+
+    def refresh_layout(self) -> None:
+        """Take note of other robots."""
+        self.layout = self._new_layout()
+
+
+def is_loopback(address: Address) -> bool:
+    """Return whether an address is one of this machine.
+
+    Args:
+        address: host and port.
+    """
+    try:
+        return ipaddress.ip_address(address[0]).is_loopback
+    except ValueError:
+        return False
+
+
+def remote_control_refused(address: Address) -> Reason:
+    """Return the reason for which another machine may not control the simulator.
+
+    Args:
+        address: address of the client.
+    """
+    return Reason(
+        Refusal.REMOTE_CONTROL,
+        f"control: expected a client on this machine, got {address[0]}; "
+        "start the server with --allow-remote-control",
+    )
+
+
+def taken(team: Team) -> Reason:
+    """Return the reason for which a second client cannot drive a team.
+
+    Args:
+        team: the team.
+    """
+    holder = "nobody" if team.address is None else f"{team.address[0]}:{team.address[1]}"
+    return Reason(Refusal.TEAM_TAKEN, f"team: {_name(team)} is driven by {holder}")
+
+
+def _name(team: Team) -> str:
+    return ("blue", "yellow")[team.index]

@@ -1,0 +1,130 @@
+"""The referee in the course of a log: rows and events of a replay."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from rsoccer.arrays import Doubles
+from rsoccer.frame import robot_names
+from rsoccer.game import BLUE, NOBODY, YELLOW, Command, Event, EventKind
+from rsoccer.protocols.layout import TEAM_NAMES, TEAMS, WireLayout
+from rsoccer.protocols.referee import RUNNING, RefereeStatus, read_packet
+from rsoccer.protocols.schemas import referee_pb2
+from rsoccer.render.referee_state import COLUMNS
+from rsoccer.replay import events
+
+BALL_DISTANCE: Final = 0.5
+"""Distance that robots keep from the ball in a stop and before a kick of the opponents, m (SSL
+rules 4300196, "Stop")."""
+_KICKS: Final = tuple(
+    command for command in Command if command.name.startswith(("PREPARE", "DIRECT"))
+)
+
+
+class LogReferee:
+    """The newest state of the referee, and what has happened since the last frame.
+
+    Attributes:
+        layout: the match, with the side of the last packet.
+    """
+
+    def __init__(self, layout: WireLayout) -> None:
+        """Begin before the first packet.
+
+        Args:
+            layout: the match.
+        """
+        self.layout = layout
+        self._status: RefereeStatus | None = None
+        self._kick: Command | None = None
+        self._since = 0
+        self._reported: set[str] = set()
+        self._new: list[Event] = []
+
+    def add(self, message: referee_pb2.Packet) -> None:
+        """Bring the state up to date.
+
+        Args:
+            message: packet of the game controller.
+        """
+        if message.HasField("blue_team_on_positive_half"):
+            side = message.blue_team_on_positive_half
+            self.layout = replace(self.layout, blue_on_positive_half=side)
+        status, _ = read_packet(self.layout, message)
+        before, self._status = self._status, status
+        if before is None or before.command is not status.command:
+            self._since = 0
+            if status.command in _KICKS:
+                self._kick = status.command
+        old = status if before is None else before
+        for team in TEAMS:
+            if status.teams[team].score > old.teams[team].score:
+                self._new.append(Event(EventKind.GOAL, team, NOBODY, (0.0, 0.0)))
+        for reported in status.events:
+            if (
+                reported.identity not in self._reported
+                and reported.event.kind is not EventKind.GOAL
+            ):
+                self._new.append(reported.event)  # goals follow from the score
+            self._reported.add(reported.identity)
+
+    def frame(self, index: int) -> tuple[Doubles | None, list[events.Event]]:
+        """Return the row of a frame, and the events since the frame before it.
+
+        Args:
+            index: index of the frame.
+
+        Returns:
+            (columns + robots,), or None before the first packet; and the events.
+        """
+        config = self.layout.config
+        names = robot_names(config.n_blue, config.n_yellow)
+        new = events.game_events(names, index, self._new)
+        self._new = []
+        row = None if self._status is None else self._row(self._status)
+        self._since += 1
+        return row, new
+
+    def _row(self, status: RefereeStatus) -> Doubles:
+        config, following = self.layout.config, status.next_command
+        x, y = status.designated_position or (0.0, 0.0)
+        values: dict[str, float] = {
+            "command": status.command,
+            "next_command": NOBODY if following is None else following,
+            "kick": NOBODY if self._kick is None else self._kick,
+            "command_steps": self._since,
+            "stage": status.stage,
+            "in_play": float(status.command in RUNNING),
+            "designated_position_x": x,
+            "designated_position_y": y,
+            "seconds_left": max(0.0, status.seconds_left or 0.0),
+            "ball_distance": BALL_DISTANCE,
+        }
+        for team, side in enumerate(TEAM_NAMES):
+            values[f"score_{side}"] = status.teams[team].score
+            values[f"yellow_cards_{side}"] = status.teams[team].yellow_cards
+            values[f"red_cards_{side}"] = status.teams[team].red_cards
+        touch = np.zeros(config.n_robots)
+        for team in (BLUE, YELLOW):
+            touch[list(self.layout.slots(team))] = self._may_touch(status.command, team)
+        return np.concatenate([[values.get(name, 0.0) for name in COLUMNS], touch])
+
+    def _may_touch(self, command: Command, team: int) -> bool:
+        side = f"_{TEAM_NAMES[team].upper()}"
+        kicks = ("DIRECT_FREE", "BALL_PLACEMENT")
+        own = command.name.endswith(side) and command.name.startswith(kicks)
+        return own or command in RUNNING
+
+
+def no_referee(layout: WireLayout) -> Doubles:
+    """Return the row before the first packet: a match that is halted.
+
+    Args:
+        layout: the match.
+    """
+    row = np.zeros(len(COLUMNS) + layout.config.n_robots)
+    row[[COLUMNS.index(name) for name in ("next_command", "kick")]] = NOBODY
+    return row

@@ -1,0 +1,27 @@
+"""Messages of vssref.proto, made by `python -m tools.make_schemas`."""
+
+from rsoccer.protocols.schemas import pool
+
+_SERIALIZED = (
+    b'\n&rsoccer/protocols/schemas/vssref.proto\x12\x0ersoccer.vssref"\xf6\x01\n\x07Command\x12(\n'
+    b'\x04foul\x18\x01 \x01(\x0e2\x14.rsoccer.vssref.FoulR\x04foul\x123\n\tteamcolor\x18\x02 \x01('
+    b'\x0e2\x15.rsoccer.vssref.ColorR\tteamcolor\x12<\n\x0cfoulQuadrant\x18\x03 \x01(\x0e2\x18.rsoc'
+    b'cer.vssref.QuadrantR\x0cfoulQuadrant\x12\x1c\n\ttimestamp\x18\x04 \x01(\x01R\ttimestamp\x120'
+    b'\n\x08gameHalf\x18\x05 \x01(\x0e2\x14.rsoccer.vssref.HalfR\x08gameHalf"8\n\tPlacement\x12+\n'
+    b'\x05world\x18\x01 \x01(\x0b2\x15.rsoccer.vssref.FrameR\x05world"k\n\x05Frame\x123\n\tteamColo'
+    b'r\x18\x01 \x01(\x0e2\x15.rsoccer.vssref.ColorR\tteamColor\x12-\n\x06robots\x18\x02 \x03(\x0b2'
+    b'\x15.rsoccer.vssref.RobotR\x06robots"`\n\x05Robot\x12\x19\n\x08robot_id\x18\x01 \x01(\rR\x07r'
+    b'obotId\x12\x0c\n\x01x\x18\x02 \x01(\x01R\x01x\x12\x0c\n\x01y\x18\x03 \x01(\x01R\x01y\x12 \n'
+    b'\x0borientation\x18\x04 \x01(\x01R\x0borientation*s\n\x04Foul\x12\r\n\tFREE_KICK\x10\x00\x12'
+    b'\x10\n\x0cPENALTY_KICK\x10\x01\x12\r\n\tGOAL_KICK\x10\x02\x12\r\n\tFREE_BALL\x10\x03\x12\x0b'
+    b'\n\x07KICKOFF\x10\x04\x12\x08\n\x04STOP\x10\x05\x12\x0b\n\x07GAME_ON\x10\x06\x12\x08\n\x04HAL'
+    b"T\x10\x07*'\n\x05Color\x12\x08\n\x04BLUE\x10\x00\x12\n\n\x06YELLOW\x10\x01\x12\x08\n\x04NONE"
+    b'\x10\x02*[\n\x08Quadrant\x12\x0f\n\x0bNO_QUADRANT\x10\x00\x12\x0e\n\nQUADRANT_1\x10\x01\x12'
+    b'\x0e\n\nQUADRANT_2\x10\x02\x12\x0e\n\nQUADRANT_3\x10\x03\x12\x0e\n\nQUADRANT_4\x10\x04*~\n'
+    b'\x04Half\x12\x0b\n\x07NO_HALF\x10\x00\x12\x0e\n\nFIRST_HALF\x10\x01\x12\x0f\n\x0bSECOND_HALF'
+    b'\x10\x02\x12\x17\n\x13OVERTIME_FIRST_HALF\x10\x03\x12\x18\n\x14OVERTIME_SECOND_HALF\x10\x04'
+    b'\x12\x15\n\x11PENALTY_SHOOTOUTS\x10\x05b\x06proto3'
+)
+globals().update(pool.load(
+    _SERIALIZED,
+))

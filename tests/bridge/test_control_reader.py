@@ -1,0 +1,97 @@
+"""The fast reader gives what the protocol's reader gives, or leaves a message to it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rsoccer.bridge.control_reader import ControlReader
+from rsoccer.bridge.match_tasks import make_match
+from rsoccer.frame import Frame
+from rsoccer.game import BLUE, YELLOW
+from rsoccer.protocols.answers import to_robot_control_response
+from rsoccer.protocols.errors import MessageError
+from rsoccer.protocols.layout import WireLayout
+from rsoccer.protocols.parsing import parse
+from rsoccer.protocols.robot_control import read_robot_control
+from rsoccer.protocols.schemas import simulation_pb2
+
+CONFIG = make_match("ssl", "B", None).config
+LAYOUT = WireLayout(CONFIG)
+READER = ControlReader(LAYOUT)
+FRAME = Frame.empty(1, 6, 6)
+FRAME.robots.heading[:] = [0.6, 0.8]
+
+NUMBERS = st.one_of(
+    st.floats(-10.0, 10.0, width=32), st.sampled_from([math.nan, math.inf, -math.inf, 1e20, 0.0])
+)
+
+
+@st.composite
+def controls(draw: st.DrawFn) -> simulation_pb2.RobotControl:
+    message = simulation_pb2.RobotControl()
+    for number in draw(st.lists(st.integers(0, 7), max_size=4)):
+        command = message.robot_commands.add(id=number)
+        kind = draw(st.sampled_from(["local", "local", "local", "global", "none", "empty"]))
+        if kind == "local":
+            local = command.move_command.local_velocity
+            local.forward, local.left, local.angular = (draw(NUMBERS) for _ in range(3))
+        elif kind == "global":
+            moved = command.move_command.global_velocity
+            moved.x, moved.y, moved.angular = (draw(NUMBERS) for _ in range(3))
+        elif kind == "empty":
+            command.move_command.SetInParent()
+        for name in ("kick_speed", "kick_angle", "dribbler_speed"):
+            if draw(st.booleans()):
+                setattr(command, name, draw(NUMBERS))
+    return message
+
+
+@given(message=controls(), team=st.sampled_from([BLUE, YELLOW]), seed=st.integers(0, 9))
+@settings(deadline=None, max_examples=300)
+def test_both_read_the_same(message: simulation_pb2.RobotControl, team: int, seed: int) -> None:
+    data = message.SerializeToString()
+    previous = np.random.default_rng(seed).uniform(0.0, 1.0, (12, 6)).astype(np.float32)
+    fast = READER.read(data, team, previous)
+    try:
+        parsed = parse(simulation_pb2.RobotControl, data)
+    except MessageError:
+        assert fast is None
+        return
+    slow = read_robot_control(LAYOUT, parsed, team, FRAME, 0, previous)
+    if fast is None:
+        return
+    assert not slow.problems
+    np.testing.assert_allclose(fast[0], slow.commands, rtol=1e-6, atol=1e-7)
+    np.testing.assert_array_equal(fast[1], slow.given)
+
+
+def test_common_messages_are_read_fast() -> None:
+    message = simulation_pb2.RobotControl()
+    for number in range(6):
+        command = message.robot_commands.add(id=number, kick_speed=4.0, kick_angle=30.0)
+        local = command.move_command.local_velocity
+        local.forward, local.left, local.angular = 1.0, 2.0, 3.0
+        command.dribbler_speed = 10_000.0
+    read = READER.read(message.SerializeToString(), YELLOW, np.zeros((12, 6), np.float32))
+    assert read is not None
+    expected = [1.0, 2.0, 3.0, 4.0 * math.cos(math.pi / 6), 2.0, 1.0]
+    np.testing.assert_allclose(read[0][6:], [expected] * 6, rtol=1e-6)
+    assert read[1].tolist() == [False] * 6 + [True] * 6
+
+
+@pytest.mark.parametrize("which", [[], [0, 2]])
+def test_answers_are_those_of_the_protocol(which: list[int]) -> None:
+    frame = Frame.empty(1, 6, 6)
+    frame.robots.infrared[0, [2, 8]] = 1.0
+    frame.robots.absent[0, 5] = 1.0
+    given_robots = np.zeros(12, np.bool_)
+    given_robots[which] = True
+    expected = to_robot_control_response(LAYOUT, frame, 0, BLUE, given_robots if which else None)
+    for _ in range(2):
+        data = READER.answer(frame, BLUE, given_robots)
+        assert simulation_pb2.RobotControlResponse.FromString(data) == expected

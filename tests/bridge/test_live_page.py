@@ -1,0 +1,67 @@
+"""The page that shows a served match, over HTTP and a websocket on the loopback interface."""
+
+from __future__ import annotations
+
+import json
+import re
+import urllib.error
+import urllib.request
+
+import pytest
+
+from tests.bridge.clients import Wall
+
+pytest.importorskip("websockets")
+
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+from websockets.typing import Origin
+
+from rsoccer.bridge.live_page import FRAMES, LivePage
+
+PATIENCE = 60.0
+"""Longest wait for a frame, s: for machines that are busy."""
+
+
+def status_of(request: str | urllib.request.Request) -> int:
+    """Return the status of an answer that is an error."""
+    with pytest.raises(urllib.error.HTTPError) as refused:
+        urllib.request.urlopen(request, timeout=PATIENCE)
+    refused.value.close()
+    return refused.value.code
+
+
+@pytest.mark.parametrize("league", ["ssl", "vsss"])
+def test_frames_come_while_somebody_watches(league: str) -> None:
+    wall = Wall(league=league, yellow="zero")
+    with LivePage(wall.server, 0) as page:
+        with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
+            html = answer.read().decode()
+        assert "FieldView" in html
+        assert not re.search(r"\{\{\w+\}\}", html), "all parts are filled in"
+        with connect(f"ws://127.0.0.1:{page.port}{FRAMES}", open_timeout=PATIENCE) as socket:
+            frame = None
+            while frame is None:  # the server learns of the viewer in a thread of its own
+                wall.tick(5)
+                try:
+                    frame = json.loads(socket.recv(timeout=0.1))
+                except TimeoutError:
+                    continue
+        assert frame["score"] == [0, 0]
+        assert frame["drivers"] == "blue: nobody, yellow: zero"
+        assert 0 < frame["seconds"] <= wall.seconds
+        x = frame["row"][17]  # of the first robot, behind the columns of the ball
+        assert x == pytest.approx(wall.robots.position[0, 0, 0], abs=1e-3)
+    page.close()
+    assert not wall.server.listeners
+
+
+def test_pages_of_others_get_nothing() -> None:
+    with LivePage(Wall().server, 0) as page:
+        stranger = urllib.request.Request(page.url, headers={"Host": "example.org"})
+        assert status_of(stranger) == 403
+        assert status_of(f"{page.url}other") == 404
+        with pytest.raises(InvalidStatus, match="403"):
+            connect(f"ws://127.0.0.1:{page.port}{FRAMES}", origin=Origin("http://example.org"))
+        with pytest.raises(OSError, match=f"page: 127.0.0.1:{page.port}"):
+            LivePage(Wall().server, page.port)

@@ -1,0 +1,61 @@
+"""Records of a served match."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rsoccer import Sensing
+from rsoccer.bridge.recording import record
+from rsoccer.protocols.logs import LogKind, read_log
+from rsoccer.replay import Replay
+from tests.bridge.clients import Wall, local_velocity
+
+
+def play(wall: Wall) -> None:
+    for _ in range(40):
+        wall.team(local_velocity([1]))
+        wall.tick(5)
+
+
+def test_a_replay(tmp_path: Path) -> None:
+    wall = Wall(sensing=Sensing("rc2021"), yellow="zero")
+    with record(wall.server, tmp_path / "match.rsr"):
+        play(wall)
+    assert not wall.server.listeners
+    replay = Replay.load(tmp_path / "match.rsr")
+    assert len(replay) == 41
+    assert replay.seconds == pytest.approx(1.0)
+    np.testing.assert_allclose(replay.frame.robots.position[-1], wall.robots.position[0], atol=1e-3)
+    assert replay.commands[-1, 1, 0] == pytest.approx(1.0, abs=0.01)
+    assert replay.names == ("BLUE", "zero")
+    assert replay.sensed is not None
+    assert replay.referee_states is not None
+    state = replay.referee_states[-1]
+    assert state.command_seconds == pytest.approx(1.0, abs=0.05)
+    assert "canvas" in replay.to_html()
+
+
+def test_a_log(tmp_path: Path) -> None:
+    wall = Wall()
+    with record(wall.server, tmp_path / "match.log.gz"):
+        play(wall)
+    entries = list(read_log(tmp_path / "match.log.gz"))
+    kinds = [entry.kind for entry in entries]
+    assert kinds.count(LogKind.VISION) == pytest.approx(60, abs=1)
+    assert kinds.count(LogKind.TRACKER) == kinds.count(LogKind.VISION)
+    assert kinds.count(LogKind.REFEREE) >= 40
+    assert [entry.time for entry in entries] == sorted(entry.time for entry in entries)
+    assert all(entry.message() is not None for entry in entries)
+
+
+def test_what_cannot_be_recorded_is_refused(tmp_path: Path) -> None:
+    wall = Wall()
+    with pytest.raises(ValueError, match=r"record: expected a name ending in .rsr"):
+        record(wall.server, tmp_path / "match.mp4").__enter__()
+    with pytest.raises(ValueError, match="record: expected a folder that exists"):
+        record(wall.server, tmp_path / "no" / "match.rsr").__enter__()
+    with pytest.raises(ValueError, match="record: expected a replay"):
+        record(Wall(league="vsss").server, tmp_path / "match.log").__enter__()

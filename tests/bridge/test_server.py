@@ -1,0 +1,329 @@
+"""A server in process: who drives whom, what is sent, what is refused."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rsoccer import Sensing
+from rsoccer.bridge.match_tasks import TICK
+from rsoccer.bridge.server import RESEND_SECONDS
+from rsoccer.protocols.schemas import (
+    grsim_pb2,
+    referee_pb2,
+    simulation_pb2,
+    tracker_pb2,
+    vision_pb2,
+)
+from tests.bridge.clients import BLUE, OTHER, REMOTE, YELLOW, Wall, local_velocity
+
+
+def test_a_client_drives_its_team_and_sees_it() -> None:
+    wall = Wall()
+    start = wall.robots.position[0].copy()
+    for _ in range(20):
+        answer = wall.team(local_velocity([1]))
+        wall.tick(3)
+    assert [feedback.id for feedback in answer.feedback] == [1]
+    assert not answer.errors
+    moved = np.linalg.norm(wall.robots.position[0] - start, axis=1)
+    assert moved[1] > 0.15
+    assert np.delete(moved, 1).max() < 1e-3, "nobody else moves"
+    seen = [
+        packet.detection
+        for packet in (
+            vision_pb2.Packet.FromString(each.data) for each in wall.sent if each.port == "vision"
+        )
+    ]
+    assert len(seen) == pytest.approx(60 * wall.seconds, abs=1)
+    last = {robot.robot_id: robot for robot in seen[-1].robots_blue}
+    assert last[1].x / 1000 == pytest.approx(wall.robots.position[0, 1, 0], abs=0.02)
+    assert [frame.frame_number for frame in seen] == list(range(len(seen)))
+
+
+def test_all_ports_tell_the_same_match() -> None:
+    wall = Wall(sensing=Sensing("rc2021"), blue_on_positive_half=True)
+    wall.tick(100)
+    kinds: dict[str, Any] = {
+        "vision": vision_pb2.Packet,
+        "tracker": tracker_pb2.Packet,
+        "referee": referee_pb2.Packet,
+    }
+    reported = {
+        port: [kind.FromString(each.data) for each in wall.sent if each.port == port]
+        for port, kind in kinds.items()
+    }
+    assert {frame.detection.camera_id for frame in reported["vision"]} == {0, 1}
+    assert reported["vision"][0].geometry.field.field_length == 9000
+    assert len(reported["vision"][0].geometry.calib) == 2
+    tracked = reported["tracker"][-1].tracked_frame
+    assert len(tracked.robots) == 12
+    blue = [robot for robot in tracked.robots if robot.robot_id.team_color == 2]
+    assert min(robot.pos.x for robot in blue) > 0, "blue has the positive half"
+    assert reported["referee"][-1].blue_team_on_positive_half
+    assert len(reported["referee"]) >= 0.5 / 0.025
+
+
+def test_robots_stop_without_commands_and_another_client_takes_over() -> None:
+    wall = Wall(command_timeout=0.2, client_timeout=1.0)
+    for _ in range(30):
+        wall.team(local_velocity([0]))
+        wall.tick(2)
+    assert np.linalg.norm(wall.robots.velocity[0, 0]) > 0.5
+    wall.tick(39)
+    assert wall.server.session.commands[0, 0] == 1.0, "not yet"
+    wall.tick(3)
+    assert not wall.server.session.commands.any(), "the robot is commanded to stop"
+    answer = wall.team(local_velocity([0]), address=OTHER)
+    assert [error.code for error in answer.errors] == ["TEAM_TAKEN"]
+    assert str(BLUE[1]) in answer.errors[0].message
+    wall.tick(200)
+    assert np.linalg.norm(wall.robots.velocity[0, 0]) < 0.01
+    assert not wall.team(local_velocity([0]), address=OTHER).errors
+    assert [e.code for e in wall.team(local_velocity([0])).errors] == ["TEAM_TAKEN"]
+    assert wall.server.session.counts["blue: left"] == 1
+
+
+def test_teams_do_not_reach_each_other() -> None:
+    wall = Wall()
+    wall.team(local_velocity(range(6)))
+    wall.team(local_velocity(range(6), -1.0), "yellow", YELLOW)
+    for data in (b"\xff" * 20, local_velocity(range(100)), b"", local_velocity([0, 0])):
+        wall.team(data)
+    wall.tick()
+    commands = wall.server.session.commands
+    assert (commands[6:, 0] == -1.0).all()
+    assert (commands[:6, 0] == 1.0).all()
+
+
+@pytest.mark.parametrize(
+    ("data", "code"),
+    [
+        (b"\x0a\xff", "UNREADABLE"),
+        (b"\x00" * 70_000, "TOO_LARGE"),
+        (local_velocity([0], math.nan), "NOT_FINITE"),
+        (local_velocity([0], 1e30), "NOT_FINITE"),
+        (local_velocity([77]), "UNKNOWN_ROBOT"),
+    ],
+)
+def test_what_cannot_be_used_is_answered(data: bytes, code: str) -> None:
+    wall = Wall()
+    wall.team(local_velocity([1, 2]))
+    assert [error.code for error in wall.team(data).errors] == [code]
+    wall.tick()
+    assert np.isfinite(wall.server.session.commands).all()
+    assert (wall.server.session.commands[1:3, 0] == 1.0).all(), "other commands hold"
+
+
+def test_control_messages_put_bodies_and_set_the_speed() -> None:
+    wall = Wall(referee="off")
+    message = simulation_pb2.Command()
+    ball = message.control.teleport_ball
+    ball.x, ball.y, ball.vx, ball.vy = 1.0, 2.5, 2.0, 0.0
+    robot = message.control.teleport_robot.add(x=-2.0, y=1.0, orientation=1.0)
+    robot.id.id, robot.id.team = 3, simulation_pb2.BLUE
+    gone = message.control.teleport_robot.add(present=False)
+    gone.id.id, gone.id.team = 4, simulation_pb2.YELLOW
+    message.control.simulation_speed = 0.0
+    assert wall.control(message) == []
+    frame = wall.server.session.arena.frame
+    np.testing.assert_allclose(frame.ball.position[0], [1.0, 2.5], atol=1e-5)
+    np.testing.assert_allclose(frame.robots.position[0, 3], [-2.0, 1.0], atol=1e-5)
+    assert frame.robots.absent[0, 10] == 1.0
+    before = wall.seconds
+    wall.tick(20)
+    assert wall.seconds == before, "time stands still"
+    message = simulation_pb2.Command()
+    message.control.simulation_speed = 2.0
+    assert wall.control(message) == []
+    wall.tick(20)
+    assert wall.seconds - before == pytest.approx(40 * TICK, abs=2 * TICK)
+    assert wall.server.session.arena.frame.ball.position[0, 0] > 1.1
+
+
+def test_control_that_cannot_be_honored_says_so() -> None:
+    wall = Wall()
+    message = simulation_pb2.Command()
+    robot = message.control.teleport_robot.add(x=0.0, y=0.0)  # where the ball is
+    robot.id.id, robot.id.team = 0, simulation_pb2.BLUE
+    message.config.realism_config.SetInParent()
+    assert sorted(wall.control(message)) == ["BLOCKED", "UNSUPPORTED_REALISM"]
+    assert wall.control(message, REMOTE) == ["REMOTE_CONTROL"]
+    assert Wall(allow_remote_control=True).control(simulation_pb2.Command(), REMOTE) == []
+
+
+def test_robots_can_be_exchanged_while_the_match_goes_on() -> None:
+    wall = Wall()
+    wall.tick(20)
+    message = simulation_pb2.Command()
+    specs = message.config.robot_specs.add(mass=3.5)
+    specs.id.id, specs.id.team = 2, simulation_pb2.YELLOW
+    specs.limits.vel_absolute_max = 0.5
+    message.config.vision_port = 12345
+    assert wall.control(message) == []
+    assert wall.server.session.arena.config.robots[8].mass == pytest.approx(3.5)
+    assert wall.server.ports.vision_port == 12345
+    for _ in range(100):
+        wall.team(local_velocity([2, 3], 2.0), "yellow", YELLOW)
+        wall.tick()
+    speeds = np.linalg.norm(wall.robots.velocity[0], axis=1)
+    assert speeds[8] < 0.6
+    assert speeds[9] > 0.9
+
+
+def test_a_packet_of_grsim_drives_a_team_and_its_status_comes_back() -> None:
+    wall = Wall()
+    packet = grsim_pb2.Packet()
+    packet.commands.timestamp, packet.commands.isteamyellow = 0.0, True
+    packet.commands.robot_commands.add(
+        id=5, wheelsspeed=False, veltangent=1.0, velnormal=0, velangular=0,
+        kickspeedx=0, kickspeedz=0, spinner=False,
+    )  # fmt: skip
+    (answer,) = wall.send("grsim", packet.SerializeToString(), YELLOW)
+    assert answer.address == (YELLOW[0], 30012)
+    status = grsim_pb2.StatusPacket.FromString(answer.data)
+    assert [robot.robot_id for robot in status.robots_status] == [5]
+    assert wall.send("grsim", packet.SerializeToString(), OTHER) == []
+    assert wall.server.session.counts["grsim: team taken"] == 1
+    wall.tick()
+    assert wall.server.session.commands[11, 0] == 1.0
+
+
+@pytest.mark.parametrize("side", [False, True])
+def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side: bool) -> None:
+    wall = Wall(blue_on_positive_half=side, command_timeout=10.0, referee="off")
+    message = simulation_pb2.RobotControl()
+    moved = message.robot_commands.add(id=2).move_command.global_velocity
+    moved.x, moved.y, moved.angular = 0.0, 0.5, 4.0
+    start = wall.robots.position[0, 2].copy()
+    assert not wall.team(message.SerializeToString()).errors
+    wall.tick(200)
+    way = (wall.robots.position[0, 2] - start) * (-1 if side else 1)
+    assert way[1] > 0.3
+    assert abs(way[0]) < 0.1 * way[1]
+    wall.team(local_velocity([2], 0.0))
+    wall.tick(100)
+    assert np.linalg.norm(wall.robots.velocity[0, 2]) < 0.02
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.045, 0.1])
+def test_a_command_is_seen_after_the_configured_delay(delay: float) -> None:
+    wall = Wall(sensing=Sensing(delay=delay, command_delay=0.02) if delay else Sensing(delay=1e-6))
+    expected = delay + (0.02 if delay else 0.0)
+    wall.tick(40)
+    wall.team(local_velocity([0], 2.0))
+    sent_at = wall.seconds
+    rest = None
+    for _ in range(60):
+        for each in wall.tick():
+            if each.port != "vision":
+                continue
+            frame = vision_pb2.Packet.FromString(each.data).detection
+            x = next(robot.x for robot in frame.robots_blue if robot.robot_id == 0)
+            rest = x if rest is None else rest
+            if abs(x - rest) > 0.01:
+                # The motion of the tick after the command is what the first frame can show.
+                assert wall.seconds - sent_at == pytest.approx(expected + TICK, abs=1.01 * TICK)
+                return
+        wall.team(local_velocity([0], 2.0))
+    pytest.fail("the command was never seen")
+
+
+def test_clocks_that_jump_race_nothing_and_free_silent_teams() -> None:
+    wall = Wall()
+    wall.team(local_velocity([0]))
+    wall.tick(10)
+    before = wall.seconds
+    wall.now += 3600.0
+    wall.tick()
+    assert wall.seconds - before <= 2 * TICK
+    assert wall.server.session.clock is not None
+    assert wall.server.session.clock.skipped > 3590
+    assert wall.server.session.teams[0].address is None
+    wall.now -= 7200.0
+    before = wall.seconds
+    wall.tick(10)
+    assert wall.seconds - before == pytest.approx(9 * TICK, abs=2 * TICK)
+    assert not wall.team(local_velocity([0]), address=OTHER).errors
+
+
+def test_a_policy_plays_until_a_client_comes() -> None:
+    wall = Wall(yellow="strike", blue="strike", options={"referee": {"prepare_seconds": 0.0}})
+    wall.tick(600)
+    assert np.linalg.norm(wall.robots.velocity[0], axis=1).max() > 0.1
+    for _ in range(60):
+        wall.team(local_velocity(range(6), 0.0), "yellow", YELLOW)
+        wall.tick(2)
+    assert not wall.server.session.commands[6:].any()
+    wall.tick(300)
+    assert wall.server.session.commands[6:].any(), "the policy plays on"
+
+
+def test_as_fast_as_clients_answer() -> None:
+    wall = Wall(speed=None)
+    assert [each.port for each in wall.sent].count("vision") == 1
+    first = wall.seconds
+    for _ in range(5):
+        assert wall.server.advance(wall.now) == []
+    wall.now += 2 * RESEND_SECONDS
+    again = wall.server.advance(wall.now)
+    assert [each.port for each in again] == ["vision", "tracker"]
+    wall.team(local_velocity([0]))
+    assert wall.server.advance(wall.now) == [], "yellow has not come yet"
+    assert wall.seconds == first
+    frames = 0
+    for _ in range(60):
+        wall.team(local_velocity([0]))
+        wall.team(local_velocity([0]), "yellow", YELLOW)
+        sent = wall.server.advance(wall.now)
+        frames += [each.port for each in sent].count("vision")
+    assert frames == 60
+    assert wall.seconds - first == pytest.approx(1.0, abs=0.02)
+    wall.team(local_velocity([0]))
+    assert wall.server.advance(wall.now) == [], "a step waits for both"
+    wall.now += 0.9
+    wall.team(local_velocity([0]))
+    wall.now += 0.2
+    assert wall.server.advance(wall.now), "play goes on without the silent one"
+    message = simulation_pb2.Command()
+    message.control.simulation_speed = 2.0
+    assert wall.control(message) == ["UNSUPPORTED_SPEED"]
+
+
+def test_the_same_messages_give_the_same_match() -> None:
+    def play() -> tuple[bytes, bytes]:
+        wall = Wall(sensing=Sensing("realistic"), yellow="strike", seed=3)
+        for _ in range(100):
+            wall.team(local_velocity(range(6), 1.0, 0.2, 0.5))
+            wall.tick(2)
+        reported = b"".join(each.data for each in wall.sent)
+        return reported, wall.server.session.arena.frame.rows.tobytes()
+
+    first = play()
+    assert first == play()
+    assert len(first[0]) > 10_000
+
+
+def test_an_external_referee_is_obeyed() -> None:
+    wall = Wall(referee="external")
+    assert "referee" in wall.server.inputs
+    packet = referee_pb2.Packet(
+        packet_timestamp=1,
+        stage=referee_pb2.NORMAL_FIRST_HALF,
+        command=referee_pb2.DIRECT_FREE_BLUE,
+        command_counter=1,
+        command_timestamp=1,
+    )
+    for team in (packet.blue, packet.yellow):
+        team.name, team.score, team.red_cards = "x", 2, 0
+        team.yellow_cards = team.timeouts = team.timeout_time = team.goalkeeper = 0
+    assert wall.send("referee", packet.SerializeToString()) == []
+    game = wall.server.session.arena.play.game
+    assert (game.command[0], game.stage[0], game.score[0].tolist()) == (9, 1, [2, 2])
+    assert game.may_touch[0].tolist() == [True] * 6 + [False] * 6
+    assert not [each for each in wall.tick(50) if each.port == "referee"]
+    assert wall.send("referee", b"\xff\xff") == []
+    assert wall.server.session.counts["referee: unreadable"] == 1
