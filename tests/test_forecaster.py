@@ -1,7 +1,7 @@
 """The forecaster of the core, on its own and in matches."""
 
 import pickle
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ from rsoccer.tasks import SslSelfPlay, VssSelfPlay
 from tests.helpers import same
 
 DELAY = 0.1
-LATE = {"command_delay": DELAY, "forecast": 1.0}
+LATE: dict[str, Any] = {"command_delay": DELAY, "forecast": 1.0}
 STEPS_LATE = 4
 TASKS = {"VSSSelfPlay-v0": VssSelfPlay(), "SSLSelfPlay-v0": SslSelfPlay(n_blue=2, n_yellow=2)}
 
@@ -249,7 +249,7 @@ ZERO = np.zeros(1)
         (lambda f: f.reset(np.ones(2, np.bool_)), ValueError, "worlds must have"),
         (lambda f: f.restore(b"junk"), ValueError, "not a snapshot"),
         (lambda _: Forecaster(CONFIG, known="red"), ValueError, "known must be 'blue', 'yellow'"),
-        (lambda _: Forecaster(CONFIG, known=1), TypeError, "known must be"),
+        (lambda _: Forecaster(CONFIG, known=cast(str, 1)), TypeError, "known must be"),
         (lambda _: Forecaster(CONFIG, 0), ValueError, "worlds must be at least 1"),
         (lambda _: Sensing(forecast=2.0), ValueError, "sensing.forecast must be between 0 and 1"),
     ],

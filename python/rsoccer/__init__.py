@@ -22,7 +22,8 @@ from rsoccer._core import (
     Simulator,
     build_info,
 )
-from rsoccer.envs.parallel import env, parallel_env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import parallel_env
 from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env

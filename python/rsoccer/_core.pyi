@@ -313,8 +313,8 @@ class Field:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `field`.
 
         Returns:
             An equal model.
@@ -428,8 +428,8 @@ class BallModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `ball`.
 
         Returns:
             An equal model.
@@ -645,8 +645,8 @@ class RobotModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `robot`.
 
         Returns:
             An equal model.
@@ -878,8 +878,9 @@ class Sensing:
         """Return the senses of a JSON text.
 
         Args:
-            text: Result of `to_json`, or a preset's name with the numbers that differ, such as
-                `{"preset": "rc2021", "delay": 0.1}`.
+            text: Result of `to_json`; a preset's name with the numbers that differ, such as
+                `{"preset": "rc2021", "delay": 0.1}`; or an object that has one of these as
+                `sensing`.
 
         Raises:
             ValueError: Another text, or a number out of its range.

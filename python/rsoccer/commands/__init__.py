@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from tyro.conf import subcommand
 
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
@@ -38,6 +39,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Train, subcommand("train", default=default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
     )

@@ -54,8 +54,8 @@ def new_senses(
         return None
     if isinstance(sensing, Sensing):
         observing = _forecasting_teams(sensing, ranges, viewpoint)
-        stepper = sensing_stepper(stepper)
-        return SimulatedSenses.new(stepper, worlds, ranges, observing, frame, rng)
+        own = sensing_stepper(stepper)
+        return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
 
 

@@ -17,7 +17,7 @@ struct Coaster {
     keeps: Keeps,
 }
 
-/// What a robot keeps.
+/// The part of its motion that a robot keeps.
 enum Keeps {
     /// Speeds of its two wheels, rad/s: it rolls on along its arc.
     Wheels([f32; 2]),

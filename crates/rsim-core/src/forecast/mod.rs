@@ -1,4 +1,4 @@
-//! What a forecast needs beside the physics: whose commands are known, those on their way, and the motion of
+//! Parts of a forecast beside the physics: whose commands are known, those on their way, and the motion of
 //! robots whose commands are unknown. `world/forecast.rs` runs the physics forward.
 
 pub(crate) mod coasting;

@@ -17,7 +17,6 @@ numbers! {
     /// distributions, whose standard deviations are given, unless a number says otherwise. A camera at a
     /// height sees a flying ball where its ray meets the floor, and no ball that a robot hides.
     #[derive(Clone, PartialEq, Serialize, Deserialize)]
-    #[serde(default)]
     pub struct Sensing, "sensing";
     fields {
         /// Name of the preset.
@@ -99,16 +98,11 @@ numbers! {
         /// Part of all speed that batteries lose in a second, down to half.
         battery_sag: NotNegative, "1/s";
         /// 1 to know the state in which the next commands act, by a forecast.
+        #[serde(default)]
         forecast: Fraction, "1";
         /// 1 if a forecast knows the commands of both teams, 0 for a team's own.
+        #[serde(default)]
         forecast_others: Fraction, "1";
-    }
-}
-
-impl Default for Sensing {
-    /// No senses: a file that lacks a number is of a version without it.
-    fn default() -> Self {
-        Self::OFF
     }
 }
 

@@ -18,7 +18,7 @@ pub(super) const MAX_FORECAST: f64 = 2.0;
 /// Part of a tick that counts as none.
 const ROUNDING: f64 = 0.01;
 
-/// What is known for a forecast.
+/// The input of a forecast.
 pub(super) struct Known<'a> {
     /// State row of what is known.
     pub(super) row: &'a [f32],

@@ -28,7 +28,7 @@ impl World {
         self.write_row_known_to(Knowledge::Blue, out);
     }
 
-    /// Writes the row of what cameras and robots have told: the state row without senses.
+    /// Writes the row of what cameras and robots have reported: the state row without senses.
     pub(super) fn write_row_as_seen(&self, out: &mut [f32]) {
         match &self.senses {
             None => self.write_row(out),

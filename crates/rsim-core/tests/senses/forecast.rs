@@ -196,8 +196,8 @@ const CLOCK: f64 = 1.7e9;
 
 #[test]
 fn a_forecaster_of_ones_own_forecasts_as_senses_do() {
-    for scene in [scenes::vss_free(), scenes::chase()] {
-        let mut scene = scene;
+    let [vss, ssl] = scenes_without_contacts();
+    for mut scene in [vss, ssl, scenes::chase()] {
         scene.config.sensing = Some(late(0.06, 0.0));
         let (mut batch, mut rows) = scene.batch(1, 1);
         let threads = Threads::new(1).expect("one");
