@@ -155,18 +155,18 @@ class Match(Soccer):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block `game`, each (n, observers, ...)."""
-        first_yellow = np.searchsorted(play.observers, self.n_blue)
+        blue, yellow, observers = play.known_to(0), play.known_to(1), play.observers
+        groups = [(blue, observers)]
+        if yellow is not blue:
+            first_yellow = np.searchsorted(observers, self.n_blue)
+            groups = [(blue, observers[:first_yellow]), (yellow, observers[first_yellow:])]
         parts = [
             self._referee.core.features(
                 play.game.referee, known.rows, robots.tolist(), play.threads
             )
-            for known, robots in (
-                (play.known_to(0), play.observers[:first_yellow]),
-                (play.known_to(1), play.observers[first_yellow:]),
-            )
-            if len(robots)
+            for known, robots in groups
         ]
-        game = np.concatenate(parts, axis=1)
+        game = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         return super().frame_to_observations(play) | {GAME_BLOCK: game}
 
     def observation_limits(self) -> dict[str, float]:

@@ -91,6 +91,8 @@ impl Actuators {
         self.commands.copy_from_slice(heard);
         let battery = (1.0 - sensing.battery_sag * seconds).max(EMPTY_BATTERY);
         let mut draws = Draws::of(key, Purpose::Command, !number);
+        let kick_failures = draws.which(sensing.kick_failures, self.wheels.len());
+        let dribbler_failures = draws.which(sensing.dribbler_failures, self.wheels.len());
         let columns = heard.len() / self.wheels.len().max(1);
         let robots = self.commands.chunks_exact_mut(columns.max(1)).zip(&self.wheels);
         for (index, (command, wheels)) in robots.enumerate() {
@@ -104,10 +106,10 @@ impl Actuators {
                 else {
                     continue;
                 };
-                if draws.happens(sensing.kick_failures) {
+                if kick_failures >> index & 1 == 1 {
                     (*kick, *chip) = (0.0, 0.0);
                 }
-                if draws.happens(sensing.dribbler_failures) {
+                if dribbler_failures >> index & 1 == 1 {
                     *dribbler = 0.0;
                 }
                 let noise = draws.normal(sensing.kick_speed_noise);

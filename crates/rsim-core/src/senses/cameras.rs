@@ -25,11 +25,16 @@ pub(super) struct Cameras {
     phase: f64,
     /// Number of exposures.
     exposures: u64,
+    /// Time of the next exposure, s.
+    next: f64,
     /// Frames that have not arrived, in the order of their arrival.
     under_way: VecDeque<Detections>,
     /// Memory for frames to come.
     #[serde(skip)]
     spare: Vec<Detections>,
+    /// Memory for the motions of all bodies at an exposure.
+    #[serde(skip)]
+    motions: Vec<Motion>,
 }
 
 /// A camera above the middle of its part of the field.
@@ -81,20 +86,26 @@ struct Exposed<'a> {
     parameters: &'a BodyParameters,
     /// Time since the exposure, s.
     age: f32,
+    /// Motions of all bodies at the exposure.
+    motions: &'a [Motion],
+}
+
+/// A motion as it was before a time `age`, s.
+fn earlier(now: Motion, age: f32) -> Motion {
+    if age == 0.0 {
+        return now;
+    }
+    Motion {
+        position: now.position - now.velocity * age,
+        heading: now.heading - now.heading.perp() * (now.angular_velocity * age),
+        ..now
+    }
 }
 
 impl Exposed<'_> {
     /// A body's motion at the exposure.
-    fn motion(&self, body: usize) -> Motion {
-        let now = self.state.bodies.motion(body);
-        if self.age == 0.0 {
-            return now;
-        }
-        Motion {
-            position: now.position - now.velocity * self.age,
-            heading: now.heading - now.heading.perp() * (now.angular_velocity * self.age),
-            ..now
-        }
+    fn motion(&self, body: usize) -> &Motion {
+        &self.motions[body]
     }
 
     /// Height of the ball's lowest point, m.
@@ -117,7 +128,16 @@ impl Cameras {
         // The state at the start is known; the first frame shows a later one.
         let phase = if phase <= ROUNDING { phase + period } else { phase };
         let all = Camera::all(config, sensing, draws);
-        Self { all, period, phase, exposures: 0, under_way: VecDeque::new(), spare: Vec::new() }
+        Self {
+            all,
+            period,
+            phase,
+            exposures: 0,
+            next: phase,
+            under_way: VecDeque::new(),
+            spare: Vec::new(),
+            motions: Vec::new(),
+        }
     }
 
     /// Time between exposures, s.
@@ -140,20 +160,22 @@ impl Cameras {
         state: &State,
         parameters: &BodyParameters,
     ) {
-        loop {
-            #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 frames")]
-            let time = self.phase + self.period * self.exposures as f64;
-            if time > now + ROUNDING {
-                return;
-            }
+        while self.next <= now + ROUNDING {
+            let time = self.next;
             let mut draws = Draws::of(key, Purpose::Frame, self.exposures);
             self.exposures += 1;
+            #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 frames")]
+            let exposures = self.exposures as f64;
+            self.next = self.phase + self.period * exposures;
             if draws.happens(sensing.frame_loss) {
                 continue;
             }
             #[expect(clippy::cast_possible_truncation, reason = "less than a tick")]
             let age = (now - time).max(0.0) as f32;
-            let exposed = Exposed { state, parameters, age };
+            self.motions.clear();
+            let bodies = 0..state.bodies.len();
+            self.motions.extend(bodies.map(|body| earlier(state.bodies.motion(body), age)));
+            let exposed = Exposed { state, parameters, age, motions: &self.motions };
             let jitter = f64::from(sensing.delay_jitter);
             let jitter = if jitter > 0.0 { jitter * f64::from(draws.deviation()) } else { 0.0 };
             let due = (time + f64::from(sensing.delay) + jitter).max(time);
@@ -188,7 +210,9 @@ impl Cameras {
         state: &State,
         parameters: &BodyParameters,
     ) -> Detections {
-        let exposed = Exposed { state, parameters, age: 0.0 };
+        let motions: Vec<Motion> =
+            (0..state.bodies.len()).map(|body| state.bodies.motion(body)).collect();
+        let exposed = Exposed { state, parameters, age: 0.0, motions: &motions };
         let mut frame = Detections { time: now, due: now, ..Detections::default() };
         let nearest = |position: Vector| {
             let all = self.all.iter();
@@ -252,19 +276,20 @@ impl Camera {
         }
         #[expect(clippy::cast_possible_truncation, reason = "a duration")]
         let ghost = sensing.ghost_balls * period as f32;
-        for index in 0..exposed.parameters.robots.len() {
-            if exposed.state.is_absent(index) {
+        let robots = exposed.parameters.robots.len();
+        let missing = draws.which(sensing.missing_robots, robots);
+        let misread = draws.which(sensing.misread_headings, robots);
+        let ghosts = draws.which(ghost, robots);
+        for (index, motion) in exposed.motions[1..].iter().enumerate() {
+            if !self.sees(motion.position) || exposed.state.is_absent(index) {
                 continue;
             }
-            let motion = exposed.motion(robot(index));
-            if !self.sees(motion.position) {
-                continue;
-            }
-            if !draws.happens(sensing.missing_robots) {
-                let seen = self.detect_robot(motion, sensing, draws, true);
+            if missing >> index & 1 == 0 {
+                let is_misread = misread >> index & 1 == 1;
+                let seen = self.detect_robot(motion, sensing, draws, is_misread);
                 frame.robots.push(DetectedRobot { robot: index, motion: seen });
             }
-            if draws.happens(ghost) {
+            if ghosts >> index & 1 == 1 {
                 let body = &exposed.parameters.robots[index].model;
                 let front = body.front_distance() + exposed.parameters.ball.radius;
                 let position = motion.position + motion.heading * front;
@@ -292,14 +317,13 @@ impl Camera {
         let (ball, z) = (exposed.motion(BALL).position, exposed.height() + radius);
         (0..exposed.parameters.robots.len()).any(|index| {
             let body = &exposed.parameters.robots[index];
-            let position = exposed.state.bodies.motion(robot(index)).position;
+            let position = exposed.motion(robot(index)).position;
             // Quick test: a shadow is shorter than the robot is far from the camera, in the ratio of heights.
             let reach = body.bounding_radius + radius + REACH;
             if (position - ball).length_squared() > reach * reach || exposed.state.is_absent(index)
             {
                 return false;
             }
-            let position = exposed.motion(robot(index)).position;
             let obstacle =
                 Obstacle { position, radius: body.bounding_radius, height: body.model.height };
             lens.visible_part(ball, z, radius, obstacle) < sensing.visible_part
@@ -309,10 +333,7 @@ impl Camera {
     /// The ball as the camera detects it.
     fn detect_ball(&self, exposed: &Exposed, sensing: &Sensing, draws: &mut Draws) -> DetectedBall {
         let motion = exposed.motion(BALL);
-        let noise = Vector::new(
-            draws.normal(sensing.ball_position_noise),
-            draws.normal(sensing.ball_position_noise),
-        );
+        let noise = draws.normals(sensing.ball_position_noise);
         if sensing.camera_height == 0.0 {
             return DetectedBall {
                 position: motion.position + self.offset + noise,
@@ -334,24 +355,21 @@ impl Camera {
     /// A robot as the camera detects it.
     fn detect_robot(
         &self,
-        motion: Motion,
+        motion: &Motion,
         sensing: &Sensing,
         draws: &mut Draws,
-        may_misread: bool,
+        is_misread: bool,
     ) -> Motion {
-        let noise = Vector::new(
-            draws.normal(sensing.robot_position_noise),
-            draws.normal(sensing.robot_position_noise),
-        );
+        let noise = draws.normals(sensing.robot_position_noise);
         let turned = draws.normal(sensing.heading_noise);
         let mut heading = motion.heading;
         if turned != 0.0 {
             heading += heading.perp() * turned;
         }
-        if may_misread && draws.happens(sensing.misread_headings) {
+        if is_misread {
             heading = if draws.uniform() < 0.5 { heading.perp() } else { -heading.perp() };
         }
-        Motion { position: motion.position + self.offset + noise, heading, ..motion }
+        Motion { position: motion.position + self.offset + noise, heading, ..*motion }
     }
 }
 

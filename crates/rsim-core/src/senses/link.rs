@@ -29,6 +29,8 @@ pub(super) struct Link {
     stopped: u64,
     /// Tick of the last command that each robot heard.
     heard: Vec<u64>,
+    /// Tick before which no robot that is not stopped heard its last command: its time-out is not over earlier.
+    waiting_since: u64,
     /// Last command that each robot heard.
     commands: Vec<f32>,
     /// Memory for commands to come.
@@ -51,6 +53,7 @@ impl Link {
             number: 0,
             stopped: 0,
             heard: vec![0; robots],
+            waiting_since: 0,
             commands: vec![0.0; robots * columns],
             spare: Vec::new(),
         }
@@ -76,8 +79,7 @@ impl Link {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 2 s")]
         let due = now + ticks.round() as u64;
         let due = self.under_way.back().map_or(due, |last| due.max(last.due));
-        let lost = (0..self.heard.len())
-            .fold(0, |all, robot| all | u64::from(draws.happens(sensing.command_loss)) << robot);
+        let lost = draws.which(sensing.command_loss, self.heard.len());
         let mut copied = self.spare.pop().unwrap_or_default();
         copied.clear();
         copied.extend_from_slice(commands);
@@ -109,6 +111,9 @@ impl Link {
             });
         }
         let Some(timeout) = timeout else { return change };
+        if now - self.waiting_since < timeout {
+            return change;
+        }
         for robot in 0..self.heard.len() {
             if now - self.heard[robot] >= timeout && self.stopped >> robot & 1 == 0 {
                 self.stopped |= 1 << robot;
@@ -118,6 +123,10 @@ impl Link {
                 change = Some(Change { robots: robots | 1 << robot, number });
             }
         }
+        // A stopped robot that hears a command again does so later than now.
+        let going =
+            self.heard.iter().enumerate().filter(|(robot, _)| self.stopped >> robot & 1 == 0);
+        self.waiting_since = going.map(|(_, heard)| *heard).min().unwrap_or(now);
         change
     }
 

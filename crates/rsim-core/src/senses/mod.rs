@@ -39,6 +39,8 @@ pub(crate) struct Senses {
     key: u64,
     /// Physics ticks since the senses began.
     ticks: u64,
+    /// Ticks after which a robot that hears nothing stops; `None` for never.
+    timeout: Option<u64>,
     /// Number of looks at a state that was placed.
     looks: u64,
     cameras: Cameras,
@@ -75,6 +77,7 @@ impl Senses {
             link: Link::new(robots, columns),
             actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
             sent: CommandLog::default(),
+            timeout: timeout(&sensing, watched.config.tick),
             sensing,
             key,
             ticks: 0,
@@ -108,7 +111,7 @@ impl Senses {
 
     /// Lets robots hear what arrives at the start of a tick. Returns whether any command has changed.
     pub(crate) fn receive(&mut self, watched: Watched<'_>) -> bool {
-        let Some(change) = self.link.receive(self.ticks, self.timeout(watched.config)) else {
+        let Some(change) = self.link.receive(self.ticks, self.timeout) else {
             return false;
         };
         #[expect(clippy::cast_possible_truncation, reason = "battery time needs no more digits")]
@@ -188,12 +191,12 @@ impl Senses {
         let ticks = self.ticks as f64;
         ticks * f64::from(config.tick)
     }
+}
 
-    /// Ticks after which a robot that hears nothing stops; `None` for never.
-    fn timeout(&self, config: &SimConfig) -> Option<u64> {
-        let ticks = self.sensing.command_timeout / config.tick;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-        let whole = ticks.round() as u64;
-        (ticks > 0.0).then_some(whole.max(1))
-    }
+/// Ticks after which a robot that hears nothing stops; `None` for never. `tick` is the length of one, s.
+fn timeout(sensing: &Sensing, tick: f32) -> Option<u64> {
+    let ticks = sensing.command_timeout / tick;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+    let whole = ticks.round() as u64;
+    (ticks > 0.0).then_some(whole.max(1))
 }

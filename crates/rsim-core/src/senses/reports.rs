@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::beam_is_cut;
-use crate::blocks::{BALL, robot};
+use crate::blocks::{BALL, robot, set_bits};
 use crate::body_parameters::BodyParameters;
 use crate::geometry::motion::Motion;
 use crate::math::Vector;
@@ -47,6 +47,9 @@ pub(super) struct Reports {
     pub(super) cut: u64,
     /// Known motions; empty without odometry.
     pub(super) motions: Vec<OwnMotion>,
+    /// Memory for reports to come.
+    #[serde(skip)]
+    spare: Vec<Vec<OwnMotion>>,
 }
 
 impl Reports {
@@ -59,6 +62,7 @@ impl Reports {
             gyroscope_errors: (0..count).map(|_| draws.normal(sensing.gyroscope_error)).collect(),
             cut: 0,
             motions: vec![OwnMotion::default(); count],
+            spare: Vec::new(),
         }
     }
 
@@ -81,35 +85,25 @@ impl Reports {
     ) {
         let mut draws = Draws::of(key, Purpose::Report, self.number);
         self.number += 1;
-        let mut report = Report {
-            due: now + f64::from(sensing.feedback_delay),
-            cut: cut_beams(state, parameters),
-            lost: 0,
-            motions: Vec::new(),
-        };
-        for (index, body) in parameters.robots.iter().enumerate() {
-            let bit = 1 << index;
-            if body.model.mouth.is_some() {
-                let is_cut = report.cut & bit != 0;
-                let wrong = if is_cut { sensing.beam_misses } else { sensing.beam_false_alarms };
-                if draws.happens(wrong) {
-                    report.cut ^= bit;
-                }
-            }
-            if draws.happens(sensing.feedback_loss) {
-                report.lost |= bit;
-            }
-        }
+        let (robots, cut) = (parameters.robots.len(), cut_beams(state, parameters));
+        let missed = draws.which(sensing.beam_misses, robots) & cut;
+        let alarms = set_bits(draws.which(sensing.beam_false_alarms, robots) & !cut)
+            .filter(|&index| parameters.robots[index].model.mouth.is_some())
+            .fold(0, |all, index| all | 1 << index);
+        let mut motions = self.spare.pop().unwrap_or_default();
+        motions.clear();
         for (index, error) in self.gyroscope_errors.iter().enumerate() {
             let mut motion = own_motion(&state.bodies.motion(robot(index)));
-            motion.velocity += Vector::new(
-                draws.normal(sensing.odometry_noise),
-                draws.normal(sensing.odometry_noise),
-            );
+            motion.velocity += draws.normals(sensing.odometry_noise);
             motion.angular_velocity += error + draws.normal(sensing.gyroscope_noise);
-            report.motions.push(motion);
+            motions.push(motion);
         }
-        self.under_way.push_back(report);
+        self.under_way.push_back(Report {
+            due: now + f64::from(sensing.feedback_delay),
+            cut: cut & !missed | alarms,
+            lost: draws.which(sensing.feedback_loss, robots),
+            motions,
+        });
     }
 
     /// Takes in the reports that have arrived at `now`, s.
@@ -122,6 +116,7 @@ impl Reports {
                     self.motions[index] = *motion;
                 }
             }
+            self.spare.push(report.motions);
         }
     }
 }
