@@ -3,7 +3,7 @@
 Its weights are rounded to half precision. The policy plays a fixed list of starts, from both sides
 where the task has two, against each opponent. Its scores and how it was made go into the metadata
 of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There it is
-the policy `best` of its task. The policy of a run with `sensing` becomes
+the policy `best` of its task. The policy of a run with `sensing`, such as a distillation, becomes
 `<task>.robust.safetensors`, the policy `best:robust`, and plays all starts with these senses, too.
 
 `python -m tools.ship_policy --again` measures policies that are in the package once more, after a
@@ -215,9 +215,9 @@ def command_of(settings: dict[str, Any]) -> str:
     """Return the command of a run with all its settings, as defaults and recommended ones change.
 
     Args:
-        settings: settings of the run, from `Args.to_json`.
+        settings: settings of the run, from `Args.to_json` or `DistillArgs.to_json`.
     """
-    words = ["rsoccer", "train"]
+    words = ["rsoccer", "distill" if "teacher" in settings else "train"]
     for name, value in settings.items():
         if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from rsoccer.option_values import encoded
 from rsoccer.sources import make_sensing
+from rsoccer.train.distillation.task_settings import recommended_settings
 from rsoccer.train.setting_types import Count, Natural, Positive, Range, convert_fields, expect
 
 Delay = Annotated[float, Range("finite and at least 0", 0.0)]
@@ -73,6 +74,24 @@ class DistillArgs:
             owned = name not in ("sensing.command_delay", "sensing.command_jitter")
             expect("randomization", owned, "without command delays, see command_delays", name)
             encoded(f"randomization: {name}", value)
+
+    @classmethod
+    def for_task(cls, task: str, **changes: Any) -> Self:  # noqa: ANN401  (any field)
+        """Return the recommended settings for a task, with changes.
+
+        Args:
+            task: a registered name or an alias.
+            **changes: values by field.
+
+        Raises:
+            TypeError: a setting that does not exist.
+            ValueError: a value that the settings refuse.
+
+        Example:
+            >>> DistillArgs.for_task("SSLStaticDefenders-v0", seed=3).history
+            1
+        """
+        return cls(task, **{**recommended_settings(task), **changes})
 
     def to_json(self) -> dict[str, Any]:
         """Return the settings as JSON values by name."""
