@@ -11,6 +11,7 @@ from typing import Any, Final
 from benches.learning import ppo_settings, run_files, sb3_settings
 from benches.learning.experiments import CLONES, PPO, SB3, Run, Study
 from benches.learning.run_files import DIGEST_DIGITS, Folders
+from benches.learning.senses import MATCHES
 from rsoccer._core import build_info
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
@@ -38,6 +39,7 @@ def settings(run: Run) -> dict[str, Any]:
     # Results without conditions are older than these.
     if run.experiment.conditions:
         values["conditions"] = list(run.experiment.conditions)
+        values["matches"] = MATCHES
     if run.experiment.senses:
         values["senses"] = dict(run.experiment.senses)
     return values

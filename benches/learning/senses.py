@@ -9,6 +9,8 @@ from typing import Any, Final
 from rsoccer import Sensing
 from rsoccer.registry import make_task
 
+MATCHES: Final = 200
+"""Matches under each condition, half of them on each side in two-sided tasks."""
 VARIED: Final = 0.1
 """Largest deviation of masses and frictions, as a part of them."""
 BALL: Final = (

@@ -9,7 +9,7 @@ from benches.learning.opponents import OFFICIAL, SCENARIOS, opponents_of
 from benches.learning.run_files import Folders
 from benches.learning.running.learned import Learned
 from benches.learning.running.workplace import reference
-from benches.learning.senses import CONDITIONS
+from benches.learning.senses import CONDITIONS, MATCHES
 from rsoccer import Sensing
 from rsoccer.evaluate import Evaluation, evaluate
 from rsoccer.policies import PolicyLike
@@ -67,6 +67,7 @@ def under_conditions(
         condition = CONDITIONS[name]
         row = evaluated(
             *(run.experiment.task, policy, opponent, protocol),
+            matches=MATCHES,
             sensing=condition.sensing(run.experiment.senses),
             randomization=condition.randomization(run.experiment.task),
         )
@@ -116,11 +117,13 @@ def evaluated(
     opponent: PolicyLike | None,
     protocol: Protocol,
     *,
+    matches: int | None = None,
     sensing: Sensing | None = None,
     randomization: Ranges | None = None,
 ) -> dict[str, Any]:
     """Return the numbers of one evaluation, ready for JSON."""
-    matches = protocol.starts * (2 if make_task(task).two_sided else 1)
+    if matches is None:
+        matches = protocol.starts * (2 if make_task(task).two_sided else 1)
     evaluation = evaluate(
         *(policy, opponent, matches, protocol.seed),
         task=task,
