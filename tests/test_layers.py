@@ -62,6 +62,7 @@ LAYERS = [
     {"train.task_settings"},
     {"train.args"},
     {"train.run"},
+    {"train.distillation"},
     {"train"},
     {"human", "rllib"},
     {"commands", "demo"},

@@ -18,7 +18,6 @@ from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.task import Task
 from rsoccer.train.network.actor_critic import ActorCritic
-from rsoccer.train.rollout.running_mean_std import RunningMeanStd
 
 ROWS: Final = 1_000_000
 """Observations that the policy's normalization counts for in the running one. With few of them the
@@ -82,16 +81,18 @@ def copy_weights(policy: Network, stack: ObservationStack, model: ActorCritic) -
         parameter.copy_(torch.tensor(part))
 
 
-def copy_normalization(policy: Network, stack: ObservationStack, rms: RunningMeanStd) -> None:
-    """Begin the statistics of the observations with those of a policy.
+def statistics(policy: Network, stack: ObservationStack) -> dict[str, Array]:
+    """Return statistics of observations that a run begins with, those of a policy.
 
     Args:
         policy: the policy, from `load`.
         stack: what the networks observe.
-        rms: the statistics; changed in place.
+
+    Returns:
+        Arrays as `RunningMeanStd.load_state_dict` takes them.
     """
     mean, std = (part.astype(np.float64) for part in widened_normalization(policy, stack))
-    rms.load_state_dict({"count": np.array([ROWS]), "mean": mean, "variance": std**2})
+    return {"count": np.array([ROWS]), "mean": mean, "variance": std**2}
 
 
 def widened_layers(policy: Network, stack: ObservationStack) -> list[tuple[Floats, Floats]]:

@@ -105,7 +105,7 @@ class Trainer:
             initial_policy.copy_weights(policy, self.stack, self.model)
             if sharing is not None:
                 sharing.tie(self.model)
-            initial_policy.copy_normalization(policy, self.stack, self.collector.obs_rms)
+            self.collector.obs_rms.load_state_dict(initial_policy.statistics(policy, self.stack))
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
         device = find_device(args.device)
         self.ppo = PPO(args.ppo, self.model, self.generator, device, sharing)
