@@ -169,6 +169,4 @@ COOPERATION: Final = (
     ),
 )
 
-STUDY: Final = Study(
-    (*PPO.values(), *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION, *ROBUST)
-)
+STUDY: Final = Study((*PPO.values(), *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION, *ROBUST))

@@ -1,4 +1,4 @@
-"""Entry point of the command `rsoccer list | train | distill | evaluate | tournament | watch | play`.
+"""Entry point of the command `rsoccer list | train | distill | evaluate | ... | play`.
 
 Errors are reported as one line.
 """

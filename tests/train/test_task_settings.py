@@ -13,8 +13,8 @@ from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.registry import list_aliases
 from rsoccer.train import Args, RolloutSettings, task_settings
-from rsoccer.train.distillation import DistillArgs
 from rsoccer.train.args import CHANGEABLE_ON_RESUME
+from rsoccer.train.distillation import DistillArgs
 from rsoccer.train.network.observation_mask import observation_mask
 from rsoccer.train.ppo.mirror import check_symmetric
 

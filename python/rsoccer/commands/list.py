@@ -66,8 +66,8 @@ def _score_text(score: Score) -> str:
     opponent = "" if score.opponent == "-" else f" against {score.opponent}"
     senses = f" with sensing {score.sensing}" if score.sensing else ""
     return (
-        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}{senses}, "
-        f"{score.matches} matches"
+        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}"
+        f"{senses}, {score.matches} matches"
     )
 
 

@@ -1,18 +1,15 @@
 """Labels of a distillation: the teacher's actions when decisions arrive."""
 
 import numpy as np
-import pytest
+import torch
 
 import rsoccer
 from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
-from rsoccer.train.network import initial_policy
-
-torch = pytest.importorskip("torch")
-
 from rsoccer.train.distillation.hindsight import HindsightMatches
 from rsoccer.train.distillation.student import Normalizer, new_student
+from rsoccer.train.network import initial_policy
 
 TASK = "SSLGoToBall-v0"
 WORLDS, DECISIONS = 4, 6

@@ -7,11 +7,8 @@ import pytest
 
 import rsoccer
 from rsoccer.policies.network import Network
-from rsoccer.train.run.log import read_progress
-
-pytest.importorskip("torch")
-
 from rsoccer.train.distillation import DistillArgs, distill
+from rsoccer.train.run.log import read_progress
 
 TASK = "SSLGoToBall-v0"
 
@@ -57,5 +54,5 @@ def test_wrong_settings_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="teacher: expected a trained policy, got 'fetch'"):
         distill(args(tmp_path, teacher="fetch"))
     (tmp_path / "policy.safetensors").touch()
-    with pytest.raises(ValueError, match="out: .*holds a run"):
+    with pytest.raises(ValueError, match=r"out: .*holds a run"):
         distill(args(tmp_path))

@@ -11,11 +11,8 @@ from rsoccer.history import ObservationStack
 from rsoccer.policies import make_policy
 from rsoccer.policies.network import Network
 from rsoccer.train.network import initial_policy
-from tests.train.one_update import one_update
-
-pytest.importorskip("torch")
-
 from rsoccer.train.run.trainer import Trainer
+from tests.train.one_update import one_update
 
 TASK = "SSLGoToBall-v0"
 
@@ -64,7 +61,9 @@ def test_the_policy_stays_while_the_value_network_warms_up(tmp_path: Path) -> No
     critic = [part.clone() for part in run.model.critic.parameters()]
     for update in range(2):
         run.update(run.collect_rollout(lambda: None), lambda: None)
-        stays = all((a == b).all() for a, b in zip(actor, run.model.actor.parameters(), strict=True))
+        stays = all(
+            (a == b).all() for a, b in zip(actor, run.model.actor.parameters(), strict=True)
+        )
         assert stays == (update == 0)
         learned = zip(critic, run.model.critic.parameters(), strict=True)
         assert any((a != b).any() for a, b in learned)

@@ -51,7 +51,11 @@ class HindsightMatches:
         self._step = 0
 
     def collect(
-        self, student: nn.Module, normalize: nn.Module, noise: float, decisions: int,
+        self,
+        student: nn.Module,
+        normalize: nn.Module,
+        noise: float,
+        decisions: int,
         generator: torch.Generator,
     ) -> Samples:
         """Play some decisions of the student.
@@ -74,9 +78,7 @@ class HindsightMatches:
                 drawn = means + noise * torch.randn(means.shape, generator=generator)
             actions = drawn.clamp(-1.0, 1.0).numpy().reshape(*self._observations.shape[:2], -1)
             playing = np.ones(self._matches.worlds, np.bool_)
-            self._open.append(
-                _Decision(self._observations, self._step + self._delay, playing)
-            )
+            self._open.append(_Decision(self._observations, self._step + self._delay, playing))
             found += self._play(actions)
         return Samples(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
 

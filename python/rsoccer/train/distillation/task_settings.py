@@ -27,9 +27,9 @@ DISTILL_SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "SSLGoToBall-v0": {"samples": 300_000},
     "SSLContestedPossession-v0": {"samples": 400_000},
     # With more inputs the file would be larger than those of the package may be.
-    "SSLStaticDefenders-v0": {"samples": 350_000, "history": 1},
-    "SSLDribbling-v0": {"samples": 300_000, "history": 3},
-    "SSLPassEnduranceMulti-v1": {"samples": 400_000},
+    "SSLStaticDefenders-v0": {"samples": 300_000, "history": 1, "minibatches": 60},
+    "SSLDribbling-v0": {"samples": 250_000, "history": 3, "minibatches": 60},
+    "SSLPassEnduranceMulti-v1": {"samples": 400_000, "minibatches": 100},
 }
 """Values of settings by name, by the name of the task."""
 

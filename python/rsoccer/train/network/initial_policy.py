@@ -47,7 +47,9 @@ def load(
     except (FileNotFoundError, ValueError) as error:
         raise ValueError(f"{argument}: {error}") from error
     if not isinstance(policy, Network):
-        raise ValueError(f"{argument}: expected a trained policy, got {name!r}, which has no weights")
+        raise ValueError(
+            f"{argument}: expected a trained policy, got {name!r}, which has no weights"
+        )
     if policy.history > stack.history:
         raise ValueError(
             f"{argument}: expected a policy with at most the run's history of {stack.history}, got "
