@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rsoccer
-from rsoccer import BallModel, Field, RobotModel, SimConfig
+from rsoccer import BallModel, Field, RobotModel, Sensing, SimConfig
 from rsoccer.option_values import decoded, encoded
 from rsoccer.policies import trained_on
 from rsoccer.policies.network import Network
@@ -48,6 +48,31 @@ def test_fields_and_balls_may_be_files_too(tmp_path: Path) -> None:
     task = rsoccer.make_task("SSLSelfPlay-v0", field=str(field), ball=str(ball))
     assert task.config.field == Field("ssl_b", width=5.0)
     assert task.config.ball.rolling_deceleration == 0.3
+
+
+def test_a_file_may_hold_several_models(tmp_path: Path) -> None:
+    path = tmp_path / "several.json"
+    parts = {
+        "robot": {"preset": "ssl_generic", "mass": 2.2},
+        "ball": json.loads(BallModel("ssl_tigers", mass=0.05).to_json()),
+        "sensing": {"preset": "rc2021", "delay": 0.1},
+        "notes": {"mass": 3.0},
+    }
+    path.write_text(json.dumps(parts))
+    file = str(path)
+    task = rsoccer.make_task("SSLSelfPlay-v0", robot=file, ball=file)
+    assert task.config.robots[0] == RobotModel("ssl_generic", mass=2.2)
+    assert task.config.ball == BallModel("ssl_tigers", mass=0.05)
+    sensing = Sensing("rc2021", delay=0.1)
+    assert SimConfig("ssl_b", robot=file, ball=file, sensing=file).sensing == sensing
+    assert Sensing.from_json(json.dumps(parts)) == sensing
+    for name, kind in (("robot", "RobotModel"), ("ball", "BallModel"), ("sensing", "Sensing")):
+        assert list(encoded(name, file)) == [kind]
+    with pytest.raises(ValueError, match="missing field"):
+        Field(file)
+    path.write_text('{"robot": {"preset": "ssl_generic", "mass": -1}}')
+    with pytest.raises(ValueError, match=r"robot: .*mass"):
+        RobotModel(file)
 
 
 def saved(path: Path, task: Task, **arguments: Any) -> Path:  # noqa: ANN401

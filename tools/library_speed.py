@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from benches.markdown import table
 from benches.result_files import RESULTS, Figure, format_number, load
-from tools.speed import SPEED, ratio
+from tools.speed.figures import SPEED, ratio
 
 NOT_MEASURED = "`make bench` measures the libraries that are installed."
 HEADER = ("through", "task", "worlds", "world-steps per second", "relative to `Matches`")

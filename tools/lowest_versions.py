@@ -18,6 +18,8 @@ from packaging.version import Version
 
 from tools.paths import ROOT
 
+PINNED_BY_TORCH: Final = ("sympy",)
+"""Packages of which torch asks for one version, its own for each release of torch."""
 TESTING: Final = ("cloudpickle", "hypothesis", "pytest", "pytest-xdist")
 """Packages that the tests need; their versions are those of constraints.txt."""
 
@@ -79,7 +81,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--torch", action="store_true", help="with torch, a large download")
     options = parser.parse_args(arguments)
     lowest = lowest_versions(declared())
-    others = pins((ROOT / "constraints.txt").read_text(), lowest)
+    others = pins((ROOT / "constraints.txt").read_text(), (*lowest, *PINNED_BY_TORCH))
     if not options.torch:
         del lowest["torch"]
     exact = [f"{name}=={version}" for name, version in lowest.items()]

@@ -3,6 +3,7 @@
 import json
 from typing import Final
 
+from benches import forecast
 from benches.markdown import table
 from rsoccer import BALL_PARAMETERS, ROBOT_PARAMETERS, Sensing
 
@@ -25,6 +26,11 @@ def _meaning(name: str) -> str:
     """Meaning, unit and range of a number, without the period."""
     meaning: str = getattr(Sensing, name).__doc__
     return meaning.removesuffix(".")
+
+
+def forecasts() -> str:
+    """Return the table of the scores with delays, without and with forecasts."""
+    return forecast.report(json.loads(forecast.STORED.read_text()))
 
 
 def randomization() -> str:

@@ -245,6 +245,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "policy_table": policy_table,
     "robust_table": robust_table,
     "trained_table": trained_table,
+    "senses_forecasts": senses_tables.forecasts,
     "senses_numbers": senses_tables.numbers,
     "senses_randomization": senses_tables.randomization,
     "soak_matches": soak_matches.results,

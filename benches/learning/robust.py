@@ -54,6 +54,7 @@ VARIANTS: Final = {
     "forecast": "(e) (a) behind the forecaster",
     "best": "`best`",
     "best-robust": "`best:robust`",
+    "best-forecast": "`best` behind the forecaster",
 }
 """Descriptions of the variants, in the order of the tables."""
 
@@ -125,20 +126,25 @@ def shipped() -> tuple[Experiment, ...]:
     found = []
     robust = trained.list_trained(trained.ROBUST)
     for task in SHIPPED_TASKS:
-        names = [trained.BEST, *([f"{trained.BEST}:{trained.ROBUST}"] if task in robust else [])]
+        policies = {"best": trained.BEST}
+        if task in robust:
+            policies["best-robust"] = f"{trained.BEST}:{trained.ROBUST}"
+        if HAS_FORECASTER:
+            policies["best-forecast"] = trained.BEST
         found += [
             Experiment(
                 SHIPPED_GROUP,
-                f"{task}-{name.replace(':', '-')}",
+                f"{task}-{variant}",
                 task,
                 CLONES,
-                settings={"policy": name},
+                settings={"policy": policy},
                 seeds=1,
                 opponents=opponents_of(task)[:1],
-                text=VARIANTS[name.replace(":", "-")],
+                text=VARIANTS[variant],
                 conditions=tuple(CONDITIONS),
+                senses=FORECAST if variant == "best-forecast" else {},
             )
-            for name in names
+            for variant, policy in policies.items()
         ]
     return tuple(found)
 

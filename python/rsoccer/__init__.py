@@ -15,13 +15,15 @@ from rsoccer._core import (
     ROBOT_PARAMETERS,
     BallModel,
     Field,
+    Forecaster,
     RobotModel,
     Sensing,
     SimConfig,
     Simulator,
     build_info,
 )
-from rsoccer.envs.parallel import env, parallel_env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import parallel_env
 from rsoccer.envs.robots_vector import robots_vector_env
 from rsoccer.envs.single import single_env
 from rsoccer.envs.vector import vector_env
@@ -55,6 +57,7 @@ __all__ = [
     "BallModel",
     "CommandPolicy",
     "Field",
+    "Forecaster",
     "Frame",
     "Matches",
     "Outcome",

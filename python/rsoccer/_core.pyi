@@ -35,6 +35,7 @@ __all__ = [
     "BallModel",
     "EgoFeatures",
     "Field",
+    "Forecaster",
     "Potential",
     "Referee",
     "RobotModel",
@@ -312,8 +313,8 @@ class Field:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `field`.
 
         Returns:
             An equal model.
@@ -427,8 +428,8 @@ class BallModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `ball`.
 
         Returns:
             An equal model.
@@ -644,8 +645,8 @@ class RobotModel:
         """Return the model of a JSON text.
 
         Args:
-            text: Result of `to_json`; or a preset with the numbers that differ, such as
-                `{"preset": "NAME", "mass": 0.2}`.
+            text: Result of `to_json`; a preset with the numbers that differ, such as
+                `{"preset": "NAME", "mass": 0.2}`; or an object that has one of these as `robot`.
 
         Returns:
             An equal model.
@@ -861,6 +862,14 @@ class Sensing:
     def battery_sag(self) -> float:
         """Part of all speed that batteries lose in a second, down to half (1/s, 0 or above)."""
 
+    @property
+    def forecast(self) -> float:
+        """1 to know the state in which the next commands act, by a forecast (0 to 1)."""
+
+    @property
+    def forecast_others(self) -> float:
+        """1 if a forecast knows the commands of both teams, 0 for a team's own (0 to 1)."""
+
     def to_json(self) -> str:
         """Return name and numbers as JSON."""
 
@@ -869,8 +878,9 @@ class Sensing:
         """Return the senses of a JSON text.
 
         Args:
-            text: Result of `to_json`, or a preset's name with the numbers that differ, such as
-                `{"preset": "rc2021", "delay": 0.1}`.
+            text: Result of `to_json`; a preset's name with the numbers that differ, such as
+                `{"preset": "rc2021", "delay": 0.1}`; or an object that has one of these as
+                `sensing`.
 
         Raises:
             ValueError: Another text, or a number out of its range.
@@ -1278,7 +1288,11 @@ class Viewpoint:
         cls, n_robots: int, slots: Sequence[Sequence[int | None]], rotated: Sequence[bool]
     ) -> Viewpoint: ...
     def fill(
-        self, rows: NDArray[np.float32], ball: NDArray[np.float32], robots: NDArray[np.float32]
+        self,
+        rows: NDArray[np.float32],
+        ball: NDArray[np.float32],
+        robots: NDArray[np.float32],
+        rotated: NDArray[np.float32] | None = None,
     ) -> None:
         """Write the views of all observers.
 
@@ -1287,6 +1301,8 @@ class Viewpoint:
             ball: Output (n, observers, ball columns), float32.
             robots: Output (n, observers, slots, robot columns), float32. Columns of an empty slot
                 and of an absent robot are 0, but for `absent`, which is 1.
+            rotated: State rows as the observers on the rotated field know them, as `rows`. None for
+                the same.
 
         Raises:
             TypeError: An array is not float32.
@@ -1577,6 +1593,7 @@ class EgoFeatures:
         out: NDArray[np.float32],
         bounds: NDArray[np.float32] | None = None,
         threads: Threads | None = None,
+        rotated: NDArray[np.float32] | None = None,
     ) -> None:
         """Write the features of each observer, all blocks side by side, and its action after them.
 
@@ -1589,6 +1606,8 @@ class EgoFeatures:
             bounds: Bounds (features + action,), float32, each 0 or above: values are clipped to
                 [-bounds, bounds]. None clips nothing.
             threads: Threads that share the work; None for the caller's alone.
+            rotated: State rows as the observers on the rotated field know them, as `rows`. None for
+                the same.
 
         Raises:
             TypeError: An array is not float32.
@@ -1597,6 +1616,138 @@ class EgoFeatures:
         """
 
     def __reduce__(self) -> tuple[object, tuple[Field, RobotModel, int, int, bool]]: ...
+
+@final
+class Forecaster:
+    """Forecasts of many matches: from what is known of a past time to when the next commands act.
+
+    The physics of the models run from a sensed row through the commands that are on their way. A
+    command acts `config.sensing.command_delay` after it was sent, at once without senses. Robots
+    whose commands are unknown keep their velocities. The forecast of a world follows from its row,
+    its times and its commands alone, whatever the numbers of worlds and threads. A forecaster
+    pickles with its commands.
+
+    Example:
+        >>> import numpy as np
+        >>> from rsoccer import Forecaster, Sensing, SimConfig, Simulator
+        >>> config = SimConfig("vss_3v3", 1, 0, sensing=Sensing(command_delay=0.05))
+        >>> forecaster, row = Forecaster(config), np.zeros((1, config.row_size), np.float32)
+        >>> Simulator(config).read(row)
+        >>> forecaster.send(np.full((1, 1, 2), 20.0, np.float32), np.array([0.0]))
+        >>> out = np.empty_like(row)
+        >>> forecaster.forecast(row, seen=np.array([0.0]), now=np.array([0.1]), out=out)
+        >>> bool(out[0, 17] > row[0, 17] + 0.01)  # the robot's x after 100 ms at 20 rad/s
+        True
+
+    Args:
+        config: Models of field, ball and robots, and the delay of commands.
+        worlds: Number of matches, 1 or above.
+        threads: Number of threads, 1 to 1024, or `Threads` that do other work too.
+        known: Robots whose commands are known: "blue", "yellow" or "all".
+
+    Raises:
+        ValueError: `worlds`, `threads` or `known` is out of its range, or the teams do not fit on
+            the field.
+        TypeError: An argument has another type.
+    """
+
+    def __new__(
+        cls,
+        config: SimConfig,
+        worlds: int = 1,
+        threads: int | Threads = 1,
+        known: str = "all",
+    ) -> Forecaster: ...
+    @property
+    def config(self) -> SimConfig:
+        """Models, and the delay of commands."""
+
+    @property
+    def worlds(self) -> int:
+        """Number of matches."""
+
+    @property
+    def threads(self) -> int:
+        """Number of threads that `forecast` uses."""
+
+    @property
+    def known(self) -> str:
+        """Robots whose commands are known: "blue", "yellow" or "all"."""
+
+    def send(
+        self,
+        commands: NDArray[np.float32],
+        times: NDArray[np.float64],
+        active: NDArray[np.bool_] | None = None,
+    ) -> None:
+        """Take note of commands that were sent.
+
+        With `known="all"`, the commands of robots of others may be those of a policy that is their
+        model.
+
+        Args:
+            commands: Commands (n, robots, command), float32, SI units; those of robots that are not
+                `known` are ignored.
+            times: Times at which they were sent (n,), float64, s, on any clock that runs evenly;
+                not before those of the last ones.
+            active: Mask of the worlds that sent them (n,), bool. None for all.
+
+        Raises:
+            ValueError: A number is not finite, a time is before the last one, or an array has
+                another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+        """
+
+    def forecast(
+        self,
+        rows: NDArray[np.float32],
+        seen: NDArray[np.float64],
+        now: NDArray[np.float64],
+        out: NDArray[np.float32],
+    ) -> None:
+        """Write the states in which commands that are sent now will act.
+
+        Bodies of the rows may overlap each other or walls, as those of `Simulator.place_estimates`
+        may. Touches, collisions and crossings are those of the last control step of the forecast.
+        A row that is not older than the effect of the commands is written as it is. Commands that
+        act before `seen` are forgotten: later rows are not of earlier times.
+
+        Args:
+            rows: State rows of what is known (n, row), float32.
+            seen: Times at which they were so (n,), float64, s, on the clock of `send`.
+            now: Times at which the next commands will be sent (n,), float64, s.
+            out: Output (n, row), float32; may be `rows`.
+
+        Raises:
+            ValueError: A row is not finite or more than 2 s older than its forecast, or an array
+                has another shape. Nothing has changed.
+            TypeError: An array has another type. Nothing has changed.
+        """
+
+    def reset(self, worlds: NDArray[np.bool_]) -> None:
+        """Forget the commands of some worlds: their robots stand until commands act.
+
+        Args:
+            worlds: Mask of these worlds (n,), bool.
+
+        Raises:
+            ValueError: The mask has another shape. Nothing has changed.
+            TypeError: The mask has another type. Nothing has changed.
+        """
+
+    def snapshot(self) -> bytes:
+        """Return the commands of all worlds: everything that later forecasts depend on."""
+
+    def restore(self, snapshot: bytes) -> None:
+        """Restore the commands of a snapshot.
+
+        Args:
+            snapshot: Result of `snapshot` of a forecaster with the same configuration and number of
+                worlds.
+
+        Raises:
+            ValueError: The bytes are damaged, or of another forecaster. Nothing has changed.
+        """
 
 @final
 class Simulator:
@@ -1785,15 +1936,22 @@ class Simulator:
             TypeError: `out` is not float32.
         """
 
-    def sense(self, out: NDArray[np.float32], active: NDArray[np.bool_] | None = None) -> None:
+    def sense(
+        self,
+        out: NDArray[np.float32],
+        active: NDArray[np.bool_] | None = None,
+        known: str = "blue",
+    ) -> None:
         """Write what the robots know; the state rows without `config.sensing`.
 
         Args:
             out: Output (n, row), float32; the rows of active worlds are written.
             active: Mask of the worlds to write (n,), bool. None for all.
+            known: Robots whose commands on their way a forecast knows: "blue", "yellow" or "all".
+                Without a forecast all know the same.
 
         Raises:
-            ValueError: An array has another shape, or `out` is not writeable.
+            ValueError: An array has another shape, `out` is not writeable, or another `known`.
             TypeError: An array has another type.
         """
 

@@ -87,7 +87,8 @@ class PolicyGroup:
         view = observed = match = None
         if self.policy.observes != "nothing":
             view = play.sensed_view.select(self.observer_indices)
-            match = MatchState(play.sensed.rows, play.game, self.robots, play.threads)
+            known = play.known_to_robots(self.robots)
+            match = MatchState(known.rows, play.game, self.robots, play.threads)
         if self.policy.observes == "observation":
             observed = observations[:, self.observer_indices]
         return PolicyInput(shape, view, observed, self.optional_actions, match)

@@ -31,4 +31,4 @@ def register_ids(name: str, learners: int | None) -> None:
         pettingzoo.aec_registry.pop(env_id, None)
         kwargs = {"task": name}
         pettingzoo.register("parallel", env_id, "rsoccer.envs.parallel:parallel_env", kwargs=kwargs)
-        pettingzoo.register("aec", env_id, "rsoccer.envs.parallel:env", kwargs=kwargs)
+        pettingzoo.register("aec", env_id, "rsoccer.envs.aec:env", kwargs=kwargs)

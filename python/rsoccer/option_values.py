@@ -18,6 +18,13 @@ from rsoccer._core import BallModel, Field, RobotModel, Sensing
 Model = Field | BallModel | RobotModel | Sensing
 SUFFIX: Final = ".json"
 """End of the names of files that hold a model."""
+_PARTS: Final[dict[str, type[Model]]] = {
+    "ball": BallModel,
+    "field": Field,
+    "robot": RobotModel,
+    "sensing": Sensing,
+}
+"""Classes by the names of options, which are those of the parts of a file with several models."""
 _MODELS: Final[dict[str, type[Model]]] = {
     "BallModel": BallModel,
     "Field": Field,
@@ -41,6 +48,8 @@ M = TypeVar("M", bound=Model)
 def read_model(name: str, path: str, kind: type[M] | None = None) -> M:
     """Read the model in a file: JSON of `to_json`, or a preset with the numbers that differ.
 
+    A file with several models has each as a part with the name of its option, such as `robot`.
+
     Args:
         name: name of the option, for the error.
         path: the file, such as one with `{"preset": "vss_440rpm", "mass": 0.21}`.
@@ -61,12 +70,19 @@ def read_model(name: str, path: str, kind: type[M] | None = None) -> M:
     except (OSError, UnicodeDecodeError) as error:
         raise ValueError(f"{name}: cannot read {path}: {error}") from error
     refusals = []
-    for each in _MODELS.values() if kind is None else [kind]:
+    kinds = [kind] if kind is not None else _kinds(name)
+    for each in kinds:
         try:
             return cast(M, each.from_json(text))
         except (TypeError, ValueError) as error:
             refusals.append(f"{each.__name__}: {error}")
     raise ValueError(f"{name}: {path} holds no model ({'; '.join(refusals)})")
+
+
+def _kinds(name: str) -> list[type[Model]]:
+    """Classes of models, that of an option of this name first: a file may hold several models."""
+    own = _PARTS.get(name.rpartition(".")[2])
+    return sorted(_MODELS.values(), key=lambda kind: kind is not own)
 
 
 def encoded(name: str, value: object) -> Any:  # noqa: ANN401  (JSON)

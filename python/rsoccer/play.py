@@ -75,15 +75,39 @@ class Play:
 
     @property
     def sensed(self) -> Frame:
-        """(n, ...) current state as the robots know it."""
+        """(n, ...) current state as the robots know it.
+
+        Teams that forecast know different things (`known_to`): then each robot is as its own team
+        knows it, and the ball as blue does.
+        """
         return self.frame if self.senses is None else self.senses.frame
+
+    def known_to(self, team: int) -> Frame:
+        """Return (n, ...) the current state as a team knows it.
+
+        Args:
+            team: 0 for blue, 1 for yellow.
+        """
+        return self.frame if self.senses is None else self.senses.known_to(team)
+
+    def known_to_robots(self, robots: NDArray[np.intp]) -> Frame:
+        """Return (n, ...) the current state as some robots know it: `sensed` if of both teams.
+
+        Args:
+            robots: (k,) indices of robots in the order of a state row.
+        """
+        are_yellow = robots >= self.frame.n_blue
+        if not len(robots) or are_yellow.any() != are_yellow.all():
+            return self.sensed
+        return self.known_to(int(are_yellow[0]))
 
     @property
     def sensed_view(self) -> View:
-        """(n, observers, ...) `sensed` in the coordinates of each observer."""
+        """(n, observers, ...) what each observer's team knows, in the observer's coordinates."""
         if self.senses is None:
             return self.view
-        return self._sensed_view.of(self.senses.frame, self.viewpoint)
+        known = self.senses.known_to(0), self.senses.known_to(1)
+        return self._sensed_view.of(known[0], self.viewpoint, known[1])
 
     @property
     def view(self) -> View:

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rsoccer import checks
-from rsoccer.arrays import Array
+from rsoccer.arrays import Array, Mask
 from rsoccer.frame import Frame
 from rsoccer.rng import WorldRng
+from rsoccer.view import SIDES
 
 
 class SensorModel(Protocol):
@@ -61,9 +62,20 @@ class Senses(ABC):
     """The state that the robots of n worlds know."""
 
     frame: Frame
-    """(n, ...) state as the robots know it."""
+    """(n, ...) state as the robots know it. Where teams know different things, each robot is as its
+    own team knows it, and the ball as blue does."""
     rng: WorldRng
     """(n,) random streams."""
+    teams: tuple[Frame, Frame] | None = None
+    """(n, ...) state as blue and as yellow know it; None if both know `frame`."""
+
+    def known_to(self, team: int) -> Frame:
+        """Return (n, ...) the state as a team knows it.
+
+        Args:
+            team: 0 for blue, 1 for yellow.
+        """
+        return self.frame if self.teams is None else self.teams[team]
 
     @abstractmethod
     def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
@@ -75,11 +87,13 @@ class Senses(ABC):
         """
 
     @abstractmethod
-    def sense(self, frame: Frame) -> None:
+    def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step.
 
         Args:
             frame: true state.
+            active: (n,) bool, worlds that went on; all if None. What the others know may be
+                anything.
         """
 
     @abstractmethod
@@ -99,10 +113,15 @@ class Senses(ABC):
         """
         self.frame.put(worlds, part.frame)
         self.rng.put(worlds, part.rng)
+        for own, other in zip(self.teams or (), part.teams or (), strict=True):
+            own.put(worlds, other)
 
     def arrays(self) -> dict[str, Array]:
         """Return the arrays to save, by name; not copied. The streams are saved by others."""
-        return {"frame": self.frame.rows}
+        arrays = {"frame": self.frame.rows}
+        if self.teams is not None:
+            arrays |= {name: known.rows for name, known in zip(SIDES, self.teams, strict=True)}
+        return arrays
 
 
 @dataclass
@@ -138,7 +157,7 @@ class ModelSenses(Senses):
         self.model.begin(frame, self.frame, self.state, self.rng)
         self._check("begin")
 
-    def sense(self, frame: Frame) -> None:
+    def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step; see `Senses.sense`."""
         self.model.sense(frame, self.frame, self.state, self.rng)
         self._check("sense")

@@ -14,6 +14,7 @@ from rsoccer.randomization import NumberRanges
 from rsoccer.rng import WorldRng
 from rsoccer.senses import Senses
 from rsoccer.simulator_interface import Stepper
+from rsoccer.view import SIDES
 
 
 class SensingStepper(Protocol):
@@ -31,12 +32,14 @@ class SensingStepper(Protocol):
                 None.
         """
 
-    def sense(self, out: Floats, active: Mask | None = None) -> None:
+    def sense(self, out: Floats, active: Mask | None = None, known: str = "blue") -> None:
         """Write what the robots know.
 
         Args:
             out: (n, row) output; the rows of the active worlds are overwritten.
             active: (n,) bool, worlds to write; all if None.
+            known: team whose robots' commands on their way a forecast knows, "blue" or "yellow".
+                Without `forecast` both know the same, and it is not given.
         """
 
 
@@ -68,8 +71,35 @@ class SimulatedSenses(Senses):
     """Number of its worlds."""
     ranges: NumberRanges | None
     """Ranges of numbers that each episode draws; None if all are those of the configuration."""
+    observing: tuple[int, ...]
+    """Teams that know different things by their forecasts, 0 for blue and 1 for yellow; () if all
+    robots know the same."""
     frame: Frame
     rng: WorldRng
+    teams: tuple[Frame, Frame] | None = None
+
+    @classmethod
+    def new(
+        cls,
+        stepper: SensingStepper,
+        total: int,
+        ranges: NumberRanges | None,
+        observing: tuple[int, ...],
+        frame: Frame,
+        rng: WorldRng,
+    ) -> SimulatedSenses:
+        """Return the senses of n worlds before their episodes begin.
+
+        Args:
+            stepper: the simulator.
+            total: number of its worlds.
+            ranges: ranges of numbers that each episode draws.
+            observing: teams that know different things; () if all robots know the same.
+            frame: frame of n worlds; copied.
+            rng: (n,) random streams.
+        """
+        teams = (frame.copy(), frame.copy()) if len(observing) > 1 else None
+        return cls(stepper, total, ranges, observing, frame.copy(), rng, teams)
 
     def begin(self, frame: Frame, worlds: NDArray[np.intp]) -> None:
         """Sense the initial state of all n episodes; see `Senses.begin`."""
@@ -80,14 +110,41 @@ class SimulatedSenses(Senses):
         numbers = None if self.ranges is None else self.ranges.draw(self.rng)
         self.stepper.begin_senses(mask, keys, numbers)
         rows = np.empty((self.total, frame.rows.shape[1]), np.float32)
-        self.stepper.sense(rows, mask)
-        self.frame.rows[:] = rows[worlds]
+        for team, known in self._known():
+            self._read(rows, mask, team)
+            known.rows[:] = rows[worlds]
+        self._join()
 
-    def sense(self, frame: Frame) -> None:
+    def sense(self, frame: Frame, active: Mask | None = None) -> None:
         """Sense the state after a step; see `Senses.sense`."""
-        self.stepper.sense(self.frame.rows)
+        for team, known in self._known():
+            self._read(known.rows, active, team)
+        self._join()
 
     def take(self, worlds: NDArray[np.intp]) -> SimulatedSenses:
         """Return a copy of some worlds; see `Senses.take`."""
-        frame, rng = self.frame.take(worlds), self.rng[worlds]
-        return SimulatedSenses(self.stepper, self.total, self.ranges, frame, rng)
+        frame, rng, teams = self.frame.take(worlds), self.rng[worlds], None
+        if self.teams is not None:
+            teams = self.teams[0].take(worlds), self.teams[1].take(worlds)
+        part = (self.stepper, self.total, self.ranges, self.observing)
+        return SimulatedSenses(*part, frame, rng, teams)
+
+    def _known(self) -> tuple[tuple[int | None, Frame], ...]:
+        """Teams, and the frames for what they know; None for all robots."""
+        if self.teams is not None:
+            return tuple(enumerate(self.teams))
+        return ((self.observing[0] if self.observing else None, self.frame),)
+
+    def _read(self, rows: Floats, active: Mask | None, team: int | None) -> None:
+        """Read what a team knows."""
+        if team is None:
+            self.stepper.sense(rows, active)
+        else:
+            self.stepper.sense(rows, active, SIDES[team])
+
+    def _join(self) -> None:
+        """Put together what both teams know: each robot as its own team knows it."""
+        if self.teams is not None:
+            blue, yellow = self.teams
+            self.frame.rows[:] = blue.rows
+            self.frame.yellow.data[:] = yellow.yellow.data

@@ -132,15 +132,17 @@ class Viewpoint:
         robots = np.zeros((n, *self._shape, len(ROBOT_COLUMNS)), np.float32)
         return View(ball, robots, self._n_teammates)
 
-    def fill(self, frame: Frame, view: View) -> None:
+    def fill(self, frame: Frame, view: View, yellow: Frame | None = None) -> None:
         """Write a frame into a view: each observer, its teammates, its opponents, attacking +x.
 
         Args:
             frame: state of n worlds.
             view: view of n worlds from `new_view`; overwritten.
+            yellow: state as yellow observers know it; `frame` if None.
         """
         if len(self.observers):
-            self.core.fill(frame.rows, view.ball.data, view.robots.data)
+            rotated = None if yellow is None or yellow is frame else yellow.rows
+            self.core.fill(frame.rows, view.ball.data, view.robots.data, rotated)
 
     def __reduce__(self) -> tuple[type["Viewpoint"], tuple[object, ...]]:
         return Viewpoint, self._arguments
@@ -173,12 +175,13 @@ class CachedView:
         self._view: View | None = None
         self._current = False
 
-    def of(self, frame: Frame, viewpoint: Viewpoint) -> View:
+    def of(self, frame: Frame, viewpoint: Viewpoint, yellow: Frame | None = None) -> View:
         """Return the view of a frame.
 
         Args:
             frame: state of n worlds, the same object or an equal one until `expire`.
             viewpoint: computes the view, always the same.
+            yellow: state as yellow observers know it, as `frame`; `frame` if None.
 
         Returns:
             The view, always the same object; overwritten by the first call after `expire`.
@@ -187,7 +190,7 @@ class CachedView:
         if view is None:
             view = self._view = viewpoint.new_view(len(frame))
         if not self._current:
-            viewpoint.fill(frame, view)
+            viewpoint.fill(frame, view, yellow)
             self._current = True
         return view
 

@@ -8,7 +8,8 @@ import gymnasium
 import numpy as np
 import pytest
 
-from rsoccer.envs.parallel import SoccerParallelEnv, env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import SoccerParallelEnv
 from rsoccer.envs.single import SoccerEnv
 from rsoccer.envs.vector import SoccerVectorEnv
 from rsoccer.task import LEARN

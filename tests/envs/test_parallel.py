@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from rsoccer.envs.parallel import env, parallel_env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import parallel_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, TASKS, random_actions, shot_at
 

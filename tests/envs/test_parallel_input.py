@@ -12,7 +12,8 @@ from hypothesis.extra import numpy as arrays
 
 import rsoccer
 from rsoccer.arrays import Floats
-from rsoccer.envs.parallel import SoccerParallelEnv, env, parallel_env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import SoccerParallelEnv, parallel_env
 from tests.helpers import comparable
 from tests.parallel_matches import SELF_PLAY, crowded, play_episode, random_actions, shot_at
 

@@ -10,7 +10,8 @@ from pettingzoo.utils import wrappers
 from pettingzoo.utils.conversions import parallel_to_aec
 
 import rsoccer
-from rsoccer.envs.parallel import SoccerParallelEnv, env
+from rsoccer.envs.aec import env
+from rsoccer.envs.parallel import SoccerParallelEnv
 from tests.envs.test_parallel import official
 from tests.fake_moviepy import assert_filmed, moviepy
 from tests.parallel_matches import TASKS

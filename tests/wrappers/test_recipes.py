@@ -54,7 +54,7 @@ def test_benchmarl_trains(recipe: Callable[[str], Any], tmp_path: Path) -> None:
 
 
 def test_pufferlib_plays_the_same_match(recipe: Callable[[str], Any]) -> None:
-    envs = recipe("pufferlib").PufferSoccer(matches=4)
+    envs = recipe("pufferlib").PufferSoccer(worlds=4)
     matches = Matches("VSSSelfPlay-v0", 4, 0)
     observations, _ = envs.reset(0)
     assert observations.shape == (24, matches.observation_size)

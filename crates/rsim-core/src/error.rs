@@ -229,3 +229,33 @@ pub enum SnapshotError {
     #[error("the snapshot is of another configuration or number of worlds")]
     OtherConfig,
 }
+
+/// A forecast that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ForecastError {
+    /// Commands that were sent before others that are known.
+    #[error(
+        "times: the commands of world {world} were sent at {got} s, before the last ones at {last} s"
+    )]
+    OutOfOrder {
+        /// Index of the world.
+        world: usize,
+        /// The given time, s.
+        got: f64,
+        /// Time of the last commands, s.
+        last: f64,
+    },
+    /// A row that is too old.
+    #[error("the row of world {world} is {got} s before its forecast, expected at most {max} s")]
+    TooOld {
+        /// Index of the world.
+        world: usize,
+        /// The limit, s.
+        max: f64,
+        /// The time between them, s.
+        got: f64,
+    },
+    /// A row that cannot be placed.
+    #[error(transparent)]
+    Row(#[from] PlaceError),
+}

@@ -10,7 +10,8 @@
 //!
 //! The crate also computes the features that tasks need for every robot in every step: a
 //! [`Viewpoint`] turns rows into the view of each robot, [`EgoFeatures`] scale a view for a network,
-//! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands.
+//! a [`Potential`] shapes rewards, [`Steering`] turns actions into commands. A [`Forecaster`] runs the physics from what is
+//! known of the past to the time at which the next commands act.
 #![forbid(unsafe_code)]
 
 mod ball;
@@ -22,6 +23,7 @@ mod drive;
 mod engine;
 mod error;
 mod features;
+mod forecast;
 mod geometry;
 mod math;
 mod models;
@@ -35,12 +37,13 @@ mod world;
 pub use columns::{
     MAX_PLACED_ANGULAR_VELOCITY, MAX_PLACED_HEIGHT, MAX_PLACED_SPEED, MAX_PLACED_SPIN,
 };
-pub use error::{ConfigError, PlaceError, SnapshotError, StepError};
+pub use error::{ConfigError, ForecastError, PlaceError, SnapshotError, StepError};
 pub use features::ego_features::{Block, EgoFeatures};
 pub use features::shaping::Potential;
 pub use features::steering::Steering;
 pub use features::viewpoint::{Observer, Viewpoint};
 pub use features::{shaping, steering};
+pub use forecast::Knowledge;
 pub use models::ball::BallModel;
 pub use models::config::{EngineKind, SimConfig, check_team};
 pub use models::field::Field;
@@ -53,3 +56,4 @@ pub use threads::Threads;
 pub use tick::PHYSICS_VERSION;
 pub use world::World;
 pub use world::batch::Batch;
+pub use world::forecaster::Forecaster;

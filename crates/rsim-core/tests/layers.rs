@@ -16,6 +16,7 @@ const LAYERS: &[&[&str]] = &[
     &["drive", "ball", "features"],
     &["body_parameters"],
     &["bodies"],
+    &["forecast"],
     &["engine"],
     &["state"],
     &["tick", "senses"],

@@ -51,7 +51,7 @@ impl EgoFeatures {
         PyTuple::new(py, named.collect::<PyResult<Vec<_>>>()?)
     }
 
-    #[pyo3(signature = (viewpoint, rows, actions, out, bounds = None, threads = None))]
+    #[pyo3(signature = (viewpoint, rows, actions, out, bounds = None, threads = None, rotated = None))]
     #[expect(clippy::too_many_arguments, reason = "the arguments of Python's method")]
     fn encode(
         &self,
@@ -62,6 +62,7 @@ impl EgoFeatures {
         out: &Bound<'_, PyAny>,
         bounds: Option<&Bound<'_, PyAny>>,
         threads: Option<&Threads>,
+        rotated: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let observers = viewpoint.viewpoint.observers();
         if let Some(observer) = observers.first()
@@ -73,6 +74,8 @@ impl EgoFeatures {
             )));
         }
         let (n, rows) = viewpoint.rows("rows", rows)?;
+        let rotated = viewpoint.rotated(n, rotated)?;
+        let rotated = rotated.as_ref().map(values);
         let [_, _, action_size] = sizes("actions", actions)?;
         let robots = viewpoint.n_robots();
         let actions: PyReadonlyArray<'_, f32, Ix3> =
@@ -89,11 +92,14 @@ impl EgoFeatures {
         bounds.as_deref().map_or(Ok(()), check_bounds)?;
         let (rows, actions) = (values(&rows), values(&actions));
         let encode = |world: usize, out: &mut [f32]| {
-            let row = &rows[world * row_size..][..row_size];
+            let own = world * row_size..(world + 1) * row_size;
+            let row = &rows[own.clone()];
+            let rotated = rotated.as_ref().map_or(row, |rotated| &rotated[own]);
             let actions = &actions[world * robots * action_size..][..robots * action_size];
             for (observer, out) in observers.iter().zip(out.chunks_exact_mut(columns)) {
                 let out = &mut out[..width];
                 let (features, action) = out.split_at_mut(size);
+                let row = if observer.rotated { rotated } else { row };
                 self.features.encode(observer, row, features);
                 match observer.robot() {
                     Some(robot) => {

@@ -8,6 +8,7 @@ mod arrays;
 mod bounds;
 mod config;
 mod ego_features;
+mod forecaster;
 mod match_arrays;
 mod models;
 mod moments;
@@ -30,6 +31,8 @@ mod _core {
     use crate::config::SimConfig;
     #[pymodule_export]
     use crate::ego_features::EgoFeatures;
+    #[pymodule_export]
+    use crate::forecaster::Forecaster;
     #[pymodule_export]
     use crate::models::{BallModel, Field, RobotModel, Sensing};
     #[pymodule_export]

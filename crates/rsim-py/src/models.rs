@@ -23,6 +23,8 @@ const NAMES: &str = "a preset's name, the path of a .json file";
 pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
     /// Name of the class in Python.
     const CLASS: &'static str;
+    /// Name of its part of a file with several models.
+    const PART: &'static str;
 
     fn preset(name: &str) -> PyResult<Self>;
     fn decoded(text: &str) -> PyResult<Self>;
@@ -64,11 +66,16 @@ pub(crate) trait Model: Sized + Clone + for<'py> FromPyObjectOwned<'py> {
         Err(PyValueError::new_err(format!("{name} has no {key:?}; its numbers are {valid}")))
     }
 
-    /// The model of a JSON text: of `to_json`, or a preset's name with the numbers that differ.
+    /// The model of a JSON text: of `to_json`, a preset's name with the numbers that differ, or an object
+    /// with one of these as its part.
     fn parsed(text: &str) -> PyResult<Self> {
         let Ok(Value::Object(mut numbers)) = serde_json::from_str(text) else {
             return Self::decoded(text)?.with(None);
         };
+        if let Some(part @ Value::Object(_)) = numbers.get(Self::PART) {
+            let within = |error| PyValueError::new_err(format!("{}: {error}", Self::PART));
+            return Self::parsed(&part.to_string()).map_err(within);
+        }
         let Some(Value::String(name)) = numbers.remove("preset") else {
             return Self::decoded(text)?.with(None);
         };
@@ -165,8 +172,8 @@ where
 
 /// A frozen Python class around a model of the core.
 macro_rules! mirror {
-    ($name:ident, $doc:literal, { $($extra:tt)* }) => {
-        mirror!($name, $doc, new {
+    ($name:ident, $part:literal, $doc:literal, { $($extra:tt)* }) => {
+        mirror!($name, $part, $doc, new {
             #[new]
             #[pyo3(signature = (name, **numbers))]
             fn new(name: &Bound<'_, PyAny>, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -175,7 +182,7 @@ macro_rules! mirror {
             }
         }, { $($extra)* });
     };
-    ($name:ident, $doc:literal, new { $($new:tt)* }, { $($extra:tt)* }) => {
+    ($name:ident, $part:literal, $doc:literal, new { $($new:tt)* }, { $($extra:tt)* }) => {
         #[doc = $doc]
         #[pyclass(frozen, eq, from_py_object, module = "rsoccer._core")]
         #[derive(Clone, PartialEq)]
@@ -183,6 +190,7 @@ macro_rules! mirror {
 
         impl Model for $name {
             const CLASS: &'static str = stringify!($name);
+            const PART: &'static str = $part;
 
             fn preset(name: &str) -> PyResult<Self> {
                 Ok(Self(rsim_core::$name::preset(name).map_err(invalid)?))
@@ -254,6 +262,7 @@ macro_rules! mirror {
 
 mirror!(
     Field,
+    "field",
     "A field: play area, goals, walls, and the lines and marks on the floor. SI units.",
     {
         #[getter]
@@ -285,11 +294,12 @@ mirror!(
 
 mirror!(
     BallModel,
+    "ball",
     "A ball with the floor that it rolls on and the surfaces that it hits. SI units.",
     {}
 );
 
-mirror!(RobotModel, "A robot: body, drive, and mouth if it has one. SI units.", {
+mirror!(RobotModel, "robot", "A robot: body, drive, and mouth if it has one. SI units.", {
     #[getter]
     fn bounding_radius(&self) -> f64 {
         shortest(self.0.bounding_radius())
@@ -337,6 +347,7 @@ mirror!(RobotModel, "A robot: body, drive, and mouth if it has one. SI units.", 
 
 mirror!(
     Sensing,
+    "sensing",
     "What lies between the true state and what robots know, and between commands and what they do.",
     new {
         #[new]

@@ -11,6 +11,7 @@ use crate::arrays::{
     Commands, InputRows, Keys, Mask, RobotsMask, Rows, RowsOut, finite, readable, values, writeable,
 };
 use crate::config::{SimConfig, count, invalid};
+use crate::forecaster::Known;
 use crate::threads::ThreadsOrCount;
 
 /// Many independent matches of one configuration.
@@ -153,19 +154,20 @@ impl Simulator {
         Ok(())
     }
 
-    #[pyo3(signature = (out, active = None))]
+    #[pyo3(signature = (out, active = None, known = Known::default()), text_signature = "($self, out, active=None, known='blue')")]
     fn sense(
         &self,
         py: Python<'_>,
         out: &Bound<'_, PyAny>,
         active: Option<&Bound<'_, PyAny>>,
+        known: Known,
     ) -> PyResult<()> {
         let active: Option<Mask> =
             active.map(|mask| readable("active", mask, &[self.0.worlds()])).transpose()?;
         let active = active.as_ref().map(values);
         let mut out = self.rows_out(out)?;
         let out = out.as_slice_mut()?;
-        py.detach(|| self.0.sense(out, active.as_deref()));
+        py.detach(|| self.0.sense_as(known.0, out, active.as_deref()));
         Ok(())
     }
 

@@ -35,14 +35,18 @@ impl Viewpoint {
         Ok(Self { viewpoint: rsim_core::Viewpoint::new(observers), n_robots })
     }
 
+    #[pyo3(signature = (rows, ball, robots, rotated = None))]
     fn fill(
         &self,
         py: Python<'_>,
         rows: &Bound<'_, PyAny>,
         ball: &Bound<'_, PyAny>,
         robots: &Bound<'_, PyAny>,
+        rotated: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (n, rows) = self.rows("rows", rows)?;
+        let rotated = self.rotated(n, rotated)?;
+        let rotated = rotated.as_ref().map(values);
         let (observers, slots) = (self.viewpoint.n_observers(), self.viewpoint.slots());
         let ball_shape = [n, observers, BALL_COLUMNS.len()];
         let robots_shape = [n, observers, slots, ROBOT_COLUMNS.len()];
@@ -56,8 +60,12 @@ impl Viewpoint {
         py.detach(|| {
             let balls = ball.chunks_exact_mut(observers * BALL_COLUMNS.len());
             let views = robots.chunks_exact_mut(observers * slots * ROBOT_COLUMNS.len());
-            for (row, (ball, robots)) in rows.chunks_exact(self.row_size()).zip(balls.zip(views)) {
-                self.viewpoint.fill(row, ball, robots);
+            let size = self.row_size();
+            for (world, (ball, robots)) in balls.zip(views).enumerate() {
+                let own = world * size..(world + 1) * size;
+                let row = &rows[own.clone()];
+                let rotated = rotated.as_ref().map_or(row, |rotated| &rotated[own]);
+                self.viewpoint.fill([row, rotated], ball, robots);
             }
         });
         Ok(())
@@ -65,6 +73,15 @@ impl Viewpoint {
 }
 
 impl Viewpoint {
+    /// Checks the rows of the observers on the rotated field, as many as other rows.
+    pub(crate) fn rotated<'py>(
+        &self,
+        n: usize,
+        rotated: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Rows<'py>>> {
+        rotated.map(|rows| readable("rotated", rows, &[n, self.row_size()])).transpose()
+    }
+
     /// Number of columns of a row.
     pub(crate) fn row_size(&self) -> usize {
         row_size(self.n_robots)

@@ -11,6 +11,7 @@ from tyro.conf import subcommand
 
 from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.evaluate import Evaluate
+from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
 from rsoccer.commands.list import List
 from rsoccer.commands.play import Play
@@ -43,6 +44,7 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
         | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
+        | Annotated[Identify, subcommand("identify")]
         | Annotated[Watch, subcommand("watch")]
         | Annotated[Play, subcommand("play")]
     )

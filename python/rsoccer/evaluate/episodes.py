@@ -221,7 +221,8 @@ class LearnerPolicy:
         play, assignment = self._matches.play, self._matches.assignment
         if self._policy.observes != "nothing":
             view = play.sensed_view.select(assignment.learner_indices)
-            match = MatchState(play.sensed.rows, play.game, assignment.learners, play.threads)
+            known = play.known_to_robots(assignment.learners)
+            match = MatchState(known.rows, play.game, assignment.learners, play.threads)
         own = observations if self._policy.observes == "observation" else None
         optional = self._matches.task.optional_action_size
         inputs = PolicyInput(self._shape, view, own, optional, match)

@@ -431,7 +431,7 @@ class Matches:
         restarts = self._judge()
         outcome = self._evaluate()
         self._restart(restarts, outcome, active)
-        self._sense()
+        self._sense(active)
         self._observe()
         if paused:
             paused.restore(self.task, self._observations, outcome)
@@ -509,10 +509,10 @@ class Matches:
             begin(self._rules, play, chosen.worlds)
         play.expire_views()
 
-    def _sense(self) -> None:
+    def _sense(self, active: Mask | None) -> None:
         """Let the sensor model compute what the robots know."""
         if self.play.senses is not None:
-            self.play.senses.sense(self.play.frame)
+            self.play.senses.sense(self.play.frame, active)
 
     def _observe(self) -> None:
         """Compute the observations of all observers."""
@@ -599,7 +599,8 @@ class Matches:
     def _new_senses(self, frame: Frame, rng: WorldRng) -> Senses | None:
         """Senses of n worlds before their episodes begin."""
         ranges = self._randomization.sensing
-        return new_senses(self._sensing, self._simulator, self.worlds, ranges, frame, rng)
+        simulator = self._simulator, self.worlds
+        return new_senses(self._sensing, *simulator, ranges, self._viewpoint, frame, rng)
 
     def _state(self) -> MatchState:
         """References to all state of the matches."""

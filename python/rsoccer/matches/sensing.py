@@ -1,12 +1,20 @@
 """The senses of matches: of a model in Python, or of the simulator."""
 
-from rsoccer._core import Sensing
+from typing import Final
+
+import numpy as np
+
+from rsoccer._core import SENSING_NUMBERS, Sensing
 from rsoccer.frame import Frame
 from rsoccer.randomization import NumberRanges
 from rsoccer.rng import WorldRng
 from rsoccer.senses import ModelSenses, Senses, SensorModel
 from rsoccer.simulated_senses import SimulatedSenses, sensing_stepper
 from rsoccer.simulator_interface import Stepper
+from rsoccer.view import Viewpoint
+
+ON: Final = 0.5
+"""Least value of a switch of `Sensing` that is on."""
 
 
 def simulated(sensing: SensorModel | Sensing | None) -> Sensing | None:
@@ -23,6 +31,7 @@ def new_senses(
     stepper: Stepper,
     worlds: int,
     ranges: NumberRanges | None,
+    viewpoint: Viewpoint,
     frame: Frame,
     rng: WorldRng,
 ) -> Senses | None:
@@ -33,6 +42,7 @@ def new_senses(
         stepper: the simulator.
         worlds: number of its worlds.
         ranges: ranges of the numbers of a `Sensing`.
+        viewpoint: the observers: only their teams forecast.
         frame: frame of n worlds; copied.
         rng: (n,) random streams.
 
@@ -43,5 +53,19 @@ def new_senses(
     if sensing is None:
         return None
     if isinstance(sensing, Sensing):
-        return SimulatedSenses(sensing_stepper(stepper), worlds, ranges, frame.copy(), rng)
+        observing = _forecasting_teams(sensing, ranges, viewpoint)
+        own = sensing_stepper(stepper)
+        return SimulatedSenses.new(own, worlds, ranges, observing, frame, rng)
     return ModelSenses.new(sensing, frame, rng)
+
+
+def _forecasting_teams(
+    sensing: Sensing, ranges: NumberRanges | None, viewpoint: Viewpoint
+) -> tuple[int, ...]:
+    """Teams with observers whose forecasts differ; () without forecasts of their own."""
+    drawn = () if ranges is None else sum((columns for columns, _ in ranges.drawn), ())
+    may_forecast = sensing.forecast > 0.0 or SENSING_NUMBERS.index("forecast") in drawn
+    is_shared = sensing.forecast_others >= ON and ranges is None
+    if not may_forecast or is_shared:
+        return ()
+    return tuple(np.unique(viewpoint.teams).tolist())

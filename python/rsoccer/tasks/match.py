@@ -152,9 +152,18 @@ class Match(Soccer):
 
     def frame_to_observations(self, play: Play) -> dict[str, Floats]:
         """Compute the blocks of `Soccer` and the block `game`, each (n, observers, ...)."""
-        game = self._referee.core.features(
-            play.game.referee, play.sensed.rows, play.observers.tolist(), play.threads
-        )
+        first_yellow = np.searchsorted(play.observers, self.n_blue)
+        parts = [
+            self._referee.core.features(
+                play.game.referee, known.rows, robots.tolist(), play.threads
+            )
+            for known, robots in (
+                (play.known_to(0), play.observers[:first_yellow]),
+                (play.known_to(1), play.observers[first_yellow:]),
+            )
+            if len(robots)
+        ]
+        game = np.concatenate(parts, axis=1)
         return super().frame_to_observations(play) | {GAME_BLOCK: game}
 
     def observation_limits(self) -> dict[str, float]:

@@ -202,6 +202,8 @@ class Soccer(Task):
 
     def _encode(self, play: Play, out: Floats, bounds: Floats | None) -> None:
         """Write the features of all observers to `out`, clipped to `bounds`."""
+        blue, yellow = play.known_to(0), play.known_to(1)
+        rotated = None if yellow is blue else yellow.rows
         self.ego_features.encode(
-            play.viewpoint.core, play.sensed.rows, play.actions, out, bounds, play.threads
+            play.viewpoint.core, blue.rows, play.actions, out, bounds, play.threads, rotated
         )

@@ -61,15 +61,16 @@ impl Viewpoint {
         self.observers.first().map_or(0, |observer| observer.slots.len())
     }
 
-    /// Writes the views of all observers of a row: into `ball` the ball's columns for each observer, into
+    /// Writes the views of all observers: of the first row, or of the second for those on the rotated field,
+    /// which may know another state. Into `ball` the ball's columns for each observer, into
     /// `robots` a robot's columns for each slot of each observer. The columns of an absent robot and of an
     /// empty slot are 0, except for `absent`, which is 1.
-    pub fn fill(&self, row: &[f32], ball: &mut [f32], robots: &mut [f32]) {
-        let (the_ball, the_robots) = row.split_at(BALL_COLUMNS.len());
+    pub fn fill(&self, rows: [&[f32]; 2], ball: &mut [f32], robots: &mut [f32]) {
         let balls = ball.chunks_exact_mut(BALL_COLUMNS.len());
         let views = robots.chunks_exact_mut(self.slots().max(1) * ROBOT_COLUMNS.len());
         for (observer, (ball, robots)) in self.observers.iter().zip(balls.zip(views)) {
             let side = usize::from(observer.rotated);
+            let (the_ball, the_robots) = rows[side].split_at(BALL_COLUMNS.len());
             write(&self.ball_signs[side], the_ball, ball);
             if observer.rotated {
                 let crossed = ball[self.crossed];
@@ -225,7 +226,7 @@ mod tests {
         }
         let mut ball = vec![f32::NAN; 2 * BALL_COLUMNS.len()];
         let mut robots = vec![f32::NAN; 2 * 3 * ROBOT_COLUMNS.len()];
-        viewpoint.fill(&row, &mut ball, &mut robots);
+        viewpoint.fill([&row; 2], &mut ball, &mut robots);
         let (upright, rotated) = ball.split_at(BALL_COLUMNS.len());
         assert_eq!(upright, &row[..BALL_COLUMNS.len()]);
         assert_eq!(crossing_name(upright[ball_column("crossed")]), "goal_right");
@@ -253,7 +254,7 @@ mod tests {
         row[BALL_COLUMNS.len() + ROBOT_COLUMNS.len() + ABSENT_COLUMN] = 0.0;
         let mut ball = vec![f32::NAN; BALL_COLUMNS.len()];
         let mut robots = vec![f32::NAN; 3 * ROBOT_COLUMNS.len()];
-        viewpoint.fill(&row, &mut ball, &mut robots);
+        viewpoint.fill([&row; 2], &mut ball, &mut robots);
         let robots: Vec<_> = robots.chunks_exact(ROBOT_COLUMNS.len()).collect();
         assert_eq!(robots[0][robot_column("x")], -0.5);
         assert_eq!([robots[1], robots[2]], [ABSENT, ABSENT]);

@@ -107,13 +107,19 @@ pub(crate) fn listed<M>(fields: &'static [NumberField<M>]) -> impl Iterator<Item
 
 /// Defines a struct with numbers, and its table `NUMBERS`.
 ///
-/// `fields` are ordinary fields; `numbers` are `f32` fields: documentation, name, range, unit.
+/// `fields` are ordinary fields; `numbers` are `f32` fields: documentation, name, range, unit. One
+/// with `#[serde(default)]` is 0 in files of versions without it.
 macro_rules! numbers {
     (
         $(#[$meta:meta])*
         pub struct $model:ident, $kind:literal;
         fields { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }
-        numbers { $($(#[doc = $doc:literal])+ $number:ident: $range:ident, $unit:literal;)* }
+        numbers {
+            $(
+                $(#[doc = $doc:literal])+ $(#[serde($serde:ident)])?
+                $number:ident: $range:ident, $unit:literal;
+            )*
+        }
     ) => {
         $(#[$meta])*
         pub struct $model {
@@ -124,6 +130,7 @@ macro_rules! numbers {
                     "\n\nUnit: ", $unit, ". Range: [`", stringify!($range),
                     "`](crate::Range::", stringify!($range), ")."
                 )]
+                $(#[serde($serde)])?
                 pub $number: f32,
             )*
         }

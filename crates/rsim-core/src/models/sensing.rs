@@ -97,6 +97,12 @@ numbers! {
         dribbler_failures: Fraction, "1";
         /// Part of all speed that batteries lose in a second, down to half.
         battery_sag: NotNegative, "1/s";
+        /// 1 to know the state in which the next commands act, by a forecast.
+        #[serde(default)]
+        forecast: Fraction, "1";
+        /// 1 if a forecast knows the commands of both teams, 0 for a team's own.
+        #[serde(default)]
+        forecast_others: Fraction, "1";
     }
 }
 

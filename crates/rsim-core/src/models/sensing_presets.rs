@@ -47,6 +47,8 @@ impl Sensing {
         kick_failures: 0.0,
         dribbler_failures: 0.0,
         battery_sag: 0.0,
+        forecast: 0.0,
+        forecast_others: 0.0,
     };
 
     /// ER-Force's simulator, realism "RC2021" of the virtual `RoboCup`

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ball::mouth::Kicker;
 use crate::body_parameters::BodyParameters;
+use crate::forecast::commands::CommandLog;
 use crate::models::config::SimConfig;
 use crate::models::sensing::Sensing;
 use crate::senses::actuators::Actuators;
@@ -44,6 +45,8 @@ pub(crate) struct Senses {
     reports: Reports,
     link: Link,
     actuators: Actuators,
+    /// Commands that forecasts need; empty without them.
+    sent: CommandLog,
 }
 
 /// Constants of the match that its senses need.
@@ -66,6 +69,7 @@ impl Senses {
             reports: Reports::new(robots, &sensing, &mut draws),
             link: Link::new(robots, columns),
             actuators: Actuators::new(watched.parameters, columns, &sensing, &mut draws),
+            sent: CommandLog::default(),
             sensing,
             key,
             ticks: 0,
@@ -89,6 +93,11 @@ impl Senses {
 
     /// Sends the commands of a control step.
     pub(crate) fn send(&mut self, commands: &[f32], config: &SimConfig) {
+        if self.sensing.forecast >= 0.5 {
+            // A team knows when it sent its commands and how long they take in the mean, not more.
+            self.sent.forget_before(self.seen_at());
+            self.sent.add(self.now(config) + f64::from(self.sensing.command_delay), commands);
+        }
         self.link.send(self.ticks, config.tick, (&self.sensing, self.key), commands);
     }
 
@@ -145,8 +154,23 @@ impl Senses {
         row::write(&self.tracker, &self.reports, state, out);
     }
 
+    /// Numbers of the senses.
+    pub(crate) fn sensing(&self) -> &Sensing {
+        &self.sensing
+    }
+
+    /// Commands that were sent, for forecasts.
+    pub(crate) fn sent(&self) -> &CommandLog {
+        &self.sent
+    }
+
+    /// Time of the last frame that has arrived, s.
+    pub(crate) fn seen_at(&self) -> f64 {
+        self.tracker.time()
+    }
+
     /// Time since the senses began, s.
-    fn now(&self, config: &SimConfig) -> f64 {
+    pub(crate) fn now(&self, config: &SimConfig) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "no match has 2^52 ticks")]
         let ticks = self.ticks as f64;
         ticks * f64::from(config.tick)

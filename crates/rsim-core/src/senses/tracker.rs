@@ -105,6 +105,11 @@ impl Tracker {
         }
     }
 
+    /// Time of the last frame, s.
+    pub(super) fn time(&self) -> f64 {
+        self.time
+    }
+
     /// Takes in a frame. One that is older than the last is of no use.
     pub(super) fn take(&mut self, sensing: &Sensing, frame: &Detections, ball_radius: f32) {
         #[expect(clippy::cast_possible_truncation, reason = "time between two frames")]

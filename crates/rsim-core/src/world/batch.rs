@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::bodies::BodyBlock;
 use crate::error::{ConfigError, SnapshotError, StepError};
+use crate::forecast::Knowledge;
 use crate::models::config::SimConfig;
 use crate::senses::Senses;
 use crate::state::State;
@@ -29,6 +30,8 @@ const MAX_PORTION: usize = 16;
 
 /// Number of rows that the caller's thread writes by itself.
 const SENSED_ALONE: usize = 64;
+/// The same for forecasts, each of which takes longer than a step.
+pub(super) const FORECAST_ALONE: usize = 2;
 
 /// More worlds than any memory holds.
 const MAX_WORLDS: usize = 10_000_000;
@@ -140,13 +143,21 @@ impl Batch {
         }
     }
 
-    /// Writes the rows of what the robots of the active worlds (all if `active` is `None`) know: state rows
-    /// without senses.
+    /// Writes the rows of what the first team's robots in the active worlds (all if `active` is `None`) know:
+    /// state rows without senses.
     pub fn sense(&self, out: &mut [f32], active: Option<&[bool]>) {
+        self.sense_as(Knowledge::Blue, out, active);
+    }
+
+    /// As [`Batch::sense`], for robots that know the commands of other teams: see
+    /// [`World::write_row_known_to`].
+    pub fn sense_as(&self, knowledge: Knowledge, out: &mut [f32], active: Option<&[bool]>) {
         let size = self.config().row_size();
-        self.threads.write_rows(out, size, SENSED_ALONE, |world, row| {
+        let forecast = self.worlds.first().is_some_and(World::forecasts);
+        let alone = if forecast { FORECAST_ALONE } else { SENSED_ALONE };
+        self.threads.write_rows(out, size, alone, |world, row| {
             if active.is_none_or(|active| active[world]) {
-                self.worlds[world].write_sensed_row(row);
+                self.worlds[world].write_row_known_to(knowledge, row);
             }
         });
     }

@@ -2,6 +2,8 @@
 
 pub(crate) mod batch;
 mod estimate;
+mod forecast;
+pub(crate) mod forecaster;
 mod line_up;
 mod nearest;
 mod placement;

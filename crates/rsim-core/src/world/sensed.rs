@@ -2,6 +2,7 @@
 
 use crate::body_parameters::BodyParameters;
 use crate::engine::NonFinite;
+use crate::forecast::Knowledge;
 use crate::models::sensing::Sensing;
 use crate::senses::{Senses, Watched};
 use crate::state::{Setup, State};
@@ -22,8 +23,13 @@ impl World {
         }
     }
 
-    /// Writes the row of what robots know: the state row without senses.
+    /// Writes the row of what the first team's robots know: the state row without senses.
     pub fn write_sensed_row(&self, out: &mut [f32]) {
+        self.write_row_known_to(Knowledge::Blue, out);
+    }
+
+    /// Writes the row of what cameras and robots have reported: the state row without senses.
+    pub(super) fn write_row_as_seen(&self, out: &mut [f32]) {
         match &self.senses {
             None => self.write_row(out),
             Some(senses) => senses.write_row(&self.state, out),

@@ -2,6 +2,7 @@
 
 mod actuation;
 mod cameras;
+mod forecast;
 mod state;
 
 use rsim_core::columns::robot_column;

@@ -1,0 +1,69 @@
+"""`rsoccer identify`: delay and drive of a robot from a log of commands and poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import Positional, arg
+
+from rsoccer.commands.imports import Imports
+from rsoccer.commands.output import check_output, write
+from rsoccer.identify import identify, program, read_log, report
+
+_BY_LOG = "(default: that of the log's commands)"
+
+
+@dataclass(frozen=True)
+class Identify(Imports):
+    """Fit latency, drive and rolling to a log of commands and poses, with intervals of 95%."""
+
+    log: Annotated[tuple[Path, ...], Positional, arg(metavar="LOG")] = ()
+    """CSV file with the log, or several: such as that of the radio and that of the cameras"""
+    robot: Annotated[str | None, arg(metavar="PRESET|FILE", help_behavior_hint=_BY_LOG)] = None
+    """model with the numbers that the log does not show: vss_440rpm or ssl_generic"""
+    ball: Annotated[str | None, arg(metavar="PRESET|FILE", help_behavior_hint=_BY_LOG)] = None
+    """model of the ball with the same: vss_rsim or ssl_tigers"""
+    clocks: int = 1
+    """2 if commands and poses have clocks of their own: then the latency stays unknown"""
+    seed: int = 0
+    """random seed of the intervals"""
+    out: Annotated[Path | None, arg(metavar="PATH", help_behavior_hint="")] = None
+    """.json file to write: models for --sensing and for the task options robot and ball. With
+    --program the .csv file of the program"""
+    program: bool = False
+    """print commands that show all numbers in place of a fit, for a robot to follow"""
+    rate: float = 60.0
+    """commands a second of the program"""
+
+    def run(self) -> None:
+        """Fit the log and print the numbers, or print the program.
+
+        Raises:
+            FileNotFoundError: no such log.
+            ValueError: neither a log nor a program, the folder of a file does not exist, or
+                `read_log` or `identify` refuses the log.
+        """
+        if self.program:
+            self._write_program()
+            return
+        check_output("out", self.out, ".json")
+        identified = identify(
+            read_log(*self.log), self.robot, self.ball, clocks=self.clocks, seed=self.seed
+        )
+        write(report(identified))
+        if self.out is not None:
+            write(f"models: {identified.save(self.out)}")
+
+    def _write_program(self) -> None:
+        """Write the program to the file, or print it."""
+        if self.log:
+            raise ValueError("log: expected none with --program")
+        check_output("out", self.out, ".csv")
+        text = program(self.robot or "ssl_generic").to_csv(self.rate)
+        if self.out is None:
+            write(text.rstrip("\n"))
+        else:
+            self.out.write_text(text, encoding="utf-8")
+            write(f"program: {self.out}")

@@ -1,0 +1,61 @@
+"""`rsoccer identify`."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from rsoccer import RobotModel, cli
+from rsoccer.identify import record, write_log
+
+
+def test_identify_prints_numbers_and_writes_models(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log, model = tmp_path / "log.csv", tmp_path / "model.json"
+    write_log(record("vss_440rpm", sensing="vsss", seed=2), log)
+    assert cli.main(["identify", str(log), "--out", str(model)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ["number", "value", "95%", "interval", "unit"]
+    assert lines[1].split()[0] == "latency"
+    assert "not identified:" in lines
+    assert lines[-1] == f"models: {model}"
+    assert RobotModel(str(model)).name == "vss_440rpm"
+    content = json.loads(model.read_text())
+    assert 0.04 < content["sensing"]["delay"] < 0.08
+    options = ["--task-options", f"robot={model}", "--sensing", str(model)]
+    words = ["evaluate", "chase", "--task", "VSS-v0", "--matches", "2", *options]
+    assert cli.main(words) == 0
+    assert "chase" in capsys.readouterr().out
+
+
+def test_the_program_is_printed_or_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["identify", "--program"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.splitlines()[0] == "time,v_x,v_y,v_theta,kick_v_x"
+    path = tmp_path / "program.csv"
+    words = ["identify", "--program", "--robot", "vss_440rpm", "--rate", "30", "--out", str(path)]
+    assert cli.main(words) == 0
+    first, *rows = path.read_text().splitlines()
+    assert first == "time,left,right"
+    assert rows[1].startswith("0.0333,")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([], "expected one file or more"),
+        (["gone.csv"], "gone.csv does not exist"),
+        (["gone.csv", "--out", "model.txt"], "ending in .json"),
+        (["gone.csv", "--program"], "expected none with --program"),
+        (["--program", "--robot", "nobody"], "nobody"),
+        (["--program", "--rate", "0"], "rate"),
+    ],
+)
+def test_wrong_words_are_refused(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["identify", *words]) == 2
+    assert message in capsys.readouterr().err

@@ -1,0 +1,282 @@
+"""The forecaster of the core, on its own and in matches."""
+
+import pickle
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer import Forecaster, Matches, Sensing, SimConfig, Simulator
+from rsoccer.arrays import Floats
+from rsoccer.frame import Frame
+from rsoccer.tasks import SslSelfPlay, VssSelfPlay
+from tests.helpers import same
+
+DELAY = 0.1
+LATE: dict[str, Any] = {"command_delay": DELAY, "forecast": 1.0}
+STEPS_LATE = 4
+TASKS = {"VSSSelfPlay-v0": VssSelfPlay(), "SSLSelfPlay-v0": SslSelfPlay(n_blue=2, n_yellow=2)}
+
+
+def actions_of(matches: Matches, steps: int, seed: int = 0) -> Floats:
+    """Random actions, the same for all worlds, that change every four steps."""
+    shape = (1 + steps // 4, 1, len(matches.agents), matches.action_size)
+    drawn = np.random.default_rng(seed).uniform(-0.7, 0.7, shape).astype(np.float32)
+    if matches.action_size > 3:
+        drawn[..., 3:] = 0.0  # neither kicks nor dribbling
+    return np.repeat(np.repeat(drawn, 4, axis=0)[:steps], matches.worlds, axis=1)
+
+
+def motion(frame: Frame) -> Floats:
+    """(n, robots, 7) positions, headings and velocities of the robots."""
+    robots = frame.robots
+    parts = (robots.position, robots.heading, robots.velocity, robots.angular_velocity[..., None])
+    return np.concatenate(parts, axis=-1)
+
+
+def play(task: str, sensing: Sensing | None, steps: int, worlds: int = 1, **settings: Any) -> Any:  # noqa: ANN401
+    """True and known frames and observations of matches after each step."""
+    matches = Matches(TASKS[task], worlds, 3, sensing=sensing, **settings)
+    matches.reset()
+    truth, known, observations = [], [], []
+    for actions in actions_of(matches, steps):
+        outcome = matches.step(actions)
+        truth.append(matches.frame.copy())
+        known.append([matches.play.known_to(team).copy() for team in (0, 1)])
+        observations.append(outcome.observations)
+    return truth, known, observations
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_robots_of_ones_own_are_known_where_they_will_be(task: str) -> None:
+    """The others coast, so that the known state of both teams differs where they meet, too."""
+    truth, known, _ = play(task, Sensing(**LATE), 24)
+    n_blue = truth[0].n_blue
+    own, others = [], []
+    for step in range(4, 20):
+        then = motion(truth[step + STEPS_LATE])
+        blue, yellow = (np.abs(motion(frame) - then) for frame in known[step])
+        own += [blue[:, :n_blue], yellow[:, n_blue:]]
+        others += [blue[:, n_blue:], yellow[:, :n_blue]]
+    assert np.quantile(own, 0.9) < 1e-5
+    assert np.quantile(others, 0.5) > 1e-3
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_all_commands_known_give_both_teams_one_forecast(task: str) -> None:
+    truth, known, observations = play(task, Sensing(**LATE, forecast_others=1.0), 24)
+    for step in range(4, 20):
+        assert same(known[step][0].rows, known[step][1].rows)
+        then = motion(truth[step + STEPS_LATE])
+        np.testing.assert_allclose(motion(known[step][0]), then, atol=2e-3)
+    assert np.abs(motion(truth[19]) - motion(truth[15])).max() > 0.05
+    _, _, exact = play(task, None, 24)
+    assert observations[0].shape == exact[0].shape
+
+
+def test_each_team_observes_its_own_forecast() -> None:
+    matches = Matches(TASKS["SSLSelfPlay-v0"], 3, 0, sensing=Sensing(**LATE))
+    matches.reset()
+    for actions in actions_of(matches, 20):
+        outcome = matches.step(actions)
+    state = matches.play
+    blue, yellow = state.known_to(0), state.known_to(1)
+    assert not same(blue.rows, yellow.rows)
+    assert same(state.sensed.blue.data, blue.blue.data)
+    assert same(state.sensed.yellow.data, yellow.yellow.data)
+    robots = np.arange(4)
+    assert state.known_to_robots(robots[:2]) is blue
+    assert state.known_to_robots(robots[2:]) is yellow
+    assert state.known_to_robots(robots) is state.sensed
+    for team, known in enumerate((blue, yellow)):
+        view = state.viewpoint.new_view(3)
+        state.viewpoint.fill(known, view)
+        mine = state.viewpoint.teams == team
+        assert same(view.robots.data[:, mine], state.sensed_view.robots.data[:, mine])
+        shared = state.take(np.arange(3))
+        assert shared.senses is not None
+        shared.senses.teams = (known, known)
+        shared.expire_views()
+        alone = TASKS["SSLSelfPlay-v0"].layout.observe(shared)
+        assert same(alone[:, mine], outcome.observations[:, mine])
+        assert not same(alone[:, ~mine], outcome.observations[:, ~mine])
+
+
+@pytest.mark.parametrize("preset", ["none", "rc2021", "vsss"])
+@pytest.mark.parametrize("task", TASKS)
+def test_a_world_forecasts_the_same_whatever_batch_and_threads(task: str, preset: str) -> None:
+    sensing = Sensing(preset, **LATE)
+    _, alone, first = play(task, sensing, 30)
+    _, among, others = play(task, sensing, 30, worlds=5, threads=2)
+    for step in range(30):
+        assert same(first[step][0], others[step][0])
+        for team in (0, 1):
+            assert same(alone[step][team].rows[0], among[step][team].rows[0])
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_matches_continue_exactly_from_a_saved_state(task: str) -> None:
+    sensing = Sensing("vsss", **LATE)
+    ours = Matches(TASKS[task], 3, 3, sensing=sensing)
+    theirs = Matches(TASKS[task], 3, 9, sensing=sensing)
+    ours.reset()
+    theirs.reset()
+    actions = actions_of(ours, 40)
+    for step in range(15):
+        ours.step(actions[step])
+    saved = ours.state_dict()
+    assert {"senses.frame", "senses.blue", "senses.yellow"} <= set(saved)
+    theirs.load_state_dict(saved)
+    copied = pickle.loads(pickle.dumps(ours))
+    for step in range(15, 40):
+        first = ours.step(actions[step])
+        for other in (theirs, copied):
+            assert same(first.observations, other.step(actions[step]).observations)
+            assert same(ours.play.known_to(1).rows, other.play.known_to(1).rows)
+
+
+def test_only_teams_that_observe_forecast() -> None:
+    matches = Matches("VSS-v0", 2, sensing=Sensing(**LATE))
+    matches.reset()
+    assert matches.play.known_to(0) is matches.play.known_to(1) is matches.play.sensed
+    yellow = Matches("VSSSelfPlay-v0", 2, controllers={"blue": "zero"}, sensing=Sensing(**LATE))
+    yellow.reset()
+    assert yellow.play.known_to(0) is yellow.play.sensed
+
+
+def test_a_forecast_is_of_the_models_and_not_of_the_varied_world() -> None:
+    varied = {"robot.acceleration": (0.3, 0.31)}
+    errors = []
+    for randomization in (None, varied):
+        truth, known, _ = play("SSLSelfPlay-v0", Sensing(**LATE), 24, randomization=randomization)
+        late = [
+            motion(truth[s + STEPS_LATE])[:, :2] - motion(known[s][0])[:, :2] for s in range(20)
+        ]
+        errors.append(np.abs(late).max())
+    assert errors[0] < 1e-5
+    assert errors[1] > 0.01
+
+
+def test_waiting_worlds_keep_what_they_know() -> None:
+    task = VssSelfPlay(max_steps=5)
+    matches = Matches(task, 3, autoreset="disabled", sensing=Sensing(**LATE))
+    matches.reset()
+    actions = actions_of(matches, 9)
+    for step in range(9):
+        outcome = matches.step(actions[step])
+    assert matches.done.all()
+    rows = matches.play.known_to(1).rows.copy()
+    assert same(outcome.observations, matches.step(actions[0]).observations)
+    assert same(rows, matches.play.known_to(1).rows)
+
+
+def test_a_forecaster_on_its_own_bridges_the_delay() -> None:
+    config = SimConfig("ssl_b", 2, 1, sensing=Sensing(command_delay=DELAY))
+    simulator = Simulator(config)  # which delays commands as its senses say
+    forecaster = Forecaster(config, known="all")
+    row = np.zeros((1, config.row_size), np.float32)
+    simulator.read(row)
+    rng = np.random.default_rng(0)
+    rows, forecasts = [], []
+    commands = np.zeros((1, 3, 6), np.float32)
+    for step in range(30):
+        time = np.array([step * config.time_step])
+        out = np.empty_like(row)
+        forecaster.forecast(row, seen=time, now=time, out=out)
+        forecasts.append(out)
+        rows.append(row.copy())
+        commands[..., :3] = rng.uniform(-1, 1, (1, 3, 3))
+        forecaster.send(commands, time)
+        simulator.step(commands, out=row)
+    moved = 0.0
+    for step in range(26):
+        then = rows[step + STEPS_LATE]
+        np.testing.assert_allclose(forecasts[step][:, :9], then[:, :9], atol=1e-6)
+        np.testing.assert_allclose(forecasts[step][:, 17:24], then[:, 17:24], atol=1e-5)
+        moved = max(moved, np.abs(then - rows[step]).max())
+    assert moved > 0.1
+    copied = pickle.loads(pickle.dumps(forecaster))
+    ours, theirs = np.empty_like(row), np.empty_like(row)
+    now = np.array([30 * config.time_step])
+    forecaster.forecast(row, now, now, ours)
+    copied.forecast(row, now, now, theirs)
+    assert same(ours, theirs)
+    assert repr(copied) == 'Forecaster(1 worlds, known="all")'
+
+
+def test_commands_of_other_robots_are_ignored() -> None:
+    config = SimConfig("vss_3v3", 1, 1)
+    row = np.zeros((1, config.row_size), np.float32)
+    Simulator(config).read(row)
+    seen = {}
+    for known in ("blue", "yellow", "all"):
+        forecaster = Forecaster(config, known=known)
+        forecaster.send(np.full((1, 2, 2), 20.0, np.float32), np.zeros(1))
+        seen[known] = np.empty_like(row)
+        forecaster.forecast(row, np.zeros(1), np.array([0.1]), seen[known])
+    frames = {known: Frame(rows, 1, 1) for known, rows in seen.items()}
+    start = Frame(row, 1, 1)
+    assert same(frames["blue"].yellow.position, start.yellow.position)
+    assert same(frames["yellow"].blue.position, start.blue.position)
+    assert same(frames["all"].blue.position, frames["blue"].blue.position)
+    assert same(frames["all"].yellow.position, frames["yellow"].yellow.position)
+    assert not same(frames["blue"].blue.position, start.blue.position)
+
+
+CONFIG = SimConfig("vss_3v3", 1, 0)
+ROW = np.zeros((1, CONFIG.row_size), np.float32)
+Simulator(CONFIG).read(ROW)
+ZERO = np.zeros(1)
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (lambda f: f.send(np.zeros((1, 1, 3), np.float32), ZERO), ValueError, "commands must have"),
+        (lambda f: f.send(np.full((1, 1, 2), np.nan, np.float32), ZERO), ValueError, "commands"),
+        (lambda f: f.send(np.zeros((1, 1, 2), np.float32), ZERO - 1), ValueError, "times"),
+        (lambda f: f.send(np.zeros((1, 1, 2), np.float32), ZERO + np.inf), ValueError, "times"),
+        (
+            lambda f: f.send(np.zeros((1, 1, 2), np.float32), np.zeros(1, np.float32)),
+            TypeError,
+            "t",
+        ),
+        (lambda f: f.forecast(ROW, ZERO, ZERO + 3, ROW.copy()), ValueError, "at most 2 s"),
+        (lambda f: f.forecast(ROW * np.nan, ZERO, ZERO, ROW.copy()), ValueError, "world 0"),
+        (lambda f: f.forecast(ROW[:, :5], ZERO, ZERO, ROW.copy()), ValueError, "rows must have"),
+        (lambda f: f.forecast(ROW, np.zeros(2), ZERO, ROW.copy()), ValueError, "seen must have"),
+        (lambda f: f.reset(np.ones(2, np.bool_)), ValueError, "worlds must have"),
+        (lambda f: f.restore(b"junk"), ValueError, "not a snapshot"),
+        (lambda _: Forecaster(CONFIG, known="red"), ValueError, "known must be 'blue', 'yellow'"),
+        (lambda _: Forecaster(CONFIG, known=cast(str, 1)), TypeError, "known must be"),
+        (lambda _: Forecaster(CONFIG, 0), ValueError, "worlds must be at least 1"),
+        (lambda _: Sensing(forecast=2.0), ValueError, "sensing.forecast must be between 0 and 1"),
+    ],
+)
+def test_bad_input_is_refused_and_changes_nothing(
+    call: Any,  # noqa: ANN401
+    error: type[Exception],
+    message: str,
+) -> None:
+    forecaster = Forecaster(CONFIG)
+    forecaster.send(np.ones((1, 1, 2), np.float32), ZERO)
+    before = forecaster.snapshot()
+    with pytest.raises(error, match=message):
+        call(forecaster)
+    assert forecaster.snapshot() == before
+
+
+def test_files_of_versions_without_forecasts_are_read() -> None:
+    text = Sensing("rc2021").to_json().replace(',"forecast":0.0,"forecast_others":0.0', "")
+    assert "forecast" not in text
+    assert Sensing.from_json(text) == Sensing("rc2021")
+
+
+def test_a_policy_trained_on_the_truth_plays_with_late_commands() -> None:
+    def score(sensing: Sensing | None) -> float:
+        return rsoccer.evaluate("best", None, 20, 0, task="SSLGoToBall-v0", sensing=sensing).score
+
+    late, forecast = score(Sensing(command_delay=DELAY)), score(Sensing(**LATE))
+    assert late < 0.6
+    assert forecast > 0.9
