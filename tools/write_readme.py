@@ -136,7 +136,7 @@ def robust_table() -> str:
 
 def _scores(variant: str | None) -> list[tuple[str, tuple[str, ...]]]:
     """Senses and cells of each score of the trained policies of a variant."""
-    rows = []
+    rows: list[tuple[str, tuple[str, ...]]] = []
     for name, path in trained.list_trained(variant).items():
         training = json.loads(read_file(path)[1]["training"])
         millions = training["samples"] / 1e6

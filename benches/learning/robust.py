@@ -75,7 +75,7 @@ def experiments(seeds: int) -> tuple[Experiment, ...]:
     Args:
         seeds: Seeds of each experiment.
     """
-    found = []
+    found: list[Experiment] = []
     for task in TASKS:
         recommended = recommended_settings(task)
         with_variation = {**SENSES, "randomization": varied(task)}
@@ -123,7 +123,7 @@ def _behind_forecaster(experiment: Experiment, seeds: int) -> Experiment:
 
 def shipped() -> tuple[Experiment, ...]:
     """Return the evaluations of the policies in the package, which learn nothing."""
-    found = []
+    found: list[Experiment] = []
     robust = trained.list_trained(trained.ROBUST)
     for task in SHIPPED_TASKS:
         policies = {"best": trained.BEST}

@@ -20,7 +20,7 @@ from tests.policies.networks import network_for
 
 MAX_SIZE = 144 * 1024
 SHIPPED = trained.list_trained()
-FILES = [(name, None, path) for name, path in SHIPPED.items()]
+FILES: list[tuple[str, str | None, Path]] = [(name, None, path) for name, path in SHIPPED.items()]
 FILES += [(name, "robust", path) for name, path in trained.list_trained("robust").items()]
 IDS = ["-".join(filter(None, file[:2])) for file in FILES]
 

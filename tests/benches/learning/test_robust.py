@@ -1,5 +1,7 @@
 """The study of robustness: its conditions, its experiments, and their evaluation."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -14,8 +16,8 @@ from rsoccer.train import Args
 TASK = "SSLGoToBall-v0"
 
 
-def shipped(**changes: object) -> Experiment:
-    settings = {"settings": {"policy": "fetch"}, "opponents": (None,), "seeds": 1}
+def shipped(**changes: Any) -> Experiment:
+    settings: dict[str, Any] = {"settings": {"policy": "fetch"}, "opponents": (None,), "seeds": 1}
     return Experiment("robust", "x", TASK, CLONES, **{**settings, **changes})
 
 

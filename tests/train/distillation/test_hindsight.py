@@ -1,5 +1,7 @@
 """Labels of a distillation: the teacher's actions when decisions arrive."""
 
+from typing import Any
+
 import numpy as np
 import torch
 
@@ -21,7 +23,7 @@ def best() -> Network:
     return policy
 
 
-def collected(delay: int, **options: object) -> tuple[np.ndarray, np.ndarray]:
+def collected(delay: int, **options: Any) -> tuple[np.ndarray, np.ndarray]:
     matches = rsoccer.Matches(TASK, WORLDS, 3, autoreset="disabled", **options)
     stack = ObservationStack.of(matches.task, 1)
     student = new_student(best(), stack)

@@ -1,6 +1,7 @@
 """A distillation: its policy, its log, and what it refuses."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,8 +14,14 @@ from rsoccer.train.run.log import read_progress
 TASK = "SSLGoToBall-v0"
 
 
-def args(folder: Path, **changes: object) -> DistillArgs:
-    settings = {"samples": 500, "worlds": 8, "decisions": 8, "minibatches": 20, "minibatch": 64}
+def args(folder: Path, **changes: Any) -> DistillArgs:
+    settings: dict[str, Any] = {
+        "samples": 500,
+        "worlds": 8,
+        "decisions": 8,
+        "minibatches": 20,
+        "minibatch": 64,
+    }
     settings |= {"command_delays": (0.0, 0.1), "history": 2, "sensing": "rc2021"}
     return DistillArgs(TASK, folder, **{**settings, **changes})
 

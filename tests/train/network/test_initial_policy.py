@@ -2,6 +2,7 @@
 
 import dataclasses
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,9 +24,9 @@ def best() -> Network:
     return policy
 
 
-def trainer(folder: Path, history: int = 1, **network: object) -> Trainer:
+def trainer(folder: Path, history: int = 1, **network: Any) -> Trainer:
     args = one_update(TASK, folder)
-    settings = {"hidden_sizes": (128, 128), "initial_policy": "best", **network}
+    settings: dict[str, Any] = {"hidden_sizes": (128, 128), "initial_policy": "best", **network}
     ppo = dataclasses.replace(args.ppo, critic_warmup=1)
     changed = dataclasses.replace(args.network, **settings)
     return Trainer(dataclasses.replace(args, history=history, network=changed, ppo=ppo))

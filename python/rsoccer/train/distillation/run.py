@@ -150,7 +150,7 @@ def _fit(
         error = student(normalize(observations[rows])) - actions[rows]
         loss = error.square().mean()
         optimizer.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
+        loss.backward()
         optimizer.step()
         losses.append(float(loss.detach()))
     return float(np.mean(losses))

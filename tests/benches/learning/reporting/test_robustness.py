@@ -1,4 +1,5 @@
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,7 +17,7 @@ TASK = "SSLGoToBall-v0"
 @pytest.fixture(scope="module")
 def collected(tmp_path_factory: pytest.TempPathFactory) -> list[Collected]:
     """Results of both policies of the package and of one variant, of which a seed lacks."""
-    shared = {"seeds": 1, "conditions": tuple(CONDITIONS), "opponents": (None,)}
+    shared: dict[str, Any] = {"seeds": 1, "conditions": tuple(CONDITIONS), "opponents": (None,)}
     shipped = [
         Experiment(
             *(robust.SHIPPED_GROUP, f"{TASK}-{name}", TASK, "clones"),
