@@ -16,7 +16,7 @@ from rsoccer.train import Args
 TASK = "SSLGoToBall-v0"
 
 
-def shipped(**changes: Any) -> Experiment:
+def shipped(**changes: Any) -> Experiment:  # noqa: ANN401  (any field)
     settings: dict[str, Any] = {"settings": {"policy": "fetch"}, "opponents": (None,), "seeds": 1}
     return Experiment("robust", "x", TASK, CLONES, **{**settings, **changes})
 

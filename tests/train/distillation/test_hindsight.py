@@ -23,7 +23,7 @@ def best() -> Network:
     return policy
 
 
-def collected(delay: int, **options: Any) -> tuple[np.ndarray, np.ndarray]:
+def collected(delay: int, **options: Any) -> tuple[np.ndarray, np.ndarray]:  # noqa: ANN401  (any field)
     matches = rsoccer.Matches(TASK, WORLDS, 3, autoreset="disabled", **options)
     stack = ObservationStack.of(matches.task, 1)
     student = new_student(best(), stack)

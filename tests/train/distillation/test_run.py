@@ -14,7 +14,7 @@ from rsoccer.train.run.log import read_progress
 TASK = "SSLGoToBall-v0"
 
 
-def args(folder: Path, **changes: Any) -> DistillArgs:
+def args(folder: Path, **changes: Any) -> DistillArgs:  # noqa: ANN401  (any field)
     settings: dict[str, Any] = {
         "samples": 500,
         "worlds": 8,

@@ -24,7 +24,7 @@ def best() -> Network:
     return policy
 
 
-def trainer(folder: Path, history: int = 1, **network: Any) -> Trainer:
+def trainer(folder: Path, history: int = 1, **network: Any) -> Trainer:  # noqa: ANN401  (any field)
     args = one_update(TASK, folder)
     settings: dict[str, Any] = {"hidden_sizes": (128, 128), "initial_policy": "best", **network}
     ppo = dataclasses.replace(args.ppo, critic_warmup=1)
