@@ -70,7 +70,7 @@ def missing(collected: Studied) -> str:
     if not open_runs:
         return ""
     return (
-        f"Of the {total} runs of the variants (a) to (d) {total - open_runs} have been made; "
+        f"Of the {total} runs of the variants (a) to (e) {total - open_runs} have been made; "
         f"{open_runs} are open."
     )
 
