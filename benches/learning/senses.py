@@ -24,7 +24,7 @@ ROBOTS: Final = ("mass", "traction")
 
 @dataclass(frozen=True)
 class Condition:
-    """What robots know, and what differs between the episodes of an evaluation."""
+    """Knowledge of the robots, and differences between the episodes of an evaluation."""
 
     text: str
     """Description for tables."""
