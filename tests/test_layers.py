@@ -74,6 +74,7 @@ LAYERS = [
     {"train.task_settings"},
     {"train.args"},
     {"train.run"},
+    {"train.distillation"},
     {"train"},
     {"human", "rllib"},
     {"commands", "demo"},

@@ -3,7 +3,8 @@
 Its weights are rounded to half precision. The policy plays a fixed list of starts, from both sides
 where the task has two, against each opponent. Its scores and how it was made go into the metadata
 of the file, which is copied to `python/rsoccer/policies/trained/<task>.safetensors`. There it is
-the policy `best` of its task.
+the policy `best` of its task. The policy of a run with `sensing`, such as a distillation, becomes
+`<task>.robust.safetensors`, the policy `best:robust`, and plays all starts with these senses, too.
 
 `python -m tools.ship_policy --again` measures policies that are in the package once more, after a
 change of the physics: their weights stay.
@@ -18,13 +19,14 @@ from typing import Any, Final
 
 import rsoccer
 from benches.learning.opponents import opponents_of
-from rsoccer import checks
+from rsoccer import Sensing, checks
 from rsoccer.evaluate import Evaluation, evaluate, table
 from rsoccer.evaluate.results import MIN_PER_SIDE
 from rsoccer.files import write_atomically
 from rsoccer.policies import trained
 from rsoccer.policies.network import Network
 from rsoccer.policies.policy_file import SUFFIX, Score, scores_text
+from rsoccer.sensing_text import describe
 from rsoccer.task import Task
 from rsoccer.train.args import CHANGEABLE_ON_RESUME, SETTINGS_FILE
 from rsoccer.train.run.log import read_progress
@@ -51,8 +53,8 @@ def main() -> None:
     if (arguments.run is None) == (arguments.again is None):
         parser.error("expected either a run or --again")
     if arguments.again is not None:
-        for task in arguments.again or trained.list_trained():
-            measure_again(task, arguments.starts, arguments.threads)
+        for name in arguments.again or shipped():
+            measure_again(name, arguments.starts, arguments.threads)
         return
     path = ship(arguments.run, arguments.opponents, arguments.starts, arguments.threads)
     print(f"{path}: {path.stat().st_size / 1024:.1f} KiB")
@@ -88,10 +90,10 @@ def ship(
     if "layout" not in network.metadata:
         raise ValueError(f"run: expected a policy with its layout in {run}, got none")
     training = _training(run)
-    path = trained.FOLDER / f"{task.name}{SUFFIX}"
-    candidate = run / f"{task.name}{SUFFIX}"
+    path = trained.FOLDER / trained.file_name(task.name, variant_of(network))
+    candidate = run / path.name
     network.save(candidate, half_precision=True)  # scores are those of the rounded weights
-    scores = _scores(candidate, task, opponents, starts, threads)
+    scores = _scores(candidate, task, opponents, starts, threads, senses_of(network))
     network.metadata |= {"scores": scores_text(scores), "training": json.dumps(training)}
     network.save(candidate, half_precision=True)
     if candidate.stat().st_size > MAX_SIZE:
@@ -102,11 +104,43 @@ def ship(
     return path
 
 
+def shipped() -> dict[str, Path]:
+    """Return the files of the package by the names that `--again` takes."""
+    robust = trained.list_trained(trained.ROBUST)
+    return trained.list_trained() | {f"{n}:{trained.ROBUST}": path for n, path in robust.items()}
+
+
+def variant_of(network: Network) -> str | None:
+    """Return the variant of the package's policy that a network becomes; None for `best` itself.
+
+    Args:
+        network: the policy of a run.
+    """
+    return None if network.sensing is None else trained.ROBUST
+
+
+def senses_of(network: Network) -> list[str]:
+    """Return the senses with which a policy is measured: none, and those of its training.
+
+    Args:
+        network: the policy.
+
+    Raises:
+        ValueError: senses that are no preset, so that a score could not name them.
+    """
+    if network.sensing is None:
+        return [""]
+    text = describe(network.sensing)
+    if text not in Sensing.PRESETS:
+        raise ValueError(f"run: expected senses of a preset, {Sensing.PRESETS}, got {text}")
+    return ["", text]
+
+
 def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -> None:
     """Measure a policy of the package again, against the opponents that its file has scores of.
 
     Args:
-        name: task of the policy.
+        name: task of the policy, with ":robust" for the one that has learned with senses.
         starts: starts for each side, at least 10.
         threads: threads of the simulator; None for all.
 
@@ -114,38 +148,54 @@ def measure_again(name: str, starts: int = STARTS, threads: int | None = None) -
         ValueError: no policy of that task, or too few starts.
     """
     checks.integer("starts", starts, MIN_PER_SIDE)
-    path = trained.list_trained().get(name)
+    path = shipped().get(name)
     if path is None:
-        raise ValueError(f"name: expected one of {list(trained.list_trained())}, got {name!r}")
+        raise ValueError(f"name: expected one of {list(shipped())}, got {name!r}")
     before = trained.list_scores(path)
     network = Network.load(path)
     # A policy that was measured on its own names "-" as its opponent.
-    opponents = [score.opponent for score in before if score.opponent != "-"]
-    scores = _scores(path, rsoccer.make_task(name), opponents, starts, threads)
+    opponents = list(dict.fromkeys(s.opponent for s in before if s.opponent != "-"))
+    task = rsoccer.make_task(network.task_name)
+    scores = _scores(path, task, opponents, starts, threads, senses_of(network))
     print("before:", *before, "now:", *scores, sep="\n    ")
     network.metadata |= {"scores": scores_text(scores)}
     network.save(path, half_precision=True)
 
 
 def _scores(
-    policy: Path, task: Task, opponents: list[str] | None, starts: int, threads: int | None
+    policy: Path,
+    task: Task,
+    opponents: list[str] | None,
+    starts: int,
+    threads: int | None,
+    senses: list[str],
 ) -> list[Score]:
-    """Scores against each opponent, printed as a table."""
+    """Scores with each senses against each opponent, printed as tables."""
     chosen: Sequence[str | None] = opponents_of(task.name)
     if task.two_sided and opponents:
         chosen = opponents
     matches = starts * (2 if task.two_sided else 1)
-    results = [
-        evaluate(policy, opponent, matches, SEED, task=task, threads=threads) for opponent in chosen
-    ]
-    print(table(results))
-    return list(map(_score, results))
+    scores = []
+    for sensing in senses:
+        results = [
+            evaluate(
+                *(policy, opponent, matches, SEED),
+                task=task,
+                threads=threads,
+                sensing=sensing or None,
+            )
+            for opponent in chosen
+        ]
+        print(*([f"sensing {sensing}:"] if sensing else []), table(results), sep="\n")
+        scores += [_score(found, sensing) for found in results]
+    return scores
 
 
-def _score(found: Evaluation) -> Score:
+def _score(found: Evaluation, sensing: str) -> Score:
     """The score of an evaluation."""
     assert found.low is not None and found.high is not None, "enough starts for an interval"
-    return Score(found.opponent, found.metric, found.matches, found.score, found.low, found.high)
+    numbers = (found.matches, found.score, found.low, found.high)
+    return Score(found.opponent, found.metric, *numbers, sensing)
 
 
 def _training(run: Path) -> dict[str, Any]:
@@ -165,9 +215,9 @@ def command_of(settings: dict[str, Any]) -> str:
     """Return the command of a run with all its settings, as defaults and recommended ones change.
 
     Args:
-        settings: settings of the run, from `Args.to_json`.
+        settings: settings of the run, from `Args.to_json` or `DistillArgs.to_json`.
     """
-    words = ["rsoccer", "train"]
+    words = ["rsoccer", "distill" if "teacher" in settings else "train"]
     for name, value in settings.items():
         if name in CHANGEABLE_ON_RESUME and name != "samples":
             continue

@@ -126,16 +126,29 @@ def policy_table() -> str:
 
 def trained_table() -> str:
     """Return the table of the trained policies in the package and of their scores."""
-    rows = []
-    for name, path in trained.list_trained().items():
+    header = ("task", "samples", "opponent", "metric", "mean", "95% interval", "matches")
+    return table(header, [cells for _, cells in _scores(None)])
+
+
+def robust_table() -> str:
+    """Return the table of the policies `best:robust` and of their scores."""
+    header = ("task", "samples", "opponent", "metric", "mean", "95% interval", "matches", "sensing")
+    rows = [(*cells, sensing and f"`{sensing}`") for sensing, cells in _scores(trained.ROBUST)]
+    return table(header, rows)
+
+
+def _scores(variant: str | None) -> list[tuple[str, tuple[str, ...]]]:
+    """Senses and cells of each score of the trained policies of a variant."""
+    rows: list[tuple[str, tuple[str, ...]]] = []
+    for name, path in trained.list_trained(variant).items():
         training = json.loads(read_file(path)[1]["training"])
-        made = f"{training['samples'] / 1e6:.0f} M"
+        millions = training["samples"] / 1e6
+        made = f"{millions:.0f} M" if millions >= 1.0 else f"{millions:.2g} M"
         for score in trained.list_scores(path):
             interval = f"{score.low:.3f} to {score.high:.3f}"
             cells = (f"`{score.opponent}`", f"`{score.metric}`", f"{score.score:.3f}", interval)
-            rows.append((f"`{name}`", made, *cells, str(score.matches)))
-    header = ("task", "samples", "opponent", "metric", "mean", "95% interval", "matches")
-    return table(header, rows)
+            rows.append((score.sensing, (f"`{name}`", made, *cells, str(score.matches))))
+    return rows
 
 
 def _made(name: str, task: str) -> policies.Policy | None:
@@ -236,6 +249,7 @@ PARTS: dict[str, Callable[[], str]] = {
     "protocol_codes": codes.table_of_codes,
     "protocol_counts": fields.counts,
     "protocol_fields": fields.field_tables,
+    "robust_table": robust_table,
     "trained_table": trained_table,
     "senses_forecasts": senses_tables.forecasts,
     "scripted_ssl": scripted_ssl.results,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import asdict
 from importlib.util import find_spec
@@ -9,8 +10,11 @@ from typing import Any, Final
 
 from benches.learning import ppo_settings, run_files, sb3_settings
 from benches.learning.experiments import CLONES, PPO, SB3, Run, Study
-from benches.learning.run_files import Folders
+from benches.learning.run_files import DIGEST_DIGITS, Folders
+from benches.learning.senses import MATCHES
 from rsoccer._core import build_info
+from rsoccer.policies import make_policy
+from rsoccer.policies.network import Network
 from rsoccer.registry import make_task
 from rsoccer.train.network.observation_mask import observation_mask
 
@@ -31,7 +35,14 @@ def settings(run: Run) -> dict[str, Any]:
     task = make_task(run.experiment.task, **values.get("task_options", {}))
     for name in ("network.masked_observations", "masked_observations"):
         observation_mask(task, values.get(name, ()))  # refuses unknown parts
-    return {**values, "observation": task.layout.text}
+    values["observation"] = task.layout.text
+    # Results without conditions are older than these.
+    if run.experiment.conditions:
+        values["conditions"] = list(run.experiment.conditions)
+        values["matches"] = MATCHES
+    if run.experiment.senses:
+        values["senses"] = dict(run.experiment.senses)
+    return values
 
 
 def _settings_of_algorithm(run: Run) -> dict[str, Any]:
@@ -42,10 +53,23 @@ def _settings_of_algorithm(run: Run) -> dict[str, Any]:
 
 
 def _clones(run: Run) -> dict[str, Any]:
-    """Settings of clones: the experiment whose policy is evaluated."""
+    """Settings of clones: the experiment whose policy is evaluated, or the policy's name."""
     if set(run.experiment.settings) != {"policy"}:
         raise TypeError(f"expected the setting 'policy', got {sorted(run.experiment.settings)}")
-    return dict(run.experiment.settings)
+    policy = str(run.experiment.settings["policy"])
+    if policy.startswith("@"):
+        return {"policy": policy}
+    return {"policy": policy, "digest": _digest(policy, run.experiment.task)}
+
+
+def _digest(policy: str, task: str) -> str:
+    """Digest of the weights of a policy of the package, 12 hexadecimal digits."""
+    network = make_policy(policy, task)
+    if not isinstance(network, Network):
+        return ""
+    arrays = network.arrays()
+    content = b"".join(name.encode() + arrays[name].tobytes() for name in sorted(arrays))
+    return hashlib.sha256(content).hexdigest()[:DIGEST_DIGITS]
 
 
 def missing_library(run: Run) -> str:

@@ -22,14 +22,15 @@ class Experiment:
     """
 
     group: str
-    """Part of the study: ppo, baselines, calibration, ablation or cooperation."""
+    """Part of the study: ppo, baselines, calibration, ablation, cooperation, robust or
+    robust-shipped."""
     name: str
     """Name, unique in its group; also that of the folder with its runs."""
     task: str
     """Registered task that is learned and evaluated."""
     algorithm: str = PPO
     """"ppo" of the package, "ddpg" or "sac" of Stable-Baselines3, or "clones", which learns
-    nothing: it evaluates the policy of another task."""
+    nothing: it evaluates the policy of another experiment, or one of the package."""
     settings: Mapping[str, Any] = field(default_factory=dict)
     """Settings that differ from the defaults of the algorithm; for PPO, from those recommended for
     the task."""
@@ -43,6 +44,11 @@ class Experiment:
     makes the runs of this one stale, too."""
     text: str = ""
     """Description for tables."""
+    conditions: tuple[str, ...] = ()
+    """Conditions of the evaluation, names in `senses.CONDITIONS`, in which the first opponent is
+    met; none for the true state, all opponents and all modes."""
+    senses: Mapping[str, float] = field(default_factory=dict)
+    """Numbers of `Sensing` that the policy needs in each of these conditions."""
 
     def __post_init__(self) -> None:
         """Check the names."""

@@ -11,6 +11,7 @@ from typing import Final
 from benches.learning import ablation
 from benches.learning.experiments import Experiment, Study
 from benches.learning.opponents import VSSS
+from benches.learning.robust import ROBUST
 from rsoccer.train.args import Args
 from rsoccer.train.task_settings import recommended_settings
 
@@ -168,4 +169,4 @@ COOPERATION: Final = (
     ),
 )
 
-STUDY: Final = Study((*PPO.values(), *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION))
+STUDY: Final = Study((*PPO.values(), *COOPERATION, *ABLATION, *BASELINES, *CALIBRATION, *ROBUST))

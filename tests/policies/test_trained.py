@@ -20,14 +20,18 @@ from tests.policies.networks import network_for
 
 MAX_SIZE = 144 * 1024
 SHIPPED = trained.list_trained()
+FILES: list[tuple[str, str | None, Path]] = [(name, None, path) for name, path in SHIPPED.items()]
+FILES += [(name, "robust", path) for name, path in trained.list_trained("robust").items()]
+IDS = ["-".join(filter(None, file[:2])) for file in FILES]
 
 
-def save(folder: Path, task_name: str, **metadata: str) -> Path:
-    task = rsoccer.make_task(task_name)
+def save(folder: Path, stem: str, **metadata: str) -> Path:
+    """Write a policy for the task that the file's name begins with."""
+    task = rsoccer.make_task(stem.partition(".")[0])
     network = network_for(task)
     network.metadata |= {"layout": task.layout.text, **metadata}
-    network.save(folder / f"{task_name}.safetensors")
-    return folder / f"{task_name}.safetensors"
+    network.save(folder / f"{stem}.safetensors")
+    return folder / f"{stem}.safetensors"
 
 
 @pytest.fixture
@@ -65,7 +69,8 @@ def test_the_mode_may_follow(folder: Path) -> None:
         policy = policies.make_policy(f"best:{mode}", task)
         assert isinstance(policy, Network)
         assert policy.mode == mode
-    with pytest.raises(ValueError, match=r"best: expected one of \('sample', 'mean'\).*'0.5'"):
+    expected = r"best: expected one of \('sample', 'mean', 'robust'\).*'0.5'"
+    with pytest.raises(ValueError, match=expected):
         policies.make_policy("best:0.5", task)
 
 
@@ -85,6 +90,25 @@ def test_the_error_names_the_tasks_that_have_a_policy(folder: Path) -> None:
         path.unlink()
     with pytest.raises(ValueError, match="there are policies for no task"):
         policies.make_policy("best", rsoccer.make_task("VSS-v0"))
+
+
+def test_robust_policies_have_files_of_their_own(folder: Path) -> None:
+    task = rsoccer.make_task("VSS-v0")
+    message = (
+        r"best:robust: expected a task with a robust policy, got VSS-v0; there are policies for "
+    )
+    with pytest.raises(ValueError, match=f"{message}no task"):
+        policies.make_policy("best:robust", task)
+    save(folder, "SSLGoToBall-v0.robust", clip="7")
+    with pytest.raises(ValueError, match=f"{message}SSLGoToBall-v0"):
+        policies.make_policy("best:robust", task)
+    assert list(trained.list_trained()) == ["VSSMulti-v0"]
+    for name, mode in (("best:robust", "sample"), ("best:robust:mean", "mean")):
+        policy = policies.make_policy(name, rsoccer.make_task("SSLGoToBall-v0"))
+        assert isinstance(policy, Network)
+        assert (float(policy.clip), policy.mode) == (7.0, mode)
+    with pytest.raises(ValueError, match=r"best: expected one of \('sample', 'mean'\).*'0.5'"):
+        policies.make_policy("best:robust:0.5", rsoccer.make_task("SSLGoToBall-v0"))
 
 
 def test_best_plays_wherever_a_policy_is_named(folder: Path) -> None:
@@ -143,15 +167,19 @@ def test_there_is_a_policy_for_teams() -> None:
     assert trained.TEAM_TASK in SHIPPED
 
 
-@pytest.mark.parametrize("name", SHIPPED)
-def test_a_shipped_policy_is_small_and_fits_its_task(name: str) -> None:
-    path, task = SHIPPED[name], rsoccer.make_task(name)
+@pytest.mark.parametrize(("name", "variant", "path"), FILES, ids=IDS)
+def test_a_shipped_policy_is_small_and_fits_its_task(
+    name: str, variant: str | None, path: Path
+) -> None:
+    task = rsoccer.make_task(name)
     assert path.stat().st_size <= MAX_SIZE
-    network = trained.load_best(task)
+    network = trained.load_best(task, variant)
+    assert (network.sensing is None) == (variant is None)
     assert (network.task_name, network.metadata["layout"]) == (name, task.layout.text)
     training = json.loads(network.metadata["training"])
     assert set(training) == {"command", "samples", "seed", "package", "physics"}
     assert f"--task {name}" in training["command"]
+    assert training["command"].startswith("rsoccer distill" if variant else "rsoccer train")
     scores = trained.list_scores(path)
     assert scores
     for score in scores:
@@ -159,18 +187,30 @@ def test_a_shipped_policy_is_small_and_fits_its_task(name: str) -> None:
         assert score.low <= score.score <= score.high
 
 
+def test_some_tasks_have_a_robust_policy() -> None:
+    assert {"SSLGoToBall-v0", "VSS-v0"} <= set(trained.list_trained("robust"))
+    assert set(trained.list_trained("robust")) <= set(SHIPPED)
+
+
 @pytest.mark.parametrize(
-    ("name", "said"),
-    [(name, score) for name, path in SHIPPED.items() for score in trained.list_scores(path)],
-    ids=lambda value: value if isinstance(value, str) else value.opponent,
+    ("name", "policy", "said"),
+    [
+        (name, ":".join(filter(None, ("best", variant))), score)
+        for name, variant, path in FILES
+        for score in trained.list_scores(path)
+    ],
+    ids=lambda value: value if isinstance(value, str) else f"{value.opponent}-{value.sensing}",
 )
-def test_a_shipped_policy_scores_what_its_file_says(name: str, said: Score) -> None:
+def test_a_shipped_policy_scores_what_its_file_says(name: str, policy: str, said: Score) -> None:
     """Within four standard errors of these few matches."""
     matches = 40
     opponent = None if said.opponent == "-" else said.opponent
     if opponent is not None and " " in opponent:
         opponent = None  # several policies: the task's own
-    found = rsoccer.evaluate("best", opponent, matches, seed=1, task=name, worlds=40)
+    sensing = said.sensing or None
+    found = rsoccer.evaluate(
+        policy, opponent, matches, seed=1, task=name, worlds=40, sensing=sensing
+    )
     standard_error = (said.high - said.low) / (2 * 1.96) * math.sqrt(said.matches / matches)
     assert found.metric == said.metric
     assert abs(found.score - said.score) <= 4.0 * standard_error + 0.02

@@ -7,12 +7,14 @@ import pytest
 
 import rsoccer
 from rsoccer import cli
+from rsoccer.commands import distill as distill_command
 from rsoccer.commands import train as train_command
 from rsoccer.policies import trained
 from rsoccer.policies.policy_file import read_file
 from rsoccer.registry import list_aliases
 from rsoccer.train import Args, RolloutSettings, task_settings
 from rsoccer.train.args import CHANGEABLE_ON_RESUME
+from rsoccer.train.distillation import DistillArgs
 from rsoccer.train.network.observation_mask import observation_mask
 from rsoccer.train.ppo.mirror import check_symmetric
 
@@ -61,3 +63,15 @@ def test_each_trained_policy_was_made_with_the_settings_of_its_task(
     assert cli.main(shlex.split(training["command"])[1:]) == 0
     expected = Args.for_task(name, seed=training["seed"], threads=1).to_json()
     assert received[0].to_json() == expected
+
+
+@pytest.mark.parametrize("name", trained.list_trained("robust"))
+def test_each_robust_policy_was_made_with_the_settings_of_its_task(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    received: list[DistillArgs] = []
+    monkeypatch.setattr(distill_command, "distill", received.append)
+    _, metadata = read_file(trained.list_trained("robust")[name])
+    training = json.loads(metadata["training"])
+    assert cli.main(shlex.split(training["command"])[1:]) == 0
+    assert received[0].to_json() == DistillArgs.for_task(name, seed=training["seed"]).to_json()

@@ -6,7 +6,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Final
 
-from benches.learning.reporting import lost_starts, paper_claims, settings_table, tables
+from benches.learning.reporting import (
+    lost_starts,
+    paper_claims,
+    robustness,
+    settings_table,
+    tables,
+)
 from benches.learning.reporting import tournament as tournament_table
 from benches.learning.reporting.collection import Collected, collect
 from benches.learning.reporting.pictures import draw_ablation, draw_curves
@@ -16,7 +22,7 @@ from benches.markdown import filled
 from benches.result_files import ROOT
 
 DOCS: Final = ROOT / "docs"
-PAGES: Final = (DOCS / "learning.md", DOCS / "learning-protocol.md")
+PAGES: Final = (DOCS / "learning.md", DOCS / "learning-protocol.md", DOCS / "robustness.md")
 CURVES: Final = "learning_curves.png"
 ABLATION: Final = "learning_ablation.png"
 
@@ -82,6 +88,17 @@ def compute() -> str:
     return _section("Compute", tables.compute)
 
 
+def shipped() -> str:
+    """Return the comparison of the policies `best` and `best:robust`; empty without results."""
+    return robustness.shipped(_collected())
+
+
+def conditions() -> str:
+    """Return the scores of all policies under each condition; empty without results."""
+    parts = (robustness.missing(_collected()), robustness.conditions(_collected()))
+    return "\n\n".join(part for part in parts if part)
+
+
 def _baselines_and_order(collected: list[Collected]) -> str:
     """Both tables; empty without results."""
     text, order = tables.baselines(collected), paper_claims.order(collected)
@@ -110,5 +127,7 @@ PARTS: Final[dict[str, Callable[[], str]]] = {
     "learning_results": results,
     "learning_settings": settings,
     "learning_tournament": tournament,
+    "robustness_conditions": conditions,
+    "robustness_shipped": shipped,
 }
 """Functions that write the generated parts of the pages, by name."""

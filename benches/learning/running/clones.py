@@ -1,4 +1,4 @@
-"""Evaluation of a policy in a task that it has not learned, such as three clones of one robot."""
+"""Evaluation of a policy that another experiment has learned, or of one of the package."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from benches.learning.running.workplace import reference
 
 
 def learn(run: Run, folders: Folders) -> Learned:
-    """Return the policy of the same seed of another experiment."""
-    policy = str(reference(folders, run.experiment.settings["policy"], run))
+    """Return the policy of the same seed of another experiment, or of its name."""
+    name = str(run.experiment.settings["policy"])
+    policy = str(reference(folders, name, run)) if name.startswith("@") else name
     curve: dict[str, Any] = {"metric": "", "samples": [], "seconds": [], "values": []}
     return Learned({"sample": policy, "mean": f"{policy}:mean"}, 0, curve, {})

@@ -9,8 +9,11 @@ from benches.learning.opponents import OFFICIAL, SCENARIOS, opponents_of
 from benches.learning.run_files import Folders
 from benches.learning.running.learned import Learned
 from benches.learning.running.workplace import reference
+from benches.learning.senses import CONDITIONS, MATCHES
+from rsoccer import Sensing
 from rsoccer.evaluate import Evaluation, evaluate
 from rsoccer.policies import PolicyLike
+from rsoccer.randomization import Ranges
 from rsoccer.registry import make_task
 
 DIGITS: Final = 4
@@ -30,6 +33,8 @@ def evaluate_run(
     opponents = run.experiment.opponents
     if opponents is None:
         opponents = opponents_of(run.experiment.task)
+    if run.experiment.conditions:
+        return under_conditions(run, learned, protocol, opponents[0])
     rows = []
     for opponent in opponents:
         other: PolicyLike | None = opponent
@@ -42,6 +47,31 @@ def evaluate_run(
         for mode, policy in learned.policies.items():
             row = on_scenarios(run.experiment.task, policy, protocol)
             rows.append({"opponent": OFFICIAL, "mode": mode, **row})
+    return rows
+
+
+def under_conditions(
+    run: Run, learned: Learned, protocol: Protocol, opponent: str | None
+) -> list[dict[str, Any]]:
+    """Return the evaluations of a policy in its own mode under each condition of its experiment.
+
+    Args:
+        run: The run.
+        learned: Its policy.
+        protocol: Numbers of matches and seed.
+        opponent: Name of the opponent; None for the task's own.
+    """
+    mode, policy = next(iter(learned.policies.items()))
+    rows = []
+    for name in run.experiment.conditions:
+        condition = CONDITIONS[name]
+        row = evaluated(
+            *(run.experiment.task, policy, opponent, protocol),
+            matches=MATCHES,
+            sensing=condition.sensing(run.experiment.senses),
+            randomization=condition.randomization(run.experiment.task),
+        )
+        rows.append({"opponent": opponent or "-", "mode": mode, "condition": name, **row})
     return rows
 
 
@@ -82,12 +112,25 @@ def on_scenarios(task: str, policy: PolicyLike, protocol: Protocol) -> dict[str,
 
 
 def evaluated(
-    task: str, policy: PolicyLike, opponent: PolicyLike | None, protocol: Protocol
+    task: str,
+    policy: PolicyLike,
+    opponent: PolicyLike | None,
+    protocol: Protocol,
+    *,
+    matches: int | None = None,
+    sensing: Sensing | None = None,
+    randomization: Ranges | None = None,
 ) -> dict[str, Any]:
     """Return the numbers of one evaluation, ready for JSON."""
-    matches = protocol.starts * (2 if make_task(task).two_sided else 1)
+    if matches is None:
+        matches = protocol.starts * (2 if make_task(task).two_sided else 1)
     evaluation = evaluate(
-        policy, opponent, matches, protocol.seed, task=task, worlds=250, threads=1
+        *(policy, opponent, matches, protocol.seed),
+        task=task,
+        worlds=250,
+        threads=1,
+        sensing=sensing,
+        randomization=randomization,
     )
     return numbers(evaluation)
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from tyro.conf import subcommand
 
 from rsoccer.commands.convert import Convert
+from rsoccer.commands.distill import CommandDistillArgs, Distill
 from rsoccer.commands.evaluate import Evaluate
 from rsoccer.commands.identify import Identify
 from rsoccer.commands.imports import imported
@@ -21,6 +22,7 @@ from rsoccer.commands.train import CommandArgs, Train
 from rsoccer.commands.watch import Watch
 from rsoccer.plugins import import_modules
 from rsoccer.train import Args
+from rsoccer.train.distillation import DistillArgs
 
 
 def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at run time)
@@ -36,9 +38,12 @@ def command_type(words: Sequence[str]) -> Any:  # noqa: ANN401  (a union made at
     """
     import_modules(imported(words))  # settings may be those of a task that one registers
     default = _train_defaults(words)
+    task = _last_value(words, "--task") or DistillArgs.task
+    distill_default = Distill(CommandDistillArgs.for_task(task))
     return (
         Annotated[List, subcommand("list")]
         | Annotated[Train, subcommand("train", default=default)]
+        | Annotated[Distill, subcommand("distill", default=distill_default)]
         | Annotated[Evaluate, subcommand("evaluate")]
         | Annotated[Tournament, subcommand("tournament")]
         | Annotated[Identify, subcommand("identify")]

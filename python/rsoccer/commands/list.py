@@ -28,11 +28,18 @@ class List(Imports):
             write(f"{name}: {', '.join([task_name, *values])}")
         write(f"policies: {', '.join(_usable_policies())}, or the path of a policy file")
         write("best is the trained policy of the task; its mean scores, with 95% intervals:")
-        for name, path in trained.list_trained().items():
-            write("\n".join(f"    {name}: {fact}" for fact in _facts(path)))
+        _write_trained(None)
+        write("best:robust has learned the task with late and noisy senses, and scores:")
+        _write_trained(trained.ROBUST)
         examples = (f"{name}:0.5" for name in policies.list_policies_with_skill())
         write("best and files play as they were trained; :mean or :sample may follow the name")
         write(f"a skill from 0 to 1 may follow, as in {', '.join(examples)}")
+
+
+def _write_trained(variant: str | None) -> None:
+    """Print the facts of the trained policies of a variant."""
+    for name, path in trained.list_trained(variant).items():
+        write("\n".join(f"    {name}: {fact}" for fact in _facts(path)))
 
 
 def _usable_policies() -> list[str]:
@@ -57,9 +64,10 @@ def _facts(path: Path) -> list[str]:
 def _score_text(score: Score) -> str:
     """A score in one line."""
     opponent = "" if score.opponent == "-" else f" against {score.opponent}"
+    senses = f" with sensing {score.sensing}" if score.sensing else ""
     return (
-        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}, "
-        f"{score.matches} matches"
+        f"{score.metric} {score.score:.3f} ({score.low:.3f} to {score.high:.3f}){opponent}"
+        f"{senses}, {score.matches} matches"
     )
 
 

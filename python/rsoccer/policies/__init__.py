@@ -5,6 +5,7 @@
 | name | league | behavior |
 | --- | --- | --- |
 | `best` | any | the trained policy of the task, where the package has one |
+| `best:robust` | any | the one that has learned with late and noisy senses, on some tasks |
 | `zero` | any | stands still |
 | `uniform` | any | independent uniform random actions |
 | `ou` | any | actions of an Ornstein-Uhlenbeck process |
@@ -76,8 +77,9 @@ def make_policy(policy: PolicyLike, task: Task | str) -> Policy:
     Args:
         policy: a policy, which is returned as it is; a name; or the path of a policy file.
             "best" is the trained policy of the task, see `rsoccer.policies.trained`.
-            "scripted:0.5" sets a skill. "policy.safetensors:mean" and "best:sample" choose how a
-            network acts; the default is as in training.
+            "best:robust" is the one that has learned with late and noisy senses. "scripted:0.5"
+            sets a skill. "policy.safetensors:mean", "best:sample" and "best:robust:mean" choose
+            how a network acts; the default is as in training.
         task: the task that is played, or its name.
 
     Returns:
@@ -163,11 +165,11 @@ def _text(policy: str | os.PathLike[str]) -> str:
     return os.fspath(policy)
 
 
-def _make_best(task: Task, mode: str | None) -> Network:
+def _make_best(task: Task, detail: str | None) -> Network:
     """The trained policy of a task."""
     from rsoccer.policies.trained import load_best
 
-    return load_best(task, mode)
+    return load_best(task, detail)
 
 
 def file_of(policy: str) -> Path | None:

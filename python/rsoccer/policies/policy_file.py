@@ -89,6 +89,8 @@ class Score:
     """lower bound of the 95% interval"""
     high: float
     """upper bound of the 95% interval"""
+    sensing: str = ""
+    """senses of the robots, a preset's name; empty where they knew the true state"""
 
 
 def read_metadata(metadata: Mapping[str, str]) -> tuple[np.float32, int]:
@@ -299,7 +301,8 @@ def read_scores(metadata: Mapping[str, str]) -> list[Score]:
 
 def _check_score(score: Score) -> None:
     """Refuse a score with fields of other types, and numbers that are not finite."""
-    texts, numbers = (score.opponent, score.metric), (score.score, score.low, score.high)
+    texts = (score.opponent, score.metric, score.sensing)
+    numbers = (score.score, score.low, score.high)
     valid = all(type(text) is str for text in texts) and type(score.matches) is int
     valid = valid and all(type(number) in (int, float) for number in numbers)
     if not (valid and np.isfinite(numbers).all()):
@@ -312,7 +315,9 @@ def scores_text(scores: list[Score]) -> str:
     Args:
         scores: what a policy scores.
     """
-    return json.dumps([asdict(score) for score in scores])
+    rows = [asdict(score) for score in scores]
+    # Files of policies that know the true state stay as they were before there were senses.
+    return json.dumps([{n: v for n, v in row.items() if (n, v) != ("sensing", "")} for row in rows])
 
 
 def write_file(path: Path, arrays: Mapping[str, Array], metadata: Mapping[str, str]) -> None:

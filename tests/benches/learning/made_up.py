@@ -60,12 +60,20 @@ def result(
             "seconds": np.linspace(12.0, 600.0, 50).tolist(),
             "values": values.round(3).tolist(),
         },
-        "evaluations": [
-            row(experiment, opponent or "-", mode, round(score * scale, 3))
-            for opponent in opponents_of(experiment)
-            for mode in MODES.get(experiment.algorithm, MODES["ppo"])
-        ],
+        "evaluations": evaluations(experiment, round(score * scale, 3)),
     }
+
+
+def evaluations(experiment: Experiment, score: float) -> list[dict[str, Any]]:
+    """Return the rows of an experiment; under each further condition a tenth is lost."""
+    modes = MODES.get(experiment.algorithm, MODES["ppo"])
+    opponents = [opponent or "-" for opponent in opponents_of(experiment)]
+    if not experiment.conditions:
+        return [row(experiment, opponent, mode, score) for opponent in opponents for mode in modes]
+    return [
+        {"condition": name, **row(experiment, opponents[0], modes[0], round(score * 0.9**i, 3))}
+        for i, name in enumerate(experiment.conditions)
+    ]
 
 
 def opponents_of(experiment: Experiment) -> list[str | None]:

@@ -1,8 +1,9 @@
 """Trained policies in the package: `best` plays the one of the task.
 
 The files of this folder are policy files (`rsoccer.policies.policy_file`), one for each task that
-has one, `<task>.safetensors`. Their metadata say how they were made and what they score.
-`tools.ship_policy` writes them.
+has one, `<task>.safetensors`. Some tasks have a second one, `<task>.robust.safetensors`, which has
+learned with late and noisy senses and varied numbers: `best:robust` plays it. Their metadata say
+how they were made and what they score. `tools.ship_policy` writes them.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ from rsoccer.task import Task
 
 BEST: Final = "best"
 """Name of the trained policy of the task that is played."""
+ROBUST: Final = "robust"
+"""Word after the colon for the policy that has learned with late and noisy senses."""
 TEAM_TASK: Final = "VSSMulti-v0"
 """Task whose policy also plays tasks without a file of their own that have its observations.
 
@@ -26,33 +29,53 @@ FOLDER = Path(__file__).parent
 """Folder of the files."""
 
 
-def list_trained() -> dict[str, Path]:
-    """Return the files by the task that they were made for, in alphabetical order."""
-    return {path.stem: path for path in sorted(FOLDER.glob(f"*{policy_file.SUFFIX}"))}
+def file_name(task: str, variant: str | None = None) -> str:
+    """Return the name of a file in `FOLDER`.
+
+    Args:
+        task: name of the task.
+        variant: "robust"; None for the policy that knows the true state.
+    """
+    return f"{task}{_ending(variant)}"
 
 
-def load_best(task: Task, mode: str | None = None) -> Network:
+def list_trained(variant: str | None = None) -> dict[str, Path]:
+    """Return the files by the task that they were made for, in alphabetical order.
+
+    Args:
+        variant: "robust" for those that have learned with late and noisy senses; None for those
+            that know the true state.
+    """
+    ending = _ending(variant)
+    found = {path.name.removesuffix(ending): path for path in sorted(FOLDER.glob(f"*{ending}"))}
+    return {task: path for task, path in found.items() if "." not in task}
+
+
+def load_best(task: Task, detail: str | None = None) -> Network:
     """Load the trained policy of a task.
 
     Args:
         task: the task that is played.
-        mode: "sample" or "mean"; None is as in training.
+        detail: "robust" for the policy that has learned with late and noisy senses, "sample" or
+            "mean" for a mode, or both, as in "robust:mean"; None is the policy that knows the true
+            state, as in training.
 
     Returns:
         The network of the task's own file, or of `TEAM_TASK` where its observations are equal.
 
     Raises:
-        ValueError: no policy for this task, one that does not fit its options, or an unknown mode.
+        ValueError: no policy for this task, one that does not fit its options, or an unknown
+            variant or mode.
     """
-    if mode not in (None, *MODES):
-        raise ValueError(f"{BEST}: expected one of {MODES} after the colon, got {mode!r}")
-    files = list_trained()
+    variant, mode = _variant_and_mode(detail)
+    name = BEST if variant is None else f"{BEST}:{variant}"
+    files = list_trained(variant)
     if task.name in files:
         network = Network.load(files[task.name], mode)
         try:
             network.check_fits(task, task.layout.size)
         except ValueError as error:
-            raise ValueError(f"{BEST}: {error}") from error
+            raise ValueError(f"{name}: {error}") from error
         return network
     names = list(files)
     if TEAM_TASK in files:
@@ -60,10 +83,28 @@ def load_best(task: Task, mode: str | None = None) -> Network:
         if network.metadata.get("layout") == task.layout.text:
             return network
         names[names.index(TEAM_TASK)] += " (and tasks with its observations)"
+    kind = "a trained" if variant is None else f"a {variant}"
     raise ValueError(
-        f"{BEST}: expected a task with a trained policy, got {task.name}; "
+        f"{name}: expected a task with {kind} policy, got {task.name}; "
         f"there are policies for {', '.join(names) or 'no task'}"
     )
+
+
+def _ending(variant: str | None) -> str:
+    """End of the names of the files of a variant."""
+    return policy_file.SUFFIX if variant is None else f".{variant}{policy_file.SUFFIX}"
+
+
+def _variant_and_mode(detail: str | None) -> tuple[str | None, str | None]:
+    """Variant and mode that follow the name; None for the usual ones."""
+    if detail is None:
+        return None, None
+    first, colon, rest = detail.partition(":")
+    variant, mode = (ROBUST, rest if colon else None) if first == ROBUST else (None, detail)
+    if mode not in (None, *MODES):
+        expected = (*MODES, *(() if variant else (ROBUST,)))
+        raise ValueError(f"{BEST}: expected one of {expected} after the colon, got {mode!r}")
+    return variant, mode
 
 
 def list_scores(path: Path) -> list[Score]:

@@ -30,6 +30,8 @@ class NetworkSettings:
     """mean action at first, from -1 to 1; empty is 0"""
     masked_observations: tuple[str, ...] = ()
     """blocks read as 0 in ablations, as in shot opponents:2,3"""
+    initial_policy: str | None = None
+    """policy whose weights the run begins with: best, or a policy file"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""

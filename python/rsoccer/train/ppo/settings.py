@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from rsoccer.train.setting_types import Count, Fraction, Positive, convert_fields, expect
+from rsoccer.train.setting_types import Count, Fraction, Natural, Positive, convert_fields, expect
 
 Schedule = Literal["linear", "adaptive"]
 """Names of schedules of the learning rate."""
@@ -39,6 +39,8 @@ class PpoSettings:
     """learn from samples with left and right swapped, too"""
     bootstrap_time_limits: bool = True
     """count the value after time limits; off in ablations"""
+    critic_warmup: Natural = 0
+    """first updates, in which the value network alone learns"""
 
     def __post_init__(self) -> None:
         """Convert and check the values."""

@@ -64,7 +64,12 @@ class PPO:
 
     @torch.no_grad()
     def update(
-        self, batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+        self,
+        batch: Batch,
+        learning_rate: float,
+        check_stop: Callable[[], None],
+        *,
+        critic_only: bool = False,
     ) -> dict[str, float]:
         """Train on a batch for `n_epochs`, or until `approx_kl` exceeds `TARGET_KL`.
 
@@ -72,6 +77,7 @@ class PPO:
             batch: samples of one rollout, on the CPU.
             learning_rate: step size of Adam.
             check_stop: called before each minibatch; an exception that it raises ends the update.
+            critic_only: the value network alone learns, and the policy stays as it is.
 
         Returns:
             Columns of the log: clip_fraction, value_loss and approx_kl, which are means over the
@@ -83,7 +89,7 @@ class PPO:
         n_epochs, approx_kl = 0, 0.0
         while n_epochs < self._settings.n_epochs and approx_kl <= TARGET_KL:
             approx_kl, clip_fraction, value_loss = self._train_epoch(
-                batch, learning_rate, check_stop
+                batch, learning_rate, check_stop, critic_only=critic_only
             )
             row.update(clip_fraction=clip_fraction, value_loss=value_loss)
             n_epochs += 1
@@ -97,14 +103,19 @@ class PPO:
         return row
 
     def _train_epoch(
-        self, batch: Batch, learning_rate: float, check_stop: Callable[[], None]
+        self,
+        batch: Batch,
+        learning_rate: float,
+        check_stop: Callable[[], None],
+        *,
+        critic_only: bool,
     ) -> list[float]:
         """One pass over the batch; the mean of the minibatches' statistics from `_gradients`."""
         order = torch.randperm(len(batch), generator=self._generator)
         stats = []
         for minibatch in batch.select(order.to(self.device)).chunk(self._settings.n_minibatches):
             check_stop()
-            gradients, minibatch_stats = self._gradients(minibatch)
+            gradients, minibatch_stats = self._gradients(minibatch, critic_only=critic_only)
             gradient = torch.cat([part.flatten() for part in gradients])
             if self._sharing is not None:
                 gradient = self._sharing.average(gradient)
@@ -114,7 +125,9 @@ class PPO:
         means: list[float] = torch.stack(stats).mean(0).tolist()
         return means
 
-    def _gradients(self, minibatch: Batch) -> tuple[list[Tensor], Tensor]:
+    def _gradients(
+        self, minibatch: Batch, *, critic_only: bool = False
+    ) -> tuple[list[Tensor], Tensor]:
         """Gradients of the loss by parameter, and (approx_kl, clip_fraction, value_loss), (3,).
 
         With ratios r, advantages A, values V and returns R the loss is
@@ -133,6 +146,8 @@ class PPO:
         unclipped = gain <= clipped_ratio * advantages
         by_log_prob = torch.where(unclipped, gain, 0.0).mul_(-1.0 / len(minibatch))[:, None]
         by_mean = offset * by_log_prob * (-model.log_std).exp()
+        if critic_only:  # Adam leaves parameters as they are whose gradients were always 0
+            by_mean.zero_()
         critic = model.critic.activations(minibatch.critic_inputs)
         error = critic[-1] - minibatch.returns[:, None]
         by_value = error * (2.0 * VALUE_COEF / len(minibatch))

@@ -18,6 +18,7 @@ from rsoccer.policies.network import Network
 from rsoccer.sources import closed_on_error
 from rsoccer.train.args import Args
 from rsoccer.train.clock import Clock
+from rsoccer.train.network import initial_policy
 from rsoccer.train.network.build import build_networks
 from rsoccer.train.opponents.curriculum import Curriculum
 from rsoccer.train.ppo.batch import Batch
@@ -99,6 +100,12 @@ class Trainer:
             args.network, self.task, self.stack, matches.state_size, self.generator
         )
         self.collector = _collector(args, self)
+        if args.network.initial_policy is not None and not args.resume:
+            policy = initial_policy.load(args.network.initial_policy, self.task, self.stack)
+            initial_policy.copy_weights(policy, self.stack, self.model)
+            if sharing is not None:
+                sharing.tie(self.model)
+            self.collector.obs_rms.load_state_dict(initial_policy.statistics(policy, self.stack))
         self.collector.enter(matches, None if self.is_solo else self.curriculum.opponents)
         device = find_device(args.device)
         self.ppo = PPO(args.ppo, self.model, self.generator, device, sharing)
@@ -159,10 +166,14 @@ class Trainer:
         with self.clock.measure("learning"):
             if self.args.ppo.mirror_augmentation:
                 batch = with_reflections(batch, self.task, self.stack, self.model)
-            self.update_stats = self.ppo.update(batch, learning_rate, check_stop)
+            warmup = self.updates < self.args.ppo.critic_warmup
+            self.update_stats = self.ppo.update(
+                batch, learning_rate, check_stop, critic_only=warmup
+            )
         self._check_finite()
         stats = self.update_stats
-        self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
+        if not warmup:  # a policy that stays as it is says nothing about the rate
+            self.learning_rate.end_update(stats["n_epochs"], stats["approx_kl"])
         self.updates += 1
         first, last = self.args.network.action_std, self.args.network.final_action_std
         self.model.set_action_std(first * (last / first) ** self.progress)

@@ -39,7 +39,7 @@ def test_tables_have_a_row_for_each_experiment_with_results(folders: Folders) ->
     # Matches against clones, without and with free balls.
     assert tables.cooperation(collected).count("| policy of VSS-v0 |") == 2
     assert "| .300 met |" in tables.cooperation(collected)
-    assert tables.compute(collected).count("\n") == 6  # five groups
+    assert tables.compute(collected).count("\n") == 8  # seven groups
 
 
 def test_an_empty_study_has_empty_tables(tmp_path: Path) -> None:

@@ -1,0 +1,135 @@
+"""Weights of a trained policy as the beginning of a run.
+
+A policy that has learned a task on the true state needs few samples to learn it with late or noisy
+senses. Inputs that it does not have, those of a history, begin with weights of 0, so at first the
+run plays as the policy does.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+import torch
+
+from rsoccer.arrays import Array, Floats
+from rsoccer.history import ObservationStack
+from rsoccer.policies import make_policy
+from rsoccer.policies.network import Network
+from rsoccer.task import Task
+from rsoccer.train.network.actor_critic import ActorCritic
+
+ROWS: Final = 1_000_000
+"""Observations that the policy's normalization counts for in the running one. With few of them the
+inputs of the policy would change before it has learned anything."""
+
+
+def load(
+    name: str, task: Task, stack: ObservationStack, argument: str = "network.initial_policy"
+) -> Network:
+    """Load the policy that a run begins with.
+
+    Args:
+        name: the name `best`, or the path of a policy file.
+        task: the task to train on.
+        stack: what the networks observe of it.
+        argument: name of the setting, for errors.
+
+    Returns:
+        The policy.
+
+    Raises:
+        ValueError: no such policy, one without weights, or one that does not fit the task or has a
+            longer history.
+    """
+    try:
+        policy = make_policy(name, task)
+    except (FileNotFoundError, ValueError) as error:
+        raise ValueError(f"{argument}: {error}") from error
+    if not isinstance(policy, Network):
+        raise ValueError(
+            f"{argument}: expected a trained policy, got {name!r}, which has no weights"
+        )
+    if policy.history > stack.history:
+        raise ValueError(
+            f"{argument}: expected a policy with at most the run's history of {stack.history}, got "
+            f"one of {policy.history}"
+        )
+    return policy
+
+
+@torch.no_grad()
+def copy_weights(policy: Network, stack: ObservationStack, model: ActorCritic) -> None:
+    """Give the actor the weights of a policy, and weights of 0 for inputs that it does not have.
+
+    Args:
+        policy: the policy, from `load`.
+        stack: what the networks observe.
+        model: the networks; the value network stays as it is.
+
+    Raises:
+        ValueError: the policy has layers of other sizes.
+    """
+    parameters = list(model.actor.parameters())
+    given = [part for layer in widened_layers(policy, stack) for part in layer]
+    if [tuple(part.shape) for part in parameters] != [part.shape for part in given]:
+        sizes = [len(bias) for _, bias in policy.layers]
+        wanted = [len(bias) for bias in parameters[1::2]]
+        raise ValueError(
+            f"network.initial_policy: expected layers of {wanted} units, as the settings of the "
+            f"network say, got {sizes}"
+        )
+    for parameter, part in zip(parameters, given, strict=True):
+        parameter.copy_(torch.tensor(part))
+
+
+def statistics(policy: Network, stack: ObservationStack) -> dict[str, Array]:
+    """Return statistics of observations that a run begins with, those of a policy.
+
+    Args:
+        policy: the policy, from `load`.
+        stack: what the networks observe.
+
+    Returns:
+        Arrays as `RunningMeanStd.load_state_dict` takes them.
+    """
+    mean, std = (part.astype(np.float64) for part in widened_normalization(policy, stack))
+    return {"count": np.array([ROWS]), "mean": mean, "variance": std**2}
+
+
+def widened_layers(policy: Network, stack: ObservationStack) -> list[tuple[Floats, Floats]]:
+    """Return weight and bias of each layer, with weights of 0 for inputs that a policy lacks.
+
+    Args:
+        policy: the policy, of at most the history of the stack.
+        stack: what the layers observe.
+    """
+    (weight, bias), *others = policy.layers
+    first = np.zeros((len(weight), stack.size), np.float32)
+    first[:, _columns(policy, stack)] = weight
+    return [(first, bias), *others]
+
+
+def widened_normalization(policy: Network, stack: ObservationStack) -> tuple[Floats, Floats]:
+    """Return mean and standard deviation of stacked observations, (o,) each.
+
+    Past observations have those of the policy's current one. Past actions, which it lacks, have 0
+    and 1, as they are within these bounds.
+
+    Args:
+        policy: the policy, of at most the history of the stack.
+        stack: what is observed.
+    """
+    size, columns = stack.observation_size, _columns(policy, stack)
+    mean = stack.join(policy.mean[:size], np.zeros(stack.action_size, np.float32))
+    std = stack.join(policy.std[:size], np.ones(stack.action_size, np.float32))
+    mean[columns], std[columns] = policy.mean, policy.std
+    return mean, std
+
+
+def _columns(policy: Network, stack: ObservationStack) -> Array:
+    """Columns of the stacked observation that a policy of an equal or a shorter history reads."""
+    observations = policy.history * stack.observation_size
+    actions = (policy.history - 1) * stack.action_size
+    first = stack.history * stack.observation_size
+    return np.concatenate([np.arange(observations), first + np.arange(actions)])

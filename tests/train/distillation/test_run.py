@@ -1,0 +1,65 @@
+"""A distillation: its policy, its log, and what it refuses."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import rsoccer
+from rsoccer.policies.network import Network
+from rsoccer.train.distillation import DistillArgs, distill
+from rsoccer.train.run.log import read_progress
+
+TASK = "SSLGoToBall-v0"
+
+
+def args(folder: Path, **changes: Any) -> DistillArgs:  # noqa: ANN401  (any field)
+    settings: dict[str, Any] = {
+        "samples": 500,
+        "worlds": 8,
+        "decisions": 8,
+        "minibatches": 20,
+        "minibatch": 64,
+    }
+    settings |= {"command_delays": (0.0, 0.1), "history": 2, "sensing": "rc2021"}
+    return DistillArgs(TASK, folder, **{**settings, **changes})
+
+
+def test_a_policy_is_written_that_says_how_it_was_made(tmp_path: Path) -> None:
+    path = distill(args(tmp_path / "first", randomization={"robot.mass": (0.9, 1.1)}))
+    network = Network.load(path)
+    assert (network.task_name, network.history, network.action_repeat) == (TASK, 2, 3)
+    assert network.sensing == rsoccer.Sensing("rc2021")
+    assert network.randomization == {
+        "robot.mass": [0.9, 1.1],
+        "sensing.command_delay": [0.0, 0.1],
+    }
+    progress = read_progress(tmp_path / "first")
+    assert progress["samples"][-1] >= 500
+    assert progress["loss"][-1] < progress["loss"][0]
+    found = rsoccer.evaluate(path, matches=2, sensing="rc2021")
+    assert found.matches == 2
+
+
+def test_equal_settings_give_equal_policies(tmp_path: Path) -> None:
+    first, second, other = (
+        Network.load(distill(args(tmp_path / name, seed=seed))).arrays()
+        for name, seed in (("a", 1), ("b", 1), ("c", 2))
+    )
+    assert all(np.array_equal(first[name], second[name]) for name in first)
+    assert not np.array_equal(first["layers.0.weight"], other["layers.0.weight"])
+
+
+def test_wrong_settings_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="worlds must be at least one for each of the 2"):
+        args(tmp_path, worlds=1)
+    with pytest.raises(ValueError, match=r"randomization must be without command delays"):
+        args(tmp_path, randomization={"sensing.command_delay": (0.0, 0.1)})
+    with pytest.raises(ValueError, match="command_delays must be one or more times"):
+        args(tmp_path, command_delays=())
+    with pytest.raises(ValueError, match="teacher: expected a trained policy, got 'fetch'"):
+        distill(args(tmp_path, teacher="fetch"))
+    (tmp_path / "policy.safetensors").touch()
+    with pytest.raises(ValueError, match=r"out: .*holds a run"):
+        distill(args(tmp_path))
