@@ -8,6 +8,7 @@ LIBRARIES := .venv-libraries
 RLLIB := .venv-rllib
 LOWEST := .venv-lowest$(if $(TORCH),-torch)
 RECIPES := .venv-recipes
+WHEELS := .venv-wheels
 BIN := $(VENV)/bin
 # --no-compile: modules are compiled when imported; most of torch and sympy never is.
 PIP_OPTIONS := --disable-pip-version-check --no-compile
@@ -28,7 +29,7 @@ ifneq ($(MAKELEVEL),0)
 unexport MAKEFLAGS MFLAGS
 endif
 
-.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs format docs site physics golden soak agreement coverage bench compare clean
+.PHONY: help venv demo test check-format check-lint lint-rust lint-python check-rust check-python check-site check-libraries check-rllib check-lowest check-recipes check-installs wheels check-aarch64 format docs site physics golden soak agreement coverage bench compare clean
 .DEFAULT_GOAL := help
 
 help: ## list all targets
@@ -99,6 +100,21 @@ check-recipes: $(RECIPES)/benchmarl/made $(RECIPES)/pufferlib/made $(RECIPES)/ti
 
 check-installs: $(VENV)/built ## run every documented install line and its program, each in an empty environment (many minutes)
 	$(BIN)/python -m tools.check_installs
+
+ARCHITECTURES ?= x86_64
+wheels: $(WHEELS)/made ## build the source distribution and wheels (ARCHITECTURES="x86_64 aarch64"), and try them without a compiler
+	@rm -rf out/wheels
+	$(WHEELS)/bin/python -m tools.wheels.build --architectures $(ARCHITECTURES)
+	$(WHEELS)/bin/python -m tools.wheels.tryout out/wheels/*_$(shell uname -m).whl
+
+# The same bits on another architecture, emulated. CONTRIBUTING.md lists the packages that it needs.
+check-aarch64: export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER := aarch64-linux-gnu-gcc
+check-aarch64: export CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER := qemu-aarch64 -L /usr/aarch64-linux-gnu
+check-aarch64: ## run the golden hashes and the determinism tests of the physics on an emulated ARM processor (some minutes)
+	for engine in compact rapier; do \
+		RSIM_TEST_ENGINE=$$engine $(CARGO) test --locked --target aarch64-unknown-linux-gnu --target-dir target/aarch64 \
+			--package rsim-core --test all -- golden:: determinism:: || exit 1; \
+	done
 
 format: $(VENV)/tools ## format all code
 	$(CARGO) fmt --all
@@ -204,6 +220,11 @@ RECIPE_tianshou := tianshou==2.0.1
 $(RECIPES)/%/made: $(VENV)/built
 	$(BESIDE)
 	$(INTO) $(RECIPE_$*)
+	@touch $@
+
+$(WHEELS)/made: pyproject.toml constraints.txt $(VENV)/tools
+	$(BESIDE)
+	$(INTO) --constraint constraints.txt --group wheels
 	@touch $@
 
 $(VENV)/site: $(VENV)/built

@@ -1,0 +1,1 @@
+"""Wheels and the source distribution: built, audited, and tried without a compiler."""
