@@ -50,8 +50,8 @@ impl MotionBlock {
         let Self { position, heading, velocity, angular_velocity } = *self;
         let vectors = [position, heading, velocity].into_iter();
         let numbers = vectors.flat_map(|vector| [vector.x, vector.y]).chain([angular_velocity]);
-        // A number minus itself is 0 only if it is finite.
-        let zero = numbers.fold(Lanes::ZERO, |sum, number| sum + (number - number));
+        // A number times 0 is 0 only if it is finite.
+        let zero = numbers.fold(Lanes::ZERO, |sum, number| sum + number * Lanes::ZERO);
         zero.simd_eq(Lanes::ZERO).all()
     }
 

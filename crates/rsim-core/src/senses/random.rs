@@ -141,7 +141,6 @@ impl Draws {
 }
 
 /// The upper half of a word.
-#[expect(clippy::cast_possible_truncation, reason = "32 bits are left")]
 fn upper(word: u64) -> u32 {
     (word >> 32) as u32
 }
