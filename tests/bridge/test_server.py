@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from rsoccer import Sensing
-from rsoccer.bridge.match_tasks import TICK
+from rsoccer.bridge.arena import Arena
+from rsoccer.bridge.match_tasks import TICK, make_match
 from rsoccer.bridge.server import RESEND_SECONDS
 from rsoccer.protocols.schemas import (
     grsim_pb2,
@@ -327,3 +328,8 @@ def test_an_external_referee_is_obeyed() -> None:
     assert not [each for each in wall.tick(50) if each.port == "referee"]
     assert wall.send("referee", b"\xff\xff") == []
     assert wall.server.session.counts["referee: unreadable"] == 1
+
+
+def test_a_served_match_refuses_forecasts() -> None:
+    with pytest.raises(ValueError, match="sensing.forecast: expected 0"):
+        Arena(make_match("ssl", "B", None), Sensing("rc2021", forecast=1))

@@ -68,9 +68,15 @@ class Arena:
             seed: seed of the first kick-off and of the senses.
             has_referee: whether the task's referee decides.
             observers: robots with a policy, in the order of a state row; None for none.
+
+        Raises:
+            ValueError: senses that forecast.
         """
         self.task = task
         self.sensing = Sensing(frame_rate=FRAME_RATE) if sensing is None else sensing
+        if self.sensing.forecast:
+            # All ports tell the same state; only a team itself knows what it has sent.
+            raise ValueError("sensing.forecast: expected 0 in a served match, whose teams forecast")
         self.config = task.config.with_sensing(self.sensing)
         rng = WorldRng.seeded(seed, 1)
         viewpoint = new_viewpoint(task, [] if observers is None else observers)
@@ -93,7 +99,7 @@ class Arena:
         simulator = Simulator(config, 1, 1)
         simulator.place(_MASK, rows, rows.copy())
         self.simulator, self.config = simulator, config
-        senses = SimulatedSenses(simulator, 1, None, self.play.frame.copy(), self._senses_rng)
+        senses = SimulatedSenses.new(simulator, 1, None, (), self.play.frame, self._senses_rng)
         senses.begin(Frame(rows, config.n_blue, config.n_yellow), _WORLD)
         self.play.senses = senses
         self._senses_begun = self.seconds
