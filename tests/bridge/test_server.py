@@ -193,6 +193,43 @@ def test_a_packet_of_grsim_drives_a_team_and_its_status_comes_back() -> None:
     assert wall.server.session.commands[11, 0] == 1.0
 
 
+def kick_command(robot: int, **fields: float) -> bytes:
+    message = simulation_pb2.RobotControl()
+    message.robot_commands.add(id=robot, **fields)
+    data: bytes = message.SerializeToString()
+    return data
+
+
+@pytest.mark.parametrize("reader", ["fast", "protocol", "grsim"])
+def test_a_packet_for_each_robot_leaves_the_kicks_of_others(reader: str) -> None:
+    wall = Wall()
+    for number in (1, 2):
+        if reader == "grsim":
+            packet = grsim_pb2.Packet()
+            packet.commands.timestamp, packet.commands.isteamyellow = 0.0, False
+            packet.commands.robot_commands.add(
+                id=number, wheelsspeed=False, veltangent=1.0, velnormal=0, velangular=0,
+                kickspeedx=3.0, kickspeedz=0, spinner=False,
+            )  # fmt: skip
+            wall.send("grsim", packet.SerializeToString())
+            continue
+        message = simulation_pb2.RobotControl()
+        move = message.robot_commands.add(id=number, kick_speed=3.0).move_command
+        if reader == "fast":
+            move.local_velocity.forward = 1.0
+            move.local_velocity.left = move.local_velocity.angular = 0.0
+        else:
+            move.global_velocity.x = 1.0
+            move.global_velocity.y = move.global_velocity.angular = 0.0
+        assert not wall.team(message.SerializeToString()).errors
+    wall.tick()
+    kicks = wall.server.session.commands[:, 3]
+    np.testing.assert_allclose(kicks[:4], [0.0, 3.0, 3.0, 0.0])
+    wall.team(kick_command(1))
+    wall.tick()
+    assert kicks[:4].tolist() == [0.0, 0.0, 3.0, 0.0], "a robot's next message ends its kick"
+
+
 @pytest.mark.parametrize("side", [False, True])
 def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side: bool) -> None:
     wall = Wall(blue_on_positive_half=side, command_timeout=10.0, referee="off")

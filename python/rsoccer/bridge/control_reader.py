@@ -58,8 +58,6 @@ class ControlReader:
         if message is None:
             return None
         rows: list[list[float]] = previous.tolist()
-        for row in rows:
-            row[3] = row[4] = 0.0  # a kick holds for one message
         slots, known = [], self._slots[team]
         for command in message.robot_commands:
             slot = known.get(command.id)
@@ -114,6 +112,7 @@ def _parsed(data: bytes) -> simulation_pb2.RobotControl | None:
 
 def _put(command: simulation_pb2.RobotCommand, row: list[float]) -> bool:
     """Put a command into its columns. Return whether it is a common one."""
+    row[3] = row[4] = 0.0  # a kick holds until the robot's next command
     if command.HasField("move_command"):
         move = command.move_command
         if not move.HasField("local_velocity"):
