@@ -247,6 +247,53 @@ def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side
     assert np.linalg.norm(wall.robots.velocity[0, 2]) < 0.02
 
 
+@pytest.mark.parametrize("fields", [{"kick_speed": 2.0}, {"dribbler_speed": 100.0}])
+def test_a_kick_leaves_a_velocity_along_the_axes_of_the_field(fields: dict[str, float]) -> None:
+    wall = Wall(command_timeout=10.0, referee="off")
+    message = simulation_pb2.RobotControl()
+    moved = message.robot_commands.add(id=2).move_command.global_velocity
+    moved.x, moved.y, moved.angular = 0.0, 0.5, 4.0
+    wall.team(message.SerializeToString())
+    wall.team(kick_command(2, **fields))
+    for _ in range(60):
+        wall.tick()
+        forward, left = wall.server.session.commands[2, :2].tolist()
+        cos, sin = wall.robots.heading[0, 2].tolist()
+        # The heading turns by less than 0.03 rad in the tick since the command.
+        assert (cos * forward - sin * left, sin * forward + cos * left) == pytest.approx(
+            (0.0, 0.5), abs=0.02
+        )
+    assert abs(wall.robots.heading[0, 2, 0] - 1.0) > 0.2, "the robot has turned"
+    assert (wall.server.session.commands[2, 3:] > 0).any()
+    message.robot_commands[0].move_command.SetInParent()
+    message.robot_commands[0].move_command.ClearField("global_velocity")
+    answer = wall.team(message.SerializeToString())
+    assert [error.code for error in answer.errors] == ["UNSUPPORTED_MOVE"]
+    wall.team(local_velocity([2], 0.25))
+    wall.tick()
+    assert wall.server.session.commands[2, :2].tolist() == [0.25, 0.0]
+
+
+@pytest.mark.parametrize("data", [b"", kick_command(0, dribbler_speed=100.0)])
+def test_a_new_client_inherits_nothing_while_the_match_stands_still(data: bytes) -> None:
+    wall = Wall(client_timeout=1.0, speed=0.0)
+    wall.team(local_velocity([0, 1]))
+    wall.now += 1.1
+    assert not wall.team(data, address=OTHER).errors
+    team = wall.server.session.teams[0]
+    assert not team.commands[:, :3].any()
+    assert wall.server.session.counts["blue: left"] == 1
+    assert [e.code for e in wall.team(local_velocity([0])).errors] == ["TEAM_TAKEN"]
+    assert team.refused == 1
+
+
+def test_bytes_that_are_no_message_take_no_team() -> None:
+    wall = Wall()
+    wall.team(b"\xff" * 20, address=OTHER)
+    assert wall.server.session.teams[0].address is None
+    assert not wall.team(local_velocity([0])).errors
+
+
 @pytest.mark.parametrize("delay", [0.0, 0.045, 0.1])
 def test_a_command_is_seen_after_the_configured_delay(delay: float) -> None:
     wall = Wall(sensing=Sensing(delay=delay, command_delay=0.02) if delay else Sensing(delay=1e-6))
