@@ -392,19 +392,42 @@ def test_the_same_messages_give_the_same_match() -> None:
     assert len(first[0]) > 10_000
 
 
-def test_an_external_referee_is_obeyed() -> None:
-    wall = Wall(referee="external")
-    assert "referee" in wall.server.inputs
+def referee_packet(command: int = referee_pb2.DIRECT_FREE_BLUE) -> referee_pb2.Packet:
     packet = referee_pb2.Packet(
         packet_timestamp=1,
         stage=referee_pb2.NORMAL_FIRST_HALF,
-        command=referee_pb2.DIRECT_FREE_BLUE,
+        command=command,  # type: ignore[arg-type]
         command_counter=1,
         command_timestamp=1,
     )
     for team in (packet.blue, packet.yellow):
         team.name, team.score, team.red_cards = "x", 2, 0
         team.yellow_cards = team.timeouts = team.timeout_time = team.goalkeeper = 0
+    return packet
+
+
+@pytest.mark.parametrize("side", [False, True])
+@pytest.mark.parametrize("told", [None, False, True])
+def test_places_of_an_external_referee_are_on_the_side_of_vision(
+    side: bool, told: bool | None
+) -> None:
+    wall = Wall(referee="external", blue_on_positive_half=side)
+    packet = referee_packet(referee_pb2.BALL_PLACEMENT_BLUE)
+    packet.designated_position.x, packet.designated_position.y = 1000.0, -500.0
+    if told is not None:
+        packet.blue_team_on_positive_half = told
+    wall.send("referee", packet.SerializeToString())
+    game = wall.server.session.arena.play.game
+    sign = -1.0 if side else 1.0
+    np.testing.assert_allclose(game.designated_position[0], [sign, -0.5 * sign], rtol=1e-6)
+    differs = told is not None and told != side
+    assert wall.server.session.counts["referee: blue on the other half"] == differs
+
+
+def test_an_external_referee_is_obeyed() -> None:
+    wall = Wall(referee="external")
+    assert "referee" in wall.server.inputs
+    packet = referee_packet()
     assert wall.send("referee", packet.SerializeToString()) == []
     game = wall.server.session.arena.play.game
     assert (game.command[0], game.stage[0], game.score[0].tolist()) == (9, 1, [2, 2])

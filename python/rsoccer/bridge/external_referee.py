@@ -67,7 +67,13 @@ class ExternalReferee:
             if reported.stage is not None:
                 _set(game, "stage", reported.stage)
             return
-        status, problems = referee.read_packet(session.layout, parse(referee_pb2.Packet, data))
+        message = parse(referee_pb2.Packet, data)
+        if message.blue_team_on_positive_half != session.layout.blue_on_positive_half:
+            # Vision and commands keep the side that the server began with, and so do positions here.
+            known = message.HasField("blue_team_on_positive_half")
+            session.counts["referee: blue on the other half"] += known
+        message.ClearField("blue_team_on_positive_half")
+        status, problems = referee.read_packet(session.layout, message)
         session.counts["referee: parts refused"] += len(problems)
         self._command(game, status.command)
         _set(game, "stage", status.stage)
