@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Sensing
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.arena import Arena
 from rsoccer.bridge.match_tasks import TICK, make_match
 from rsoccer.bridge.server import RESEND_SECONDS
@@ -437,6 +438,46 @@ def test_an_external_referee_is_obeyed() -> None:
     assert wall.server.session.counts["referee: unreadable"] == 1
 
 
+@pytest.mark.parametrize("division", ["A", "B"])
+def test_a_kick_of_an_external_referee_is_in_play_after_its_time(division: str) -> None:
+    wall = Wall(referee="external", division=division)
+    game = wall.server.session.arena.play.game
+    half = len(game.may_touch[0]) // 2
+    for command in (referee_pb2.STOP, referee_pb2.DIRECT_FREE_BLUE):
+        wall.send("referee", referee_packet(command).SerializeToString())
+        wall.tick(10)
+        assert game.command_steps[0] == 10
+    seconds = {"A": 5.0, "B": 10.0}[division]
+    while game.command_steps[0] < round(seconds / TICK) - 1:
+        wall.tick()
+    wall.send("referee", referee_packet().SerializeToString())
+    assert (game.in_play[0], game.may_touch[0].sum()) == (0.0, half)
+    wall.tick(2)
+    assert (game.in_play[0], game.may_touch[0].sum()) == (1.0, 2 * half)
+    wall.send("referee", referee_packet(referee_pb2.STOP).SerializeToString())
+    assert (game.in_play[0], game.may_touch[0].sum(), game.command_steps[0]) == (0.0, 0, 0)
+
+
+def test_a_kick_off_of_an_external_referee_is_one_team_s_until_the_ball_has_moved() -> None:
+    wall = Wall(referee="external")
+    arena = wall.server.session.arena
+    game = arena.play.game
+    commands = (referee_pb2.PREPARE_KICKOFF_YELLOW, referee_pb2.NORMAL_START)
+    for command, allowed in zip(commands, (0, 6), strict=True):
+        wall.send("referee", referee_packet(command).SerializeToString())
+        wall.tick(10)
+        assert (game.in_play[0], game.may_touch[0].sum()) == (0.0, allowed)
+    assert game.may_touch[0].tolist() == [False] * 6 + [True] * 6
+    assert game["referee"][0, GAME_COLUMNS.index("kick")] == 4
+    message = simulation_pb2.Command()
+    message.control.teleport_ball.vx = 1.0
+    assert wall.control(message) == []
+    wall.tick(5)
+    assert game.in_play[0] == 0.0, "the ball has moved by less than 0.05 m"
+    wall.tick(10)
+    assert (game.in_play[0], game.may_touch[0].all()) == (1.0, True)
+
+
 def test_a_served_match_refuses_forecasts() -> None:
-    with pytest.raises(ValueError, match="sensing.forecast: expected 0"):
+    with pytest.raises(ValueError, match=r"sensing\.forecast: expected 0"):
         Arena(make_match("ssl", "B", None), Sensing("rc2021", forecast=1))

@@ -126,6 +126,8 @@ class Server:
     def _tick(self, now: float) -> list[Datagram]:
         session = self.session
         session.tick(now)
+        if self._referee is not None:
+            self._referee.advance()
         sent: list[Datagram] = []
         for frame in session.arena.camera_frames:
             sent += self.ports.frames(frame)
