@@ -408,20 +408,20 @@ def referee_packet(command: int = referee_pb2.DIRECT_FREE_BLUE) -> referee_pb2.P
 
 
 @pytest.mark.parametrize("side", [False, True])
-@pytest.mark.parametrize("told", [None, False, True])
+@pytest.mark.parametrize("reported", [None, False, True])
 def test_places_of_an_external_referee_are_on_the_side_of_vision(
-    side: bool, told: bool | None
+    side: bool, reported: bool | None
 ) -> None:
     wall = Wall(referee="external", blue_on_positive_half=side)
     packet = referee_packet(referee_pb2.BALL_PLACEMENT_BLUE)
     packet.designated_position.x, packet.designated_position.y = 1000.0, -500.0
-    if told is not None:
-        packet.blue_team_on_positive_half = told
+    if reported is not None:
+        packet.blue_team_on_positive_half = reported
     wall.send("referee", packet.SerializeToString())
     game = wall.server.session.arena.play.game
     sign = -1.0 if side else 1.0
     np.testing.assert_allclose(game.designated_position[0], [sign, -0.5 * sign], rtol=1e-6)
-    differs = told is not None and told != side
+    differs = reported is not None and reported != side
     assert wall.server.session.counts["referee: blue on the other half"] == differs
 
 
