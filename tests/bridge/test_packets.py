@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -105,9 +106,9 @@ def test_cameras_see_what_is_below_them(side: bool) -> None:
         assert calibration.camera_id == detection.camera_id == camera.camera_id
         place = calibration.derived_camera_world_tx
         assert place == pytest.approx(1000 * camera.position[0])
-        robots = [*detection.robots_blue, *detection.robots_yellow]
+        robots: list[Any] = [*detection.robots_blue, *detection.robots_yellow]
         heights = [robot.height / 1000 for robot in robots]
-        balls = list(detection.balls)
+        balls: list[Any] = list(detection.balls)
         heights += [arena.config.ball.radius for _ in balls]
         for each, height in zip([*robots, *balls], heights, strict=True):
             assert abs(each.x - place) < half, "a camera reports what is below it"

@@ -78,7 +78,7 @@ def placement(robot: int = 1, x: float = 0.5) -> bytes:
 def test_nobody_is_placed_while_an_external_referee_lets_play_go_on() -> None:
     wall = Wall(league="vsss", referee="external")
     for foul, x in ((vssref_pb2.KICKOFF, -0.5), (vssref_pb2.GAME_ON, -0.5)):
-        command = vssref_pb2.Command(foul=foul, teamcolor=vssref_pb2.BLUE)  # type: ignore[arg-type]
+        command = vssref_pb2.Command(foul=foul, teamcolor=vssref_pb2.BLUE)
         wall.send("referee", command.SerializeToString())
         wall.send("replacer", placement(x=0.5 if foul == vssref_pb2.KICKOFF else 0.2))
         np.testing.assert_allclose(wall.robots.position[0, 1], [x, -0.5], atol=1e-6)
