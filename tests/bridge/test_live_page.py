@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import socket
 import urllib.error
 import urllib.request
 
@@ -17,6 +18,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
+from rsoccer.bridge import live_page
 from rsoccer.bridge.live_page import FRAMES, LivePage
 
 PATIENCE = 60.0
@@ -39,12 +41,12 @@ def test_frames_come_while_somebody_watches(league: str) -> None:
             html = answer.read().decode()
         assert "FieldView" in html
         assert not re.search(r"\{\{\w+\}\}", html), "all parts are filled in"
-        with connect(f"ws://127.0.0.1:{page.port}{FRAMES}", open_timeout=PATIENCE) as socket:
+        with connect(f"ws://127.0.0.1:{page.port}{FRAMES}", open_timeout=PATIENCE) as viewer:
             frame = None
             while frame is None:  # the server learns of the viewer in a thread of its own
                 wall.tick(5)
                 try:
-                    frame = json.loads(socket.recv(timeout=0.1))
+                    frame = json.loads(viewer.recv(timeout=0.1))
                 except TimeoutError:
                     continue
         assert frame["score"] == [0, 0]
@@ -54,6 +56,31 @@ def test_frames_come_while_somebody_watches(league: str) -> None:
         assert x == pytest.approx(wall.robots.position[0, 0, 0], abs=1e-3)
     page.close()
     assert not wall.server.listeners
+
+
+def test_a_viewer_too_many_that_does_not_answer_stops_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(live_page, "MAX_VIEWERS", 0)
+    monkeypatch.setattr(live_page, "_CLOSE", PATIENCE)
+    wall = Wall()
+    with LivePage(wall.server, 0) as page:
+        with socket.create_connection(("127.0.0.1", page.port), PATIENCE) as silent:
+            silent.sendall(
+                f"GET {FRAMES} HTTP/1.1\r\nHost: 127.0.0.1:{page.port}\r\nUpgrade: websocket\r\n"
+                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n".encode()
+            )
+            received = b""
+            while b"too many watch" not in received:
+                part = silent.recv(4096)
+                assert part
+                received += part
+            # The page waits for the answer now, and the match goes on.
+            free = page._changed.acquire(timeout=5.0)
+            if free:
+                page._changed.release()
+        assert free
 
 
 def test_pages_of_others_get_nothing() -> None:

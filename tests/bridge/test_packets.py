@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -81,6 +82,41 @@ def test_each_camera_tells_what_it_saw() -> None:
     assert first.robots_blue[0].orientation == pytest.approx(np.pi / 2)
     nothing = CameraFrame(9, 1.0, balls[:0], robots[:0])
     assert len(packets.of(nothing, 1.0)) == 2, "a camera that sees nothing tells so"
+
+
+@pytest.mark.parametrize("side", [False, True])
+def test_cameras_see_what_is_below_them(side: bool) -> None:
+    arena = Arena(make_match("ssl", "B", None), Sensing("rc2021"), 1)
+    packets = VisionPackets(WireLayout(arena.config, blue_on_positive_half=side), arena.sensing, 0)
+    frames = []
+    for _ in range(200):
+        arena.step(np.zeros_like(arena.play.commands[0]))
+        frames += arena.camera_frames
+    seen = max(frames, key=lambda frame: len(frame.robots))
+    messages = [
+        vision_pb2.Packet.FromString(data)
+        for data in packets.of(seen, arena.seconds, geometry=True)
+    ]
+    calibrations = messages[0].geometry.calib
+    assert len(calibrations) == len(packets.cameras) == 2
+    half = arena.config.field.length / 4 * 1000 + 500  # cameras overlap
+    found = 0
+    for message, camera, calibration in zip(messages, packets.cameras, calibrations, strict=True):
+        detection = message.detection
+        assert calibration.camera_id == detection.camera_id == camera.camera_id
+        place = calibration.derived_camera_world_tx
+        assert place == pytest.approx(1000 * camera.position[0])
+        robots: list[Any] = [*detection.robots_blue, *detection.robots_yellow]
+        heights = [robot.height / 1000 for robot in robots]
+        balls: list[Any] = list(detection.balls)
+        heights += [arena.config.ball.radius for _ in balls]
+        for each, height in zip([*robots, *balls], heights, strict=True):
+            assert abs(each.x - place) < half, "a camera reports what is below it"
+            pixels = camera.pixels(np.array([each.x / 1000, each.y / 1000, height]))
+            assert (each.pixel_x, each.pixel_y) == pytest.approx(tuple(pixels), abs=0.1)
+            assert (each.pixel_x > camera.image_size[0] / 2) == (each.x > place)
+            found += 1
+    assert found >= 12
 
 
 def test_rows_are_of_one_length() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rsoccer import Sensing
+from rsoccer._core import GAME_COLUMNS
 from rsoccer.bridge.arena import Arena
 from rsoccer.bridge.match_tasks import TICK, make_match
 from rsoccer.bridge.server import RESEND_SECONDS
@@ -193,6 +194,43 @@ def test_a_packet_of_grsim_drives_a_team_and_its_status_comes_back() -> None:
     assert wall.server.session.commands[11, 0] == 1.0
 
 
+def kick_command(robot: int, **fields: float) -> bytes:
+    message = simulation_pb2.RobotControl()
+    message.robot_commands.add(id=robot, **fields)
+    data: bytes = message.SerializeToString()
+    return data
+
+
+@pytest.mark.parametrize("reader", ["fast", "protocol", "grsim"])
+def test_a_packet_for_each_robot_leaves_the_kicks_of_others(reader: str) -> None:
+    wall = Wall()
+    for number in (1, 2):
+        if reader == "grsim":
+            packet = grsim_pb2.Packet()
+            packet.commands.timestamp, packet.commands.isteamyellow = 0.0, False
+            packet.commands.robot_commands.add(
+                id=number, wheelsspeed=False, veltangent=1.0, velnormal=0, velangular=0,
+                kickspeedx=3.0, kickspeedz=0, spinner=False,
+            )  # fmt: skip
+            wall.send("grsim", packet.SerializeToString())
+            continue
+        message = simulation_pb2.RobotControl()
+        move = message.robot_commands.add(id=number, kick_speed=3.0).move_command
+        if reader == "fast":
+            move.local_velocity.forward = 1.0
+            move.local_velocity.left = move.local_velocity.angular = 0.0
+        else:
+            move.global_velocity.x = 1.0
+            move.global_velocity.y = move.global_velocity.angular = 0.0
+        assert not wall.team(message.SerializeToString()).errors
+    wall.tick()
+    kicks = wall.server.session.commands[:, 3]
+    np.testing.assert_allclose(kicks[:4], [0.0, 3.0, 3.0, 0.0])
+    wall.team(kick_command(1))
+    wall.tick()
+    assert kicks[:4].tolist() == [0.0, 0.0, 3.0, 0.0], "a robot's next message ends its kick"
+
+
 @pytest.mark.parametrize("side", [False, True])
 def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side: bool) -> None:
     wall = Wall(blue_on_positive_half=side, command_timeout=10.0, referee="off")
@@ -208,6 +246,53 @@ def test_a_velocity_along_the_axes_of_the_field_holds_while_the_robot_turns(side
     wall.team(local_velocity([2], 0.0))
     wall.tick(100)
     assert np.linalg.norm(wall.robots.velocity[0, 2]) < 0.02
+
+
+@pytest.mark.parametrize("fields", [{"kick_speed": 2.0}, {"dribbler_speed": 100.0}])
+def test_a_kick_leaves_a_velocity_along_the_axes_of_the_field(fields: dict[str, float]) -> None:
+    wall = Wall(command_timeout=10.0, referee="off")
+    message = simulation_pb2.RobotControl()
+    moved = message.robot_commands.add(id=2).move_command.global_velocity
+    moved.x, moved.y, moved.angular = 0.0, 0.5, 4.0
+    wall.team(message.SerializeToString())
+    wall.team(kick_command(2, **fields))
+    for _ in range(60):
+        wall.tick()
+        forward, left = wall.server.session.commands[2, :2].tolist()
+        cos, sin = wall.robots.heading[0, 2].tolist()
+        # The heading turns by less than 0.03 rad in the tick since the command.
+        assert (cos * forward - sin * left, sin * forward + cos * left) == pytest.approx(
+            (0.0, 0.5), abs=0.02
+        )
+    assert abs(wall.robots.heading[0, 2, 0] - 1.0) > 0.2, "the robot has turned"
+    assert (wall.server.session.commands[2, 3:] > 0).any()
+    message.robot_commands[0].move_command.SetInParent()
+    message.robot_commands[0].move_command.ClearField("global_velocity")
+    answer = wall.team(message.SerializeToString())
+    assert [error.code for error in answer.errors] == ["UNSUPPORTED_MOVE"]
+    wall.team(local_velocity([2], 0.25))
+    wall.tick()
+    assert wall.server.session.commands[2, :2].tolist() == [0.25, 0.0]
+
+
+@pytest.mark.parametrize("data", [b"", kick_command(0, dribbler_speed=100.0)])
+def test_a_new_client_inherits_nothing_while_the_match_stands_still(data: bytes) -> None:
+    wall = Wall(client_timeout=1.0, speed=0.0)
+    wall.team(local_velocity([0, 1]))
+    wall.now += 1.1
+    assert not wall.team(data, address=OTHER).errors
+    team = wall.server.session.teams[0]
+    assert not team.commands[:, :3].any()
+    assert wall.server.session.counts["blue: left"] == 1
+    assert [e.code for e in wall.team(local_velocity([0])).errors] == ["TEAM_TAKEN"]
+    assert team.refused == 1
+
+
+def test_bytes_that_are_no_message_take_no_team() -> None:
+    wall = Wall()
+    wall.team(b"\xff" * 20, address=OTHER)
+    assert wall.server.session.teams[0].address is None
+    assert not wall.team(local_velocity([0])).errors
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.045, 0.1])
@@ -308,19 +393,42 @@ def test_the_same_messages_give_the_same_match() -> None:
     assert len(first[0]) > 10_000
 
 
-def test_an_external_referee_is_obeyed() -> None:
-    wall = Wall(referee="external")
-    assert "referee" in wall.server.inputs
+def referee_packet(command: int = referee_pb2.DIRECT_FREE_BLUE) -> referee_pb2.Packet:
     packet = referee_pb2.Packet(
         packet_timestamp=1,
         stage=referee_pb2.NORMAL_FIRST_HALF,
-        command=referee_pb2.DIRECT_FREE_BLUE,
+        command=command,  # type: ignore[arg-type]
         command_counter=1,
         command_timestamp=1,
     )
     for team in (packet.blue, packet.yellow):
         team.name, team.score, team.red_cards = "x", 2, 0
         team.yellow_cards = team.timeouts = team.timeout_time = team.goalkeeper = 0
+    return packet
+
+
+@pytest.mark.parametrize("side", [False, True])
+@pytest.mark.parametrize("reported", [None, False, True])
+def test_places_of_an_external_referee_are_on_the_side_of_vision(
+    side: bool, reported: bool | None
+) -> None:
+    wall = Wall(referee="external", blue_on_positive_half=side)
+    packet = referee_packet(referee_pb2.BALL_PLACEMENT_BLUE)
+    packet.designated_position.x, packet.designated_position.y = 1000.0, -500.0
+    if reported is not None:
+        packet.blue_team_on_positive_half = reported
+    wall.send("referee", packet.SerializeToString())
+    game = wall.server.session.arena.play.game
+    sign = -1.0 if side else 1.0
+    np.testing.assert_allclose(game.designated_position[0], [sign, -0.5 * sign], rtol=1e-6)
+    differs = reported is not None and reported != side
+    assert wall.server.session.counts["referee: blue on the other half"] == differs
+
+
+def test_an_external_referee_is_obeyed() -> None:
+    wall = Wall(referee="external")
+    assert "referee" in wall.server.inputs
+    packet = referee_packet()
     assert wall.send("referee", packet.SerializeToString()) == []
     game = wall.server.session.arena.play.game
     assert (game.command[0], game.stage[0], game.score[0].tolist()) == (9, 1, [2, 2])
@@ -330,6 +438,46 @@ def test_an_external_referee_is_obeyed() -> None:
     assert wall.server.session.counts["referee: unreadable"] == 1
 
 
+@pytest.mark.parametrize("division", ["A", "B"])
+def test_a_kick_of_an_external_referee_is_in_play_after_its_time(division: str) -> None:
+    wall = Wall(referee="external", division=division)
+    game = wall.server.session.arena.play.game
+    half = len(game.may_touch[0]) // 2
+    for command in (referee_pb2.STOP, referee_pb2.DIRECT_FREE_BLUE):
+        wall.send("referee", referee_packet(command).SerializeToString())
+        wall.tick(10)
+        assert game.command_steps[0] == 10
+    seconds = {"A": 5.0, "B": 10.0}[division]
+    while game.command_steps[0] < round(seconds / TICK) - 1:
+        wall.tick()
+    wall.send("referee", referee_packet().SerializeToString())
+    assert (game.in_play[0], game.may_touch[0].sum()) == (0.0, half)
+    wall.tick(2)
+    assert (game.in_play[0], game.may_touch[0].sum()) == (1.0, 2 * half)
+    wall.send("referee", referee_packet(referee_pb2.STOP).SerializeToString())
+    assert (game.in_play[0], game.may_touch[0].sum(), game.command_steps[0]) == (0.0, 0, 0)
+
+
+def test_a_kick_off_of_an_external_referee_is_one_team_s_until_the_ball_has_moved() -> None:
+    wall = Wall(referee="external")
+    arena = wall.server.session.arena
+    game = arena.play.game
+    commands = (referee_pb2.PREPARE_KICKOFF_YELLOW, referee_pb2.NORMAL_START)
+    for command, allowed in zip(commands, (0, 6), strict=True):
+        wall.send("referee", referee_packet(command).SerializeToString())
+        wall.tick(10)
+        assert (game.in_play[0], game.may_touch[0].sum()) == (0.0, allowed)
+    assert game.may_touch[0].tolist() == [False] * 6 + [True] * 6
+    assert game["referee"][0, GAME_COLUMNS.index("kick")] == 4
+    message = simulation_pb2.Command()
+    message.control.teleport_ball.vx = 1.0
+    assert wall.control(message) == []
+    wall.tick(5)
+    assert game.in_play[0] == 0.0, "the ball has moved by less than 0.05 m"
+    wall.tick(10)
+    assert (game.in_play[0], game.may_touch[0].all()) == (1.0, True)
+
+
 def test_a_served_match_refuses_forecasts() -> None:
-    with pytest.raises(ValueError, match=r"sensing.forecast: expected 0"):
+    with pytest.raises(ValueError, match=r"sensing\.forecast: expected 0"):
         Arena(make_match("ssl", "B", None), Sensing("rc2021", forecast=1))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import sys
 import threading
 from collections.abc import Iterator
 
@@ -10,7 +11,14 @@ import pytest
 
 from rsoccer.bridge.server import Server
 from rsoccer.bridge.settings import SSL_GROUPS, SSL_PORTS, Settings
-from rsoccer.bridge.sockets import LOOPBACK, Network, SocketLoop, group_receiver, receiver
+from rsoccer.bridge.sockets import (
+    LOOPBACK,
+    Network,
+    SocketLoop,
+    group_receiver,
+    receiver,
+    sender,
+)
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.bridge.clients import local_velocity
 
@@ -83,6 +91,44 @@ def test_a_real_time_server_keeps_on_while_it_is_flooded(places: Network) -> Non
             loop.turn()
         assert server.session.arena.ticks > 20
         assert server.session.counts["control: unreadable"] > 1000
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="an option of Linux")
+def test_a_group_is_heard_on_its_interface_alone() -> None:
+    group, port = SSL_GROUPS["referee"], free_port()
+    with group_receiver(group, port, LOOPBACK) as made:
+        assert made.getsockopt(socket.IPPROTO_IP, 49) == 0
+        with sender(LOOPBACK, 0) as source:
+            source.sendto(b"x", (group, port))
+        made.settimeout(PATIENCE)
+        data, address = made.recvfrom(10)
+    assert (data, address[0]) == (b"x", LOOPBACK)
+
+
+@pytest.mark.parametrize("platform", ["linux", "darwin"])
+def test_a_host_in_place_of_a_group_is_the_only_place_that_hears(
+    platform: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "platform", platform)
+    with group_receiver(LOOPBACK, 0, LOOPBACK) as made:
+        assert made.getsockname()[0] == LOOPBACK
+
+
+@pytest.mark.parametrize(
+    ("host", "interface", "is_local"),
+    [(LOOPBACK, None, True), ("0.0.0.0", LOOPBACK, False)],
+)
+def test_a_server_of_this_machine_hears_no_other_referee(
+    host: str, interface: str | None, is_local: bool
+) -> None:
+    server = Server(Settings(referee="external"))
+    places = Network(host, interface, network().ports, SSL_GROUPS)
+    with SocketLoop(server, places):
+        for address in (("192.0.2.7", 10003), (LOOPBACK, 10003)):
+            assert server.receive("referee", b"\xff\xff", address, 0.0) == []
+    counts = server.session.counts
+    assert counts["referee: not of this machine"] == is_local
+    assert counts["referee: unreadable"] == 2 - is_local
 
 
 def test_a_taken_port_is_named() -> None:

@@ -67,6 +67,35 @@ def test_bodies_are_put_by_this_machine_alone() -> None:
     np.testing.assert_allclose(ball, [-0.3, -0.4], atol=1e-6)
 
 
+def placement(robot: int = 1, x: float = 0.5) -> bytes:
+    message = vssref_pb2.Placement()
+    message.world.teamColor = vssref_pb2.BLUE
+    message.world.robots.add(robot_id=robot, x=x, y=0.5, orientation=90.0)
+    data: bytes = message.SerializeToString()
+    return data
+
+
+def test_nobody_is_placed_while_an_external_referee_lets_play_go_on() -> None:
+    wall = Wall(league="vsss", referee="external")
+    for foul, x in ((vssref_pb2.KICKOFF, -0.5), (vssref_pb2.GAME_ON, -0.5)):
+        command = vssref_pb2.Command(foul=foul, teamcolor=vssref_pb2.BLUE)
+        wall.send("referee", command.SerializeToString())
+        wall.send("replacer", placement(x=0.5 if foul == vssref_pb2.KICKOFF else 0.2))
+        np.testing.assert_allclose(wall.robots.position[0, 1], [x, -0.5], atol=1e-6)
+    assert wall.server.session.counts["replacer: refused while play goes on"] == 1
+
+
+def test_a_team_that_somebody_drives_is_placed_from_there() -> None:
+    wall = Wall(league="vsss")
+    wall.send("command", wheels(0, 0.0, 0.0), REMOTE)
+    before = wall.robots.position[0, 1].tolist()
+    wall.send("replacer", placement(), BLUE)
+    assert wall.robots.position[0, 1].tolist() == before
+    assert wall.server.session.counts["replacer: remote control refused"] == 1
+    wall.send("replacer", placement(), (REMOTE[0], 6000))
+    np.testing.assert_allclose(wall.robots.position[0, 1], [-0.5, -0.5], atol=1e-6)
+
+
 def test_the_referee_tells_and_a_team_places_its_robots() -> None:
     wall = Wall(league="vsss")
     wall.tick(20)

@@ -95,15 +95,20 @@ def test_dribblers_run_at_most_at_their_full_speed() -> None:
 
 
 @pytest.mark.parametrize("config", [SSL, WHEELS, VSSS])
-def test_previous_commands_hold_without_their_kicks(config: SimConfig) -> None:
+def test_previous_commands_hold_without_the_kicks_of_given_robots(config: SimConfig) -> None:
     previous = commands(config)
-    result = Collector(layout(config), previous).result()
+    collector = Collector(layout(config), previous)
+    assert np.array_equal(collector.result().commands, previous)
+    assert not collector.result().given.any()
+    slot = layout(config).slots(BLUE)[0]
+    assert collector.row(*layout(config).identity(slot)) is not None
+    result = collector.result()
     expected = previous.copy()
     for name in ("kick_v_x", "kick_v_z"):
         if name in config.command_columns:
-            expected[:, config.command_columns.index(name)] = 0.0
+            expected[slot, config.command_columns.index(name)] = 0.0
     assert np.array_equal(result.commands, expected)
-    assert not result.given.any()
+    assert np.flatnonzero(result.given).tolist() == [slot]
     assert previous.any()
 
 

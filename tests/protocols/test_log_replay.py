@@ -53,6 +53,8 @@ def test_a_match_survives(positive: bool, tmp_path: Path) -> None:
     states, before = found.referee_states, replay.referee_states
     assert states is not None
     assert before is not None
+    n_blue = replay.config.n_blue
+    blue, yellow = slice(n_blue), slice(n_blue, None)
     for now, then in zip(states, before, strict=True):
         assert (now.command, now.stage, now.next_command) == (
             then.command,
@@ -64,7 +66,17 @@ def test_a_match_survives(positive: bool, tmp_path: Path) -> None:
             then.yellow_cards,
             then.red_cards,
         )
+        assert (now.in_play, now.kick) == (then.in_play, then.kick)
+        for team in (blue, yellow):  # packets do not tell who may not touch the ball twice
+            assert any(now.may_touch[team]) == any(then.may_touch[team])
+        # A restart takes the referee a step that the packets do not tell.
+        step = replay.config.time_step
+        assert now.command_seconds == pytest.approx(then.command_seconds, abs=1.01 * step)
     assert len({state.command for state in before}) > 2
+    assert {state.in_play for state in before if state.command is Command.NORMAL_START} == {
+        False,
+        True,
+    }
 
 
 def test_events_of_a_match_survive(tmp_path: Path) -> None:

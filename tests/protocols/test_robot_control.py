@@ -70,8 +70,7 @@ def test_movement_and_dribbler_hold_and_kicks_do_not() -> None:
     message.robot_commands.add(id=5, kick_speed=2.0)
     result = read_robot_control(layout(), message, BLUE, state(), previous=previous)
     expected = previous.copy()
-    expected[:, 3:5] = 0.0
-    expected[0, 3] = 2.0
+    expected[0, 3:5] = 2.0, 0.0
     assert np.array_equal(result.commands, expected)
 
 

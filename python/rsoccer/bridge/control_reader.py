@@ -8,6 +8,7 @@ a check of all numbers at once, and leaves every other one, and all errors, to
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,17 @@ from rsoccer.protocols.schemas import simulation_pb2
 
 _COLUMNS = ("v_x", "v_y", "v_theta", "kick_v_x", "kick_v_z", "dribbler")
 _MAX_ANSWERS = 4096
+
+
+class CommonCommands(NamedTuple):
+    """Commands of a common message."""
+
+    commands: Floats
+    """(robots, command) commands of all robots, in the order of a state row."""
+    given: Mask
+    """(robots,) robots that the message has."""
+    moved: Mask
+    """(robots,) robots whose velocity it has."""
 
 
 class ControlReader:
@@ -43,29 +55,27 @@ class ControlReader:
         self._robots = config.n_robots
         self._answers: dict[tuple[int, bytes, bytes], bytes] = {}
 
-    def read(self, data: bytes, team: int, previous: Floats) -> tuple[Floats, Mask] | None:
-        """Return commands and robots of a message; None if it is not a common one.
+    def read(self, data: bytes, team: int, previous: Floats) -> CommonCommands | None:
+        """Return what a message has; None if it is not a common one.
 
         Args:
             data: the bytes.
             team: `BLUE` or `YELLOW`.
             previous: (robots, command) commands that hold where the message has no field.
 
-        Returns:
-            (robots, command) commands, and (robots,) robots that the message has.
         """
         message = _parsed(data) if self._is_usable else None
         if message is None:
             return None
         rows: list[list[float]] = previous.tolist()
-        for row in rows:
-            row[3] = row[4] = 0.0  # a kick holds for one message
         slots, known = [], self._slots[team]
+        moved = np.zeros(self._robots, np.bool_)
         for command in message.robot_commands:
             slot = known.get(command.id)
             if slot is None or not _put(command, rows[slot]):
                 return None
             slots.append(slot)
+            moved[slot] = command.HasField("move_command")
         if len(set(slots)) != len(slots):
             return None
         numbers = np.array(rows)
@@ -73,7 +83,7 @@ class ControlReader:
             return None
         given = np.zeros(self._robots, np.bool_)
         given[slots] = True
-        return numbers.astype(np.float32), given
+        return CommonCommands(numbers.astype(np.float32), given, moved)
 
     def answer(self, frame: Frame, team: int, given: Mask) -> bytes:
         """Return the answer to a message without errors.
@@ -114,6 +124,7 @@ def _parsed(data: bytes) -> simulation_pb2.RobotControl | None:
 
 def _put(command: simulation_pb2.RobotCommand, row: list[float]) -> bool:
     """Put a command into its columns. Return whether it is a common one."""
+    row[3] = row[4] = 0.0  # a kick holds until the robot's next command
     if command.HasField("move_command"):
         move = command.move_command
         if not move.HasField("local_velocity"):

@@ -2,36 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Final
-
-import numpy as np
-
 from rsoccer._core import GAME_COLUMNS
-from rsoccer.arrays import Mask
+from rsoccer.bridge.match_tasks import TICK
 from rsoccer.bridge.session import Session
-from rsoccer.game import BLUE, NOBODY, YELLOW, Command, Game
+from rsoccer.game import NOBODY, Command, Game
 from rsoccer.protocols import referee, vssref
+from rsoccer.protocols.ball_in_play import BallInPlay
 from rsoccer.protocols.layout import TEAM_NAMES, TEAMS
 from rsoccer.protocols.parsing import parse
 from rsoccer.protocols.schemas import referee_pb2, vssref_pb2
-
-_RUNNING: Final = (Command.NORMAL_START, Command.FORCE_START)
-_OF_TEAM: Final = {
-    Command.PREPARE_KICKOFF_BLUE: BLUE,
-    Command.PREPARE_PENALTY_BLUE: BLUE,
-    Command.DIRECT_FREE_BLUE: BLUE,
-    Command.BALL_PLACEMENT_BLUE: BLUE,
-    Command.GOAL_KICK_BLUE: BLUE,
-    Command.PREPARE_KICKOFF_YELLOW: YELLOW,
-    Command.PREPARE_PENALTY_YELLOW: YELLOW,
-    Command.DIRECT_FREE_YELLOW: YELLOW,
-    Command.BALL_PLACEMENT_YELLOW: YELLOW,
-    Command.GOAL_KICK_YELLOW: YELLOW,
-}
-_ALLOWS_TOUCH: Final = (
-    *(Command.DIRECT_FREE_BLUE, Command.DIRECT_FREE_YELLOW),
-    *(Command.BALL_PLACEMENT_BLUE, Command.BALL_PLACEMENT_YELLOW),
-)
 
 
 class ExternalReferee:
@@ -48,6 +27,7 @@ class ExternalReferee:
             session: the match.
         """
         self._session = session
+        self._state = BallInPlay(session.arena.rule.rules)
 
     def receive(self, data: bytes) -> None:
         """Take in a packet.
@@ -67,7 +47,13 @@ class ExternalReferee:
             if reported.stage is not None:
                 _set(game, "stage", reported.stage)
             return
-        status, problems = referee.read_packet(session.layout, parse(referee_pb2.Packet, data))
+        message = parse(referee_pb2.Packet, data)
+        if message.blue_team_on_positive_half != session.layout.blue_on_positive_half:
+            # Vision and commands keep the side of the start, and so do positions here.
+            known = message.HasField("blue_team_on_positive_half")
+            session.counts["referee: blue on the other half"] += known
+        message.ClearField("blue_team_on_positive_half")
+        status, problems = referee.read_packet(session.layout, message)
         session.counts["referee: parts refused"] += len(problems)
         self._command(game, status.command)
         _set(game, "stage", status.stage)
@@ -84,26 +70,33 @@ class ExternalReferee:
         if status.designated_position is not None:
             game.designated_position[0] = status.designated_position
 
-    def _command(self, game: Game, command: Command) -> None:
-        if int(game.command[0]) != command:
-            _set(game, "command_steps", 0.0)
-            team = _OF_TEAM.get(command, NOBODY)
-            if team != NOBODY:
-                _set(game, "kick", command)
-        _set(game, "command", command)
-        _set(game, "in_play", float(command in _RUNNING))
-        game.may_touch[0] = self._may_touch(command)
+    def advance(self) -> None:
+        """Take note of a tick: the time of the command, and whether the ball is in play now."""
+        arena, state = self._session.arena, self._state
+        state.steps += 1
+        x, y = arena.frame.ball.position[0].tolist()
+        state.judge((x, y), TICK)
+        self._write(arena.play.game)
 
-    def _may_touch(self, command: Command) -> Mask:
-        """Robots that may touch the ball."""
-        config = self._session.arena.config
-        allowed = np.zeros(config.n_robots, np.bool_)
-        if command in _RUNNING:
-            allowed[:] = True
-        elif command in _ALLOWS_TOUCH:
-            slots = self._session.layout.slots(_OF_TEAM[command])
-            allowed[slots.start : slots.stop] = True
-        return allowed
+    def _command(self, game: Game, command: Command) -> None:
+        self._state.give(command)
+        self._write(game)
+
+    def _write(self, game: Game) -> None:
+        """Write the state into that of the match."""
+        state = self._state
+        if state.command is None:
+            return
+        _set(game, "command", state.command)
+        _set(game, "command_steps", float(state.steps))
+        _set(game, "in_play", float(state.in_play))
+        if state.kick is not None:
+            _set(game, "kick", state.kick)
+        if state.kick_position is not None:
+            game.kick_position[0] = state.kick_position
+        for team in TEAMS:
+            slots = self._session.layout.slots(team)
+            game.may_touch[0, slots.start : slots.stop] = state.may_touch(team)
 
 
 def _set(game: Game, name: str, value: float) -> None:

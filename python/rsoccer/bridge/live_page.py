@@ -47,6 +47,8 @@ _SCRIPTS: Final = ("reader.js", "ghosts.js", "field.js")
 _DIGITS: Final = 4
 _WAIT: Final = 0.5
 """Time after which a thread looks whether the page is closed, s."""
+_CLOSE: Final = 1.0
+"""Longest wait for a browser that is to close its connection, s."""
 
 
 class LivePage:
@@ -79,7 +81,12 @@ class LivePage:
             raise OSError(f"page: {LOOPBACK}:{port}: {error.strerror or error}") from error
         self.port: int = made.getsockname()[1]
         self._web: WebServer = serve(
-            self._watch, sock=made, process_request=self._answer, compression=None, logger=_LOGGER
+            self._watch,
+            sock=made,
+            process_request=self._answer,
+            compression=None,
+            logger=_LOGGER,
+            close_timeout=_CLOSE,
         )
         self.url = f"http://{LOOPBACK}:{self.port}/"
         self._thread = threading.Thread(target=self._web.serve_forever, daemon=True)
@@ -140,11 +147,13 @@ class LivePage:
     def _watch(self, connection: ServerConnection) -> None:
         """Send frames to a browser, in a thread of its own."""
         with self._changed:
-            if self._viewers >= MAX_VIEWERS:
-                connection.close(1013, "too many watch")
-                return
-            self._viewers += 1
+            is_full = self._viewers >= MAX_VIEWERS
+            self._viewers += not is_full
             seen = self._number
+        if is_full:
+            # The match, which needs the lock, does not wait for the browser's answer.
+            connection.close(1013, "too many watch")
+            return
         try:
             while True:
                 with self._changed:

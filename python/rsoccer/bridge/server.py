@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import Final
 
 from rsoccer.bridge.external_referee import ExternalReferee
-from rsoccer.bridge.session import Datagram, Session
+from rsoccer.bridge.session import Datagram, Session, is_loopback
 from rsoccer.bridge.settings import Settings
 from rsoccer.bridge.ssl_ports import SslPorts
 from rsoccer.bridge.team import Address
@@ -32,6 +32,7 @@ class Server:
         session: the match and its clients.
         ports: the ports of the league.
         listeners: called after each tick with what is sent.
+        is_local: whether only a referee on this machine is heard; `SocketLoop` sets it.
     """
 
     def __init__(self, settings: Settings | None = None, epoch: float = 0.0) -> None:
@@ -53,6 +54,7 @@ class Server:
         else:
             self.ports = VsssPorts(self.session)
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
+        self.is_local = False
         self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
         self._waits = False
         self._sent: list[Datagram] = []
@@ -83,6 +85,9 @@ class Server:
         """
         counts = self.session.counts
         counts[f"{port}: received"] += 1
+        if port == "referee" and self.is_local and not is_loopback(address):
+            counts["referee: not of this machine"] += 1
+            return []
         try:
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
@@ -126,6 +131,8 @@ class Server:
     def _tick(self, now: float) -> list[Datagram]:
         session = self.session
         session.tick(now)
+        if self._referee is not None:
+            self._referee.advance()
         sent: list[Datagram] = []
         for frame in session.arena.camera_frames:
             sent += self.ports.frames(frame)

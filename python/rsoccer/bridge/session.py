@@ -92,8 +92,7 @@ class Session:
         arena, stand_ins = self.arena, self.stand_ins
         seconds = arena.seconds
         for team in self.teams:
-            if team.expire(now):
-                self.counts[f"{_name(team)}: left"] += 1
+            self.release_silent(team, now)
         plays = [team for team in self.teams if stand_ins.plays(team.index)]
         if plays and stand_ins.is_due(arena.ticks):
             arena.sense()
@@ -103,6 +102,16 @@ class Session:
             stand_in = stand_ins.commands if has_policy else None
             team.write(self._commands, seconds, stand_in, arena.frame.robots.heading[0])
         arena.step(self._commands)
+
+    def release_silent(self, team: Team, now: float) -> None:
+        """Release a team whose client is silent, and count that it left.
+
+        Args:
+            team: the team.
+            now: time on the wall, s.
+        """
+        if team.expire(now):
+            self.counts[f"{_name(team)}: left"] += 1
 
     @property
     def commands(self) -> Floats:

@@ -26,6 +26,8 @@ BUFFER: Final = 1 << 20
 """Bytes of a socket's buffers that are asked for."""
 LONGEST_WAIT: Final = 0.5
 """Longest time without a look at whether to stop, s."""
+_IP_MULTICAST_ALL: Final = 49
+"""Option of Linux, which `socket` does not name (ip(7))."""
 
 
 @dataclass(frozen=True)
@@ -133,8 +135,11 @@ def group_receiver(group: str, port: int, interface: str) -> socket.socket:
             made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
         multicast = ipaddress.IPv4Address(group).is_multicast
         # Bound to its group, a socket gets nothing of other groups on the same port.
-        made.bind((group if sys.platform == "linux" else "", port))
+        made.bind((group if sys.platform == "linux" or not multicast else "", port))
         if multicast:
+            if sys.platform == "linux":
+                # Else it gets what other programs have joined the group for on other interfaces.
+                made.setsockopt(socket.IPPROTO_IP, _IP_MULTICAST_ALL, 0)
             member = struct.pack("4s4s", socket.inet_aton(group), socket.inet_aton(interface))
             made.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
     except OSError as error:
@@ -166,6 +171,10 @@ class SocketLoop:
         """
         self.server = server
         self._network, self._clock = network, clock
+        server.is_local = all(
+            ipaddress.IPv4Address(text).is_loopback
+            for text in (network.host, network.interface_address)
+        )
         self._stack = contextlib.ExitStack()
         self._selector = self._stack.enter_context(selectors.DefaultSelector())
         self._sockets: dict[str, socket.socket] = {}

@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer.arrays import Mask
 from rsoccer.bridge.arena import CameraFrame
 from rsoccer.bridge.control_reader import ControlReader
 from rsoccer.bridge.officials import GameController
@@ -129,18 +130,20 @@ class SslPorts:
     def _team(self, team: Team, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to a team's port, and return the answer."""
         session, arena = self._session, self._session.arena
-        seconds = arena.seconds
+        seconds, kind = arena.seconds, simulation_pb2.RobotControl
+        session.release_silent(team, now)  # a new client inherits no commands
         common = self._reader.read(data, team.index, team.previous(seconds))
-        if common is not None and team.accept(address, now):
-            team.hold(*common, seconds)
-            return self._reader.answer(arena.sense(), team.index, common[1])
-        message = parse(simulation_pb2.RobotControl, data)
+        message = kind() if common else parse(kind, data)
         if not team.accept(address, now):
             return to_team_response([taken(team)])
+        if common is not None:
+            team.hold(common.commands, common.given, seconds, moved=common.moved)
+            return self._reader.answer(arena.sense(), team.index, common.given)
         read = read_robot_control(
             session.layout, message, team.index, arena.frame, 0, team.previous(seconds)
         )
-        team.hold(read.commands, read.given, seconds, self._fixed(team, message))
+        fixed, moved = self._movement(team, message)
+        team.hold(read.commands, read.given, seconds, fixed, moved)
         given = read.given if read.given.any() else None
         answer = to_robot_control_response(
             session.layout, arena.sense(), 0, team.index, given, read.problems
@@ -148,23 +151,27 @@ class SslPorts:
         reply: bytes = answer.SerializeToString()
         return reply
 
-    def _fixed(
+    def _movement(
         self, team: Team, message: simulation_pb2.RobotControl
-    ) -> dict[int, tuple[float, float]]:
-        """Velocities along the field's axes, by index of the robot."""
+    ) -> tuple[dict[int, tuple[float, float]], Mask]:
+        """Velocities along the field's axes by index of the robot, and robots with any velocity."""
         layout = self._session.layout
         fixed: dict[int, tuple[float, float]] = {}
         known = {layout.identity(slot)[1]: slot for slot in team.slots}
         models = layout.config.robots
+        moved = np.zeros(len(models), np.bool_)
         for command in reversed(message.robot_commands):  # of two of a robot the first counts
             slot = known.get(command.id, -1)
-            if slot < 0 or models[slot].drive != "omni":
+            if slot < 0:
                 continue
+            moved[slot] = command.move_command.WhichOneof("command") is not None
             fixed.pop(slot, None)
+            if models[slot].drive != "omni":
+                continue
             if command.move_command.HasField("global_velocity"):
                 velocity = command.move_command.global_velocity
                 fixed[slot] = (layout.sign * velocity.x, layout.sign * velocity.y)
-        return fixed
+        return fixed, moved
 
     def _control(self, data: bytes, address: Address, now: float) -> bytes:
         """Obey a message to the control port, and return the answer."""

@@ -102,6 +102,7 @@ class Team:
         given: Mask,
         seconds: float,
         fixed: Mapping[int, tuple[float, float]] = MappingProxyType({}),
+        moved: Mask | None = None,
     ) -> None:
         """Take over the commands of a message.
 
@@ -111,13 +112,17 @@ class Team:
             seconds: simulated time, s.
             fixed: velocities along the field's x and y in the package, m/s, by index in a state
                 row, of robots that keep them while they turn.
+            moved: (robots,) robots whose velocity the message has; None for all given. The others
+                keep theirs.
         """
-        team = slice(self.slots.start, self.slots.stop)
-        self.commands[team] = commands[team]
-        for slot in np.flatnonzero(given).tolist():
+        # Other robots keep what they have: clients may send a packet for each robot.
+        own = given.copy()
+        own[: self.slots.start] = own[self.slots.stop :] = False
+        self.commands[own] = commands[own]
+        for slot in np.flatnonzero(own if moved is None else own & moved).tolist():
             self._fixed.pop(slot, None)
         self._fixed.update(fixed)
-        self._commanded[team][given[team]] = seconds
+        self._commanded[own] = seconds
         self._next_stop = min(self._next_stop, seconds + self._command_timeout + _TOLERANCE)
         self.answered = True
 

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from rsoccer._core import Sensing, SimConfig
+from rsoccer._core import Sensing
 from rsoccer.arrays import Doubles
 from rsoccer.bridge.arena import CameraFrame
 from rsoccer.bridge.message_rows import MessageRows, field_of
@@ -22,22 +22,22 @@ CAMERA_HEIGHT: Final = 4.0
 _DETECTION: Final = vision_pb2.Packet.DETECTION_FIELD_NUMBER
 
 
-def cameras_of(config: SimConfig, sensing: Sensing) -> list[Camera]:
-    """Return the cameras of some senses, in their order.
+def cameras_of(layout: WireLayout, sensing: Sensing) -> list[Camera]:
+    """Return the cameras of some senses, in their order, with their places on the wire.
 
     Args:
-        config: the match.
+        layout: the match.
         sensing: the senses.
     """
     along, across = (max(1, int(n)) for n in (sensing.cameras_along, sensing.cameras_across))
     height = float(sensing.camera_height) or CAMERA_HEIGHT
-    field = config.field
+    field, sign = layout.config.field, layout.sign
     return [
         Camera(
             camera_id=column * across + row,
             position=(
-                field.length * ((column + 0.5) / along - 0.5),
-                field.width * ((row + 0.5) / across - 0.5),
+                sign * field.length * ((column + 0.5) / along - 0.5),
+                sign * field.width * ((row + 0.5) / across - 0.5),
                 height,
             ),
         )
@@ -63,7 +63,7 @@ class VisionPackets:
             epoch: time of the start of the simulation, Unix time, s.
         """
         self.layout = layout
-        self.cameras = cameras_of(layout.config, sensing)
+        self.cameras = cameras_of(layout, sensing)
         self._epoch = epoch
         self._radius = layout.config.ball.radius
         self._heights: Doubles = np.array([model.height for model in layout.config.robots])

@@ -110,13 +110,15 @@ class VsssPorts:
         """Put the robots of a team where it wants them before a kick."""
         session = self._session
         command = Command(int(session.arena.play.game.command[0]))
-        if session.arena.referee is not None and command in _RUNNING:
+        if session.settings.referee != "off" and command in _RUNNING:
             session.counts["replacer: refused while play goes on"] += 1
             return
         placement = vssref.read_placement(session.layout, message, session.arena.frame)
         team = int(message.world.teamColor == vssref_pb2.YELLOW)
         holder = session.teams[team].address
-        if not session.may_control(address) and (holder is None or holder[0] != address[0]):
+        # A team that somebody drives is placed from there; another one as all bodies are.
+        allowed = session.may_control(address) if holder is None else holder[0] == address[0]
+        if not allowed:
             session.counts["replacer: remote control refused"] += 1
             return
         session.counts["replacer: parts refused"] += len(session.place(placement))

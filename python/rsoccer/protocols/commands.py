@@ -40,7 +40,7 @@ class CommandRow:
     """The command of one robot, which parts of messages change."""
 
     def __init__(self, model: RobotModel, columns: Floats) -> None:
-        """Begin with a command; its kick is cleared, since a kick holds for one message.
+        """Begin with a command; its kick is cleared, since it holds until the robot's next one.
 
         Args:
             model: the robot.
@@ -164,7 +164,7 @@ class Collector:
     """Commands of a message while it is read: a row for each robot, and problems."""
 
     def __init__(self, layout: WireLayout, previous: Floats | None) -> None:
-        """Begin with the previous commands, without their kicks.
+        """Begin with the previous commands.
 
         Args:
             layout: the match.
@@ -214,9 +214,7 @@ class Collector:
         self._problems.append(Problem(error.code, str(error)))
 
     def result(self) -> RobotCommands:
-        """Return what has been read. Robots without an entry keep their commands, but not kicks."""
-        for slot in np.flatnonzero(~self._given).tolist():
-            CommandRow(self._models[slot], self.commands[slot])
+        """Return what has been read. Robots without an entry keep their commands and kicks."""
         return RobotCommands(self.commands, self._given, tuple(self._problems))
 
 

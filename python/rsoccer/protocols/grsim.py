@@ -33,7 +33,7 @@ def read_commands(
         layout: the match.
         message: the packet, from `rsoccer.protocols.parsing.parse`.
         previous: (robots, command) commands that hold for robots that the packet lacks, and for
-            wheels that it lacks; None for zeros. Kicks never hold on.
+            wheels that it lacks; None for zeros. Kicks of robots in the packet do not hold on.
 
     Returns:
         The commands of all robots.

@@ -7,21 +7,21 @@ from typing import Final
 
 import numpy as np
 
+from rsoccer._core import Field
 from rsoccer.arrays import Doubles
 from rsoccer.frame import robot_names
-from rsoccer.game import BLUE, NOBODY, YELLOW, Command, Event, EventKind
+from rsoccer.game import BLUE, NOBODY, YELLOW, Event, EventKind
+from rsoccer.protocols.ball_in_play import BallInPlay
 from rsoccer.protocols.layout import TEAM_NAMES, TEAMS, WireLayout
-from rsoccer.protocols.referee import RUNNING, RefereeStatus, read_packet
+from rsoccer.protocols.referee import RefereeStatus, read_packet
 from rsoccer.protocols.schemas import referee_pb2
 from rsoccer.render.referee_state import COLUMNS
 from rsoccer.replay import events
+from rsoccer.rules.referee_config import RefereeConfig
 
 BALL_DISTANCE: Final = 0.5
 """Distance that robots keep from the ball in a stop and before a kick of the opponents, m (SSL
 rules 4300196, "Stop")."""
-_KICKS: Final = tuple(
-    command for command in Command if command.name.startswith(("PREPARE", "DIRECT"))
-)
 
 
 class LogReferee:
@@ -39,8 +39,7 @@ class LogReferee:
         """
         self.layout = layout
         self._status: RefereeStatus | None = None
-        self._kick: Command | None = None
-        self._since = 0
+        self._state = BallInPlay(_rules(layout))
         self._reported: set[str] = set()
         self._new: list[Event] = []
 
@@ -55,10 +54,7 @@ class LogReferee:
             self.layout = replace(self.layout, blue_on_positive_half=side)
         status, _ = read_packet(self.layout, message)
         before, self._status = self._status, status
-        if before is None or before.command is not status.command:
-            self._since = 0
-            if status.command in _KICKS:
-                self._kick = status.command
+        self._state.give(status.command)
         old = status if before is None else before
         for team in TEAMS:
             if status.teams[team].score > old.teams[team].score:
@@ -71,11 +67,14 @@ class LogReferee:
                 self._new.append(reported.event)  # goals follow from the score
             self._reported.add(reported.identity)
 
-    def frame(self, index: int) -> tuple[Doubles | None, list[events.Event]]:
+    def frame(
+        self, index: int, ball: tuple[float, float]
+    ) -> tuple[Doubles | None, list[events.Event]]:
         """Return the row of a frame, and the events since the frame before it.
 
         Args:
             index: index of the frame.
+            ball: place of the ball, x and y, m.
 
         Returns:
             (columns + robots,), or None before the first packet; and the events.
@@ -84,20 +83,21 @@ class LogReferee:
         names = robot_names(config.n_blue, config.n_yellow)
         new = events.game_events(names, index, self._new)
         self._new = []
+        self._state.judge(ball, config.time_step)
         row = None if self._status is None else self._row(self._status)
-        self._since += 1
+        self._state.steps += 1
         return row, new
 
     def _row(self, status: RefereeStatus) -> Doubles:
-        config, following = self.layout.config, status.next_command
+        state, following = self._state, status.next_command
         x, y = status.designated_position or (0.0, 0.0)
         values: dict[str, float] = {
             "command": status.command,
             "next_command": NOBODY if following is None else following,
-            "kick": NOBODY if self._kick is None else self._kick,
-            "command_steps": self._since,
+            "kick": NOBODY if state.kick is None else state.kick,
+            "command_steps": state.steps,
             "stage": status.stage,
-            "in_play": float(status.command in RUNNING),
+            "in_play": float(state.in_play),
             "designated_position_x": x,
             "designated_position_y": y,
             "seconds_left": max(0.0, status.seconds_left or 0.0),
@@ -107,16 +107,17 @@ class LogReferee:
             values[f"score_{side}"] = status.teams[team].score
             values[f"yellow_cards_{side}"] = status.teams[team].yellow_cards
             values[f"red_cards_{side}"] = status.teams[team].red_cards
-        touch = np.zeros(config.n_robots)
+        touch = np.zeros(self.layout.config.n_robots)
         for team in (BLUE, YELLOW):
-            touch[list(self.layout.slots(team))] = self._may_touch(status.command, team)
+            touch[list(self.layout.slots(team))] = state.may_touch(team)
         return np.concatenate([[values.get(name, 0.0) for name in COLUMNS], touch])
 
-    def _may_touch(self, command: Command, team: int) -> bool:
-        side = f"_{TEAM_NAMES[team].upper()}"
-        kicks = ("DIRECT_FREE", "BALL_PLACEMENT")
-        own = command.name.endswith(side) and command.name.startswith(kicks)
-        return own or command in RUNNING
+
+def _rules(layout: WireLayout) -> RefereeConfig:
+    """Rules of the division whose field is the nearest."""
+    length = layout.config.field.length
+    names = {"ssl_a": "ssl_2026_a", "ssl_b": "ssl_2026_b"}
+    return RefereeConfig(names[min(names, key=lambda name: abs(Field(name).length - length))])
 
 
 def no_referee(layout: WireLayout) -> Doubles:

@@ -101,8 +101,10 @@ class _Frames:
     def advance(self, seconds: float) -> None:
         """Add the frames before a time."""
         while (due := self._first + len(self.rows) * self._time_step) < seconds:
-            row, events = self._officials.frame(len(self.rows))
-            self.rows.append(self._states.row(due))
+            state = self._states.row(due)
+            x, y = state[:2].tolist()
+            row, events = self._officials.frame(len(self.rows), (x, y))
+            self.rows.append(state)
             self.referee.append(row)
             self.events += events
 

@@ -35,7 +35,7 @@ def read_robot_control(
         frame: states, for the directions of robots that are driven along the field's axes.
         world: index of the world.
         previous: (robots, command) commands that hold where the message has no movement or
-            dribbler; None for zeros. Kicks never hold on.
+            dribbler; None for zeros. Kicks of robots in the message do not hold on.
 
     Returns:
         The commands of all robots; only those of the team change.
