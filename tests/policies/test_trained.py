@@ -187,6 +187,16 @@ def test_a_shipped_policy_is_small_and_fits_its_task(
         assert score.low <= score.score <= score.high
 
 
+@pytest.mark.parametrize("task", trained.list_trained("robust"))
+def test_robust_policies_name_the_delays_that_their_matches_drew(task: str) -> None:
+    """Within half a control step of 0 to 0.1 s, see `rsoccer distill`."""
+    network = trained.load_best(rsoccer.make_task(task), "robust")
+    command = json.loads(network.metadata["training"])["command"]
+    assert "--command-delays 0.0 0.025 0.05 0.075 0.1 " in command
+    longest = 0.1 + rsoccer.make_task(task).config.time_step / 2
+    assert network.randomization["sensing.command_delay"] == pytest.approx([0.0, longest])
+
+
 def test_some_tasks_have_a_robust_policy() -> None:
     assert {"SSLGoToBall-v0", "VSS-v0"} <= set(trained.list_trained("robust"))
     assert set(trained.list_trained("robust")) <= set(SHIPPED)

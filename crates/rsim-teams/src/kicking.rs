@@ -53,7 +53,7 @@ pub(crate) fn release_within(
 pub(crate) fn expect(memory: &mut TeamMemory, kick: &Kick) {
     memory.receiver = kick.receiver;
     memory.pass_steps = PASS_STEPS;
-    memory.aimer = None;
+    (memory.aimer, memory.corner_kicker) = (None, None);
 }
 
 /// Command of a kick, if the ball would leave in the direction of the kick.

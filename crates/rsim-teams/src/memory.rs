@@ -74,6 +74,10 @@ record! {
         aim_receiver: Option<usize>,
         /// Value.
         aim_value: f32,
+        /// Robot that has chosen a corner for its penalty kick; none if no robot has.
+        corner_kicker: Option<usize>,
+        /// The corner, by its y, m.
+        corner: f32,
         /// Whether the team attacks.
         attacks: bool,
         /// Whether the ball of a placement is to be left where it is.
@@ -117,6 +121,8 @@ impl TeamMemory {
             aim_chip: false,
             aim_receiver: None,
             aim_value: 0.0,
+            corner_kicker: None,
+            corner: 0.0,
             attacks: false,
             releases: false,
         }

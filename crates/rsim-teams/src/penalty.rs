@@ -46,6 +46,7 @@ const CORNER_DRAW: u32 = 2;
 pub(crate) fn kick(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Order {
     let ball = s.ball();
     if !s.in_play {
+        memory.corner_kicker = None;
         return restart::take(s, memory, robot, &ahead(s));
     }
     let goal = (s.pitch.their_goal() - ball).unit_or(Vector::new(1.0, 0.0));
@@ -89,16 +90,16 @@ fn corner(s: &Situation, memory: &mut TeamMemory, robot: &Player) -> Kick {
         let lane = Lane { start: ball, end, speed: MAX_BALL_SPEED, flies: 0.0 };
         margin(&lane, &s.view.others, s.body())
     });
-    let is_known = memory.aimer == Some(robot.index);
+    let is_known = memory.corner_kicker == Some(robot.index);
     // A keeper in the middle leaves both corners alike: then the seed decides.
     let (side, lead) = if is_known {
-        (memory.aim.y, LOYALTY)
+        (memory.corner, LOYALTY)
     } else {
         (s.random.uniform(robot.index, CORNER_DRAW), TIE)
     };
     let lead = lead.copysign(side);
     let nth = usize::from(margins[0] + lead < margins[1]);
-    (memory.aimer, memory.aim) = (Some(robot.index), places[nth]);
+    (memory.corner_kicker, memory.corner) = (Some(robot.index), places[nth].y);
     Kick {
         at: places[nth],
         speed: MAX_BALL_SPEED,
@@ -157,6 +158,39 @@ mod tests {
             let shot = order(&scene, &mut memory, true);
             assert!(shot.kick[0] > 5.0, "{shot:?}");
         }
+    }
+
+    /// The side to which the kicker turns: -1.0 away from a keeper that stands a little to the left.
+    fn side(memory: &mut TeamMemory, keeper: f32) -> f32 {
+        order(&scene(2.4, [4.0, keeper]), memory, true).facing.y.signum()
+    }
+
+    #[test]
+    fn corners_and_kicks_in_play_are_remembered_apart() {
+        let mut memory = TeamMemory::new(1);
+        memory.aimer = Some(0);
+        memory.aim = Vector::new(4.5, 1.0);
+        (memory.aim_speed, memory.aim_receiver, memory.aim_value) = (2.0, Some(1), 0.4);
+        let in_play = |memory: &TeamMemory| {
+            let TeamMemory { aimer, aim, aim_speed, aim_receiver, aim_value, .. } = *memory;
+            (aimer, aim, aim_speed, aim_receiver, aim_value)
+        };
+        let before = in_play(&memory);
+        assert!(side(&mut memory, 0.02) < 0.0, "the kick in play was to the left");
+        assert_eq!(in_play(&memory), before);
+    }
+
+    #[test]
+    fn a_new_penalty_begins_without_a_corner() {
+        let mut memory = TeamMemory::new(1);
+        assert!(side(&mut memory, -0.02) > 0.0);
+        assert!(side(&mut memory, 0.02) > 0.0, "it keeps to it");
+        let mut begins = scene(-1.5, [4.4, 0.0]);
+        begins.robot(0, [-2.0, 0.4]);
+        begins.set(0, "infrared", 0.0);
+        let waiting = order(&begins, &mut memory, false);
+        assert!(waiting.kick[0] <= 0.0, "a kick would end the choice as well: {waiting:?}");
+        assert!(side(&mut memory, 0.02) < 0.0);
     }
 
     #[test]

@@ -6,6 +6,9 @@ lies above 0 should be 2.5%. It is up to 33% with one match a side, 9% with two,
 with five and 3% with ten. (These are sums over all results, for the share of draws and the
 advantage of a side that are worst.) Therefore means of fewer than `MIN_PER_SIDE` matches a side
 have no interval.
+
+The interval of equal values has no width for any number of matches, although the mean is not exact:
+Wilson's interval for the share of such matches begins at n / (n + 1.96^2), which is 98.1% for 200.
 """
 
 from __future__ import annotations
@@ -33,7 +36,8 @@ class Interval:
     low: float | None
     """lower bound; None if there are fewer than 10 matches a side, which is too few"""
     high: float | None
-    """upper bound, or None; both bounds equal the mean if all values are equal"""
+    """upper bound, or None; both bounds equal the mean if all values are equal, which says little
+    about rare other values"""
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def test_a_policy_is_written_that_says_how_it_was_made(tmp_path: Path) -> None:
     assert network.sensing == rsoccer.Sensing("rc2021")
     assert network.randomization == {
         "robot.mass": [0.9, 1.1],
-        "sensing.command_delay": [0.0, 0.1],
+        "sensing.command_delay": [0.0, 0.1125],  # half a control step more
     }
     progress = read_progress(tmp_path / "first")
     assert progress["samples"][-1] >= 500
@@ -63,3 +63,28 @@ def test_wrong_settings_are_refused(tmp_path: Path) -> None:
     (tmp_path / "policy.safetensors").touch()
     with pytest.raises(ValueError, match=r"out: .*holds a run"):
         distill(args(tmp_path))
+
+
+def test_the_recorded_delays_are_those_that_matches_draw(tmp_path: Path) -> None:
+    late = args(tmp_path / "late", command_delays=(0.05, 0.1))
+    assert Network.load(distill(late)).randomization["sensing.command_delay"] == [0.0375, 0.1125]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"command_delays": (0.0, 0.06)}, r"multiples of the control step of 0.025 s, got 0.06 s"),
+        ({"decisions": 1}, r"decisions: expected at least 2 for command_delays of 0.1 s, got 1"),
+    ],
+)
+def test_delays_without_labels_are_refused_before_anything_is_written(
+    tmp_path: Path, changes: dict[str, Any], message: str
+) -> None:
+    folder = tmp_path / "none"
+    with pytest.raises(ValueError, match=message):
+        distill(args(folder, **changes))
+    assert not folder.exists()
+
+
+def test_the_shortest_round_that_a_delay_allows_has_labels(tmp_path: Path) -> None:
+    assert distill(args(tmp_path / "short", decisions=2, samples=8)).exists()

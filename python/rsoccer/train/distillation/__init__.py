@@ -32,7 +32,8 @@ def distill(args: DistillArgs) -> Path:
 
     Raises:
         ValueError: an unknown task, a teacher that is no trained policy or does not fit the task,
-            or a folder that holds a run.
+            a command delay that is no multiple of the control step, fewer decisions in a round
+            than the longest delay takes, or a folder that holds a run.
     """
     from rsoccer.train.distillation.run import run_distillation
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import csv
 import itertools
 import json
+import math
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any, Final
@@ -82,6 +84,7 @@ def run_distillation(args: DistillArgs) -> Path:
     student = new_student(first, stack)
     mean, std = initial_policy.widened_normalization(first, stack)
     normalize = Normalizer(mean, std, float(first.clip))
+    delays = _delays_in_steps(args, task, teacher.action_repeat)
     path = args.out / POLICY_FILE
     if path.exists():
         raise ValueError(f"out: {args.out} holds a run; name another folder")
@@ -90,7 +93,7 @@ def run_distillation(args: DistillArgs) -> Path:
     write_atomically(args.out / SETTINGS_FILE, settings.encode())
     with ExitStack() as opened:
         groups = []
-        for matches, delay in _matches(args, task):
+        for matches, delay in zip(_matches(args, task), delays, strict=True):
             opened.enter_context(closing(matches))
             groups.append(HindsightMatches(matches, teacher, delay))
         _learn(args, groups, student, normalize)
@@ -106,7 +109,7 @@ def run_distillation(args: DistillArgs) -> Path:
         task_name=teacher.task_name,
         task_options=teacher.task_options,
         sensing=args.sensing,
-        randomization=_randomization(args),
+        randomization=_randomization(args, task),
     )
     network.save(path)
     return path
@@ -156,31 +159,53 @@ def _fit(
     return float(np.mean(losses))
 
 
-def _matches(args: DistillArgs, task: Task) -> list[tuple[Matches, int]]:
-    """Matches for each command delay, and the delay in control steps."""
-    found = []
+def _delays_in_steps(args: DistillArgs, task: Task, action_repeat: int) -> list[int]:
+    """The command delays in control steps, none of which is longer than a round."""
+    step = task.config.time_step
+    steps = [round(delay / step) for delay in args.command_delays]
+    for delay, count in zip(args.command_delays, steps, strict=True):
+        if not math.isclose(delay, count * step, rel_tol=1e-6):
+            words = f"command_delays: expected multiples of the control step of {step:g} s"
+            raise ValueError(f"{words}, got {delay:g} s")
+    # The labels of a round's first decisions have to become known within it.
+    needed = max(steps) // action_repeat + 1
+    if args.decisions < needed:
+        words = f"at least {needed} for command_delays of {max(args.command_delays):g} s"
+        raise ValueError(f"decisions: expected {words}, got {args.decisions}")
+    return steps
+
+
+def _drawn_delays(delay: float, task: Task) -> tuple[float, float]:
+    """Bounds between which commands arrive in the control step of a delay, s."""
+    half = 0.5 * task.config.time_step
+    return (delay - half, delay + half) if delay else (0.0, 0.0)
+
+
+def _matches(args: DistillArgs, task: Task) -> Iterator[Matches]:
+    """Matches for each command delay."""
     seeds = np.random.SeedSequence(args.seed).generate_state(len(args.command_delays), np.uint64)
     for delay, seed in zip(args.command_delays, seeds >> np.uint64(1), strict=True):
-        half = 0.5 * task.config.time_step
-        spread = (max(delay - half, 0.0), delay + half if delay else 0.0)
-        matches = Matches(
+        yield Matches(
             task,
             args.worlds // len(args.command_delays),
             int(seed),
             args.threads,
             autoreset="disabled",
             sensing=args.sensing,
-            randomization={**args.randomization, "sensing.command_delay": spread},
+            randomization={
+                **args.randomization,
+                "sensing.command_delay": _drawn_delays(delay, task),
+            },
             history=args.history,
         )
-        found.append((matches, round(delay / task.config.time_step)))
-    return found
 
 
-def _randomization(args: DistillArgs) -> dict[str, Any]:
-    """Distributions of all matches together."""
-    bounds = [min(args.command_delays), max(args.command_delays)]
-    return {**args.randomization, "sensing.command_delay": bounds}
+def _randomization(args: DistillArgs, task: Task) -> dict[str, Any]:
+    """Distributions of all matches together, with the bounds of the delays that were drawn."""
+    bounds = [_drawn_delays(delay, task) for delay in args.command_delays]
+    # Digits beyond a nanosecond are those of the sum of two numbers.
+    drawn = [round(min(low for low, _ in bounds), 9), round(max(high for _, high in bounds), 9)]
+    return {**args.randomization, "sensing.command_delay": drawn}
 
 
 def _plain(task: str) -> ObservationStack:

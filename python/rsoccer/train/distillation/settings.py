@@ -41,7 +41,8 @@ class DistillArgs:
     randomization: Mapping[str, Any] = field(default_factory=dict)
     """numbers that each episode draws, by name, such as {"robot.mass": [0.9, 1.1]}"""
     command_delays: tuple[Delay, ...] = (0.0, 0.025, 0.05, 0.075, 0.1)
-    """times that commands take, s; each in an equal share of the matches"""
+    """times that commands take, s, multiples of the control step; each in an equal share of the
+    matches, which draw it within half a step of it, or exactly 0"""
     history: Count = 5
     """observations in a stacked one, with the actions between them"""
     seed: Natural = 0
@@ -51,7 +52,8 @@ class DistillArgs:
     worlds: Count = 320
     """matches at once"""
     decisions: Count = 32
-    """decisions of a robot in a round, before the student learns from all rounds so far"""
+    """decisions of a robot in a round, before the student learns from all rounds so far; more than
+    the longest delay takes"""
     noise: Positive = 0.1
     """standard deviation of the student's actions while it learns"""
     minibatches: Count = 120

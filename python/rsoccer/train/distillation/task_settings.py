@@ -1,6 +1,6 @@
 """Recommended settings of a distillation by task: those of the policies `best:robust`.
 
-Senses are those of a tournament, commands take up to 100 ms, and numbers of robots and ball vary,
+Senses are those of a tournament, commands take up to 112.5 ms, and numbers of robots and ball vary,
 by about what teams measure of their own. A history of 5 has the actions of the last two decisions
 of 75 ms, which are still on their way at the longest delay.
 """
