@@ -10,7 +10,15 @@ import pytest
 
 from rsoccer.bridge.server import Server
 from rsoccer.bridge.settings import SSL_GROUPS, SSL_PORTS, Settings
-from rsoccer.bridge.sockets import LOOPBACK, Network, SocketLoop, group_receiver, receiver
+from rsoccer.bridge.sockets import (
+    BATCH,
+    BATCH_SECONDS,
+    LOOPBACK,
+    Network,
+    SocketLoop,
+    group_receiver,
+    receiver,
+)
 from rsoccer.protocols.schemas import simulation_pb2, vision_pb2
 from tests.bridge.clients import local_velocity
 
@@ -83,6 +91,22 @@ def test_a_real_time_server_keeps_on_while_it_is_flooded(places: Network) -> Non
             loop.turn()
         assert server.session.arena.ticks > 20
         assert server.session.counts["control: unreadable"] > 1000
+
+
+def test_messages_that_take_long_leave_time_for_ticks(places: Network) -> None:
+    now = 0.0
+
+    def clock() -> float:
+        nonlocal now
+        now += BATCH_SECONDS / 4
+        return now
+
+    server = Server(Settings())
+    with SocketLoop(server, places, clock) as loop, receiver(LOOPBACK, 0) as client:
+        for _ in range(BATCH):
+            client.sendto(b"\xff", loop.addresses["control"])
+        loop.turn(PATIENCE)
+        assert 1 <= server.session.counts["control: received"] <= 4
 
 
 def test_a_taken_port_is_named() -> None:

@@ -26,6 +26,8 @@ from rsoccer.protocols.simulator_control import ControlResult, read_command
 
 GEOMETRY_SECONDS: Final = 1.0
 """Simulated time between packets with the geometry, s."""
+MAX_COMMON_SIZE: Final = 4096
+"""Greatest length of a message that is read the fast way, in bytes: `parse` refuses long lists."""
 _TEAM_PORTS: Final = {"blue": BLUE, "yellow": YELLOW}
 
 
@@ -130,7 +132,9 @@ class SslPorts:
         """Obey a message to a team's port, and return the answer."""
         session, arena = self._session, self._session.arena
         seconds = arena.seconds
-        common = self._reader.read(data, team.index, team.previous(seconds))
+        common = None
+        if len(data) <= MAX_COMMON_SIZE:
+            common = self._reader.read(data, team.index, team.previous(seconds))
         if common is not None and team.accept(address, now):
             team.hold(*common, seconds)
             return self._reader.answer(arena.sense(), team.index, common[1])
