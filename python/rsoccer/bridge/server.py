@@ -10,13 +10,15 @@ import math
 from collections.abc import Callable
 from typing import Final
 
+from rsoccer import checks
 from rsoccer.bridge.external_referee import ExternalReferee
 from rsoccer.bridge.session import Datagram, Session
 from rsoccer.bridge.settings import Settings
-from rsoccer.bridge.ssl_ports import SslPorts
+from rsoccer.bridge.ssl_ports import STATUS_PORTS, SslPorts
 from rsoccer.bridge.team import Address
 from rsoccer.bridge.vsss_ports import VsssPorts
 from rsoccer.protocols.errors import MessageError
+from rsoccer.protocols.layout import TEAM_NAMES
 
 RESEND_SECONDS: Final = 0.1
 """Time after which a simulation that waits for clients sends its last frame again, s: a datagram
@@ -34,22 +36,31 @@ class Server:
         listeners: called after each tick with what is sent.
     """
 
-    def __init__(self, settings: Settings | None = None, epoch: float = 0.0) -> None:
+    def __init__(
+        self,
+        settings: Settings | None = None,
+        epoch: float = 0.0,
+        status_ports: tuple[int, int] = STATUS_PORTS,
+    ) -> None:
         """Begin a match.
 
         Args:
             settings: the settings; None for the defaults.
             epoch: Unix time of the simulated time 0, s.
+            status_ports: ports of clients to which grSim's status of blue and of yellow goes, 1 to
+                65535. VSSS has none.
 
         Raises:
             TypeError: an unknown option of the match.
-            ValueError: an option of the match, or a policy that does not fit.
+            ValueError: an option of the match, or a policy that does not fit; or no port.
         """
+        for name, port in zip(TEAM_NAMES, status_ports, strict=True):
+            checks.integer_in_range(f"ports: status_{name}", port, 1, 65535)
         settings = Settings() if settings is None else settings
         self.session = Session(settings, epoch)
         self.ports: SslPorts | VsssPorts
         if settings.league == "ssl":
-            self.ports = SslPorts(self.session)
+            self.ports = SslPorts(self.session, status_ports)
         else:
             self.ports = VsssPorts(self.session)
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None

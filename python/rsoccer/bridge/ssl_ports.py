@@ -26,6 +26,8 @@ from rsoccer.protocols.simulator_control import ControlResult, read_command
 
 GEOMETRY_SECONDS: Final = 1.0
 """Simulated time between packets with the geometry, s."""
+STATUS_PORTS: Final = (SSL_PORTS["status_blue"], SSL_PORTS["status_yellow"])
+"""Ports of clients to which grSim's status of blue and of yellow goes."""
 MAX_COMMON_SIZE: Final = 4096
 """Greatest length of a message that is read the fast way, in bytes: `parse` refuses long lists."""
 _TEAM_PORTS: Final = {"blue": BLUE, "yellow": YELLOW}
@@ -41,11 +43,7 @@ class SslPorts:
 
     inputs: Final = ("control", "blue", "yellow", "grsim")
 
-    def __init__(
-        self,
-        session: Session,
-        status_ports: tuple[int, int] = (SSL_PORTS["status_blue"], SSL_PORTS["status_yellow"]),
-    ) -> None:
+    def __init__(self, session: Session, status_ports: tuple[int, int] = STATUS_PORTS) -> None:
         """Open the ports of a match.
 
         Args:
