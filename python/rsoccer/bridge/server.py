@@ -6,11 +6,11 @@ time.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Final
 
 from rsoccer import checks
+from rsoccer.bridge.awaited_answers import AwaitedAnswers
 from rsoccer.bridge.external_referee import ExternalReferee
 from rsoccer.bridge.session import Datagram, Session
 from rsoccer.bridge.settings import Settings
@@ -20,9 +20,6 @@ from rsoccer.bridge.vsss_ports import VsssPorts
 from rsoccer.protocols.errors import MessageError
 from rsoccer.protocols.layout import TEAM_NAMES
 
-RESEND_SECONDS: Final = 0.1
-"""Time after which a simulation that waits for clients sends its last frame again, s: a datagram
-can be lost."""
 MAX_TICKS: Final = 50
 """Ticks in one call, so that messages are read in between."""
 
@@ -66,8 +63,7 @@ class Server:
         self._referee = ExternalReferee(self.session) if settings.referee == "external" else None
         self.listeners: list[Callable[[Server, list[Datagram]], None]] = []
         self._waits = False
-        self._sent: list[Datagram] = []
-        self._sent_at = -math.inf
+        self._awaited = AwaitedAnswers(self.session.teams, settings.client_timeout)
         self._has_had = [False, False]
 
     @property
@@ -94,6 +90,7 @@ class Server:
         """
         counts = self.session.counts
         counts[f"{port}: received"] += 1
+        answered = [] if self.session.clock else self._awaited.before_message()
         try:
             if port == "referee" and self._referee is not None:
                 self._referee.receive(data)
@@ -102,6 +99,9 @@ class Server:
         except MessageError as error:
             counts[f"{port}: unreadable"] += 1
             return self.ports.refuse(port, error, address)
+        finally:
+            if answered:
+                self._awaited.after_message(answered, now)
 
     def advance(self, now: float) -> list[Datagram]:
         """Play the ticks that are due.
@@ -132,7 +132,7 @@ class Server:
             return clock.next_due(now)
         if not self._is_waiting(now):
             return now
-        return self._sent_at + RESEND_SECONDS if self._sent else math.inf
+        return self._awaited.due
 
     def _tick(self, now: float) -> list[Datagram]:
         session = self.session
@@ -148,22 +148,19 @@ class Server:
     # -- As fast as clients answer ---------------------------------------------------------------
 
     def _advance_with_clients(self, now: float) -> list[Datagram]:
+        self._awaited.settle(now)
         if self._is_waiting(now):
-            if self._sent and now - self._sent_at >= RESEND_SECONDS:
-                self._sent_at = now
-                self.session.counts["frames: sent again"] += 1
-                return list(self._sent)
-            return []
+            copy = self._awaited.copy(now)
+            self.session.counts["frames: sent again"] += bool(copy)
+            return copy
         sent: list[Datagram] = []
         for _ in range(MAX_TICKS):
             reported = self._tick(now)
             sent += reported
             if self.session.arena.camera_frames:
                 self._waits = True
-                self._sent = [each for each in reported if each.port != "referee"]
-                self._sent_at = now
-                for team in self.session.teams:
-                    team.answered = False
+                frame = [each for each in reported if each.port != "referee"]
+                self._awaited.ask(frame, now)
                 break
         return sent
 
