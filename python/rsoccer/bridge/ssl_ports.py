@@ -188,7 +188,10 @@ class SslPorts:
                 reasons.append(Reason(Refusal.UNSUPPORTED_SPEED, text))
             else:
                 session.clock.set_speed(result.simulation_speed, now)
-        if result.robot_models:
+        if result.robot_models and session.recorders:
+            text = "robot_specs: expected none while a replay is recorded, got some"
+            reasons.append(Reason(Refusal.RECORDING, text))
+        elif result.robot_models:
             try:
                 session.arena.exchange_robots(result.robot_models)
             except ValueError as error:
