@@ -26,7 +26,7 @@ from rsoccer.replay.replay import SUFFIX
 from rsoccer.replay.sensed_poses import SensedPoses
 
 MAX_SECONDS: Final = 3600.0
-"""Longest replay that is recorded, simulated s. It is in the memory until the end: some 3 kB a
+"""Longest replay that is recorded, simulated s. It is in the memory until the end: some 2 kB a
 frame of six against six. A log is written as the match goes on, and has no limit."""
 PERIOD: Final = 0.025
 """Time between two frames of a replay, s: the control step of the tasks."""
